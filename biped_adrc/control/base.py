@@ -1,0 +1,95 @@
+"""What a controller is: a torque from a measurement and a state of its own.
+
+    u = output(s, m),   s' = flow(s, m, u)         in continuous time
+    s <- correct(s, m), u = output(s, m), s <- predict(s, m, u)    at a tick
+
+The state s is passed in and handed back. A controller without a state needs `output` alone and works in
+both time bases. `u` handed to `flow` and `predict` is the torque applied, after saturation.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.errors import InputError
+from biped_adrc.model.reduction import Reduction
+from biped_adrc.observers.base import ErrorSystem, Estimate
+from biped_adrc.types import Array
+
+
+class Measurement(NamedTuple):
+    """What the controller is given; `terms` are the nominal model's, computed once."""
+
+    t: float
+    """[s] from the start of the run."""
+    step: int
+    """Single support, counted from 1."""
+    t_step: float
+    """[s] since this single support began."""
+    q: Array
+    """(n,) [rad]."""
+    v: Array
+    """(n,) [rad/s]."""
+    terms: Reduction
+    """D, Omega, kappa, xi of the nominal model at (q, v)."""
+
+    @property
+    def q_b(self) -> Array:
+        """Actuated joints (p,) [rad]."""
+        return self.q[: self.terms.kappa.shape[0]]
+
+    @property
+    def v_b(self) -> Array:
+        """Their rates (p,) [rad/s]."""
+        return self.v[: self.terms.kappa.shape[0]]
+
+
+class Controller(ABC):
+    """Base of all controllers."""
+
+    @abstractmethod
+    def output(self, s: Array, m: Measurement) -> Array:
+        """u (p,) [N m]."""
+
+    def initial_state(self, m: Measurement) -> Array:
+        """s at the start of a run; empty for a controller without state."""
+        return np.zeros(0)
+
+    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
+        """s' in continuous time, under the applied torque u."""
+        return np.zeros(0)
+
+    def correct(self, s: Array, m: Measurement) -> Array:
+        """Sampled: s with the measurement of this tick taken in."""
+        return s
+
+    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+        """Sampled: s at the next tick, under the applied torque u."""
+        return s
+
+    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+        """s after impact; `swap` (p,) relabels the joints, `after` is the state after it."""
+        return s
+
+    def sampled(self, period: float) -> Controller:
+        """The same law for ticks every `period` [s].
+
+        Raises InputError for a controller that has a state in continuous time and no discrete form.
+        """
+        if type(self).flow is not Controller.flow:
+            raise InputError(
+                f"{type(self).__name__} has no discrete form: give it a method sampled(period), "
+                "or use ContinuousTime()"
+            )
+        return self
+
+    def error_system(self) -> ErrorSystem | None:
+        """Linear error dynamics of an observer that is the whole state s; None otherwise."""
+        return None
+
+    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
+        """What an observer inside says; None without one."""
+        return None

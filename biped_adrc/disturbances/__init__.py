@@ -1,0 +1,1 @@
+"""External torques zeta of (1); one file per idea."""

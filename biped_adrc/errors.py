@@ -1,0 +1,46 @@
+"""Errors: one base class, and the exit code of the command for each kind.
+
+A message says what was asked, what was found, what was expected and what to try.
+"""
+
+from __future__ import annotations
+
+
+class BipedError(Exception):
+    """Base of every error this package raises on purpose."""
+
+    exit_code = 3
+
+
+class InputError(BipedError, ValueError):
+    """A value given by the user cannot be used (exit code 3)."""
+
+
+class NotFiniteError(InputError):
+    """A state, torque or parameter is NaN or infinite (exit code 3)."""
+
+
+class ModelError(InputError):
+    """A URDF, robot, joint, frame or parameter preset is missing or not physical (exit code 3)."""
+
+
+class GaitError(InputError):
+    """A gait or curve is missing, malformed, or does not close (exit code 3)."""
+
+
+class SingularError(BipedError, ArithmeticError):
+    """A matrix the law must invert is singular at this state (exit code 4)."""
+
+    exit_code = 4
+
+
+class SimulationError(BipedError, RuntimeError):
+    """A run ended without what was asked of it, such as a return to the section (exit code 4)."""
+
+    exit_code = 4
+
+
+class OutputError(BipedError, OSError):
+    """A result cannot be written (exit code 5)."""
+
+    exit_code = 5

@@ -1,0 +1,1 @@
+"""References: curves, virtual holonomic constraints, gaits and their zero dynamics."""

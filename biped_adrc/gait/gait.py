@@ -1,0 +1,209 @@
+"""A gait: a virtual constraint, the periodic orbit it belongs to, and where both come from.
+
+Stored as a small readable JSON file in `gaits/<robot>/<name>-<preset>.json`.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.errors import GaitError, OutputError
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.curves import CURVES
+from biped_adrc.model.biped import Biped
+from biped_adrc.resources import data_folder
+from biped_adrc.types import Array
+
+FORMAT = "biped_adrc gait 1"
+CLOSES = 1e-3
+"""[rad] and [m]: largest gap between the end of a step, relabelled, and its start, in a gait that closes."""
+
+
+@dataclass(frozen=True)
+class Gait:
+    """`q_minus`, `v_minus` (n,): the pre-impact state of the periodic orbit [rad, rad/s]."""
+
+    name: str
+    robot: str
+    preset: str
+    constraint: VirtualConstraint
+    q_minus: Array
+    v_minus: Array
+    period: float
+    provenance: Mapping[str, Any]
+
+    def start(self, biped: Biped) -> tuple[Array, Array]:
+        """(q+, q'+) after the impact of the periodic orbit on this robot, each (n,)."""
+        impact = biped.impact(self.q_minus, self.v_minus)
+        return impact.q, impact.v
+
+    def check(self, biped: Biped) -> Gait:
+        """The gait itself, when it fits the robot and its curve closes. Raises GaitError."""
+        c = self.constraint
+        p, n = c.curve.coefficients.shape[0], len(c.phase)
+        if (p, n) != (biped.p, biped.n):
+            raise GaitError(
+                f"gait '{self.name}' has {p} joints and a phase row of {n}, robot "
+                f"'{biped.description.name}' has {biped.p} motors and {biped.n} coordinates"
+            )
+        height = float(biped.swing_foot(self.q_minus)[1])
+        if abs(height) > CLOSES:
+            raise GaitError(
+                f"gait '{self.name}': the swing foot is {height:.3g} m above the ground before impact, "
+                f"expected 0 within {CLOSES:g} m"
+            )
+        R = biped.relabelling[: biped.p]
+        end, begin = c.h(c.theta_minus)[0], c.h(c.theta_plus)[0]
+        theta_after = float(c.phase @ self.q_minus[biped.relabelling])
+        gap = max(
+            float(np.max(np.abs(begin - end[R]))),
+            float(np.max(np.abs(end - self.q_minus[: biped.p]))),
+            abs(theta_after - c.theta_plus),
+        )
+        if gap > CLOSES:
+            raise GaitError(
+                f"gait '{self.name}' does not close: the end of the step, relabelled, misses its start "
+                f"by {gap:.3g} rad, expected at most {CLOSES:g} rad; check the phase range and the "
+                "order and sign of the joints"
+            )
+        return self
+
+    def save(self, path: Path | str) -> None:
+        """Write the JSON file. Raises OutputError."""
+        c = self.constraint
+        record = {
+            "format": FORMAT,
+            "name": self.name,
+            "robot": self.robot,
+            "preset": self.preset,
+            "units": "rad, rad/s, s",
+            "provenance": dict(self.provenance),
+            "period": self.period,
+            "q_minus": self.q_minus.tolist(),
+            "v_minus": self.v_minus.tolist(),
+            "phase": c.phase.tolist(),
+            "theta_plus": c.theta_plus,
+            "theta_minus": c.theta_minus,
+            "curve": type(c.curve).__name__.lower(),
+            "coefficients": c.curve.coefficients.tolist(),
+        }
+        write_text(Path(path), _readable(record))
+
+
+def _readable(record: Mapping[str, Any]) -> str:
+    """JSON with one line per row of numbers."""
+    lines = []
+    for key, value in record.items():
+        if key == "coefficients":
+            rows = ",\n    ".join(json.dumps(row) for row in value)
+            lines.append(f'  "{key}": [\n    {rows}\n  ]')
+        elif isinstance(value, dict):
+            inner = ",\n    ".join(f"{json.dumps(k)}: {json.dumps(v)}" for k, v in value.items())
+            lines.append(f'  "{key}": {{\n    {inner}\n  }}')
+        else:
+            lines.append(f'  "{key}": {json.dumps(value)}')
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a file whole or not at all: temporary file, fsync, rename. Raises OutputError."""
+    write_bytes(path, text.encode("utf-8"))
+
+
+def write_bytes(path: Path, data: bytes) -> None:
+    """As `write_text`, for bytes."""
+    temporary = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        umask = os.umask(0)
+        os.umask(umask)
+        os.chmod(temporary, 0o666 & ~umask)
+        os.replace(temporary, path)
+    except OSError as error:
+        raise OutputError(
+            f"cannot write '{path}': {error.strerror or error}; choose a folder you may write to"
+        ) from error
+    finally:
+        if temporary is not None and os.path.exists(temporary):
+            os.unlink(temporary)
+
+
+def gait_names(robot: str, preset: str) -> tuple[str, ...]:
+    """Names of the stored gaits of a robot and preset."""
+    end = f"-{preset}.json"
+    folder = data_folder("gaits") / robot
+    found = (f.name.removesuffix(end) for f in folder.glob(f"*{end}"))
+    known = {name.removesuffix("-identified") for name in found}
+    return tuple(sorted(name for name in known if (folder / f"{name}{end}").is_file()))
+
+
+def load_gait(gait: str | Path, biped: Biped) -> Gait:
+    """A stored gait by name for this robot and preset, or a gait file by its path.
+
+    Raises GaitError that names the file, the key, what was found and what was expected.
+    """
+    path = Path(gait)
+    if path.suffix != ".json":
+        robot, preset = biped.description.name, biped.preset
+        path = data_folder("gaits") / robot / f"{gait}-{preset}.json"
+        if not path.is_file():
+            raise GaitError(
+                f"there is no gait '{gait}' for robot '{robot}', preset '{preset}'; choose one of "
+                f"{list(gait_names(robot, preset))}, or give the path of a .json file"
+            )
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+        return _from_record(record).check(biped)
+    except FileNotFoundError:
+        raise GaitError(f"gait file '{path}' not found") from None
+    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        raise GaitError(f"gait file '{path}' is not valid JSON: {error}") from error
+    except KeyError as error:
+        raise GaitError(f"gait file '{path}': the key {error} is missing") from error
+    except GaitError as error:
+        raise GaitError(f"gait file '{path}': {error}") from error
+    except (TypeError, ValueError) as error:
+        raise GaitError(f"gait file '{path}': {error}") from error
+
+
+def _from_record(record: Mapping[str, Any]) -> Gait:
+    if record["format"] != FORMAT:
+        raise GaitError(f"format is '{record['format']}', expected '{FORMAT}'")
+    if record["curve"] not in CURVES:
+        raise GaitError(f"curve is '{record['curve']}', expected one of {sorted(CURVES)}")
+    q, v = (_vector(record, key, len(record["phase"])) for key in ("q_minus", "v_minus"))
+    return Gait(
+        record["name"],
+        record["robot"],
+        record["preset"],
+        VirtualConstraint(
+            CURVES[record["curve"]](np.array(record["coefficients"], dtype=float)),
+            _vector(record, "phase", len(record["phase"])),
+            float(record["theta_plus"]),
+            float(record["theta_minus"]),
+        ),
+        q,
+        v,
+        float(record["period"]),
+        record["provenance"],
+    )
+
+
+def _vector(record: Mapping[str, Any], key: str, length: int) -> Array:
+    value = np.array(record[key], dtype=float)
+    if value.shape != (length,) or not np.all(np.isfinite(value)):
+        raise GaitError(f"{key} is {record[key]}, expected {length} finite numbers")
+    return value

@@ -1,0 +1,52 @@
+"""The published fixed point x*, and gait (a) through it.
+
+As printed, x* puts the swing foot 0.13 mm under the ground. q1..q4 are moved onto the section by less than
+half a unit of their last printed digit; q5, printed with four decimals, and the rates are kept.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.through_state import GaitLimits, constraint_through, onto_section
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.model.biped import Biped
+from biped_adrc.types import Array
+
+X_STAR: Array = np.array(
+    [3.247, 3.672, -0.622, -0.644, -0.0104, -0.298, 0.340, -1.578, 1.370, -0.170]
+)
+"""x* of section VI, (q, q') just before impact [rad, rad/s]."""
+X_STAR.setflags(write=False)
+
+PUBLISHED_MULTIPLIERS = (0.640, 0.640, 0.844, 0.844, 0.237, 0.237, 0.138, 0.354, 0.354, 0.6609)
+"""|lambda(Phi)| of section VI, from the regression (27) on a disturbed walk."""
+
+
+def design_published_gait(
+    biped: Biped, degree: int = 6, limits: GaitLimits | None = None
+) -> Gait:
+    """The gait whose periodic orbit passes through x*. Raises GaitError when there is none."""
+    q = onto_section(biped, X_STAR[: biped.n])
+    v = np.array(X_STAR[biped.n :])
+    constraint = constraint_through(biped, q, v, degree, limits)
+    zero = ZeroDynamics.of(biped, constraint)
+    sigma = biped.angular_momentum(q, v)
+    orbit = zero.orbit(sigma * zero.delta)
+    provenance = {
+        "method": "Bezier virtual constraint whose periodic orbit passes through the published x*",
+        "source": "x* of the paper, section VI; q1..q4 moved onto the ground by at most "
+        f"{np.max(np.abs(q - X_STAR[: biped.n])):.2g} rad",
+        "command": f"biped-adrc gait published --preset {biped.preset}",
+    }
+    return Gait(
+        "published",
+        biped.description.name,
+        biped.preset,
+        constraint,
+        q,
+        v,
+        orbit.period,
+        provenance,
+    )

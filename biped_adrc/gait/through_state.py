@@ -1,0 +1,200 @@
+"""Gait (a): the virtual constraint whose periodic orbit passes through a given pre-impact state.
+
+Bezier curves of degree M over Theta. End points and end slopes come from the state x- = (q, q') and from its
+impact x+, so that the constraint is hybrid-invariant:
+
+    h(Theta-) = q_b-,  h'(Theta-) = q_b'- / Theta'-,   h(Theta+) = q_b+,  h'(Theta+) = q_b'+ / Theta'+
+
+The M - 3 coefficients left per joint minimise the torque int u'u dt, a sum of squares, with the periodicity
+condition sigma-^2 - sigma+^2 = 2 W of the zero dynamics and the limits of friction, torque, clearance and
+knees as weighted residuals; then the periodicity condition is solved to round-off.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq, least_squares
+
+from biped_adrc.errors import GaitError
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.curves import Bezier
+from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit
+from biped_adrc.model.biped import Biped
+from biped_adrc.types import Array
+
+
+_SLOWEST = 0.05  # least sigma^2 during the step over that before impact, dimensionless
+_TORQUE_SCALE = 1e3  # [N^2 m^2 s], typical int u'u dt of a step
+_CLOSURE_WEIGHT = 300.0  # of the relative closure against the scaled torque
+_LIMIT_WEIGHT = 10.0
+_LIMIT_TOLERANCE = 5e-3  # scaled as in `margins`: half a newton, half a millimetre
+
+
+@dataclass(frozen=True)
+class GaitLimits:
+    """What the designed step must keep; the certificate of the simulated step is the test of it."""
+
+    friction: float = 0.55
+    """|F_T| / F_N, below the 0.6 of dry friction."""
+    torque: float = 140.0
+    """[N m], below RABBIT's 150."""
+    normal_force: float = 50.0
+    """[N], F_N above it."""
+    clearance: float = 0.015
+    """[m], height of the swing foot in the middle of the step."""
+    knee: float = -0.02
+    """[rad], both knees stay below it."""
+
+
+def onto_section(biped: Biped, q: Array) -> Array:
+    """The configuration nearest to q in q_b whose swing foot is on the ground, q_N kept."""
+    q = np.array(q, dtype=float)
+    for _ in range(20):
+        height = biped.swing_foot(q)[1]
+        row = biped.swing_foot_jacobian(q)[1, :-1]
+        q[:-1] -= row * height / (row @ row)
+        if abs(height) < 1e-15:
+            break
+    return q
+
+
+@dataclass(frozen=True)
+class _Problem:
+    """The curve for free coefficients f (p * (M - 3),)."""
+
+    biped: Biped
+    fixed: Array
+    phase: Array
+    theta_plus: float
+    theta_minus: float
+    sigma_plus: float
+    sigma_minus: float
+    limits: GaitLimits
+
+    def constraint(self, f: Array) -> VirtualConstraint:
+        alpha = self.fixed.copy()
+        alpha[:, 2:-2] += f.reshape(alpha.shape[0], -1)
+        return VirtualConstraint(Bezier(alpha), self.phase, self.theta_plus, self.theta_minus)
+
+    def zero_dynamics(self, f: Array) -> ZeroDynamics:
+        return ZeroDynamics.of(self.biped, self.constraint(f))
+
+    def closure(self, f: Array) -> float:
+        """(sigma-^2 - sigma+^2) / 2 - W, relative to sigma-^2; zero on a periodic orbit."""
+        gap = 0.5 * (self.sigma_minus**2 - self.sigma_plus**2) - self.zero_dynamics(f).work
+        return gap / self.sigma_minus**2
+
+    def residuals(self, f: Array) -> Array:
+        """sqrt(dt) u, the closure, and what the limits are missed by; all zero would be free walking."""
+        z = self.zero_dynamics(f)
+        o = z.orbit(self.sigma_plus, _SLOWEST * self.sigma_minus**2)
+        torque = o.u * np.sqrt(np.abs(o.time_weights) / _TORQUE_SCALE)[:, np.newaxis]
+        missed = np.minimum(np.concatenate(list(self.margins(z, o).values())), 0.0)
+        return np.concatenate(
+            (torque.ravel(), [_CLOSURE_WEIGHT * self.closure(f)], _LIMIT_WEIGHT * missed)
+        )
+
+    def margins(self, z: ZeroDynamics, o: ZeroDynamicsOrbit) -> dict[str, Array]:
+        """What is left to each limit at the nodes, scaled to about 1; negative where it is missed."""
+        limits = self.limits
+        F_T, F_N = o.ground_reaction.T
+        s = (o.theta - self.theta_plus) / (self.theta_minus - self.theta_plus)
+        clearance = limits.clearance * np.sin(np.pi * s)
+        return {
+            "friction": (limits.friction * F_N - np.abs(F_T)) / 100.0,
+            "normal force": (F_N - limits.normal_force) / 100.0,
+            "torque": (limits.torque - np.max(np.abs(o.u), axis=1)) / 100.0,
+            "foot clearance": (o.swing_height - clearance) * 10.0,
+            "knee angle": limits.knee - np.max(o.q[:, 2:4], axis=1),
+            "progress": z.sigma_squared(self.sigma_plus) / self.sigma_minus**2 - _SLOWEST,
+        }
+
+
+def _problem(biped: Biped, q: Array, v: Array, degree: int, limits: GaitLimits) -> _Problem:
+    impact = biped.impact(q, v)
+    c, p = biped.phase, biped.p
+    theta_plus, theta_minus = float(c @ impact.q), float(c @ q)
+    rate_plus, rate_minus = float(c @ impact.v), float(c @ v)
+    span = theta_minus - theta_plus
+    if rate_plus * span <= 0 or rate_minus * span <= 0:
+        raise GaitError(
+            f"Theta runs from {theta_plus:.4g} to {theta_minus:.4g} rad, but its rate is "
+            f"{rate_plus:.4g} rad/s after and {rate_minus:.4g} rad/s before impact; all three need one sign"
+        )
+    alpha = np.zeros((p, degree + 1))
+    alpha[:, 0], alpha[:, -1] = impact.q[:p], q[:p]
+    alpha[:, 1] = alpha[:, 0] + impact.v[:p] / rate_plus * span / degree
+    alpha[:, -2] = alpha[:, -1] - v[:p] / rate_minus * span / degree
+    for k in range(2, degree - 1):  # straight between the fixed inner points
+        w = (k - 1) / (degree - 2)
+        alpha[:, k] = (1 - w) * alpha[:, 1] + w * alpha[:, -2]
+    return _Problem(
+        biped,
+        alpha,
+        c,
+        theta_plus,
+        theta_minus,
+        biped.angular_momentum(impact.q, impact.v),
+        biped.angular_momentum(q, v),
+        limits,
+    )
+
+
+def constraint_through(
+    biped: Biped,
+    q: Array,
+    v: Array,
+    degree: int = 6,
+    limits: GaitLimits | None = None,
+    max_evaluations: int = 100,
+) -> VirtualConstraint:
+    """The constraint of least torque whose periodic orbit passes through x- = (q, v).
+
+    q must have the swing foot on the ground (see `onto_section`). Raises GaitError when no curve of this
+    degree keeps the limits, naming the worst one.
+    """
+    if degree < 4:
+        raise GaitError(f"degree is {degree}; at least 4 is needed to have a free coefficient")
+    height = float(biped.swing_foot(q)[1])
+    if abs(height) > 1e-9:
+        raise GaitError(
+            f"the swing foot of the state is {height:.3g} m above the ground; move it with onto_section"
+        )
+    problem = _problem(biped, q, v, degree, limits or GaitLimits())
+    f = _optimise(problem, np.zeros(biped.p * (degree - 3)), max_evaluations)
+    f = _close(problem, f)
+    _check_limits(problem, f)
+    return problem.constraint(f)
+
+
+def _optimise(problem: _Problem, start: Array, max_evaluations: int) -> Array:
+    """Gauss-Newton on the torque, with closure and limits as weighted residuals."""
+    result = least_squares(
+        problem.residuals, start, x_scale=0.1, ftol=1e-8, max_nfev=max_evaluations
+    )
+    f: Array = result.x
+    return f
+
+
+def _check_limits(problem: _Problem, f: Array) -> None:
+    z = problem.zero_dynamics(f)
+    margins = problem.margins(z, z.orbit(problem.sigma_plus, _SLOWEST * problem.sigma_minus**2))
+    worst = min(margins, key=lambda name: float(np.min(margins[name])))
+    if np.min(margins[worst]) < -_LIMIT_TOLERANCE:
+        raise GaitError(
+            f"no gait through this state keeps the limits: {worst} misses by "
+            f"{-np.min(margins[worst]):.3g} (scaled). Loosen GaitLimits or raise the degree"
+        )
+
+
+def _close(problem: _Problem, f: Array) -> Array:
+    """Solve the periodicity condition to round-off along its own gradient."""
+    base, step = problem.closure(f), 1e-7
+    direction = np.array([(problem.closure(f + step * e) - base) / step for e in np.eye(len(f))])
+    direction /= direction @ direction
+    reach = 4.0 * abs(base) + 1e-9
+    r = brentq(lambda a: problem.closure(f + a * direction), -reach, reach, xtol=1e-16)
+    closed: Array = f + r * direction
+    return closed

@@ -1,0 +1,191 @@
+"""The zero dynamics of a virtual constraint on a robot with one unactuated coordinate, by quadrature.
+
+On the constraint q_b = h(Theta), Theta = c q, the configuration is q(Theta). With sigma = D_N(q) q' the
+angular momentum about the stance foot (row of q_N of D_s q'),
+
+    sigma  = I(Theta) Theta',   I = D_N(q) dq/dTheta
+    sigma' = -dV/dq_N = -G_N
+    d(sigma^2 / 2)/dTheta = -G_N I
+
+so an orbit is one quadrature, and Theta' = sigma / I. Impact maps sigma- to sigma+ = delta sigma- (about the
+new foot): the cycle closes when sigma-^2 = 2 W / (1 - delta^2), W = int -G_N I dTheta, and its
+multiplier is delta^2 (Westervelt, Grizzle, Koditschek, IEEE TAC 48(1), 2003). Gauss-Legendre nodes
+make the quadrature exact to round-off for smooth constraints.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from biped_adrc.errors import GaitError
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.model.biped import Biped
+from biped_adrc.types import Array
+
+NODES = 40
+
+
+@lru_cache(maxsize=8)
+def gauss_nodes(count: int) -> tuple[Array, Array, Array]:
+    """Nodes and weights on [0, 1], and the matrix that integrates node values from 0 to each node."""
+    x, w = legendre.leggauss(count)
+    to_coefficients = (legendre.legvander(x, count - 1) * w[:, np.newaxis]).T
+    to_coefficients *= (np.arange(count) + 0.5)[:, np.newaxis]
+    integral = np.array(
+        [legendre.legval(x, legendre.legint(np.eye(count)[k], lbnd=-1)) for k in range(count)]
+    ).T
+    return 0.5 * (x + 1.0), 0.5 * w, 0.5 * integral @ to_coefficients
+
+
+@dataclass(frozen=True)
+class ZeroDynamicsOrbit:
+    """One step of the zero dynamics at the nodes; K nodes, n coordinates, p motors."""
+
+    theta: Array
+    """(K,) [rad]."""
+    q: Array
+    """(K, n) [rad]."""
+    v: Array
+    """(K, n) [rad/s]."""
+    a: Array
+    """(K, n) [rad/s^2]."""
+    u: Array
+    """(K, p) [N m]."""
+    ground_reaction: Array
+    """(K, 2), (F_T, F_N) [N]."""
+    swing_height: Array
+    """(K,) [m]."""
+    time_weights: Array
+    """(K,) [s]: sum of weights * f is the integral of f over the step in time."""
+    period: float
+    """[s]."""
+
+
+@dataclass(frozen=True)
+class ZeroDynamics:
+    """Quadratures of one constraint; arrays are taken at the Gauss nodes."""
+
+    biped: Biped
+    constraint: VirtualConstraint
+    theta: Array
+    weights: Array
+    cumulative: Array
+    q: Array
+    dq: Array
+    ddq: Array
+    inertia: Array
+    """I(Theta) (K,) [kg m^2]."""
+    gravity: Array
+    """G_N (K,) [N m]."""
+
+    @classmethod
+    def of(
+        cls, biped: Biped, constraint: VirtualConstraint, nodes: int = NODES
+    ) -> ZeroDynamics:
+        """Evaluate the model along the constraint."""
+        s, w, C = gauss_nodes(nodes)
+        span = constraint.theta_minus - constraint.theta_plus
+        theta = constraint.theta_plus + span * s
+        q, dq, ddq = (
+            np.array(rows)
+            for rows in zip(*(configuration(constraint, th) for th in theta), strict=True)
+        )
+        inertia = np.array([biped.inertia(q[k])[-1] @ dq[k] for k in range(nodes)])
+        gravity = np.array([biped.gravity(q[k])[-1] for k in range(nodes)])
+        return cls(
+            biped, constraint, theta, span * w, span * C, q, dq, ddq, inertia, gravity
+        )
+
+    @property
+    def work(self) -> float:
+        """W = int -G_N I dTheta over the step, so that (sigma-^2 - sigma+^2) / 2 = W."""
+        return float(self.weights @ (-self.gravity * self.inertia))
+
+    @property
+    def delta(self) -> float:
+        """sigma+ / sigma- across impact at the end of the step."""
+        q, dq, _ = configuration(self.constraint, self.constraint.theta_minus)
+        rate = -1.0 if self.constraint.theta_minus < self.constraint.theta_plus else 1.0
+        impact = self.biped.impact(q, rate * dq)
+        before = self.biped.angular_momentum(q, rate * dq)
+        return self.biped.angular_momentum(impact.q, impact.v) / before
+
+    @property
+    def sigma_minus(self) -> float:
+        """sigma- of the periodic orbit, from 2 W / (1 - delta^2). Raises GaitError when there is none."""
+        delta2 = self.delta**2
+        square = 2.0 * self.work / (1.0 - delta2)
+        if not square > 0:
+            raise GaitError(
+                f"the zero dynamics have no periodic orbit: W = {self.work:.6g}, "
+                f"delta^2 = {delta2:.6g} give sigma-^2 = {square:.6g} < 0; change the constraint"
+            )
+        return float(-np.sqrt(square) if self._backwards else np.sqrt(square))
+
+    @property
+    def _backwards(self) -> bool:
+        q, dq, _ = configuration(self.constraint, self.constraint.theta_minus)
+        rate = np.sign(self.constraint.theta_minus - self.constraint.theta_plus)
+        return bool(self.biped.inertia(q)[-1] @ dq * rate < 0)
+
+    def end_state(self, sigma_minus: float) -> tuple[Array, Array]:
+        """(q-, q'-) on the constraint with angular momentum sigma_minus, each (n,)."""
+        q, dq, _ = configuration(self.constraint, self.constraint.theta_minus)
+        return q, dq * (sigma_minus / float(self.biped.inertia(q)[-1] @ dq))
+
+    def sigma_squared(self, sigma_plus: float) -> Array:
+        """sigma^2 at the nodes (K,) for a step that starts with sigma_plus; negative where it stops."""
+        square: Array = sigma_plus**2 + 2.0 * self.cumulative @ (-self.gravity * self.inertia)
+        return square
+
+    def orbit(self, sigma_plus: float, floor: float = 0.0) -> ZeroDynamicsOrbit:
+        """The step that starts with sigma_plus; sigma^2 is held above `floor`, for optimisers.
+
+        Raises GaitError when the step does not reach its end.
+        """
+        square = np.maximum(self.sigma_squared(sigma_plus), floor)
+        if np.min(square) <= 0:
+            raise GaitError("the step stops before its end: the kinetic energy at start is too small")
+        sigma = np.sign(sigma_plus) * np.sqrt(square)
+        rate = sigma / self.inertia
+        v = self.dq * rate[:, np.newaxis]
+        a, u, reaction, height = zip(
+            *(self._dynamics(k, rate[k]) for k in range(len(rate))), strict=True
+        )
+        time = self.weights / rate
+        return ZeroDynamicsOrbit(
+            self.theta,
+            self.q,
+            v,
+            np.array(a),
+            np.array(u),
+            np.array(reaction),
+            np.array(height),
+            time,
+            float(np.sum(time)),
+        )
+
+    def _dynamics(self, k: int, rate: float) -> tuple[Array, Array, Array, float]:
+        """q'', u, ground reaction and swing height at node k: Theta'' from the unactuated row."""
+        q, dq, ddq, b = self.q[k], self.dq[k], self.ddq[k], self.biped
+        v = dq * rate
+        D, Omega = b.inertia(q), b.bias(q, v)
+        rate2 = -(Omega[-1] + D[-1] @ ddq * rate**2) / (D[-1] @ dq)
+        a = dq * rate2 + ddq * rate**2
+        u = (D @ a + Omega)[: b.p]
+        return a, u, b.ground_reaction(q, v, a), float(b.swing_foot(q)[1])
+
+
+def configuration(constraint: VirtualConstraint, theta: float) -> tuple[Array, Array, Array]:
+    """q, dq/dTheta, d2q/dTheta2 on the constraint, each (n,)."""
+    h, dh, ddh = constraint.h(theta)
+    c_b, c_N = constraint.phase[:-1], constraint.phase[-1]
+    return (
+        np.append(h, (theta - c_b @ h) / c_N),
+        np.append(dh, (1.0 - c_b @ dh) / c_N),
+        np.append(ddh, -(c_b @ ddh) / c_N),
+    )

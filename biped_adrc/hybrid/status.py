@@ -1,0 +1,36 @@
+"""How a run ended; each text says what to change."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Status(Enum):
+    """The value is the message."""
+
+    COMPLETED = "the run reached the number of events or the time asked for"
+    TIME_OUT = "the time ended before the number of events asked for; give a larger t_end"
+    FELL = (
+        "the robot fell; start nearer to the gait, push less, raise the torque limit or change the "
+        "controller"
+    )
+    STALLED = (
+        "the swing foot did not strike within the longest step allowed; the robot stands or falls "
+        "back: start faster or push less"
+    )
+    NOT_FINITE = (
+        "a state or torque is not finite; the last good state is kept: check the controller's output, "
+        "shorten the step or use a stiff or exponential method"
+    )
+    SINGULAR = (
+        "a matrix that the controller inverts became singular; the constraint does not suit this state"
+    )
+    STEP_FAILED = "the one-step method could not go on; try another method or a looser tolerance"
+    EVENT_LIMIT = (
+        "more events than max_events; the events accumulate (Zeno), or raise max_events"
+    )
+
+    @property
+    def ok(self) -> bool:
+        """True when the run did what was asked."""
+        return self is Status.COMPLETED

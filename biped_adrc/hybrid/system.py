@@ -1,0 +1,104 @@
+"""What a hybrid system is: a flow, guards with resets, clocks, and the times at which inputs switch.
+
+    x' = f(t, x; mode)        between events
+    x+, mode+ = reset(t, x-)  when a guard's witness crosses zero in its direction
+    x+ = update(t, x-, mode)  at the ticks t0 + k T of a clock
+
+At equal times the order is reset, tick, flow. `mode` is any immutable value of the system's own, such as
+a step counter; the loop only carries it.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+from biped_adrc.hybrid.status import Status
+from biped_adrc.types import Array
+
+Mode = Any
+
+
+class Direction(Enum):
+    """Which zero crossings of a witness count. A zero at the start never fires, a zero at the end does."""
+
+    FALLING = -1
+    EITHER = 0
+    RISING = 1
+
+    def crossed(self, before: float, after: float) -> bool:
+        """Whether a witness that went from `before` to `after` crossed zero this way."""
+        falling = before > 0.0 >= after
+        rising = before < 0.0 <= after
+        if self is Direction.FALLING:
+            return falling
+        return rising if self is Direction.RISING else falling or rising
+
+
+@dataclass(frozen=True)
+class Guard:
+    """A named zero crossing of witness(t, x) over (t0, t1].
+
+    `reset(t, x)` returns (x+, mode+), or None to let the crossing pass as no event. A guard with a
+    `terminal` status ends the run instead. A guard fires only after its witness has left zero.
+    """
+
+    name: str
+    witness: Callable[[float, Array], float]
+    reset: Callable[[float, Array], tuple[Array, Mode] | None] | None = None
+    direction: Direction = Direction.FALLING
+    terminal: Status | None = None
+
+
+@dataclass(frozen=True)
+class Clock:
+    """Ticks at t0 + k * period [s]; `update(t, x, mode)` returns x+.
+
+    t0 is the start of the arc, or of the run when `restart` is False.
+    """
+
+    name: str
+    period: float
+    update: Callable[[float, Array, Mode], Array]
+    restart: bool = True
+
+
+@dataclass(frozen=True)
+class Split:
+    """Coordinates x -> (p, E) in which the stiff part is linear: E' = A E + N_E, p' = N_p.
+
+    E has shape (k, c) and A (k, k); `to` and `back` are linear maps and inverse to each other;
+    `remainder(t, p, E)` returns (N_p, N_E).
+    """
+
+    to: Callable[[Array], tuple[Array, Array]]
+    back: Callable[[Array, Array], Array]
+    A: Array
+    remainder: Callable[[float, Array, Array], tuple[Array, Array]]
+
+
+class HybridSystem(ABC):
+    """A hybrid system; see the module for the equations."""
+
+    @abstractmethod
+    def flow(self, t: float, x: Array, mode: Mode) -> Array:
+        """x' at (t, x) in `mode`."""
+
+    def guards(self, mode: Mode) -> tuple[Guard, ...]:
+        """The guards watched in `mode`."""
+        return ()
+
+    def clocks(self) -> tuple[Clock, ...]:
+        """The clocks, in the order in which they tick at equal times."""
+        return ()
+
+    def switching_times(self, mode: Mode) -> tuple[float, ...]:
+        """Times [s] in `mode` at which the flow is not smooth; no step goes across one."""
+        return ()
+
+    def split(self, mode: Mode) -> Split | None:
+        """Coordinates for the exponential method; None when the system has none."""
+        return None

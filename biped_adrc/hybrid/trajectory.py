@@ -1,0 +1,126 @@
+"""What a run leaves: arcs of dense output joined by events, and a status."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.errors import InputError
+from biped_adrc.hybrid.status import Status
+from biped_adrc.types import Array
+
+
+@dataclass(frozen=True)
+class Event:
+    """A guard that fired at `t` [s], with the state before and after; x_plus is None if terminal."""
+
+    guard: str
+    t: float
+    x_minus: Array
+    x_plus: Array | None
+
+
+@dataclass(frozen=True)
+class Arc:
+    """One flow between events: t (K,), x (K, n), dx (K, n); ticks and switches repeat their time."""
+
+    mode: Any
+    t: Array
+    x: Array
+    dx: Array
+    event: Event | None = None
+
+    def __call__(self, t: float, side: str = "right") -> Array:
+        """x(t) by cubic Hermite interpolation, the limit from `side` where x or x' jumps."""
+        i = int(np.searchsorted(self.t, t, side="right" if side == "right" else "left")) - 1
+        i = min(max(i, 0), len(self.t) - 2) if len(self.t) > 1 else 0
+        if len(self.t) == 1:
+            return self.x[0].copy()
+        return hermite(
+            self.t[i],
+            self.t[i + 1],
+            self.x[i],
+            self.x[i + 1],
+            self.dx[i],
+            self.dx[i + 1],
+            t,
+        )
+
+
+def hermite(
+    t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, t: float
+) -> Array:
+    """Cubic through (t0, x0) and (t1, x1) with end slopes dx0, dx1; x1 when t1 = t0."""
+    h = t1 - t0
+    if h == 0.0:
+        return x1.copy()
+    s = (t - t0) / h
+    r = 1.0 - s
+    return (
+        r * r * (1 + 2 * s) * x0
+        + s * s * (3 - 2 * s) * x1
+        + h * s * r * (r * dx0 - s * dx1)
+    )
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """Arcs in order of time. Call it with t [s] for the state."""
+
+    arcs: tuple[Arc, ...]
+    status: Status
+    detail: str = ""
+    settings: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def t_start(self) -> float:
+        """Start of the first arc [s]."""
+        return float(self.arcs[0].t[0])
+
+    @property
+    def t_end(self) -> float:
+        """End of the last arc [s]."""
+        return float(self.arcs[-1].t[-1])
+
+    def __call__(self, t: float, side: str = "right") -> Array:
+        """x(t); at an event x+ for side "right" (the default), x- for side "left".
+
+        Raises InputError outside [t_start, t_end] or for another side.
+        """
+        if side not in ("left", "right"):
+            raise InputError(f"side is '{side}', expected 'left' or 'right'")
+        if not self.t_start <= t <= self.t_end:
+            raise InputError(f"t = {t} s is outside [{self.t_start}, {self.t_end}] s")
+        ends = [arc.t[-1] for arc in self.arcs]
+        i = int(np.searchsorted(ends, t, side="right" if side == "right" else "left"))
+        i = min(i, len(self.arcs) - 1)
+        last = self.arcs[-1]
+        at_end = side == "right" and t == self.t_end
+        if at_end and last.event is not None and last.event.x_plus is not None:
+            return last.event.x_plus.copy()
+        return self.arcs[i](t, side)
+
+    def events(self, guard: str | None = None) -> tuple[Event, ...]:
+        """All events in order, or those of one guard."""
+        found = (arc.event for arc in self.arcs if arc.event is not None)
+        return tuple(e for e in found if guard is None or e.guard == guard)
+
+    def before(self, guard: str) -> Array:
+        """x- at every event of `guard` (events, n)."""
+        return np.array([event.x_minus for event in self.events(guard)])
+
+    @property
+    def final_state(self) -> Array:
+        """The state at the end: x+ when the run ended at an event."""
+        return self(self.t_end)
+
+    def sample(self, function: Callable[[float, Array, Any], Any]) -> list[Any]:
+        """function(t, x, mode) at every stored node."""
+        return [
+            function(float(t), x, arc.mode)
+            for arc in self.arcs
+            for t, x in zip(arc.t, arc.x, strict=True)
+        ]

@@ -1,0 +1,307 @@
+"""The planar biped in the paper's coordinates q_s = (q_b, q_N): single support and impact.
+
+    D_s(q) q'' + C(q, q') q' + G_s(q) = B_s u + delta + zeta         (1)
+
+q_b are the actuated joints (stance hip, swing hip, stance knee, swing knee), q_N the absolute pitch of
+the torso. Angles are counter-clockwise positive with x to the right and z up; a link of absolute
+angle a points along (-sin a, cos a).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from biped_adrc.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.model.contact import FloatingDynamics, Impact
+from biped_adrc.model.pinned import PinnedDynamics
+from biped_adrc.model.reduction import Reduction, reduce
+from biped_adrc.model.reroot import reroot
+from biped_adrc.model.robots import RobotDescription, load_description
+from biped_adrc.model.urdf import Inertial, Tree
+from biped_adrc.types import Array
+
+GRAVITY = 9.81  # [m/s^2], Pinocchio's default
+STICTION_SPEED = 0.05  # [rad/s], width of the smoothed sign of static friction
+
+
+@dataclass(frozen=True)
+class Biped:
+    """A robot with one set of parameters. Make it with `Biped.load`.
+
+    Pinocchio's work data inside is overwritten by every call: use one Biped per thread.
+    """
+
+    description: RobotDescription
+    tree: Tree
+    preset: str
+    armature: float
+    friction: bool = False
+
+    @classmethod
+    def load(
+        cls, robot: str | Path = "rabbit", preset: str | None = None, friction: bool = False
+    ) -> Biped:
+        """A robot by name (or the path of its robot.toml) with a parameter preset.
+
+        friction: add the record's viscous and static joint friction to the dynamics.
+        Raises ModelError for an unknown robot or preset, or a URDF that is not physical.
+        """
+        description = load_description(robot)
+        record = description.preset(preset)
+        biped = cls(
+            description, description.tree(record.name), record.name, record.armature, friction
+        )
+        biped.check()
+        return biped
+
+    def check(self) -> None:
+        """Build both models now, and check that the two legs are alike, as relabelling assumes."""
+        q = 0.3 * np.arange(1.0, self.n + 1.0)
+        there = self.floating.extended_inertia(q)
+        R = self.relabelling
+        J = self.floating.velocity_map(q)
+        swapped = self.floating.velocity_map(q[R])
+        # kinetic energy of the base and joints must not change when the legs swap roles
+        v = np.cos(np.arange(self.n + 2.0))
+        w = np.concatenate((v[: self.n][R], np.zeros(2)))
+        w[self.n :] = np.linalg.solve(
+            swapped[np.ix_(self.floating.base, [self.n, self.n + 1])],
+            (J @ v - swapped @ w)[self.floating.base],
+        )
+        here = self.floating.extended_inertia(q[R])
+        if not math.isclose(v @ there @ v, w @ here @ w, rel_tol=1e-9):
+            raise ModelError(
+                f"robot '{self.description.name}': the legs differ in mass or length; relabelling at "
+                "impact needs equal legs"
+            )
+
+    # -- sizes and names -----------------------------------------------------------------------
+    @property
+    def n(self) -> int:
+        """Number of coordinates N."""
+        return len(self.description.joints)
+
+    @property
+    def p(self) -> int:
+        """Number of motors."""
+        return len(self.description.actuated)
+
+    @cached_property
+    def B(self) -> Array:
+        """B_s = [I; 0] (n, p)."""
+        return np.eye(self.n)[:, : self.p]
+
+    @cached_property
+    def phase(self) -> Array:
+        """Row c (n,) of Theta = c q."""
+        return np.array(self.description.phase)
+
+    @cached_property
+    def relabelling(self) -> Array:
+        """Permutation R (n,) that swaps the legs: q_new = q[R]. dtype int."""
+        names = self.description.joints
+        swap = {"left": "right", "right": "left"}
+        twins = [
+            f"{swap[side]}_{rest}" if side in swap else name
+            for name in names
+            for side, _, rest in [name.partition("_")]
+        ]
+        return np.array([names.index(twin) for twin in twins])
+
+    # -- the two Pinocchio models ----------------------------------------------------------------
+    @cached_property
+    def pinned_tree(self) -> Tree:
+        """The tree rooted at the stance foot."""
+        return reroot(self.tree, self.description.stance_foot, self.description.hip)
+
+    @cached_property
+    def pinned(self) -> PinnedDynamics:
+        """Single-support dynamics from the pinned model."""
+        d = self.description
+        return PinnedDynamics(
+            self.pinned_tree, d.joints, self._stance_chain(), self._feet, d.hip, self._rotors
+        )
+
+    @cached_property
+    def floating(self) -> FloatingDynamics:
+        """Unpinned dynamics from the floating model."""
+        d = self.description
+        return FloatingDynamics(self.tree, d.joints, d.base, self._feet, self._rotors)
+
+    @property
+    def _feet(self) -> tuple[str, str]:
+        return (self.description.stance_foot, self.description.swing_foot)
+
+    @property
+    def _rotors(self) -> dict[str, float]:
+        return dict.fromkeys(self.description.actuated, self.armature)
+
+    def _stance_chain(self) -> Array:
+        """Row (n,): absolute angle of the stance foot's link as a sum of coordinates."""
+        row = np.zeros(self.n)
+        pitch = self.tree.joint_above(self.description.hip)
+        if pitch is None or pitch.name != self.description.unactuated:
+            raise ModelError(
+                f"URDF '{self.tree.source}': link '{self.description.hip}' hangs on "
+                f"'{pitch.name if pitch else 'nothing'}', expected '{self.description.unactuated}'"
+            )
+        for joint in self.tree.path_to_root(self.description.stance_foot):
+            if joint.name in self.description.joints:
+                sign = sum(a * b for a, b in zip(joint.axis, pitch.axis, strict=True))
+                row[self.description.joints.index(joint.name)] = sign
+        return row
+
+    # -- single support (1), (11)-(15) -----------------------------------------------------------
+    def inertia(self, q: Array) -> Array:
+        """D_s(q) (n, n) [kg m^2]."""
+        return self.pinned.inertia(self._angles(q))
+
+    def bias(self, q: Array, v: Array) -> Array:
+        """Omega(q, q') = C q' + G_s (n,) [N m] of (11)."""
+        return self.pinned.bias(self._angles(q), self._angles(v))
+
+    def gravity(self, q: Array) -> Array:
+        """G_s(q) = dV/dq (n,) [N m]."""
+        return self.pinned.gravity(self._angles(q))
+
+    def coriolis(self, q: Array, v: Array) -> Array:
+        """C(q, q') (n, n) [N m s]; D_s' - 2 C is skew-symmetric."""
+        return self.pinned.coriolis(self._angles(q), self._angles(v))
+
+    def reduction(self, q: Array, v: Array) -> Reduction:
+        """The split (11)-(15) at (q, q'): D, Omega, kappa, xi, and the unactuated rows."""
+        return reduce(self.inertia(q), self.bias(q, v), self.p)
+
+    def friction_torque(self, v: Array) -> Array:
+        """Joint friction (n,) [N m]: -viscous v - static tanh(v / STICTION_SPEED); zero if off."""
+        if not self.friction:
+            return np.zeros(self.n)
+        viscous, static = self._friction
+        return -viscous * v - static * np.tanh(v / STICTION_SPEED)
+
+    @cached_property
+    def _friction(self) -> tuple[Array, Array]:
+        d = self.description
+        viscous = np.array([d.viscous.get(name, 0.0) for name in d.joints])
+        return viscous, np.array([d.static.get(name, 0.0) for name in d.joints])
+
+    def acceleration(self, q: Array, v: Array, force: Array) -> Array:
+        """q'' (n,) [rad/s^2] under the generalised force B_s u + delta + zeta (n,) [N m], by ABA."""
+        if self.friction:
+            force = force + self.friction_torque(v)
+        return self.pinned.acceleration(self._angles(q), self._angles(v), force)
+
+    def kinetic_energy(self, q: Array, v: Array) -> float:
+        """q'^T D_s q' / 2 [J], rotors included."""
+        return 0.5 * float(v @ self.inertia(q) @ v)
+
+    def potential_energy(self, q: Array) -> float:
+        """V(q) [J], zero at the height of the stance foot."""
+        return self.pinned.potential_energy(self._angles(q))
+
+    def angular_momentum(self, q: Array, v: Array) -> float:
+        """sigma [kg m^2/s]: the row of q_N of D_s q'. sigma' = -dV/dq_N when q_N is not disturbed."""
+        return float(self.inertia(q)[-1] @ v)
+
+    # -- kinematics ------------------------------------------------------------------------------
+    def swing_foot(self, q: Array) -> Array:
+        """p_2 = (x, z) from the stance foot [m]."""
+        return self.pinned.position(self._angles(q), self.pinned.swing)
+
+    def swing_foot_jacobian(self, q: Array) -> Array:
+        """dp_2/dq_s (2, n) [m]."""
+        return self.pinned.jacobian(self._angles(q), self.pinned.swing)
+
+    def swing_foot_velocity(self, q: Array, v: Array) -> Array:
+        """(x, z) [m/s]."""
+        return self.swing_foot_jacobian(q) @ self._angles(v)
+
+    def hip(self, q: Array) -> Array:
+        """(x, z) of the hip from the stance foot [m]."""
+        return self.pinned.position(self._angles(q), self.pinned.hip)
+
+    def hip_velocity(self, q: Array, v: Array) -> Array:
+        """(x, z) [m/s]."""
+        return self.pinned.jacobian(self._angles(q), self.pinned.hip) @ self._angles(v)
+
+    @cached_property
+    def mass(self) -> float:
+        """Total mass [kg]."""
+        return self.pinned.mass
+
+    # -- contact (2)-(9) -------------------------------------------------------------------------
+    def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
+        """Force of the ground on the stance foot (F_T, F_N) [N] in single support at (q, q', q'').
+
+        Newton's law for the COM: F = m (p_com'' - g). Joint torques and pure moments on a link do not
+        enter; forces on links from outside would.
+        """
+        acceleration = self.pinned.centre_of_mass(self._angles(q), v, a)[2]
+        return self.mass * (acceleration + np.array([0.0, GRAVITY]))
+
+    def extended_inertia(self, q: Array) -> Array:
+        """D_e(q) (n + 2, n + 2) of (2)."""
+        return self.floating.extended_inertia(self._angles(q))
+
+    def E_2(self, q: Array) -> Array:
+        """dp_2/dq_e (2, n + 2) of (4)."""
+        return self.floating.swing_jacobian(self._angles(q))
+
+    def impact(self, q: Array, v: Array) -> Impact:
+        """Delta (8) and Sigma (9) at (q-, q'-), and the relabelled state after it."""
+        return self.floating.impact(self._angles(q), self._angles(v), self.relabelling)
+
+    # -- variations ------------------------------------------------------------------------------
+    def with_errors(
+        self,
+        mass: Mapping[str, float] | None = None,
+        inertia: Mapping[str, float] | None = None,
+        friction: bool | None = None,
+    ) -> Biped:
+        """The robot with masses and inertias multiplied, by class or link name: `delta` of (1).
+
+        `mass` alone leaves the inertias about the COM as they are. Raises ModelError for an unknown
+        body or a factor that is not positive.
+        """
+        inertials: dict[str, Inertial] = {}
+        for factors, key in ((mass or {}, "mass"), (inertia or {}, "inertia")):
+            for body, factor in factors.items():
+                if not (math.isfinite(factor) and factor > 0):
+                    raise ModelError(f"{key} factor of '{body}' is {factor}, expected > 0")
+                for link in self._links(body):
+                    old = inertials.get(link) or self.tree.links[link].inertial
+                    if old is None:
+                        raise ModelError(f"link '{link}' has no mass to scale")
+                    if key == "mass":
+                        new = replace(old, mass=old.mass * factor)
+                    else:
+                        moments = tuple(m * factor for m in old.inertia)
+                        new = replace(old, inertia=moments)  # type: ignore[arg-type]
+                    inertials[link] = new
+        return replace(
+            self,
+            tree=self.tree.with_inertials(inertials),
+            friction=self.friction if friction is None else friction,
+        )
+
+    def _links(self, body: str) -> tuple[str, ...]:
+        if body in self.description.links:
+            return self.description.links[body]
+        if body in self.tree.links:
+            return (body,)
+        known = [*self.description.links, *self.tree.links]
+        raise ModelError(f"robot '{self.description.name}' has no body '{body}'; it has {known}")
+
+    def _angles(self, q: Array) -> Array:
+        """q itself, once it is known to be n finite numbers."""
+        if getattr(q, "shape", None) != (self.n,):
+            raise InputError(f"expected an array of shape ({self.n},), found {np.shape(q)}")
+        if not math.isfinite(q.dot(q)):
+            raise NotFiniteError(f"expected finite angles or rates, found {q}")
+        return q

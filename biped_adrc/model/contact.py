@@ -1,0 +1,135 @@
+"""Double support: the unpinned model (2), the plastic impact (3)-(9).
+
+q_e = (q_s, p_e) with p_e the end of the support leg. The floating URDF is rooted at the torso;
+p_e' and q_s' give its velocity through the stance-foot Jacobian, `v_float = J_e(q) q_e'`, hence
+
+    D_e = J_e' M J_e,   E_2 = J_2 J_e                                (2), (4)
+    D_e (q_e+' - q_e-') = E_2' F_2,   E_2 q_e+' = 0                  (7)
+
+F_2 = (F_T, F_N) is the impulse of the ground on the swing foot [N s]. (5) in the paper has the
+sign of E_2' F_2 against (3), (4) and (7); (7) is right.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import pinocchio as pin
+
+from biped_adrc.model.pinned import build, frame_index, velocity_index
+from biped_adrc.model.urdf import Tree
+from biped_adrc.types import Array
+
+_XZ = [0, 2]
+
+
+class Impact(NamedTuple):
+    """The plastic impact at x- = (q, v): Delta (8), Sigma (9), and the state after relabelling."""
+
+    q: Array
+    """q_s after relabelling (n,) [rad]."""
+    v: Array
+    """q_s' after impact and relabelling (n,) [rad/s]."""
+    impulse: Array
+    """F_2 = (tangential, normal) [N s]."""
+    v_e: Array
+    """q_e+' before relabelling (n + 2,): Delta of (8)."""
+
+    @property
+    def old_foot_velocity(self) -> Array:
+        """(x, z) velocity of the foot that was the support [m/s]; z > 0 means that it lifts off."""
+        return self.v_e[-2:]
+
+    @property
+    def impulse_ratio(self) -> float:
+        """|F_T| / F_N: the dry friction the impact asks for, dimensionless."""
+        return float(abs(self.impulse[0]) / self.impulse[1])
+
+
+class FloatingDynamics:
+    """The floating model in q_e = (q_s, p_e), evaluated with p_e at the origin."""
+
+    def __init__(
+        self,
+        tree: Tree,
+        joints: tuple[str, ...],
+        base: tuple[str, str],
+        feet: tuple[str, str],
+        armature: dict[str, float],
+    ):
+        self.model = build(tree, armature)
+        self.data = self.model.createData()
+        self.n = len(joints)
+        self.angles = np.array([velocity_index(self.model, name) for name in joints])
+        self.base = np.array([velocity_index(self.model, name) for name in base])
+        self.stance, self.swing = (frame_index(self.model, foot) for foot in feet)
+
+    def configuration(self, q: Array, p_e: Array | None = None) -> Array:
+        """Pinocchio configuration for q_s (n,) and the stance foot at p_e (2,) [m]."""
+        x = np.zeros(self.model.nq)
+        x[self.angles] = q
+        pin.forwardKinematics(self.model, self.data, x)
+        foot = pin.updateFramePlacement(self.model, self.data, self.stance).translation[_XZ]
+        x[self.base] = (0.0 if p_e is None else p_e) - foot
+        return x
+
+    def velocity_map(self, q: Array) -> Array:
+        """J_e(q) (n + 2, n + 2): v_float = J_e q_e'."""
+        x = self.configuration(q)
+        J = self._foot_jacobian(x, self.stance)
+        J_e = np.zeros((self.n + 2, self.n + 2))
+        J_e[self.angles, np.arange(self.n)] = 1.0
+        J_e[self.base, : self.n] = -J[:, self.angles]
+        J_e[self.base[0], self.n] = J_e[self.base[1], self.n + 1] = 1.0
+        return J_e
+
+    def _foot_jacobian(self, x: Array, frame: int) -> Array:
+        J: Array = pin.computeFrameJacobian(
+            self.model, self.data, x, frame, pin.LOCAL_WORLD_ALIGNED
+        )
+        return J[_XZ]
+
+    def extended_inertia(self, q: Array) -> Array:
+        """D_e(q) (n + 2, n + 2) of (2)."""
+        J_e = self.velocity_map(q)
+        M = pin.crba(self.model, self.data, self.configuration(q))
+        return J_e.T @ M @ J_e
+
+    def swing_jacobian(self, q: Array) -> Array:
+        """E_2 = dp_2/dq_e (2, n + 2) of (4)."""
+        return self._foot_jacobian(self.configuration(q), self.swing) @ self.velocity_map(q)
+
+    def projected(self, q: Array, v: Array) -> tuple[Array, Array]:
+        """D_s and Omega from the floating model, constrained by the stance contact (n, n), (n,).
+
+        With Z = J_e[:, :n] the null space of the contact Jacobian, D_s = Z' M Z and
+        Omega = Z' (nle + M Z' v), where Z' v is minus the drift of the stance foot on the base rows.
+        """
+        x = self.configuration(q)
+        Z = self.velocity_map(q)[:, : self.n]
+        w = Z @ v
+        zero = np.zeros(self.model.nv)
+        pin.forwardKinematics(self.model, self.data, x, w, zero)
+        drift = pin.getFrameClassicalAcceleration(
+            self.model, self.data, self.stance, pin.LOCAL_WORLD_ALIGNED
+        ).linear[_XZ]
+        Zdot_v = np.zeros(self.model.nv)
+        Zdot_v[self.base] = -drift
+        M = np.array(pin.crba(self.model, self.data, x))
+        nle = pin.nonLinearEffects(self.model, self.data, x, w)
+        return Z.T @ M @ Z, Z.T @ (nle + M @ Zdot_v)
+
+    def impact(self, q: Array, v: Array, relabel: Array) -> Impact:
+        """Solve (7) at (q-, v-) and relabel by the permutation `relabel` (n,)."""
+        n = self.n
+        D_e = self.extended_inertia(q)
+        E_2 = self.swing_jacobian(q)
+        K = np.zeros((n + 4, n + 4))
+        K[: n + 2, : n + 2] = D_e
+        K[: n + 2, n + 2 :] = -E_2.T
+        K[n + 2 :, : n + 2] = E_2
+        rhs = np.concatenate((D_e[:, :n] @ v, np.zeros(2)))
+        solution = np.linalg.solve(K, rhs)
+        v_e = solution[: n + 2]
+        return Impact(q[relabel], v_e[:n][relabel], solution[n + 2 :], v_e)

@@ -1,0 +1,145 @@
+"""Single support: Pinocchio's terms of the model pinned at the stance foot, in the paper's q_s.
+
+The pinned tree hangs from the stance foot: its first coordinate is the absolute angle of the
+stance shin. The paper's coordinates count from the torso. Both are angles of the same links, so
+`q_tree = T q_s` with a constant T, and `D_s = T' M T`, `Omega = T' nle(T q, T v)`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pinocchio as pin
+
+from biped_adrc.errors import ModelError
+from biped_adrc.model.reroot import PIN_JOINT
+from biped_adrc.model.urdf import Tree, to_xml
+from biped_adrc.types import Array
+
+_XZ = [0, 2]
+
+
+def build(tree: Tree, armature: dict[str, float]) -> pin.Model:
+    """The Pinocchio model of `tree` with rotor inertias [kg m^2] by joint name."""
+    model = pin.buildModelFromXML(to_xml(tree))
+    if model.nq != model.nv:
+        raise ModelError(f"URDF '{tree.source}': nq = {model.nq} differs from nv = {model.nv}")
+    rotor = np.zeros(model.nv)
+    for joint, value in armature.items():
+        rotor[velocity_index(model, joint)] = value
+    model.armature = rotor
+    return model
+
+
+def velocity_index(model: pin.Model, joint: str) -> int:
+    """Index in v of a joint. Raises ModelError with the names there are."""
+    if not model.existJointName(joint):
+        names = [name for name in model.names if name != "universe"]
+        raise ModelError(f"model '{model.name}' has no joint '{joint}'; it has {names}")
+    return int(model.joints[model.getJointId(joint)].idx_v)
+
+
+def frame_index(model: pin.Model, frame: str) -> int:
+    """Index of a frame; Pinocchio itself returns nframes for a name it does not know."""
+    if not model.existFrame(frame):
+        names = [f.name for f in model.frames]
+        raise ModelError(f"model '{model.name}' has no frame '{frame}'; it has {names}")
+    return int(model.getFrameId(frame))
+
+
+class PinnedDynamics:
+    """D_s, Omega, forward dynamics and kinematics at (q_s, q_s'); arrays are (n,) or (n, n)."""
+
+    def __init__(
+        self,
+        tree: Tree,
+        joints: tuple[str, ...],
+        stance_chain: Array,
+        feet: tuple[str, str],
+        hip: str,
+        armature: dict[str, float],
+    ):
+        """`joints` names q1..qN, `stance_chain` (n,) gives the pin's angle as a sum of them."""
+        self.model = build(tree, armature)
+        self.data = self.model.createData()
+        n = len(joints)
+        if self.model.nv != n:
+            raise ModelError(
+                f"URDF '{tree.source}': pinned model has {self.model.nv} coordinates, "
+                f"the robot record names {n} ({list(joints)})"
+            )
+        T = np.zeros((n, n))
+        for j, name in enumerate(joints[:-1]):
+            T[velocity_index(self.model, name), j] = 1.0
+        T[velocity_index(self.model, PIN_JOINT)] = stance_chain
+        self.T = T
+        self.swing = frame_index(self.model, feet[1])
+        self.hip = frame_index(self.model, hip)
+        self.torso_joint = int(self.model.frames[self.hip].parentJoint)
+
+    def inertia(self, q: Array) -> Array:
+        """D_s(q) (n, n) [kg m^2] from CRBA."""
+        M = pin.crba(self.model, self.data, self.T @ q)
+        return self.T.T @ M @ self.T
+
+    def bias(self, q: Array, v: Array) -> Array:
+        """Omega = C q' + G (n,) [N m] from RNEA with zero acceleration."""
+        return self.T.T @ pin.nonLinearEffects(self.model, self.data, self.T @ q, self.T @ v)
+
+    def gravity(self, q: Array) -> Array:
+        """G_s(q) = dV/dq (n,) [N m]."""
+        return self.T.T @ pin.computeGeneralizedGravity(self.model, self.data, self.T @ q)
+
+    def coriolis(self, q: Array, v: Array) -> Array:
+        """C(q, q') (n, n) with D' - 2 C skew-symmetric."""
+        C = pin.computeCoriolisMatrix(self.model, self.data, self.T @ q, self.T @ v)
+        return self.T.T @ C @ self.T
+
+    def acceleration(self, q: Array, v: Array, force: Array) -> Array:
+        """q'' (n,) under generalised forces `force` (n,) [N m], by ABA.
+
+        T is square with determinant +-1: tau_tree = T^-T force and q'' = T^-1 a_tree.
+        """
+        a = pin.aba(self.model, self.data, self.T @ q, self.T @ v, self._inverse.T @ force)
+        return self._inverse @ a
+
+    @property
+    def T(self) -> Array:
+        """(n, n), q_tree = T q_s."""
+        return self._T
+
+    @T.setter
+    def T(self, value: Array) -> None:
+        self._T = value
+        self._inverse = np.linalg.inv(value)
+
+    def potential_energy(self, q: Array) -> float:
+        """V(q) [J], zero at the height of the stance foot."""
+        return float(pin.computePotentialEnergy(self.model, self.data, self.T @ q))
+
+    def position(self, q: Array, frame: int) -> Array:
+        """(x, z) of a frame from the stance foot [m]."""
+        pin.forwardKinematics(self.model, self.data, self.T @ q)
+        return pin.updateFramePlacement(self.model, self.data, frame).translation[_XZ]
+
+    def jacobian(self, q: Array, frame: int) -> Array:
+        """d(x, z)/dq_s of a frame (2, n) [m]."""
+        J = pin.computeFrameJacobian(
+            self.model, self.data, self.T @ q, frame, pin.LOCAL_WORLD_ALIGNED
+        )
+        return J[_XZ] @ self.T
+
+    def centre_of_mass(
+        self, q: Array, v: Array | None = None, a: Array | None = None
+    ) -> tuple[Array, Array, Array]:
+        """Position [m], velocity [m/s] and acceleration [m/s^2] of the COM, each (x, z)."""
+        zero = np.zeros(self.model.nv)
+        v = zero if v is None else v
+        a = zero if a is None else a
+        pin.centerOfMass(self.model, self.data, self.T @ q, self.T @ v, self.T @ a)
+        d = self.data
+        return d.com[0][_XZ].copy(), d.vcom[0][_XZ].copy(), d.acom[0][_XZ].copy()
+
+    @property
+    def mass(self) -> float:
+        """Total mass [kg]."""
+        return float(pin.computeTotalMass(self.model))

@@ -1,0 +1,69 @@
+"""The split (11)-(15): what the nominal model says of the actuated joints.
+
+    D_s q'' + Omega = B_s u + xi~                                    (11)
+    q_b'' = kappa u + xi                                             (13)
+    kappa = [D11 - D12 D22^-1 D21]^-1 B1                             (15)
+    xi = [D11 - D12 D22^-1 D21]^-1
+         {xi~1 - Omega1 - D12 D22^-1 (xi~2 - Omega2)}                (14)
+
+xi~ is a generalised force [N m] in (11) and xi an acceleration [rad/s^2] in (13); the paper
+prints one letter for both. Here B1 is the identity: the motors act on the joints q_b.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.types import Array
+
+
+class Reduction(NamedTuple):
+    """Terms of the model at one state; n coordinates, the first p of them actuated."""
+
+    D: Array
+    """Inertia matrix D_s (n, n) [kg m^2]."""
+    Omega: Array
+    """C q' + G (n,) [N m]."""
+    kappa: Array
+    """(15), (p, p) [1/(kg m^2)]."""
+    xi: Array
+    """(14) with xi~ = 0: the model's own part of the total disturbance (p,) [rad/s^2]."""
+    kappa_inverse: Array
+    """B1^-1 [D11 - D12 D22^-1 D21] (p, p) [kg m^2]."""
+    A_N: Array
+    """-D22^-1 D21 (n - p, p): the unactuated rows are q_N'' = A_N q_b'' + a_N."""
+    a_N: Array
+    """-D22^-1 Omega2 (n - p,) [rad/s^2]."""
+
+
+def reduce(D: Array, Omega: Array, p: int) -> Reduction:
+    """(15) and (14) with xi~ = 0, for the first p coordinates actuated."""
+    D12 = D[:p, p:]
+    if D.shape[0] == p + 1:
+        A_N = D[p:, :p] / -D[p, p]
+        a_N = Omega[p:] / -D[p, p]
+    else:
+        A_N = -np.linalg.solve(D[p:, p:], D[p:, :p])
+        a_N = -np.linalg.solve(D[p:, p:], Omega[p:])
+    kappa_inverse = D[:p, :p] + D12 @ A_N
+    kappa = np.linalg.inv(kappa_inverse)
+    xi = kappa @ -(Omega[:p] + D12 @ a_N)
+    return Reduction(D, Omega, kappa, xi, kappa_inverse, A_N, a_N)
+
+
+def disturbance_acceleration(terms: Reduction, force: Array) -> Array:
+    """The part of (14) that a generalised force xi~ = delta + zeta adds to q_b'' [rad/s^2].
+
+    `force` (n,) [N m] acts on all coordinates; its last rows enter through -D12 D22^-1 xi~2.
+    Returns (p,).
+    """
+    matched, unmatched = disturbance_parts(terms, force)
+    return matched + unmatched
+
+
+def disturbance_parts(terms: Reduction, force: Array) -> tuple[Array, Array]:
+    """The matched part (from xi~1) and the unmatched part (from xi~2) of (14), each (p,) [rad/s^2]."""
+    p = terms.kappa.shape[0]
+    return terms.kappa @ force[:p], terms.kappa @ (terms.A_N.T @ force[p:])

@@ -1,0 +1,183 @@
+"""The registry: a robot is a folder of `urdf/` with a `robot.toml` beside its URDF.
+
+The record names the actuated joints in the order q1, q2, ..., the unactuated pitch, the planar base,
+the feet, the phase variable, and parameter presets with their sources.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from biped_adrc.errors import ModelError
+from biped_adrc.model.urdf import Inertial, Tree, load_tree
+from biped_adrc.resources import data_folder
+
+
+@dataclass(frozen=True)
+class BodyParameters:
+    """mass [kg], com [m] along +z of the link, inertia [kg m^2] about the COM."""
+
+    mass: float
+    com: float
+    inertia: float
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A parameter set: bodies by class (torso, thigh, ...), armature [kg m^2] per actuated joint."""
+
+    name: str
+    source: str
+    armature: float
+    bodies: Mapping[str, BodyParameters]
+
+
+@dataclass(frozen=True)
+class RobotDescription:
+    """What `robot.toml` says; lengths [m], torques [N m], angles [rad]."""
+
+    name: str
+    urdf: Path
+    actuated: tuple[str, ...]
+    unactuated: str
+    base: tuple[str, str]
+    stance_foot: str
+    swing_foot: str
+    hip: str
+    phase: tuple[float, ...]
+    peak_torque: float
+    friction_coefficient: float
+    viscous: Mapping[str, float]
+    static: Mapping[str, float]
+    links: Mapping[str, tuple[str, ...]]
+    default_preset: str
+    presets: Mapping[str, Preset]
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Names of q1..qN: the actuated joints, then the unactuated pitch."""
+        return (*self.actuated, self.unactuated)
+
+    def preset(self, name: str | None = None) -> Preset:
+        """The preset `name`, or the default one. Raises ModelError with the names there are."""
+        name = self.default_preset if name is None else name
+        if name not in self.presets:
+            raise ModelError(
+                f"robot '{self.name}' has no preset '{name}'; choose one of {sorted(self.presets)}"
+            )
+        return self.presets[name]
+
+    def joint_index(self, joint: str | int) -> int:
+        """Index in q of a joint given by name, as "q1".."qN", or by index from 0."""
+        names = self.joints
+        if isinstance(joint, int):
+            if 0 <= joint < len(names):
+                return joint
+        elif joint in names:
+            return names.index(joint)
+        elif joint in (aliases := [f"q{i + 1}" for i in range(len(names))]):
+            return aliases.index(joint)
+        raise ModelError(
+            f"robot '{self.name}' has no joint '{joint}'; "
+            f"expected one of {list(names)}, q1..q{len(names)}, or an index from 0"
+        )
+
+    def tree(self, preset: str | None = None) -> Tree:
+        """The floating URDF with the inertials of `preset`."""
+        tree = load_tree(self.urdf)
+        inertials: dict[str, Inertial] = {}
+        for body, p in self.preset(preset).bodies.items():
+            for link in self.links[body]:
+                # the moments about x and z do not enter planar motion
+                moments = (p.inertia, 0.0, 0.0, p.inertia, 0.0, 0.05 * p.inertia)
+                inertials[link] = Inertial(p.mass, (0.0, 0.0, p.com), moments)
+        return tree.with_inertials(inertials)
+
+
+def robot_names() -> tuple[str, ...]:
+    """Names of the robots that come with the package."""
+    return tuple(sorted(path.parent.name for path in data_folder("urdf").glob("*/robot.toml")))
+
+
+def load_description(robot: str | Path) -> RobotDescription:
+    """The record of a robot by name, or from the path of a `robot.toml`.
+
+    Raises ModelError that names the robot or the key, what was found and what was expected.
+    """
+    path = Path(robot)
+    if path.suffix != ".toml":
+        if str(robot) not in robot_names():
+            raise ModelError(
+                f"there is no robot '{robot}'; choose one of {list(robot_names())}, "
+                "or give the path of a robot.toml"
+            )
+        path = data_folder("urdf") / str(robot) / "robot.toml"
+    if not path.is_file():
+        raise ModelError(f"robot record '{path}' not found")
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+        return _description(data, path)
+    except tomllib.TOMLDecodeError as error:
+        raise ModelError(f"robot record '{path}' is not valid TOML: {error}") from error
+    except KeyError as error:
+        raise ModelError(f"robot record '{path}': the key {error} is missing") from error
+    except (TypeError, ValueError, AttributeError) as error:
+        raise ModelError(f"robot record '{path}': {error}") from error
+
+
+def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
+    friction = data.get("friction", {})
+    return RobotDescription(
+        name=data["name"],
+        urdf=path.parent / data["urdf"],
+        actuated=tuple(data["actuated"]),
+        unactuated=data["unactuated"],
+        base=(data["base"][0], data["base"][1]),
+        stance_foot=data["stance_foot"],
+        swing_foot=data["swing_foot"],
+        hip=data["hip"],
+        phase=_phase(data),
+        peak_torque=_positive(data["peak_torque"], "peak_torque"),
+        friction_coefficient=_positive(data["friction_coefficient"], "friction_coefficient"),
+        viscous=dict(friction.get("viscous", {})),
+        static=dict(friction.get("static", {})),
+        links={body: tuple(names) for body, names in data["links"].items()},
+        default_preset=data["default_preset"],
+        presets={name: _preset(name, record, data) for name, record in data["presets"].items()},
+    )
+
+
+def _phase(data: Mapping[str, Any]) -> tuple[float, ...]:
+    phase = tuple(float(c) for c in data["phase"])
+    expected = len(data["actuated"]) + 1
+    if len(phase) != expected:
+        raise ValueError(f"phase has {len(phase)} numbers, expected {expected}")
+    return phase
+
+
+def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Preset:
+    bodies = {}
+    for body in data["links"]:
+        p = record[body]
+        where = f"presets.{name}.{body}"
+        bodies[body] = BodyParameters(
+            _positive(p["mass"], f"{where}.mass"),
+            float(p["com"]),
+            _positive(p["inertia"], f"{where}.inertia"),
+        )
+    armature = float(record["armature"])
+    if not (math.isfinite(armature) and armature >= 0):
+        raise ValueError(f"presets.{name}.armature is {armature}, expected a number >= 0")
+    return Preset(name, record["source"], armature, bodies)
+
+
+def _positive(value: object, what: str) -> float:
+    number = float(value)  # type: ignore[arg-type]
+    if not (math.isfinite(number) and number > 0):
+        raise ValueError(f"{what} is {value}, expected a positive number")
+    return number

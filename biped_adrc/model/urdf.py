@@ -1,0 +1,318 @@
+"""Strict reading of URDF into a small tree, edits on it, and writing it back.
+
+Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0.
+So the file is read and validated here first, parameters are changed on this tree, and Pinocchio
+is given the text this module writes.
+"""
+
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from biped_adrc.errors import ModelError
+
+Vector = tuple[float, float, float]
+
+JOINT_TYPES = ("revolute", "prismatic", "fixed")
+GEOMETRY_SIZES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length")}
+_ALMOST_ONE = 1e-6  # how far an axis may be from unit length, dimensionless
+
+
+@dataclass(frozen=True)
+class Inertial:
+    """Mass [kg], COM in the link frame [m], inertia about the COM [kg m^2] (xx, xy, xz, yy, yz, zz)."""
+
+    mass: float
+    com: Vector
+    inertia: tuple[float, float, float, float, float, float]
+
+
+@dataclass(frozen=True)
+class Visual:
+    """A primitive: `shape` is box, sphere or cylinder (axis z), `size` its numbers [m], `rgba` its colour."""
+
+    shape: str
+    size: tuple[float, ...]
+    origin: Vector
+    rgba: tuple[float, float, float, float]
+
+
+@dataclass(frozen=True)
+class Link:
+    """A rigid body; `inertial` is None for frames without mass."""
+
+    name: str
+    inertial: Inertial | None
+    visuals: tuple[Visual, ...]
+
+
+@dataclass(frozen=True)
+class Joint:
+    """`child` moves about or along `axis`; all link frames are parallel at zero (no rpy)."""
+
+    name: str
+    type: str
+    parent: str
+    child: str
+    origin: Vector
+    axis: Vector
+
+
+@dataclass(frozen=True)
+class Tree:
+    """A robot as read from URDF: links by name, joints in the order of the file."""
+
+    name: str
+    links: Mapping[str, Link]
+    joints: tuple[Joint, ...]
+    source: str
+
+    def joint_above(self, link: str) -> Joint | None:
+        """The joint whose child is `link`, None at the root."""
+        return next((j for j in self.joints if j.child == link), None)
+
+    def joints_below(self, link: str) -> tuple[Joint, ...]:
+        """The joints whose parent is `link`."""
+        return tuple(j for j in self.joints if j.parent == link)
+
+    def path_to_root(self, link: str) -> tuple[Joint, ...]:
+        """Joints from `link` up to the root."""
+        path: list[Joint] = []
+        joint = self.joint_above(link)
+        while joint is not None:
+            path.append(joint)
+            joint = self.joint_above(joint.parent)
+        return tuple(path)
+
+    def with_inertials(self, inertials: Mapping[str, Inertial]) -> Tree:
+        """The same tree with the inertials of some links replaced."""
+        links = {
+            name: replace(link, inertial=inertials.get(name, link.inertial))
+            for name, link in self.links.items()
+        }
+        return _validated(replace(self, links=links))
+
+
+def load_tree(path: Path | str) -> Tree:
+    """Read and validate a URDF file.
+
+    Raises ModelError that names the file, the element, what was found and what was expected.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise ModelError(f"URDF '{path}' not found; give the path of an existing .urdf file")
+    try:
+        root = ET.fromstring(path.read_bytes())
+    except ET.ParseError as error:
+        raise ModelError(f"URDF '{path}' is not well-formed XML: {error}") from error
+    if root.tag != "robot":
+        raise ModelError(f"URDF '{path}': root element is <{root.tag}>, expected <robot>")
+    links: dict[str, Link] = {}
+    for element in root.findall("link"):
+        link = _read_link(element, str(path))
+        if link.name in links:
+            raise ModelError(f"URDF '{path}': two links are named '{link.name}'; names must differ")
+        links[link.name] = link
+    joints = tuple(_read_joint(element, str(path)) for element in root.findall("joint"))
+    return _validated(Tree(root.get("name", path.stem), links, joints, str(path)))
+
+
+def to_xml(tree: Tree) -> str:
+    """URDF text of `tree`; `load_tree` of it gives the tree back."""
+    out = ['<?xml version="1.0"?>', f'<robot name="{tree.name}">']
+    for link in tree.links.values():
+        body = _inertial_xml(link.inertial) + [
+            line for visual in link.visuals for line in _visual_xml(visual, link.name)
+        ]
+        if body:
+            out += [f'  <link name="{link.name}">', *body, "  </link>"]
+        else:
+            out.append(f'  <link name="{link.name}"/>')
+    for joint in tree.joints:
+        out += [
+            f'  <joint name="{joint.name}" type="{joint.type}">',
+            f'    <parent link="{joint.parent}"/>',
+            f'    <child link="{joint.child}"/>',
+            f'    <origin xyz="{_text(joint.origin)}"/>',
+        ]
+        if joint.type != "fixed":
+            out += [
+                f'    <axis xyz="{_text(joint.axis)}"/>',
+                '    <limit lower="-1000" upper="1000" effort="1000" velocity="1000"/>',
+            ]
+        out.append("  </joint>")
+    return "\n".join([*out, "</robot>", ""])
+
+
+def _text(values: tuple[float, ...]) -> str:
+    return " ".join(f"{value:.17g}" for value in values)
+
+
+def _inertial_xml(inertial: Inertial | None) -> list[str]:
+    if inertial is None:
+        return []
+    names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    moments = " ".join(f'{n}="{i:.17g}"' for n, i in zip(names, inertial.inertia, strict=True))
+    return [
+        "    <inertial>",
+        f'      <origin xyz="{_text(inertial.com)}"/>',
+        f'      <mass value="{inertial.mass:.17g}"/>',
+        f"      <inertia {moments}/>",
+        "    </inertial>",
+    ]
+
+
+def _visual_xml(visual: Visual, link: str) -> list[str]:
+    if visual.shape == "box":
+        shape = f'<box size="{_text(visual.size)}"/>'
+    else:
+        names = GEOMETRY_SIZES[visual.shape]
+        sizes = " ".join(f'{n}="{s:.17g}"' for n, s in zip(names, visual.size, strict=True))
+        shape = f"<{visual.shape} {sizes}/>"
+    return [
+        "    <visual>",
+        f'      <origin xyz="{_text(visual.origin)}"/>',
+        f"      <geometry>{shape}</geometry>",
+        f'      <material name="{link}"><color rgba="{_text(visual.rgba)}"/></material>',
+        "    </visual>",
+    ]
+
+
+def _numbers(element: ET.Element | None, key: str, default: str, count: int, where: str) -> Vector:
+    text = default if element is None else element.get(key, default)
+    try:
+        values = tuple(float(word) for word in text.split())
+    except ValueError:
+        values = ()
+    if len(values) != count or not all(math.isfinite(value) for value in values):
+        raise ModelError(f"{where}: {key}='{text}', expected {count} finite number(s)")
+    return values  # type: ignore[return-value]
+
+
+def _origin(element: ET.Element, where: str) -> Vector:
+    origin = element.find("origin")
+    if any(_numbers(origin, "rpy", "0 0 0", 3, f"{where} <origin>")):
+        raise ModelError(
+            f"{where}: <origin> has a rotation (rpy); expected parallel frames at zero angles. "
+            "Turn the geometry and the inertia into the parent's axes instead"
+        )
+    return _numbers(origin, "xyz", "0 0 0", 3, f"{where} <origin>")
+
+
+def _required(element: ET.Element, tag: str, where: str) -> ET.Element:
+    found = element.find(tag)
+    if found is None:
+        raise ModelError(f"{where}: <{tag}> is missing")
+    return found
+
+
+def _name(element: ET.Element, key: str, where: str) -> str:
+    name = element.get(key)
+    if not name:
+        raise ModelError(f"{where}: <{element.tag}> has no '{key}'")
+    return name
+
+
+def _read_link(element: ET.Element, source: str) -> Link:
+    name = _name(element, "name", f"URDF '{source}'")
+    where = f"URDF '{source}', link '{name}'"
+    inertial = element.find("inertial")
+    visuals = tuple(_read_visual(v, where) for v in element.findall("visual"))
+    return Link(name, None if inertial is None else _read_inertial(inertial, where), visuals)
+
+
+def _read_inertial(element: ET.Element, where: str) -> Inertial:
+    mass = _numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
+    moments = _required(element, "inertia", where)
+    names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    values = [
+        _numbers(moments, n, "" if n in ("ixx", "iyy", "izz") else "0", 1, f"{where} <inertia>")[0]
+        for n in names
+    ]
+    return Inertial(mass, _origin(element, f"{where} <inertial>"), tuple(values))  # type: ignore[arg-type]
+
+
+def _read_visual(element: ET.Element, where: str) -> Visual:
+    geometry = _required(element, "geometry", f"{where} <visual>")
+    shape = next((g for g in geometry if g.tag in GEOMETRY_SIZES), None)
+    if shape is None:
+        found = ", ".join(f"<{g.tag}>" for g in geometry) or "nothing"
+        raise ModelError(f"{where} <visual>: found {found}, expected one of {list(GEOMETRY_SIZES)}")
+    if shape.tag == "box":
+        size: tuple[float, ...] = _numbers(shape, "size", "", 3, f"{where} <box>")
+    else:
+        keys = GEOMETRY_SIZES[shape.tag]
+        size = tuple(_numbers(shape, k, "", 1, f"{where} <{shape.tag}>")[0] for k in keys)
+    if min(size) <= 0:
+        raise ModelError(f"{where} <{shape.tag}>: sizes {size}, expected positive numbers")
+    colour = element.find("material/color")
+    rgba = _numbers(colour, "rgba", "0.5 0.5 0.5 1", 4, f"{where} <color>")
+    return Visual(shape.tag, size, _origin(element, f"{where} <visual>"), rgba)  # type: ignore[arg-type]
+
+
+def _read_joint(element: ET.Element, source: str) -> Joint:
+    name = _name(element, "name", f"URDF '{source}'")
+    where = f"URDF '{source}', joint '{name}'"
+    kind = _name(element, "type", where)
+    if kind not in JOINT_TYPES:
+        hint = "; give a 'continuous' joint as 'revolute' with wide limits"
+        raise ModelError(f"{where}: type '{kind}', expected one of {list(JOINT_TYPES)}{hint}")
+    axis = _numbers(element.find("axis"), "xyz", "1 0 0", 3, f"{where} <axis>")
+    if abs(math.hypot(*axis) - 1.0) > _ALMOST_ONE:
+        raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
+    return Joint(
+        name,
+        kind,
+        _name(_required(element, "parent", where), "link", where),
+        _name(_required(element, "child", where), "link", where),
+        _origin(element, where),
+        axis,
+    )
+
+
+def _validated(tree: Tree) -> Tree:
+    """Check that the links form one tree and that every moving body is physical."""
+    where = f"URDF '{tree.source}'"
+    names = [joint.name for joint in tree.joints]
+    for name in names:
+        if names.count(name) > 1:
+            raise ModelError(f"{where}: two joints are named '{name}'; names must differ")
+    for joint in tree.joints:
+        for link in (joint.parent, joint.child):
+            if link not in tree.links:
+                raise ModelError(f"{where}, joint '{joint.name}': there is no link '{link}'")
+    children = [joint.child for joint in tree.joints]
+    for link in tree.links:
+        if children.count(link) > 1:
+            raise ModelError(
+                f"{where}: link '{link}' has two parent joints; closed chains are not supported"
+            )
+    roots = [link for link in tree.links if link not in children]
+    if len(roots) != 1:
+        raise ModelError(f"{where}: found root links {roots}, expected exactly one")
+    for link in tree.links.values():
+        if link.inertial is not None:
+            _check_inertial(link.inertial, f"{where}, link '{link.name}'")
+    return tree
+
+
+def _check_inertial(inertial: Inertial, where: str) -> None:
+    if not inertial.mass > 0:
+        raise ModelError(f"{where}: mass {inertial.mass:g} kg, expected a positive number")
+    ixx, ixy, ixz, iyy, iyz, izz = inertial.inertia
+    minors = (
+        ixx,
+        ixx * iyy - ixy**2,
+        ixx * (iyy * izz - iyz**2) - ixy * (ixy * izz - iyz * ixz) + ixz * (ixy * iyz - iyy * ixz),
+    )
+    if min(minors) <= 0:
+        raise ModelError(f"{where}: the inertia matrix is not positive definite")
+    if any(2 * moment > (ixx + iyy + izz) * (1 + 1e-9) for moment in (ixx, iyy, izz)):
+        raise ModelError(
+            f"{where}: inertia ({ixx:g}, {iyy:g}, {izz:g}) kg m^2 breaks the triangle inequality; "
+            "no body has a principal moment above the sum of the other two"
+        )

@@ -1,0 +1,1 @@
+"""Extended observers of the total disturbance; one file per idea."""

@@ -1,0 +1,102 @@
+"""What an observer is: a state z, its flow or its discrete step, and the estimates read from it.
+
+    z' = flow(z, y, input),  input = kappa u [rad/s^2],  y = q_b [rad]
+
+States are vectors passed in and handed back; an observer holds only parameters.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from enum import Enum
+from typing import NamedTuple
+
+from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+
+
+class Estimate(NamedTuple):
+    """What the observer says of the p joints, each (p,)."""
+
+    position: Array
+    """x1^ [rad]."""
+    velocity: Array
+    """x2^ [rad/s]."""
+    disturbance: Array
+    """xi^ = x3^ [rad/s^2]."""
+
+
+class ResetPolicy(Enum):
+    """What happens to the observer at impact, where the legs swap and velocities jump."""
+
+    NONE = "none"
+    """Nothing."""
+    RELABEL = "relabel"
+    """The states of the legs swap."""
+    MEASURED = "measured"
+    """As relabel, with x1^ and x2^ from the measurement after impact."""
+    MODEL = "model"
+    """As at the start: x1^, x2^ measured, xi^ from the nominal model, higher derivatives zero."""
+
+    @classmethod
+    def named(cls, name: str | ResetPolicy) -> ResetPolicy:
+        """The policy by name. Raises InputError with the names there are."""
+        try:
+            return cls(name)
+        except ValueError:
+            names = [policy.value for policy in cls]
+            raise InputError(f"reset policy '{name}' is unknown; choose one of {names}") from None
+
+
+class ErrorSystem(NamedTuple):
+    """Coordinates in which a linear observer's error obeys e' = A e + b (q_b'' - kappa u).
+
+    With Z = z as (k, p): E = S (q_b, q_b') - Z, where S puts q_b in row 0 and q_b' * velocity_scale in
+    row 1. The forcing enters row 1 times velocity_scale.
+    """
+
+    A: Array
+    velocity_scale: float
+
+
+class Observer(ABC):
+    """Base of all observers, in continuous time unless made by `sampled`."""
+
+    @property
+    @abstractmethod
+    def order(self) -> int:
+        """States per joint."""
+
+    @abstractmethod
+    def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
+        """z that agrees with position y, velocity dy and disturbance xi, each (p,); z is flat."""
+
+    @abstractmethod
+    def estimate(self, z: Array) -> Estimate:
+        """The estimates in z."""
+
+    @abstractmethod
+    def reset(
+        self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
+    ) -> Array:
+        """z after impact; `swap` (p,) is the relabelling of joints, y, dy, xi are taken after it."""
+
+    def flow(self, z: Array, y: Array, input: Array) -> Array:
+        """z' in continuous time."""
+        raise InputError(f"{type(self).__name__} works in sampled time only; give a SampledTime")
+
+    def correct(self, z: Array, y: Array) -> Array:
+        """Sampled: z at a tick with the measurement y taken in."""
+        raise InputError(f"{type(self).__name__} works in continuous time; call sampled(period)")
+
+    def predict(self, z: Array, input: Array) -> Array:
+        """Sampled: z one period later under a constant input."""
+        raise InputError(f"{type(self).__name__} works in continuous time; call sampled(period)")
+
+    def sampled(self, period: float) -> Observer:
+        """The discrete form for ticks every `period` [s]."""
+        raise InputError(f"{type(self).__name__} has no discrete form; use ContinuousTime()")
+
+    def error_system(self) -> ErrorSystem | None:
+        """The linear error dynamics, for the exponential method; None when there are none."""
+        return None

@@ -1,0 +1,9 @@
+"""Array types shared by all modules."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+"""Real array in float64; shapes are stated in the docstrings."""

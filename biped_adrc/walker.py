@@ -1,0 +1,255 @@
+"""The walker: plant, controller, disturbance and timing make a hybrid system.
+
+    q'' = f(q, q') + D_s^-1 (B_s u + zeta)        between impacts   (10)
+    (q, q')+ = R Delta(q-, q'-)                   at foot strike    (10)
+
+State x = (q, q', s) in continuous time, (q, q', s, u) in sampled time, where the held torque is part of
+the state. The controller's terms come from the nominal `model`, the motion from the `plant`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.disturbances.base import Disturbance
+from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.system import Clock, Guard, HybridSystem, Split
+from biped_adrc.model.biped import Biped
+from biped_adrc.types import Array
+
+FOOT_STRIKE = "foot_strike"
+
+
+class Mode(NamedTuple):
+    """Single support `step` (from 1) that began at `start` [s]."""
+
+    step: int = 1
+    start: float = 0.0
+
+
+@dataclass(frozen=True)
+class ContinuousTime:
+    """The controller acts at every instant."""
+
+
+@dataclass(frozen=True)
+class SampledTime:
+    """The controller acts at ticks every `period` [s] and its torque is held in between.
+
+    restart: the clock restarts at impact; a free-running clock makes the return map depend on its phase.
+    """
+
+    period: float
+    restart: bool = True
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.period) and self.period > 0):
+            raise InputError(f"the sampling period is {self.period} s, expected a positive number")
+
+
+class Instant(NamedTuple):
+    """What acts at one state."""
+
+    measurement: Measurement
+    s: Array
+    u: Array
+    """Torque applied (p,) [N m]."""
+    force: Array
+    """B_s u + zeta (n,) [N m]."""
+    a: Array
+    """q'' (n,) [rad/s^2]."""
+
+
+@dataclass(frozen=True)
+class Walker(HybridSystem):
+    """torque_limit [N m] saturates every motor; the observer is fed the torque applied.
+
+    fall_height: the run ends as a fall when the hip is below this fraction of its height at start.
+    max_step_time [s]: a longer single support ends as stalled.
+    """
+
+    plant: Biped
+    controller: Controller
+    disturbance: Disturbance | None = None
+    timing: ContinuousTime | SampledTime = ContinuousTime()
+    model: Biped | None = None
+    torque_limit: float | None = None
+    fall_height: float = 0.35
+    max_step_time: float = 2.0
+
+    def __post_init__(self) -> None:
+        limit = self.torque_limit
+        if limit is not None and not (math.isfinite(limit) and limit > 0):
+            raise InputError(f"the torque limit is {limit} N m, expected a positive number or None")
+        if self.model is not None and self.model.n != self.plant.n:
+            raise InputError(
+                f"the model has {self.model.n} coordinates, the plant {self.plant.n}; they must agree"
+            )
+
+    # -- parts -----------------------------------------------------------------------------------
+    @cached_property
+    def nominal(self) -> Biped:
+        """The model the controller knows; the plant itself when none was given."""
+        return self.model if self.model is not None else self.plant
+
+    @cached_property
+    def law(self) -> Controller:
+        """The controller in this time base."""
+        if isinstance(self.timing, SampledTime):
+            return self.controller.sampled(self.timing.period)
+        return self.controller
+
+    @property
+    def sampled(self) -> bool:
+        """Whether a torque is held between ticks."""
+        return isinstance(self.timing, SampledTime)
+
+    def split_state(self, x: Array) -> tuple[Array, Array, Array]:
+        """q, v, s of x."""
+        n = self.plant.n
+        end = len(x) - self.plant.p if self.sampled else len(x)
+        return x[:n], x[n : 2 * n], x[2 * n : end]
+
+    def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
+        """What the controller is given at (t, q, v)."""
+        return Measurement(t, mode.step, t - mode.start, q, v, self.nominal.reduction(q, v))
+
+    def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
+        """x at the start of single support in (q, v). Raises InputError for a controller that does not fit."""
+        mode = Mode() if mode is None else mode
+        m = self.measure(mode.start, np.asarray(q, dtype=float), np.asarray(v, dtype=float), mode)
+        s = self.law.initial_state(m)
+        u = np.asarray(self.law.output(s, m))
+        if u.shape != (self.plant.p,):
+            raise InputError(
+                f"{type(self.controller).__name__}.output returned an array of shape {u.shape}, expected "
+                f"({self.plant.p},): one torque [N m] per motor"
+            )
+        if not np.all(np.isfinite(u)):
+            raise NotFiniteError(f"{type(self.controller).__name__}.output returned {u} at the start")
+        held = [np.zeros(self.plant.p)] if self.sampled else []
+        return np.concatenate((m.q, m.v, s, *held))
+
+    # -- laws ------------------------------------------------------------------------------------
+    def _saturate(self, u: Array) -> Array:
+        if self.torque_limit is not None:
+            u = np.minimum(np.maximum(u, -self.torque_limit), self.torque_limit)
+        if not math.isfinite(u.dot(u)):
+            raise NotFiniteError(f"{type(self.controller).__name__}.output returned {u} N m")
+        return u
+
+    def _force(self, t: float, q: Array, v: Array, u: Array, mode: Mode) -> Array:
+        force = np.zeros(self.plant.n)
+        force[: self.plant.p] = u
+        if self.disturbance is not None:
+            force += self.disturbance.torque(t, mode.step, mode.start, q, v)
+        return force
+
+    def instant(self, t: float, x: Array, mode: Mode) -> Instant:
+        """Measurement, torque, force and acceleration at (t, x)."""
+        q, v, s = self.split_state(x)
+        m = self.measure(t, q, v, mode)
+        u = x[-self.plant.p :] if self.sampled else self._saturate(self.law.output(s, m))
+        force = self._force(t, q, v, u, mode)
+        return Instant(m, s, u, force, self.plant.acceleration(q, v, force))
+
+    def flow(self, t: float, x: Array, mode: Mode) -> Array:
+        if self.sampled:
+            q, v, _ = self.split_state(x)
+            dx = np.zeros_like(x)
+            n = self.plant.n
+            force = self._force(t, q, v, x[-self.plant.p :], mode)
+            dx[:n], dx[n : 2 * n] = v, self.plant.acceleration(q, v, force)
+            return dx
+        i = self.instant(t, x, mode)
+        return np.concatenate((i.measurement.v, i.a, self.law.flow(i.s, i.measurement, i.u)))
+
+    def _tick(self, t: float, x: Array, mode: Mode) -> Array:
+        q, v, s = self.split_state(x)
+        m = self.measure(t, q, v, mode)
+        s = self.law.correct(s, m)
+        u = self._saturate(self.law.output(s, m))
+        return np.concatenate((q, v, self.law.predict(s, m, u), u))
+
+    def clocks(self) -> tuple[Clock, ...]:
+        if isinstance(self.timing, SampledTime):
+            return (Clock("control", self.timing.period, self._tick, self.timing.restart),)
+        return ()
+
+    def switching_times(self, mode: Mode) -> tuple[float, ...]:
+        if self.disturbance is None:
+            return ()
+        return self.disturbance.switching_times(mode.step, mode.start)
+
+    # -- impact ----------------------------------------------------------------------------------
+    def strike(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode] | None:
+        """x+ after impact and relabelling; None unless the swing foot is ahead of the stance foot."""
+        q, v, s = self.split_state(x)
+        if self.plant.swing_foot(q)[0] <= 0.0:
+            return None
+        impact = self.plant.impact(q, v)
+        mode = Mode(mode.step + 1, t)
+        after = self.measure(t, impact.q, impact.v, mode)
+        s = self.law.jump(s, after, self.plant.relabelling[: self.plant.p])
+        held = [x[-self.plant.p :]] if self.sampled else []
+        return np.concatenate((impact.q, impact.v, s, *held)), mode
+
+    @cached_property
+    def _lowest_hip(self) -> float:
+        straight = np.zeros(self.plant.n)
+        return self.fall_height * float(np.linalg.norm(self.plant.hip(straight)))
+
+    def guards(self, mode: Mode) -> tuple[Guard, ...]:
+        n = self.plant.n
+        return (
+            Guard(
+                FOOT_STRIKE,
+                lambda t, x: float(self.plant.swing_foot(x[:n])[1]),
+                lambda t, x: self.strike(t, x, mode),
+            ),
+            Guard(
+                "hip_too_low",
+                lambda t, x: float(self.plant.hip(x[:n])[1]) - self._lowest_hip,
+                terminal=Status.FELL,
+            ),
+            Guard(
+                "step_too_long",
+                lambda t, x: mode.start + self.max_step_time - t,
+                terminal=Status.STALLED,
+            ),
+        )
+
+    # -- exponential method ----------------------------------------------------------------------
+    def split(self, mode: Mode) -> Split | None:
+        """Error coordinates of the observer: e' = A e + b (q_b'' - kappa u), independent of u itself."""
+        error = None if self.sampled else self.law.error_system()
+        if error is None:
+            return None
+        n, p, k, scale = self.plant.n, self.plant.p, error.A.shape[0], error.velocity_scale
+
+        def to(x: Array) -> tuple[Array, Array]:
+            E = -x[2 * n :].reshape(k, p)
+            E[0] += x[:p]
+            E[1] += scale * x[n : n + p]
+            return x[: 2 * n], E
+
+        def back(w: Array, E: Array) -> Array:
+            Z = -E
+            Z[0] += w[:p]
+            Z[1] += scale * w[n : n + p]
+            return np.concatenate((w, Z.ravel()))
+
+        def remainder(t: float, w: Array, E: Array) -> tuple[Array, Array]:
+            i = self.instant(t, back(w, E), mode)
+            N = np.zeros((k, p))
+            N[1] = scale * (i.a[:p] - i.measurement.terms.kappa @ i.u)
+            return np.concatenate((w[n:], i.a)), N
+
+        return Split(to, back, error.A, remainder)
