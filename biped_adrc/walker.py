@@ -133,7 +133,9 @@ class Walker(HybridSystem):
                 f"({self.plant.p},): one torque [N m] per motor"
             )
         if not np.all(np.isfinite(u)):
-            raise NotFiniteError(f"{type(self.controller).__name__}.output returned {u} at the start")
+            raise NotFiniteError(
+                f"{type(self.controller).__name__}.output returned {u} at the start"
+            )
         held = [np.zeros(self.plant.p)] if self.sampled else []
         return np.concatenate((m.q, m.v, s, *held))
 

@@ -16,8 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.errors import InputError, SingularError
+from biped_adrc.errors import InputError
 from biped_adrc.gait.reference import ReferencePoint
+from biped_adrc.linear import solve
 from biped_adrc.model.reduction import Reduction
 from biped_adrc.types import Array
 
@@ -33,7 +34,9 @@ class Gains:
         for name in ("K_p", "K_d"):
             value = np.asarray(getattr(self, name), dtype=float)
             if value.ndim > 1 or not np.all(np.isfinite(value)) or np.any(value <= 0):
-                raise InputError(f"gain {name} is {value}, expected positive numbers, one per joint")
+                raise InputError(
+                    f"gain {name} is {value}, expected positive numbers, one per joint"
+                )
             object.__setattr__(self, name, float(value) if value.ndim == 0 else value)
 
 
@@ -51,15 +54,11 @@ def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
     """a (p,) of the module's equation. Raises SingularError when its matrix is singular."""
     p = len(f)
     H_b, H_N = r.H[:, :p], r.H[:, p:]
-    try:
-        a: Array = np.linalg.solve(
-            np.eye(p) - H_b - H_N @ terms.A_N, r.drift + f + H_N @ terms.a_N
-        )
-    except np.linalg.LinAlgError:
-        raise SingularError(
-            "I - H_b - H_N A_N is singular: the reference cannot be tracked from this state"
-        ) from None
-    return a
+    return solve(
+        np.eye(p) - H_b - H_N @ terms.A_N,
+        r.drift + f + H_N @ terms.a_N,
+        "I - H_b - H_N A_N, by which the reference is tracked from this state,",
+    )
 
 
 def printed_acceleration(r: ReferencePoint, f: Array) -> Array:

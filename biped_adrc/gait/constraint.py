@@ -32,7 +32,7 @@ class ConstraintParameters(NamedTuple):
 
 def virtual_constraint(k: ConstraintParameters, q: Array, v: Array) -> ReferencePoint:
     """The reference at (q, v)."""
-    theta, dtheta = k.c @ q, k.c @ v
+    theta, dtheta = float(k.c @ q), float(k.c @ v)
     h, dh, ddh = curve(k.curve, k.rate * (theta - k.theta_plus))
     slope = k.rate * dh
     return ReferencePoint(

@@ -6,8 +6,6 @@ Stored as a small readable JSON file in `gaits/<robot>/<name>-<preset>.json`.
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.errors import GaitError, OutputError
+from biped_adrc.errors import GaitError
+from biped_adrc.files import write_text
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import CURVES
 from biped_adrc.model.biped import Biped
@@ -111,34 +110,6 @@ def _readable(record: Mapping[str, Any]) -> str:
         else:
             lines.append(f'  "{key}": {json.dumps(value)}')
     return "{\n" + ",\n".join(lines) + "\n}\n"
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write a file whole or not at all: temporary file, fsync, rename. Raises OutputError."""
-    write_bytes(path, text.encode("utf-8"))
-
-
-def write_bytes(path: Path, data: bytes) -> None:
-    """As `write_text`, for bytes."""
-    temporary = None
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(temporary, 0o666 & ~umask)
-        os.replace(temporary, path)
-    except OSError as error:
-        raise OutputError(
-            f"cannot write '{path}': {error.strerror or error}; choose a folder you may write to"
-        ) from error
-    finally:
-        if temporary is not None and os.path.exists(temporary):
-            os.unlink(temporary)
 
 
 def gait_names(robot: str, preset: str) -> tuple[str, ...]:

@@ -24,9 +24,7 @@ PUBLISHED_MULTIPLIERS = (0.640, 0.640, 0.844, 0.844, 0.237, 0.237, 0.138, 0.354,
 """|lambda(Phi)| of section VI, from the regression (27) on a disturbed walk."""
 
 
-def design_published_gait(
-    biped: Biped, degree: int = 6, limits: GaitLimits | None = None
-) -> Gait:
+def design_published_gait(biped: Biped, degree: int = 6, limits: GaitLimits | None = None) -> Gait:
     """The gait whose periodic orbit passes through x*. Raises GaitError when there is none."""
     q = onto_section(biped, X_STAR[: biped.n])
     v = np.array(X_STAR[biped.n :])

@@ -24,7 +24,6 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 
-
 _SLOWEST = 0.05  # least sigma^2 during the step over that before impact, dimensionless
 _TORQUE_SCALE = 1e3  # [N^2 m^2 s], typical int u'u dt of a step
 _CLOSURE_WEIGHT = 300.0  # of the relative closure against the scaled torque

@@ -83,9 +83,7 @@ class ZeroDynamics:
     """G_N (K,) [N m]."""
 
     @classmethod
-    def of(
-        cls, biped: Biped, constraint: VirtualConstraint, nodes: int = NODES
-    ) -> ZeroDynamics:
+    def of(cls, biped: Biped, constraint: VirtualConstraint, nodes: int = NODES) -> ZeroDynamics:
         """Evaluate the model along the constraint."""
         s, w, C = gauss_nodes(nodes)
         span = constraint.theta_minus - constraint.theta_plus
@@ -96,9 +94,7 @@ class ZeroDynamics:
         )
         inertia = np.array([biped.inertia(q[k])[-1] @ dq[k] for k in range(nodes)])
         gravity = np.array([biped.gravity(q[k])[-1] for k in range(nodes)])
-        return cls(
-            biped, constraint, theta, span * w, span * C, q, dq, ddq, inertia, gravity
-        )
+        return cls(biped, constraint, theta, span * w, span * C, q, dq, ddq, inertia, gravity)
 
     @property
     def work(self) -> float:
@@ -149,7 +145,9 @@ class ZeroDynamics:
         """
         square = np.maximum(self.sigma_squared(sigma_plus), floor)
         if np.min(square) <= 0:
-            raise GaitError("the step stops before its end: the kinetic energy at start is too small")
+            raise GaitError(
+                "the step stops before its end: the kinetic energy at start is too small"
+            )
         sigma = np.sign(sigma_plus) * np.sqrt(square)
         rate = sigma / self.inertia
         v = self.dq * rate[:, np.newaxis]

@@ -96,9 +96,7 @@ def simulate(
     counts: dict[str, int] = {}
     t, status, detail = t0, Status.COMPLETED, ""
     while True:
-        arc, status, detail, outcome = _flow_arc(
-            system, method, t, t0, x, mode, t_end, store_every
-        )
+        arc, status, detail, outcome = _flow_arc(system, method, t, t0, x, mode, t_end, store_every)
         arcs.append(arc)
         if outcome is None:
             break

@@ -22,13 +22,9 @@ class Status(Enum):
         "a state or torque is not finite; the last good state is kept: check the controller's output, "
         "shorten the step or use a stiff or exponential method"
     )
-    SINGULAR = (
-        "a matrix that the controller inverts became singular; the constraint does not suit this state"
-    )
+    SINGULAR = "a matrix that the controller inverts became singular; the constraint does not suit this state"
     STEP_FAILED = "the one-step method could not go on; try another method or a looser tolerance"
-    EVENT_LIMIT = (
-        "more events than max_events; the events accumulate (Zeno), or raise max_events"
-    )
+    EVENT_LIMIT = "more events than max_events; the events accumulate (Zeno), or raise max_events"
 
     @property
     def ok(self) -> bool:

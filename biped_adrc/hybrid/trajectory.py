@@ -50,20 +50,14 @@ class Arc:
         )
 
 
-def hermite(
-    t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, t: float
-) -> Array:
+def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, t: float) -> Array:
     """Cubic through (t0, x0) and (t1, x1) with end slopes dx0, dx1; x1 when t1 = t0."""
     h = t1 - t0
     if h == 0.0:
         return x1.copy()
     s = (t - t0) / h
     r = 1.0 - s
-    return (
-        r * r * (1 + 2 * s) * x0
-        + s * s * (3 - 2 * s) * x1
-        + h * s * r * (r * dx0 - s * dx1)
-    )
+    return r * r * (1 + 2 * s) * x0 + s * s * (3 - 2 * s) * x1 + h * s * r * (r * dx0 - s * dx1)
 
 
 @dataclass(frozen=True)

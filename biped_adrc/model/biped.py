@@ -61,33 +61,28 @@ class Biped:
         return biped
 
     def check(self) -> None:
-        """Build both models now, and check that the two legs are alike, as relabelling assumes."""
-        q = 0.3 * np.arange(1.0, self.n + 1.0)
-        there = self.floating.extended_inertia(q)
-        R = self.relabelling
-        J = self.floating.velocity_map(q)
-        swapped = self.floating.velocity_map(q[R])
-        # kinetic energy of the base and joints must not change when the legs swap roles
-        v = np.cos(np.arange(self.n + 2.0))
-        w = np.concatenate((v[: self.n][R], np.zeros(2)))
-        w[self.n :] = np.linalg.solve(
-            swapped[np.ix_(self.floating.base, [self.n, self.n + 1])],
-            (J @ v - swapped @ w)[self.floating.base],
-        )
-        here = self.floating.extended_inertia(q[R])
-        if not math.isclose(v @ there @ v, w @ here @ w, rel_tol=1e-9):
+        """Build both models now, and check that the two legs are alike, as relabelling assumes.
+
+        The kinetic energy with the base at rest must not change when the legs swap roles. Raises ModelError.
+        """
+        n, R = self.n, self.relabelling
+        q, v = 0.3 * np.arange(1.0, n + 1.0), np.cos(np.arange(float(n)))
+        one, other = (self.floating.inertia_on_fixed_base(x) for x in (q, q[R]))
+        lengths = [float(np.linalg.norm(self.floating.legs(x))) for x in (q, q[R])]
+        alike = math.isclose(v @ one @ v, v[R] @ other @ v[R], rel_tol=1e-9)
+        if not (alike and math.isclose(*lengths, rel_tol=1e-9)):
             raise ModelError(
                 f"robot '{self.description.name}': the legs differ in mass or length; relabelling at "
                 "impact needs equal legs"
             )
 
     # -- sizes and names -----------------------------------------------------------------------
-    @property
+    @cached_property
     def n(self) -> int:
         """Number of coordinates N."""
         return len(self.description.joints)
 
-    @property
+    @cached_property
     def p(self) -> int:
         """Number of motors."""
         return len(self.description.actuated)
@@ -176,7 +171,8 @@ class Biped:
 
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The split (11)-(15) at (q, q'): D, Omega, kappa, xi, and the unactuated rows."""
-        return reduce(self.inertia(q), self.bias(q, v), self.p)
+        D, Omega = self.pinned.inertia_and_bias(self._angles(q), self._angles(v))
+        return reduce(D, Omega, self.p)
 
     def friction_torque(self, v: Array) -> Array:
         """Joint friction (n,) [N m]: -viscous v - static tanh(v / STICTION_SPEED); zero if off."""
@@ -300,8 +296,12 @@ class Biped:
 
     def _angles(self, q: Array) -> Array:
         """q itself, once it is known to be n finite numbers."""
-        if getattr(q, "shape", None) != (self.n,):
-            raise InputError(f"expected an array of shape ({self.n},), found {np.shape(q)}")
+        if q.shape != self._shape:
+            raise InputError(f"expected an array of shape {self._shape}, found {q.shape}")
         if not math.isfinite(q.dot(q)):
             raise NotFiniteError(f"expected finite angles or rates, found {q}")
         return q
+
+    @cached_property
+    def _shape(self) -> tuple[int]:
+        return (self.n,)

@@ -84,6 +84,19 @@ class FloatingDynamics:
         J_e[self.base[0], self.n] = J_e[self.base[1], self.n + 1] = 1.0
         return J_e
 
+    def inertia_on_fixed_base(self, q: Array) -> Array:
+        """Inertia matrix of the joints (n, n) with the base held [kg m^2]."""
+        M = pin.crba(self.model, self.data, self.configuration(q))
+        return M[np.ix_(self.angles, self.angles)]
+
+    def legs(self, q: Array) -> Array:
+        """Vector from the stance foot to the swing foot (2,) [m]."""
+        pin.forwardKinematics(self.model, self.data, self.configuration(q))
+        feet = [
+            pin.updateFramePlacement(self.model, self.data, f) for f in (self.stance, self.swing)
+        ]
+        return (feet[1].translation - feet[0].translation)[_XZ]
+
     def _foot_jacobian(self, x: Array, frame: int) -> Array:
         J: Array = pin.computeFrameJacobian(
             self.model, self.data, x, frame, pin.LOCAL_WORLD_ALIGNED
@@ -130,6 +143,6 @@ class FloatingDynamics:
         K[: n + 2, n + 2 :] = -E_2.T
         K[n + 2 :, : n + 2] = E_2
         rhs = np.concatenate((D_e[:, :n] @ v, np.zeros(2)))
-        solution = np.linalg.solve(K, rhs)
+        solution = np.asarray(np.linalg.solve(K, rhs), dtype=np.float64)
         v_e = solution[: n + 2]
         return Impact(q[relabel], v_e[:n][relabel], solution[n + 2 :], v_e)

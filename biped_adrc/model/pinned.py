@@ -85,6 +85,13 @@ class PinnedDynamics:
         """Omega = C q' + G (n,) [N m] from RNEA with zero acceleration."""
         return self.T.T @ pin.nonLinearEffects(self.model, self.data, self.T @ q, self.T @ v)
 
+    def inertia_and_bias(self, q: Array, v: Array) -> tuple[Array, Array]:
+        """D_s and Omega at once."""
+        T, x = self._T, self._T @ q
+        M = pin.crba(self.model, self.data, x)
+        nle = pin.nonLinearEffects(self.model, self.data, x, T @ v)
+        return self._Tt @ M @ T, self._Tt @ nle
+
     def gravity(self, q: Array) -> Array:
         """G_s(q) = dV/dq (n,) [N m]."""
         return self.T.T @ pin.computeGeneralizedGravity(self.model, self.data, self.T @ q)
@@ -99,7 +106,8 @@ class PinnedDynamics:
 
         T is square with determinant +-1: tau_tree = T^-T force and q'' = T^-1 a_tree.
         """
-        a = pin.aba(self.model, self.data, self.T @ q, self.T @ v, self._inverse.T @ force)
+        T = self._T
+        a = pin.aba(self.model, self.data, T @ q, T @ v, self._inverse_t @ force)
         return self._inverse @ a
 
     @property
@@ -110,7 +118,9 @@ class PinnedDynamics:
     @T.setter
     def T(self, value: Array) -> None:
         self._T = value
+        self._Tt = value.T
         self._inverse = np.linalg.inv(value)
+        self._inverse_t = self._inverse.T
 
     def potential_energy(self, q: Array) -> float:
         """V(q) [J], zero at the height of the stance foot."""

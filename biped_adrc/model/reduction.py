@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.linear import solve
 from biped_adrc.types import Array
 
 
@@ -45,10 +46,10 @@ def reduce(D: Array, Omega: Array, p: int) -> Reduction:
         A_N = D[p:, :p] / -D[p, p]
         a_N = Omega[p:] / -D[p, p]
     else:
-        A_N = -np.linalg.solve(D[p:, p:], D[p:, :p])
-        a_N = -np.linalg.solve(D[p:, p:], Omega[p:])
+        A_N = -solve(D[p:, p:], D[p:, :p], "D22")
+        a_N = -solve(D[p:, p:], Omega[p:], "D22")
     kappa_inverse = D[:p, :p] + D12 @ A_N
-    kappa = np.linalg.inv(kappa_inverse)
+    kappa = solve(kappa_inverse, np.eye(p), "D11 - D12 D22^-1 D21")
     xi = kappa @ -(Omega[:p] + D12 @ a_N)
     return Reduction(D, Omega, kappa, xi, kappa_inverse, A_N, a_N)
 

@@ -294,9 +294,9 @@ def _validated(tree: Tree) -> Tree:
     roots = [link for link in tree.links if link not in children]
     if len(roots) != 1:
         raise ModelError(f"{where}: found root links {roots}, expected exactly one")
-    for link in tree.links.values():
-        if link.inertial is not None:
-            _check_inertial(link.inertial, f"{where}, link '{link.name}'")
+    for body in tree.links.values():
+        if body.inertial is not None:
+            _check_inertial(body.inertial, f"{where}, link '{body.name}'")
     return tree
 
 

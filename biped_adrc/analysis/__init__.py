@@ -1,0 +1,1 @@
+"""Signals, tracking metrics, certificates of steps, return maps, and the linear loop."""

@@ -1,0 +1,59 @@
+"""The paper's own stability test: linear regression (26), (27) through the sampled states.
+
+    x-(k + 1) - x* = Phi (x-(k) - x*)
+
+Ten states are regressed on a section of nine dimensions, and a walk that converges along one direction
+excites one direction: Phi is not determined by such data. So rank and condition are returned with the
+eigenvalues, and the text says what they are worth.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+
+
+@dataclass(frozen=True)
+class Regression:
+    """Phi (n, n), |eigenvalues| sorted, and what the data can bear."""
+
+    Phi: Array
+    magnitudes: Array
+    rank: int
+    condition: float
+    samples: int
+
+    @property
+    def warning(self) -> str:
+        """Empty when the data determine Phi."""
+        n = self.Phi.shape[0]
+        if self.rank >= n and self.condition < 1e8:
+            return ""
+        return (
+            f"the {self.samples} sampled states span {self.rank} of {n} directions (condition "
+            f"{self.condition:.1e}); the section itself has {n - 1}. The eigenvalues of this regression "
+            "are no multipliers: use central differences of the return map"
+        )
+
+
+def regress_multipliers(x_minus: Array, x_star: Array, tolerance: float = 1e-8) -> Regression:
+    """(27) from states before impact (k, n) and the fixed point (n,).
+
+    `tolerance` is the relative size below which a direction does not count for the rank.
+    Raises InputError for fewer than three samples.
+    """
+    if x_minus.ndim != 2 or x_minus.shape[0] < 3:
+        raise InputError(f"found samples of shape {x_minus.shape}, expected (k, n) with k >= 3")
+    chi = x_minus - x_star
+    before, after = chi[:-1], chi[1:]
+    singular = np.linalg.svd(before, compute_uv=False)
+    solution = np.asarray(np.linalg.lstsq(before, after, rcond=None)[0], dtype=np.float64)
+    magnitudes = np.sort(np.abs(np.linalg.eigvals(solution.T)))[::-1]
+    rank = int(np.sum(singular > tolerance * singular[0]))
+    smallest = float(singular[-1]) if len(singular) == x_minus.shape[1] else 0.0
+    condition = float(singular[0]) / smallest if smallest > 0 else float("inf")
+    return Regression(solution.T, magnitudes, rank, condition, len(x_minus))

@@ -1,0 +1,134 @@
+"""The Poincare return map (24) on the impact section, its fixed point (25) and its multipliers.
+
+    P: x-(k) -> x-(k + 1),   P(x*) = x*
+
+On the section the swing foot is on the ground, so the ten numbers of (q, q') have nine degrees of freedom.
+Section coordinates drop q_N, which the height of the swing foot gives back. The controller's states
+are coordinates too: without them the map of a closed loop with an observer is that of another system,
+except when the reset at impact forgets them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from biped_adrc.errors import SimulationError
+from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.types import Array, ComplexArray
+from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
+
+Mapper = Callable[[Callable[[Array], Array], Iterable[Array]], Iterable[Array]]
+"""Like `map`; a parallel one evaluates the differences at once."""
+
+
+@dataclass(frozen=True)
+class PeriodicOrbit:
+    """A fixed point of the return map."""
+
+    x_minus: Array
+    """State before impact [rad, rad/s, controller states]."""
+    multipliers: ComplexArray
+    """Eigenvalues of dP/ds, the largest magnitude first."""
+    residual: float
+    """max |P(s) - s|."""
+    iterations: int
+
+    @property
+    def stable(self) -> bool:
+        """Whether all multipliers are inside the unit circle."""
+        return bool(np.max(np.abs(self.multipliers)) < 1.0)
+
+
+@dataclass(frozen=True)
+class ReturnMap:
+    """P in section coordinates s for a walker and a method.
+
+    controller_states: keep the controller's states as coordinates; False starts the controller anew at
+    each passage. difference: half width of the central differences [rad, rad/s].
+    """
+
+    walker: Walker
+    method: OneStepMethod
+    controller_states: bool = True
+    difference: float = 1e-5
+
+    @property
+    def _dropped(self) -> int:
+        return self.walker.plant.n - 1
+
+    def project(self, x: Array) -> Array:
+        """Section coordinates of a pre-impact state."""
+        end = len(x) if self.controller_states else 2 * self.walker.plant.n
+        return np.delete(x[:end], self._dropped)
+
+    def lift(self, s: Array) -> Array:
+        """The pre-impact state of section coordinates: q_N puts the swing foot on the ground."""
+        x = np.insert(s, self._dropped, 0.0)
+        plant, n = self.walker.plant, self.walker.plant.n
+        for _ in range(50):
+            height = plant.swing_foot(x[:n])[1]
+            slope = plant.swing_foot_jacobian(x[:n])[1, -1]
+            x[self._dropped] -= height / slope
+            if abs(height) < 1e-15:
+                break
+        if abs(plant.swing_foot(x[:n])[1]) > 1e-12:
+            raise SimulationError("no torso angle puts the swing foot of this state on the ground")
+        if not self.controller_states:
+            x = self.walker.initial_state(x[:n], x[n : 2 * n])
+        return x
+
+    def __call__(self, s: Array) -> Array:
+        """P(s). Raises SimulationError, with the status, when the walker does not come back."""
+        after = self.walker.strike(0.0, self.lift(s), Mode())
+        if after is None:
+            raise SimulationError("the swing foot is behind the stance foot: not an impact")
+        run = simulate(
+            self.walker,
+            after[0],
+            after[1],
+            self.method,
+            t_end=2.0 * self.walker.max_step_time,
+            stop_after=(FOOT_STRIKE, 1),
+        )
+        if not run.status.ok:
+            raise SimulationError(
+                f"no return to the section: {run.status.name}, {run.status.value} {run.detail}"
+            )
+        return self.project(run.events(FOOT_STRIKE)[-1].x_minus)
+
+    def jacobian(self, s: Array, mapper: Mapper = map) -> Array:
+        """dP/ds by central differences."""
+        d = self.difference
+        points = [s + sign * d * e for e in np.eye(len(s)) for sign in (1.0, -1.0)]
+        images = list(mapper(self, points))
+        return np.array([(images[2 * i] - images[2 * i + 1]) / (2.0 * d) for i in range(len(s))]).T
+
+    def fixed_point(
+        self,
+        guess: Array,
+        tolerance: float = 1e-9,
+        max_iterations: int = 8,
+        mapper: Mapper = map,
+    ) -> PeriodicOrbit:
+        """Newton on P(s) - s from a pre-impact state `guess`.
+
+        Raises SimulationError when it does not converge or the walker does not come back.
+        """
+        s = self.project(np.asarray(guess, dtype=float))
+        for iteration in range(1, max_iterations + 1):
+            gap = self(s) - s
+            residual = float(np.max(np.abs(gap)))
+            J = self.jacobian(s, mapper)
+            if residual < tolerance:
+                multipliers = np.linalg.eigvals(J).astype(complex)
+                order = np.argsort(-np.abs(multipliers))
+                return PeriodicOrbit(self.lift(s), multipliers[order], residual, iteration)
+            s += np.linalg.solve(np.eye(len(s)) - J, gap)
+        raise SimulationError(
+            f"Newton on the return map did not converge in {max_iterations} iterations: "
+            f"residual {residual:.3g}, expected below {tolerance:g}; start nearer to the orbit"
+        )

@@ -1,0 +1,115 @@
+"""Everything that can be read off a walk afterwards: references, errors, torques, estimates, forces.
+
+Controllers have no hidden state, so the signals are computed again from the stored states.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from biped_adrc.gait.reference import Reference
+from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.model.reduction import disturbance_acceleration
+from biped_adrc.types import Array
+from biped_adrc.walker import Mode, Walker
+
+
+@dataclass(frozen=True)
+class Signals:
+    """Rows are the stored nodes (K,); impacts and ticks repeat their time, before and after."""
+
+    t: Array
+    """(K,) [s]."""
+    step: Array
+    """(K,) single support, from 1."""
+    q: Array
+    """(K, n) [rad]."""
+    v: Array
+    """(K, n) [rad/s]."""
+    a: Array
+    """(K, n) [rad/s^2]."""
+    theta: Array
+    """(K,) Theta [rad]."""
+    dtheta: Array
+    """(K,) Theta' [rad/s]."""
+    q_d: Array
+    """(K, p) references [rad]."""
+    dq_d: Array
+    """(K, p) [rad/s]."""
+    error: Array
+    """(K, p) q_b - q_d [rad]."""
+    u: Array
+    """(K, p) torque applied [N m]."""
+    zeta: Array
+    """(K, n) external torque [N m]."""
+    xi: Array
+    """(K, p) total disturbance q_b'' - kappa u of the nominal model [rad/s^2]."""
+    xi_estimate: Array
+    """(K, p) estimate of xi [rad/s^2]; NaN without an observer."""
+    xi_external: Array
+    """(K, p) the part of xi that zeta makes, matched and unmatched [rad/s^2]."""
+    ground_reaction: Array
+    """(K, 2), (F_T, F_N) [N]."""
+    kinetic: Array
+    """(K,) [J]."""
+    potential: Array
+    """(K,) [J], from the stance foot."""
+    swing_foot: Array
+    """(K, 2) from the stance foot [m]."""
+    hip: Array
+    """(K, 2) from the stance foot [m]."""
+    foothold: Array
+    """(K,) x of the stance foot in the world [m]."""
+
+    def of_step(self, step: int) -> Signals:
+        """The rows of one single support."""
+        rows = self.step == step
+        return Signals(**{f.name: getattr(self, f.name)[rows] for f in fields(self)})
+
+
+def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Signals:
+    """Compute the signals of a walk; `reference` gives q_d (the controller's own, usually)."""
+    rows: list[tuple[object, ...]] = []
+    foothold = 0.0
+    for arc in trajectory.arcs:
+        for t, x in zip(arc.t, arc.x, strict=True):
+            rows.append((*_row(walker, reference, float(t), x, arc.mode), foothold))
+        if arc.event is not None and arc.event.x_plus is not None:
+            foothold += float(walker.plant.swing_foot(arc.event.x_minus[: walker.plant.n])[0])
+    columns = (np.array(column) for column in zip(*rows, strict=True))
+    return Signals(*columns)
+
+
+def _row(
+    walker: Walker, reference: Reference, t: float, x: Array, mode: Mode
+) -> tuple[object, ...]:
+    i = walker.instant(t, x, mode)
+    m, b = i.measurement, walker.plant
+    q, v, a, p = m.q, m.v, i.a, walker.plant.p
+    r = reference(t, q, v)
+    estimate = walker.law.estimate(i.s, m)
+    zeta = i.force - np.append(i.u, np.zeros(b.n - p))
+    return (
+        t,
+        mode.step,
+        q,
+        v,
+        a,
+        float(b.phase @ q),
+        float(b.phase @ v),
+        r.q_d,
+        r.dq_d,
+        q[:p] - r.q_d,
+        i.u,
+        zeta,
+        a[:p] - m.terms.kappa @ i.u,
+        np.full(p, np.nan) if estimate is None else estimate.disturbance,
+        disturbance_acceleration(m.terms, zeta),
+        b.ground_reaction(q, v, a),
+        b.kinetic_energy(q, v),
+        b.potential_energy(q),
+        b.swing_foot(q),
+        b.hip(q),
+    )

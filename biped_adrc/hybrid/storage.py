@@ -1,0 +1,83 @@
+"""Runs on disk: one npz of plain arrays with the settings as JSON inside, and the same JSON beside it.
+
+Nothing is pickled. Files are written whole or not at all.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.errors import InputError
+from biped_adrc.files import write_bytes, write_text
+from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
+
+FORMAT = "biped_adrc run 1"
+
+
+def save(trajectory: Trajectory, path: Path | str, settings: dict[str, Any] | None = None) -> None:
+    """Write `path` (.npz) and the same name with .json. Modes are stored as tuples of numbers.
+
+    Raises OutputError when the files cannot be written.
+    """
+    path = Path(path).with_suffix(".npz")
+    meta = {
+        "format": FORMAT,
+        "status": trajectory.status.name,
+        "detail": trajectory.detail,
+        "settings": {**trajectory.settings, **(settings or {})},
+        "events": [
+            None if a.event is None else {"guard": a.event.guard, "t": a.event.t}
+            for a in trajectory.arcs
+        ],
+    }
+    text = json.dumps(meta, indent=2)
+    arrays: dict[str, Any] = {"meta": np.array(text)}
+    for i, arc in enumerate(trajectory.arcs):
+        arrays |= {f"t{i}": arc.t, f"x{i}": arc.x, f"dx{i}": arc.dx}
+        arrays[f"mode{i}"] = np.array(arc.mode, dtype=float)
+        if arc.event is not None:
+            arrays[f"x_minus{i}"] = arc.event.x_minus
+            if arc.event.x_plus is not None:
+                arrays[f"x_plus{i}"] = arc.event.x_plus
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, **arrays)
+    write_bytes(path, buffer.getvalue())
+    write_text(path.with_suffix(".json"), text + "\n")
+
+
+def load(path: Path | str, mode: Callable[..., Any] = lambda *numbers: numbers) -> Trajectory:
+    """The run in `path` (.npz); `mode` makes a mode from its stored numbers.
+
+    Raises InputError for a file that is missing, damaged or of another format.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise InputError(f"run '{path}' not found")
+    try:
+        with np.load(path, allow_pickle=False) as data:
+            meta = json.loads(str(data["meta"]))
+            if meta["format"] != FORMAT:
+                raise InputError(f"run '{path}' has format '{meta['format']}', expected '{FORMAT}'")
+            arcs = tuple(_arc(data, i, event, mode) for i, event in enumerate(meta["events"]))
+    except (KeyError, ValueError, OSError, EOFError, TypeError, zipfile.BadZipFile) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"run '{path}' cannot be read: {error}") from error
+    return Trajectory(arcs, Status[meta["status"]], meta["detail"], meta["settings"])
+
+
+def _arc(data: Any, i: int, event: dict[str, Any] | None, mode: Callable[..., Any]) -> Arc:
+    found = None
+    if event is not None:
+        plus = data.get(f"x_plus{i}")
+        found = Event(event["guard"], float(event["t"]), data[f"x_minus{i}"], plus)
+    numbers = data[f"mode{i}"].tolist()
+    return Arc(mode(*numbers), data[f"t{i}"], data[f"x{i}"], data[f"dx{i}"], found)

@@ -1,0 +1,20 @@
+"""Small dense linear systems, without the overhead of `numpy.linalg` for matrices of a few rows."""
+
+from __future__ import annotations
+
+from scipy.linalg.lapack import dgesv
+
+from biped_adrc.errors import SingularError
+from biped_adrc.types import Array
+
+
+def solve(A: Array, B: Array, what: str) -> Array:
+    """X with A X = B, for A (k, k) and B (k,) or (k, c).
+
+    Raises SingularError that names `what` when A is singular.
+    """
+    _, _, X, info = dgesv(A, B)
+    if info != 0:
+        raise SingularError(f"{what} is singular: pivot {info} of its LU factors is zero")
+    solution: Array = X
+    return solution

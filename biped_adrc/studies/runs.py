@@ -1,0 +1,264 @@
+"""One run of the paper's kind, described by plain values, and what it leaves.
+
+A `Run` can be sent to another process, stored as JSON, and carried out again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.analysis.certificate import Certificate, certificates
+from biped_adrc.analysis.signals import Signals, signals
+from biped_adrc.control.adrc import ADRCController
+from biped_adrc.control.base import Controller
+from biped_adrc.control.npd import NPDController
+from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.disturbances.base import Disturbance, Sum
+from biped_adrc.disturbances.pulse import TorquePulse
+from biped_adrc.disturbances.sine import TorqueSine
+from biped_adrc.disturbances.step import TorqueStep
+from biped_adrc.errors import InputError
+from biped_adrc.gait.gait import Gait, load_gait
+from biped_adrc.gait.reference import Reference
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
+from biped_adrc.hybrid.simulator import Progress, simulate
+from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.model.biped import Biped
+from biped_adrc.observers.base import ResetPolicy
+from biped_adrc.observers.gpi import TABLE_I, GPIObserver
+from biped_adrc.types import Array
+from biped_adrc.walker import FOOT_STRIKE, ContinuousTime, Mode, SampledTime, Walker
+
+CONTROLLERS = ("NPD", "ADRC")
+METHODS = {"rk4": RK4, "exponential": Exponential, "adaptive": Adaptive, "stiff": Stiff}
+
+
+@dataclass(frozen=True)
+class Push:
+    """A disturbance by name: torques [N m] on joints in single support `step`, [start, stop) s.
+
+    kind: pulse, sine (with `frequency` [Hz]) or step (from `start` on, for good).
+    """
+
+    torque: dict[str, float]
+    step: int = 19
+    start: float = 0.1
+    stop: float = 0.3
+    kind: str = "pulse"
+    frequency: float = 5.0
+
+    def disturbance(self, biped: Biped) -> Disturbance:
+        """The disturbance for this robot. Raises InputError for an unknown kind or joint."""
+        amplitude = np.zeros(biped.n)
+        for joint, value in self.torque.items():
+            amplitude[biped.description.joint_index(joint)] += value
+        if self.kind == "pulse":
+            return TorquePulse(amplitude, self.step, self.start, self.stop)
+        if self.kind == "sine":
+            return TorqueSine(amplitude, self.step, self.start, self.stop, self.frequency)
+        if self.kind == "step":
+            return TorqueStep(amplitude, self.step, self.start)
+        raise InputError(f"push kind '{self.kind}' is unknown; choose pulse, sine or step")
+
+
+@dataclass(frozen=True)
+class Run:
+    """A walk. SI units; `period` None is continuous time, otherwise the sampling period [s].
+
+    mass, inertia: factors of the plant's bodies while the model stays nominal. first_step: number of the
+    first single support, so that a push in the 19th can be studied without walking there.
+    """
+
+    controller: str = "ADRC"
+    robot: str = "rabbit"
+    preset: str = "identified"
+    gait: str = "published"
+    pushes: tuple[Push, ...] = ()
+    mass: dict[str, float] = field(default_factory=dict)
+    inertia: dict[str, float] = field(default_factory=dict)
+    period: float | None = None
+    torque_limit: float | None = None
+    friction: bool = False
+    impacts: int = 25
+    first_step: int = 1
+    K_p: float = TABLE_II.K_p  # type: ignore[assignment]
+    K_d: float = TABLE_II.K_d  # type: ignore[assignment]
+    poles: tuple[float, ...] = TABLE_I
+    bandwidth: float | None = None
+    order: int = 1
+    solve_theta: bool = True
+    reset: str = "model"
+    method: str | None = None
+    h: float | None = None
+    store_every: int = 1
+
+    def record(self) -> dict[str, Any]:
+        """The resolved settings as plain values."""
+        return asdict(self)
+
+    def biped(self) -> Biped:
+        """The nominal robot."""
+        return Biped.load(self.robot, self.preset, self.friction)
+
+    def build(self, biped: Biped, gait: Gait) -> Walker:
+        """The walker of this run. Raises InputError naming what does not fit."""
+        plant = biped
+        if self.mass or self.inertia:
+            plant = biped.with_errors(mass=self.mass, inertia=self.inertia)
+        parts = [push.disturbance(biped) for push in self.pushes]
+        return Walker(
+            plant,
+            self.law(gait.constraint),
+            Sum(tuple(parts)) if parts else None,
+            ContinuousTime() if self.period is None else SampledTime(self.period),
+            model=biped if plant is not biped else None,
+            torque_limit=self.torque_limit,
+        )
+
+    def law(self, reference: Reference) -> Controller:
+        """The controller by name."""
+        gains = Gains(self.K_p, self.K_d)
+        if self.controller == "NPD":
+            return NPDController(reference, gains, self.solve_theta)
+        if self.controller == "ADRC":
+            if self.bandwidth is None:
+                observer = GPIObserver.from_poles(self.poles)
+            else:
+                observer = GPIObserver.from_bandwidth(self.bandwidth, self.order)
+            policy = ResetPolicy.named(self.reset)
+            return ADRCController(reference, observer, gains, self.solve_theta, policy)
+        raise InputError(
+            f"controller '{self.controller}' is unknown; choose one of {list(CONTROLLERS)}"
+        )
+
+    def one_step_method(self) -> OneStepMethod:
+        """The method asked for; by default exponential for ADRC in continuous time, RK4 otherwise."""
+        stiff = self.controller == "ADRC" and self.period is None
+        name = self.method or ("exponential" if stiff else "rk4")
+        if name not in METHODS:
+            raise InputError(f"method '{name}' is unknown; choose one of {sorted(METHODS)}")
+        if name in ("adaptive", "stiff"):
+            if self.h is not None:
+                raise InputError(f"method '{name}' chooses its own step; leave out h = {self.h:g} s")
+            return METHODS[name]()
+        return METHODS[name](self.h) if self.h is not None else METHODS[name]()
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a run leaves; small enough to come back from another process."""
+
+    run: Run
+    status: str
+    message: str
+    impacts: int
+    x_minus: Array
+    """(impacts, states) before each impact."""
+    durations: Array
+    """(impacts,) of the single supports [s]."""
+    peak_error: float
+    """max |q_b - q_d| [rad]."""
+    rms_error: float
+    """Root of the mean over time and joints of (q_b - q_d)^2 [rad]."""
+    peak_torque: float
+    """[N m]."""
+    certificates: tuple[Certificate, ...]
+    method: str
+
+    @property
+    def walked(self) -> bool:
+        """Whether all impacts asked for were made."""
+        return self.status == "COMPLETED"
+
+
+@dataclass(frozen=True)
+class FullOutcome:
+    """An outcome with everything to draw it."""
+
+    outcome: Outcome
+    walker: Walker
+    trajectory: Trajectory
+    signals: Signals
+    gait: Gait
+
+
+def execute(run: Run) -> Outcome:
+    """Carry out a run."""
+    return execute_fully(run).outcome
+
+
+def execute_fully(run: Run, progress: Progress | None = None) -> FullOutcome:
+    """Carry out a run from the impact of the gait's periodic orbit, and keep the trajectory."""
+    biped = run.biped()
+    gait = load_gait(run.gait, biped)
+    walker = run.build(biped, gait)
+    return walk(run, walker, gait, progress)
+
+
+def walk(
+    run: Run,
+    walker: Walker,
+    gait: Gait,
+    progress: Progress | None = None,
+    start: tuple[Array, Array] | None = None,
+) -> FullOutcome:
+    """As `execute_fully` with parts already built; start is (q+, q'+), by default the gait's."""
+    if run.impacts < 1:
+        raise InputError(f"the run asks for {run.impacts} impacts, expected at least 1")
+    mode = Mode(run.first_step)
+    q, v = gait.start(walker.nominal) if start is None else start
+    method = run.one_step_method()
+    trajectory = simulate(
+        walker,
+        walker.initial_state(q, v, mode),
+        mode,
+        method,
+        t_end=run.impacts * walker.max_step_time,
+        stop_after=(FOOT_STRIKE, run.impacts),
+        store_every=run.store_every,
+        progress=progress,
+    )
+    found = signals(walker, trajectory, gait.constraint)
+    return FullOutcome(_outcome(run, walker, trajectory, found), walker, trajectory, found, gait)
+
+
+def _outcome(run: Run, walker: Walker, trajectory: Trajectory, s: Signals) -> Outcome:
+    events = trajectory.events(FOOT_STRIKE)
+    times = np.array([0.0, *(event.t for event in events)])
+    squares = np.mean(s.error**2, axis=1)
+    duration = s.t[-1] - s.t[0]
+    mean = float(np.trapezoid(squares, s.t)) / duration if duration > 0 else float(squares[0])
+    return Outcome(
+        run,
+        trajectory.status.name,
+        f"{trajectory.status.value} {trajectory.detail}".strip(),
+        len(events),
+        trajectory.before(FOOT_STRIKE),
+        np.diff(times),
+        float(np.max(np.abs(s.error))),
+        float(np.sqrt(mean)),
+        float(np.max(np.abs(s.u))),
+        certificates(walker, trajectory, s),
+        str(trajectory.settings["method"]),
+    )
+
+
+def from_record(record: dict[str, Any]) -> Run:
+    """The run that `Run.record` came from. Raises InputError for keys that do not belong there."""
+    values = dict(record)
+    try:
+        values["pushes"] = tuple(Push(**push) for push in values.get("pushes", ()))
+        values["poles"] = tuple(values.get("poles", TABLE_I))
+        return Run(**values)
+    except TypeError as error:
+        raise InputError(f"these settings do not describe a run: {error}") from error
+
+
+def joints_push(torque: float, joints: Sequence[str], **window: Any) -> Push:
+    """The same torque [N m] on several joints."""
+    return Push(dict.fromkeys(joints, torque), **window)
