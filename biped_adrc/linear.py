@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 from scipy.linalg.lapack import dgesv
 
 from biped_adrc.errors import SingularError
@@ -13,6 +14,8 @@ def solve(A: Array, B: Array, what: str) -> Array:
 
     Raises SingularError that names `what` when A is singular.
     """
+    if len(A) == 0:
+        return np.zeros_like(B)
     _, _, X, info = dgesv(A, B)
     if info != 0:
         raise SingularError(f"{what} is singular: pivot {info} of its LU factors is zero")

@@ -144,7 +144,9 @@ class Run:
             raise InputError(f"method '{name}' is unknown; choose one of {sorted(METHODS)}")
         if name in ("adaptive", "stiff"):
             if self.h is not None:
-                raise InputError(f"method '{name}' chooses its own step; leave out h = {self.h:g} s")
+                raise InputError(
+                    f"method '{name}' chooses its own step; leave out h = {self.h:g} s"
+                )
             return METHODS[name]()
         return METHODS[name](self.h) if self.h is not None else METHODS[name]()
 

@@ -1,0 +1,51 @@
+"""What a study asserts: a value computed in the run, a limit, and whether it holds.
+
+kind: "law" (physics and numerics), "consistency" (what was built in, such as a gait that was designed to close
+on x*), "reproduced" (what could have failed).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Any
+
+KINDS = ("law", "consistency", "reproduced")
+
+
+@dataclass(frozen=True)
+class Check:
+    """One assertion; `limit` is a text such as "<= 0.01"."""
+
+    name: str
+    kind: str
+    value: float
+    limit: str
+    holds: bool
+
+    def record(self) -> dict[str, Any]:
+        """As plain values; a value that is not finite becomes a text."""
+        values = asdict(self)
+        if not math.isfinite(self.value):
+            values["value"] = str(self.value)
+        return values
+
+
+def at_most(name: str, kind: str, value: float, limit: float) -> Check:
+    """value <= limit; NaN does not hold."""
+    return Check(name, kind, float(value), f"<= {limit:g}", bool(value <= limit))
+
+
+def at_least(name: str, kind: str, value: float, limit: float) -> Check:
+    """value >= limit; NaN does not hold."""
+    return Check(name, kind, float(value), f">= {limit:g}", bool(value >= limit))
+
+
+def below(name: str, kind: str, value: float, limit: float) -> Check:
+    """value < limit; NaN does not hold."""
+    return Check(name, kind, float(value), f"< {limit:g}", bool(value < limit))
+
+
+def between(name: str, kind: str, value: float, low: float, high: float) -> Check:
+    """low <= value <= high."""
+    return Check(name, kind, float(value), f"in [{low:g}, {high:g}]", bool(low <= value <= high))

@@ -1,0 +1,181 @@
+"""Physical laws and numerical orders, computed in the run; none of them was used in deriving the model."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from biped_adrc.analysis.linear_loop import tracking_error
+from biped_adrc.control.adrc import ADRCController
+from biped_adrc.control.base import Measurement
+from biped_adrc.control.tracking import TABLE_II
+from biped_adrc.gait.gait import load_gait
+from biped_adrc.gait.reference import TimeReference
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.hybrid.system import HybridSystem, Mode
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.reduction import reduce
+from biped_adrc.observers.gpi import TABLE_I, GPIObserver
+from biped_adrc.studies.checks import Check, at_most, between
+from biped_adrc.studies.runs import FullOutcome, Run, walk
+from biped_adrc.types import Array
+from biped_adrc.walker import FOOT_STRIKE
+from biped_adrc.walker import Mode as StepMode
+
+
+def model_laws(preset: str, samples: int = 1000, seed: int = 1) -> list[Check]:
+    """The two models agree; the impact obeys (7) and (6); kinetic energy never grows at impact."""
+    b = Biped.load("rabbit", preset)
+    random = np.random.default_rng(seed)
+    agree, momentum, contact, growth = 0.0, 0.0, 0.0, -math.inf
+    for _ in range(samples):
+        q, v = random.uniform(-math.pi, math.pi, b.n), random.normal(0.0, 3.0, b.n)
+        D, Omega = b.floating.projected(q, v)
+        agree = max(
+            agree,
+            float(np.max(np.abs(b.inertia(q) - D)) / np.max(np.abs(D))),
+            float(np.max(np.abs(b.bias(q, v) - Omega)) / np.max(np.abs(Omega))),
+        )
+        hit = b.impact(q, v)
+        D_e, E_2 = b.extended_inertia(q), b.E_2(q)
+        before = D_e @ np.append(v, [0.0, 0.0])
+        gap = D_e @ hit.v_e - before - E_2.T @ hit.impulse
+        momentum = max(momentum, float(np.max(np.abs(gap)) / np.max(np.abs(before))))
+        contact = max(contact, float(np.max(np.abs(E_2 @ hit.v_e)) / np.max(np.abs(hit.v_e))))
+        lost = b.kinetic_energy(q, v) - b.kinetic_energy(hit.q, hit.v)
+        growth = max(growth, -lost / b.kinetic_energy(q, v))
+    end = f"({preset}, {samples} random states)"
+    return [
+        at_most(
+            f"pinned against floating model, D_s and Omega, relative {end}", "law", agree, 1e-12
+        ),
+        at_most(f"residual of (7), relative {end}", "law", momentum, 1e-12),
+        at_most(
+            f"velocity of the new foot after impact (6), relative {end}", "law", contact, 1e-12
+        ),
+        at_most(f"kinetic energy gained at impact, relative {end}", "law", growth, 1e-12),
+    ]
+
+
+def walk_laws(name: str, full: FullOutcome) -> list[Check]:
+    """Foot on the ground at located impacts, work identity on the periodic gait, power balance."""
+    b, o = full.walker.plant, full.outcome
+    height = max(abs(float(b.swing_foot(x[: b.n])[1])) for x in o.x_minus)
+    last = o.certificates[-1]
+    work = abs(last.joint_work - last.energy_lost) / last.energy_lost
+    s = full.signals.of_step(full.signals.step[0])
+    power = np.sum(s.u * s.v[:, : b.p], axis=1) + np.sum(s.zeta * s.v, axis=1)
+    gained = s.kinetic[-1] + s.potential[-1] - s.kinetic[0] - s.potential[0]
+    balance = abs(float(np.trapezoid(power, s.t)) - gained) / s.kinetic[0]
+    return [
+        at_most(f"{name}: height of the swing foot at located impacts [m]", "law", height, 1e-10),
+        at_most(f"{name}: joint work against energy lost at impact, relative", "law", work, 1e-4),
+        at_most(
+            f"{name}: energy gained against work done over a step, relative", "law", balance, 1e-4
+        ),
+    ]
+
+
+@dataclass(frozen=True)
+class HeldJoint(HybridSystem):
+    """One joint of inertia J [kg m^2] held at zero by ADRC under J xi(t), xi = sin(w t) [rad/s^2]."""
+
+    controller: ADRCController
+    w: float
+    J: float = 1.3
+
+    def flow(self, t: float, x: Array, mode: Mode) -> Array:
+        q, v, s = x[:1], x[1:2], x[2:]
+        D = np.array([[self.J]])
+        m = Measurement(t, 1, t, q, v, reduce(D, np.zeros(1), 1))
+        u = self.controller.output(s, m)
+        a = u / self.J + np.sin(self.w * t)
+        return np.concatenate((v, a, self.controller.flow(s, m, u)))
+
+
+def held_joint(frequency: float = 5.0, factor: float = 0.05) -> tuple[float, float, float]:
+    """Steady amplitude of the tracking error per unit disturbance [s^2]: simulated, (23) corrected, as printed.
+
+    The observer has Table I times `factor`, slow enough for the error to stand clear of round-off.
+    """
+    observer = GPIObserver.from_poles([factor * pole for pole in TABLE_I])
+    zero = np.zeros(1)
+    controller = ADRCController(TimeReference(lambda t: (zero, zero, zero)), observer)
+    w = 2.0 * math.pi * frequency
+    start = np.concatenate((np.zeros(2), observer.initial_state(zero, zero, zero)))
+    t_end, periods = 3.0, 2
+    run = simulate(HeldJoint(controller, w), start, None, RK4(2e-4), t_end=t_end)
+    t, e = run.arcs[0].t, run.arcs[0].x[:, 0]
+    last = t >= t_end - periods / frequency - 1e-9
+    basis = np.column_stack((np.cos(w * t[last]), np.sin(w * t[last])))
+    amplitude = float(np.linalg.norm(np.linalg.lstsq(basis, e[last], rcond=None)[0]))
+    corrected = abs(tracking_error(observer, TABLE_II, 1j * w))
+    printed = abs(tracking_error(observer, TABLE_II, 1j * w, printed=True))
+    return amplitude, corrected, printed
+
+
+def sampling_order(run: Run, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4)) -> float:
+    """Order in T with which sampled control approaches continuous control, at the first impact."""
+
+    def end(r: Run) -> Array:
+        biped = r.biped()
+        gait = load_gait(r.gait, biped)
+        full = walk(r, r.build(biped, gait), gait)
+        return full.trajectory.before(FOOT_STRIKE)[-1][:10]
+
+    exact = end(replace(run, impacts=1, h=2.5e-4))
+    gaps = [
+        float(np.linalg.norm(end(replace(run, impacts=1, period=T, h=min(T, 5e-4))) - exact))
+        for T in periods
+    ]
+    return float(np.polyfit(np.log(periods), np.log(gaps), 1)[0])
+
+
+def exponential_order(preset: str, factor: float) -> tuple[float, float]:
+    """Observed order of ETD-RK4 on half a step with Table I times `factor`, and its error at 0.5 ms [rad]."""
+    run = Run("ADRC", preset=preset, poles=tuple(factor * pole for pole in TABLE_I))
+    biped = run.biped()
+    gait = load_gait(run.gait, biped)
+    walker = run.build(biped, gait)
+    q, v = gait.start(biped)
+    x0 = walker.initial_state(q, v)
+
+    def end(h: float) -> Array:
+        method = Exponential(h)
+        return simulate(walker, x0, StepMode(), method, t_end=0.2).final_state[:10]
+
+    steps = (4e-3, 2e-3, 1e-3)
+    exact = end(1.25e-4)
+    gaps = [float(np.max(np.abs(end(h) - exact))) for h in steps]
+    at_half = float(np.max(np.abs(end(5e-4) - exact)[:5]))
+    return float(np.polyfit(np.log(steps), np.log(gaps), 1)[0]), at_half
+
+
+def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
+    """(23) on a held joint, the order in the sampling period, the order of the exponential method."""
+    simulated, corrected, printed = held_joint()
+    order = sampling_order(Run("NPD", preset=preset))
+    etd, _ = exponential_order(preset, 0.05)
+    etd_table, error = exponential_order(preset, 1.0)
+    gap = abs(simulated - corrected) / corrected
+    checks = [
+        at_most(
+            "tracking error on a held joint against (23) corrected, relative", "law", gap, 1e-3
+        ),
+        between(
+            "order of continuous against sampled control in the period", "law", order, 0.9, 1.1
+        ),
+        between("order of the exponential method, Table I times 0.05", "law", etd, 3.7, 4.5),
+    ]
+    figures = {
+        "tracking error per unit disturbance on a held joint, simulated [s^2]": simulated,
+        "the same by (23) corrected [s^2]": corrected,
+        "the same by (23) as printed [s^2]": printed,
+        "order of the exponential method with Table I itself": etd_table,
+        "error of the exponential method with Table I at 0.5 ms over 0.2 s [rad]": error,
+    }
+    return checks, figures

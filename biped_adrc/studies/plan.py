@@ -1,0 +1,175 @@
+"""The runs of the reproduction, by name: what each of the paper's claims is tested on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from biped_adrc.gait.recipe import impact_smoothness
+
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.errors import BipedError
+from biped_adrc.gait.gait import load_gait
+from biped_adrc.gait.published import X_STAR
+from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.studies.laws import model_laws, numerics_laws, walk_laws
+from biped_adrc.studies.poincare import poincare, regression_of, return_map_samples
+from biped_adrc.studies.pool import Task
+from biped_adrc.studies.push_map import COARSE_PATTERNS, PATTERNS, push_map_tasks
+from biped_adrc.studies.runs import (
+    CONTROLLERS,
+    Outcome,
+    Push,
+    Run,
+    execute,
+    execute_fully,
+    joints_push,
+)
+
+BOTH = CONTROLLERS
+MOTORS = ("q1", "q2", "q3", "q4")
+PAPER_PUSH = joints_push(30.0, MOTORS, step=19, start=0.1, stop=0.3)
+SINE = joints_push(40.0, MOTORS, step=19, start=0.05, stop=0.3, kind="sine", frequency=5.0)
+TORSO = Push({"q5": 20.0}, step=19, start=0.1, stop=0.3)
+HEAVIER = {"torso": 1.2, "thigh": 1.15}
+POLICIES = ("none", "relabel", "measured", "model")
+ETD_STEP = 5e-4
+"""[s], for runs whose ADRC error is compared with NPD's."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What to reproduce. `push` replaces the paper's push; `full` refines the map of pushes."""
+
+    preset: str = "identified"
+    presets: tuple[str, ...] = ("identified", "identified-bare", "tac2003")
+    pushes: tuple[Push, ...] = (PAPER_PUSH,)
+    full: bool = False
+
+
+@dataclass(frozen=True)
+class Headline:
+    """A headline run with all that is drawn."""
+
+    outcome: Outcome
+    trajectory: Trajectory
+    signals: Signals
+
+
+def headline(run: Run) -> tuple[Headline, list[Any]]:
+    """A run that is kept whole, and its laws."""
+    full = execute_fully(run)
+    laws = walk_laws(f"{run.controller}, {run.preset}", full)
+    return Headline(full.outcome, full.trajectory, full.signals), laws
+
+
+def base_runs(plan: Plan) -> dict[str, Run]:
+    """Runs by name; each returns an Outcome. Names end in the controller."""
+    runs: dict[str, Run] = {}
+    for c in BOTH:
+        h = ETD_STEP if c == "ADRC" else None
+        run = Run(c, preset=plan.preset, h=h)
+        for preset in plan.presets:
+            runs[f"nominal {preset} {c}"] = Run(c, preset=preset)
+        runs[f"sine {c}"] = replace(run, pushes=(SINE,), first_step=17, impacts=9)
+        runs[f"torso {c}"] = replace(run, pushes=(TORSO,), first_step=17, impacts=9)
+        runs[f"1 kHz {c}"] = Run(c, preset=plan.preset, pushes=plan.pushes, period=1e-3)
+        heavier = replace(run, h=None, mass=HEAVIER, impacts=12)
+        runs[f"heavier, masses {c}"] = heavier
+        runs[f"heavier, masses and inertias {c}"] = replace(heavier, inertia=HEAVIER)
+    return {**runs, **literal_runs(plan)}
+
+
+def literal_runs(plan: Plan) -> dict[str, Run]:
+    """(20) as printed, and every reset policy with and without RABBIT's torque limit."""
+    runs = {}
+    for c in BOTH:
+        runs[f"as printed {c}"] = Run(c, preset=plan.preset, solve_theta=False, impacts=15)
+    for policy in POLICIES:
+        for limit in (None, 150.0):
+            name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
+            runs[name] = Run(preset=plan.preset, reset=policy, torque_limit=limit, impacts=8)
+    return runs
+
+
+@dataclass(frozen=True)
+class RecipeResult:
+    """What became of gait (b) in one preset under one controller."""
+
+    preset: str
+    controller: str
+    closes: bool
+    reason: str
+    record: dict[str, Any]
+
+
+def recipe_result(preset: str, controller: str) -> RecipeResult:
+    """Walk gait (b) and look for its fixed point; whatever comes out is reported."""
+    run = Run(controller, preset=preset, gait="recipe")
+    biped = run.biped()
+    record: dict[str, Any] = {}
+    try:
+        gait = load_gait("recipe", biped)
+        outcome = execute(run)
+        record = {
+            "status": outcome.status,
+            "impacts": outcome.impacts,
+            "peak_error": outcome.peak_error,
+            "peak_torque": outcome.peak_torque,
+            "impact_rate_jump": impact_smoothness(gait, biped).tolist(),
+        }
+        if outcome.certificates:
+            last = outcome.certificates[-1]
+            record |= {"certificate": last.record(), "violations": list(last.violations())}
+        found = poincare(run, with_states=controller == "NPD").orbit
+        gap = found.x_minus[: 2 * biped.n] - X_STAR
+        record |= {
+            "x_minus": found.x_minus[: 2 * biped.n].tolist(),
+            "distance_to_x_star": gap.tolist(),
+            "multipliers": abs(found.multipliers).tolist(),
+            "stable": found.stable,
+        }
+    except BipedError as error:
+        return RecipeResult(preset, controller, False, str(error), record)
+    return RecipeResult(preset, controller, True, "", record)
+
+
+def tasks(plan: Plan) -> dict[str, Task]:
+    """Everything to compute, by name, the longest first; each in its own process."""
+    adrc, npd = Run("ADRC", preset=plan.preset), Run("NPD", preset=plan.preset)
+    pushed = {
+        c: Run(c, preset=plan.preset, pushes=plan.pushes, h=ETD_STEP if c == "ADRC" else 1e-3)
+        for c in BOTH
+    }
+    out = {
+        "multipliers ADRC": Task("multipliers ADRC", poincare, (adrc,)),
+        "multipliers NPD": Task("multipliers NPD", poincare, (npd,)),
+        "numerics": Task("orders and (23)", numerics_laws, (plan.preset,)),
+        "return map": Task("return map", return_map_samples, (npd,)),
+    }
+    for c in BOTH:
+        out[f"headline {c}"] = Task(f"{c} under the push", headline, (pushed[c],))
+        out[f"regression {c}"] = Task(f"regression {c}", regression_of, (pushed[c],))
+    for preset in plan.presets:
+        out[f"model {preset}"] = Task(f"laws of the model, {preset}", model_laws, (preset,))
+        for c in BOTH:
+            name = f"recipe {preset} {c}"
+            out[name] = Task(f"gait (b), {preset}, {c}", recipe_result, (preset, c))
+    for name, run in base_runs(plan).items():
+        out[name] = Task(name, execute, (run,))
+    for i, task in enumerate(map_tasks(plan)):
+        out[f"map {i}"] = task
+    return out
+
+
+def map_tasks(plan: Plan) -> list[Task]:
+    """The map of pushes: coarse, or fine with `full`."""
+    base = Run(preset=plan.preset)
+    limits: Sequence[float | None] = (None, 150.0)
+    if plan.full:
+        onsets = tuple(0.05 * k for k in range(8))
+        return push_map_tasks(
+            base, onsets, (30.0, 60.0, 90.0, 120.0, 150.0), tuple(PATTERNS), limits
+        )
+    return push_map_tasks(base, (0.05, 0.15, 0.25, 0.35), (90.0, 150.0), COARSE_PATTERNS, limits)

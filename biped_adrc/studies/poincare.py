@@ -1,0 +1,121 @@
+"""The stability test of section V: fixed point, multipliers, delta^2, and the regression beside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.analysis.regression import Regression, regress_multipliers
+from biped_adrc.analysis.return_map import Mapper, PeriodicOrbit, ReturnMap
+from biped_adrc.gait.gait import Gait, load_gait
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.model.biped import Biped
+from biped_adrc.studies.runs import Run, execute
+from biped_adrc.types import Array
+
+
+@dataclass(frozen=True)
+class PoincareResult:
+    """A fixed point and its multipliers; `with_states` says whether the controller's states count."""
+
+    controller: str
+    preset: str
+    reset: str
+    with_states: bool
+    orbit: PeriodicOrbit
+    delta_squared: float
+
+    def record(self) -> dict[str, Any]:
+        """As plain values."""
+        return {
+            "controller": self.controller,
+            "preset": self.preset,
+            "reset": self.reset,
+            "coordinates": len(self.orbit.multipliers),
+            "magnitudes": np.abs(self.orbit.multipliers).tolist(),
+            "x_minus": self.orbit.x_minus[:10].tolist(),
+            "residual": self.orbit.residual,
+            "delta_squared": self.delta_squared,
+            "stable": self.orbit.stable,
+        }
+
+
+def poincare(run: Run, with_states: bool = True, mapper: Mapper = map) -> PoincareResult:
+    """Fixed point by Newton and multipliers by central differences, without disturbances."""
+    run = replace(run, pushes=())
+    biped = run.biped()
+    gait = load_gait(run.gait, biped)
+    walker = run.build(biped, gait)
+    adrc = run.controller == "ADRC" and run.period is None
+    method = Exponential(run.h or 1e-3) if adrc else RK4(run.h or 1e-3)
+    # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
+    P = ReturnMap(walker, method, with_states)
+    q, v = gait.q_minus, gait.v_minus
+    start = walker.initial_state(q, v)
+    orbit = P.fixed_point(start if with_states else start[: 2 * biped.n])
+    return PoincareResult(
+        run.controller,
+        run.preset,
+        run.reset,
+        with_states,
+        orbit,
+        ZeroDynamics.of(biped, gait.constraint).delta ** 2,
+    )
+
+
+@dataclass(frozen=True)
+class RegressionTest:
+    """The paper's regression on a walk whose multipliers are known by other means."""
+
+    regression: Regression
+    controller: str
+
+    def record(self) -> dict[str, Any]:
+        """As plain values."""
+        r = self.regression
+        return {
+            "controller": self.controller,
+            "magnitudes": r.magnitudes.tolist(),
+            "rank": r.rank,
+            "condition": float(r.condition) if np.isfinite(r.condition) else "inf",
+            "samples": r.samples,
+            "warning": r.warning,
+        }
+
+
+def regression_of(run: Run) -> RegressionTest:
+    """(26), (27) over the impacts of a (disturbed) walk, about the gait's fixed point."""
+    gait = load_gait(run.gait, run.biped())
+    x_star = np.concatenate((gait.q_minus, gait.v_minus))
+    x_minus = execute(run).x_minus[:, : len(x_star)]
+    return RegressionTest(regress_multipliers(x_minus, x_star), run.controller)
+
+
+def return_map_samples(run: Run, size: float = 0.05, count: int = 21) -> tuple[Array, Array]:
+    """theta' before one impact against theta' before the next, for scaled speeds of the fixed point.
+
+    Returns both (count,) [rad/s]; NaN where the walker does not come back.
+    """
+    biped = run.biped()
+    gait: Gait = load_gait(run.gait, biped)
+    walker = replace(run, pushes=()).build(biped, gait)
+    P = ReturnMap(walker, run.one_step_method(), controller_states=False)
+    before = np.linspace(1.0 - size, 1.0 + size, count)
+    after = np.full(count, np.nan)
+    c = biped.phase
+    for i, factor in enumerate(before):
+        x = np.concatenate((gait.q_minus, factor * gait.v_minus))
+        image = P.lift(P(P.project(x)))
+        after[i] = c @ image[biped.n : 2 * biped.n]
+    return before * float(c @ gait.v_minus), after
+
+
+def speed_slope(biped: Biped, samples: tuple[Array, Array]) -> float:
+    """Slope of the return map in Theta' at its middle, by central difference."""
+    before, after = samples
+    i = len(before) // 2
+    return float((after[i + 1] - after[i - 1]) / (before[i + 1] - before[i - 1]))

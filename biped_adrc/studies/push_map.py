@@ -1,0 +1,113 @@
+"""Section VI's other claim as a map: in which phase of the step does a push throw which controller?
+
+Pushes of 0.2 s in the 19th single support, over onset, amplitude and joint pattern, with unlimited torque and
+with RABBIT's 150 N m. The walk starts on the periodic orbit at that step, and has to make four more impacts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from biped_adrc.studies.pool import Task
+from biped_adrc.studies.runs import Push, Run, execute
+
+PATTERNS: dict[str, dict[str, float]] = {
+    "all +": {"q1": 1.0, "q2": 1.0, "q3": 1.0, "q4": 1.0},
+    "all -": {"q1": -1.0, "q2": -1.0, "q3": -1.0, "q4": -1.0},
+    "hips +": {"q1": 1.0, "q2": 1.0},
+    "hips -": {"q1": -1.0, "q2": -1.0},
+    "hips apart": {"q1": 1.0, "q2": -1.0},
+    "hips together": {"q1": -1.0, "q2": 1.0},
+    "stance knee +": {"q3": 1.0},
+    "stance knee -": {"q3": -1.0},
+    "swing knee +": {"q4": 1.0},
+    "swing knee -": {"q4": -1.0},
+}
+"""Joint patterns, to be multiplied by the amplitude [N m]."""
+
+COARSE_PATTERNS = ("all +", "all -", "hips together", "stance knee -")
+IMPACTS = 5
+DURATION = 0.2
+"""[s]."""
+MAP_STEP = 2e-3
+"""[s]: whether a walker falls does not need the accuracy of the headline runs."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One push and what each controller made of it; status by controller."""
+
+    onset: float
+    """[s] in the step."""
+    amplitude: float
+    """[N m]."""
+    pattern: str
+    torque_limit: float | None
+    """[N m], None for unlimited."""
+    npd: str
+    adrc: str
+
+    @property
+    def verdict(self) -> str:
+        """Who walked on."""
+        names = {
+            (True, True): "both walk",
+            (False, True): "only NPD falls",
+            (True, False): "only ADRC falls",
+            (False, False): "both fall",
+        }
+        return names[self.npd == "COMPLETED", self.adrc == "COMPLETED"]
+
+    def row(self) -> dict[str, Any]:
+        """As plain values, for the figure and the summary."""
+        return {
+            **asdict(self),
+            "onset_ms": 1e3 * self.onset,
+            "npd": self.npd == "COMPLETED",
+            "adrc": self.adrc == "COMPLETED",
+            "npd_status": self.npd,
+            "adrc_status": self.adrc,
+            "verdict": self.verdict,
+        }
+
+
+def push_cell(base: Run, onset: float, amplitude: float, pattern: str, limit: float | None) -> Cell:
+    """Both controllers under one push."""
+    torque = {joint: amplitude * factor for joint, factor in PATTERNS[pattern].items()}
+    push = Push(torque, step=19, start=onset, stop=onset + DURATION)
+    status = []
+    for controller in ("NPD", "ADRC"):
+        run = Run(
+            controller,
+            base.robot,
+            base.preset,
+            base.gait,
+            pushes=(push,),
+            torque_limit=limit,
+            impacts=IMPACTS,
+            first_step=19,
+            h=MAP_STEP,
+        )
+        status.append(execute(run).status)
+    return Cell(onset, amplitude, pattern, limit, status[0], status[1])
+
+
+def push_map_tasks(
+    base: Run,
+    onsets: Sequence[float],
+    amplitudes: Sequence[float],
+    patterns: Sequence[str],
+    limits: Sequence[float | None],
+) -> list[Task]:
+    """One task per cell."""
+    return [
+        Task(
+            f"push {pattern}, {amplitude:g} N m", push_cell, (base, onset, amplitude, pattern, lim)
+        )
+        for lim in limits
+        for pattern in patterns
+        for amplitude in amplitudes
+        for onset in onsets
+    ]
