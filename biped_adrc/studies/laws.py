@@ -21,7 +21,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.reduction import reduce
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 from biped_adrc.studies.checks import Check, at_most, between
-from biped_adrc.studies.runs import FullOutcome, Run, walk
+from biped_adrc.studies.runs import FullOutcome, Run, execute_fully
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE
 from biped_adrc.walker import Mode as StepMode
@@ -122,10 +122,7 @@ def sampling_order(run: Run, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4)) ->
     """Order in T with which sampled control approaches continuous control, at the first impact."""
 
     def end(r: Run) -> Array:
-        biped = r.biped()
-        gait = load_gait(r.gait, biped)
-        full = walk(r, r.build(biped, gait), gait)
-        return full.trajectory.before(FOOT_STRIKE)[-1][:10]
+        return execute_fully(r).trajectory.before(FOOT_STRIKE)[-1][:10]
 
     exact = end(replace(run, impacts=1, h=2.5e-4))
     gaps = [

@@ -6,12 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from biped_adrc.gait.recipe import impact_smoothness
-
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.errors import BipedError
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.gait.published import X_STAR
+from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.studies.laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.studies.poincare import poincare, regression_of, return_map_samples

@@ -13,16 +13,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from biped_adrc.viz.meshcat import write_animation
-from biped_adrc.viz.plots import (
-    multiplier_figure,
-    phase_figure,
-    push_map_figure,
-    return_map_figure,
-    tracking_figure,
-)
-from biped_adrc.viz.report import write_report
-from biped_adrc.viz.robot_figure import robot_figure
 
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.errors import OutputError
@@ -36,6 +26,16 @@ from biped_adrc.studies import verdicts
 from biped_adrc.studies.plan import BOTH, Plan, tasks
 from biped_adrc.studies.pool import TaskProgress, run_tasks
 from biped_adrc.studies.versions import versions
+from biped_adrc.viz.meshcat import write_animation
+from biped_adrc.viz.plots import (
+    multiplier_figure,
+    phase_figure,
+    push_map_figure,
+    return_map_figure,
+    tracking_figure,
+)
+from biped_adrc.viz.report import write_report
+from biped_adrc.viz.robot_figure import robot_figure
 
 
 def reproduce(

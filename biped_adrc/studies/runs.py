@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.analysis.certificate import Certificate, certificates
-from biped_adrc.analysis.signals import Signals, signals
+from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Controller
 from biped_adrc.control.npd import NPDController
@@ -26,13 +25,13 @@ from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
-from biped_adrc.hybrid.simulator import Progress, simulate
-from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
+from biped_adrc.studies.walk import Walk, walk
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, ContinuousTime, Mode, SampledTime, Walker
+from biped_adrc.walker import FOOT_STRIKE, ContinuousTime, SampledTime, Walker
 
 CONTROLLERS = ("NPD", "ADRC")
 METHODS = {"rk4": RK4, "exponential": Exponential, "adaptive": Adaptive, "stiff": Stiff}
@@ -179,14 +178,10 @@ class Outcome:
 
 
 @dataclass(frozen=True)
-class FullOutcome:
-    """An outcome with everything to draw it."""
+class FullOutcome(Walk):
+    """A walk with its outcome."""
 
     outcome: Outcome
-    walker: Walker
-    trajectory: Trajectory
-    signals: Signals
-    gait: Gait
 
 
 def execute(run: Run) -> Outcome:
@@ -196,40 +191,25 @@ def execute(run: Run) -> Outcome:
 
 def execute_fully(run: Run, progress: Progress | None = None) -> FullOutcome:
     """Carry out a run from the impact of the gait's periodic orbit, and keep the trajectory."""
-    biped = run.biped()
-    gait = load_gait(run.gait, biped)
-    walker = run.build(biped, gait)
-    return walk(run, walker, gait, progress)
-
-
-def walk(
-    run: Run,
-    walker: Walker,
-    gait: Gait,
-    progress: Progress | None = None,
-    start: tuple[Array, Array] | None = None,
-) -> FullOutcome:
-    """As `execute_fully` with parts already built; start is (q+, q'+), by default the gait's."""
     if run.impacts < 1:
         raise InputError(f"the run asks for {run.impacts} impacts, expected at least 1")
-    mode = Mode(run.first_step)
-    q, v = gait.start(walker.nominal) if start is None else start
-    method = run.one_step_method()
-    trajectory = simulate(
-        walker,
-        walker.initial_state(q, v, mode),
-        mode,
-        method,
-        t_end=run.impacts * walker.max_step_time,
-        stop_after=(FOOT_STRIKE, run.impacts),
+    biped = run.biped()
+    gait = load_gait(run.gait, biped)
+    made = walk(
+        run.build(biped, gait),
+        gait,
+        run.impacts,
+        run.one_step_method(),
+        first_step=run.first_step,
         store_every=run.store_every,
         progress=progress,
     )
-    found = signals(walker, trajectory, gait.constraint)
-    return FullOutcome(_outcome(run, walker, trajectory, found), walker, trajectory, found, gait)
+    outcome = _outcome(run, made)
+    return FullOutcome(made.walker, gait, made.trajectory, outcome)
 
 
-def _outcome(run: Run, walker: Walker, trajectory: Trajectory, s: Signals) -> Outcome:
+def _outcome(run: Run, made: Walk) -> Outcome:
+    trajectory, s = made.trajectory, made.signals
     events = trajectory.events(FOOT_STRIKE)
     times = np.array([0.0, *(event.t for event in events)])
     squares = np.mean(s.error**2, axis=1)
@@ -245,7 +225,7 @@ def _outcome(run: Run, walker: Walker, trajectory: Trajectory, s: Signals) -> Ou
         float(np.max(np.abs(s.error))),
         float(np.sqrt(mean)),
         float(np.max(np.abs(s.u))),
-        certificates(walker, trajectory, s),
+        made.certificates,
         str(trajectory.settings["method"]),
     )
 

@@ -1,0 +1,88 @@
+"""One walk from a gait's periodic orbit, with its signals, pictures and certificates at hand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from biped_adrc.analysis.certificate import Certificate, certificates
+from biped_adrc.analysis.signals import Signals, signals
+from biped_adrc.gait.gait import Gait
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4, OneStepMethod
+from biped_adrc.hybrid.simulator import Progress, simulate
+from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.types import Array
+from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class Walk:
+    """A walker, the gait it was asked to follow, and what it did."""
+
+    walker: Walker
+    gait: Gait
+    trajectory: Trajectory
+
+    @cached_property
+    def signals(self) -> Signals:
+        """References, errors, torques, estimates and forces over time."""
+        return signals(self.walker, self.trajectory, self.gait.constraint)
+
+    @cached_property
+    def certificates(self) -> tuple[Certificate, ...]:
+        """What each step would have asked of a real robot on dry ground."""
+        return certificates(self.walker, self.trajectory, self.signals)
+
+    def plot(self, title: str = "", push: tuple[float, float] | None = None) -> Figure:
+        """References against joint angles, and torques, as figures 4 and 5; push is marked [s]."""
+        from biped_adrc.viz.plots import tracking_figure
+
+        return tracking_figure(self.signals, title, push, self.walker.torque_limit)
+
+    def animate(self, path: Path | str) -> None:
+        """Write one offline page with the walk in Meshcat. Raises OutputError."""
+        from biped_adrc.viz.meshcat import write_animation
+
+        name = type(self.walker.controller).__name__
+        write_animation(path, self.walker.plant, {name: self.trajectory})
+
+
+def default_method(walker: Walker) -> OneStepMethod:
+    """The exponential method where the walker has a linear stiff part, RK4 at 1 ms elsewhere."""
+    return RK4() if walker.split(Mode()) is None else Exponential()
+
+
+def walk(
+    walker: Walker,
+    gait: Gait,
+    impacts: int = 25,
+    method: OneStepMethod | None = None,
+    *,
+    start: tuple[Array, Array] | None = None,
+    first_step: int = 1,
+    store_every: int = 1,
+    progress: Progress | None = None,
+) -> Walk:
+    """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
+
+    A fall is a status of the trajectory. Raises InputError for parts that do not fit together.
+    """
+    mode = Mode(first_step)
+    q, v = gait.start(walker.nominal) if start is None else start
+    trajectory = simulate(
+        walker,
+        walker.initial_state(q, v, mode),
+        mode,
+        default_method(walker) if method is None else method,
+        t_end=impacts * walker.max_step_time,
+        stop_after=(FOOT_STRIKE, impacts),
+        store_every=store_every,
+        progress=progress,
+    )
+    return Walk(walker, gait, trajectory)

@@ -1,0 +1,81 @@
+"""One style for all figures: the colour-blind safe palette of Okabe and Ito, and a dash for each colour.
+
+Figures are `matplotlib.figure.Figure` objects made inside `style()`; pyplot and its global state are not used.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from biped_adrc.errors import InputError
+
+PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+"""Blue, vermillion, bluish green, reddish purple, orange, sky blue, black (Okabe and Ito, 2008)."""
+GREY = "#666666"
+PUSH = "#F0E442"
+"""Yellow, for the window of a push."""
+DASHES: tuple[Any, ...] = ("-", (0, (6, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1, 1.5)))
+
+RC: dict[Any, Any] = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 9.0,
+    "axes.titlesize": 10.0,
+    "axes.labelsize": 9.0,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.unicode_minus": True,
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.2,
+    "legend.frameon": False,
+    "legend.fontsize": 8.0,
+    "figure.facecolor": "white",
+    "savefig.facecolor": "white",
+    "path.simplify": True,
+    "path.simplify_threshold": 0.2,
+    "svg.hashsalt": "biped_adrc",
+    "svg.fonttype": "path",
+}
+
+
+@contextmanager
+def style() -> Iterator[None]:
+    """Matplotlib's settings of this package inside a `with`, what they were before afterwards."""
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(RC)
+        yield
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """An empty figure of width x height [inch] with constrained layout."""
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def label(axes: Axes, x: str, y: str, title: str = "") -> None:
+    """Axis labels with their units, and a title at the left."""
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    if title:
+        axes.set_title(title, loc="left")
+
+
+def render(figure: Figure, kind: str, dpi: float = 150.0) -> bytes:
+    """The figure as a file, "png" or "svg"; the same figure gives the same bytes. Raises InputError."""
+    if kind not in ("png", "svg"):
+        raise InputError(f"a figure was asked for as '{kind}', expected 'png' or 'svg'")
+    metadata = {"Date": None} if kind == "svg" else {"Software": None}
+    buffer = io.BytesIO()
+    with style():
+        figure.savefig(buffer, format=kind, dpi=dpi, metadata=metadata)
+    return buffer.getvalue()
