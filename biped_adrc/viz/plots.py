@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.types import Array
+from biped_adrc.viz.push_map_plot import push_map_figure
 from biped_adrc.viz.style import DASHES, GREY, PALETTE, PUSH, label, new_figure, style
 
 Window = tuple[float, float]
@@ -47,7 +48,8 @@ def tracking_figure(
             label(column[3], "time [s]", f"tracking error [{unit}]")
             for axes in column:
                 if push:
-                    axes.axvspan(*push, color=PUSH, alpha=0.45, zorder=0, label="push")
+                    name = "push" if axes is column[0] else "_"
+                    axes.axvspan(*push, color=PUSH, alpha=0.45, zorder=0, label=name)
                 axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
         grid[0, 0].set_xlim(signals.t[0], signals.t[-1])
         if push:
@@ -170,3 +172,13 @@ def return_map_figure(before: Array, after: Array) -> Figure:
         label(axes, r"$\dot\Theta$ before impact $k$ [rad/s]", r"before impact $k+1$ [rad/s]")
         axes.legend(loc="best")
         return figure
+
+
+__all__ = [
+    "broken",
+    "multiplier_figure",
+    "phase_figure",
+    "push_map_figure",
+    "return_map_figure",
+    "tracking_figure",
+]

@@ -33,14 +33,14 @@ def push_map_figure(rows: Sequence[Mapping[str, Any]]) -> Figure:
     kinds = list(dict.fromkeys((r["pattern"], r["amplitude"]) for r in rows))
     onsets = sorted({r["onset_ms"] for r in rows})
     with style():
-        height = 1.5 + 0.2 * max(len(kinds), 4)
-        figure = new_figure(1.8 + len(limits) * (1.2 + 0.38 * max(len(onsets), 5)), height)
+        height = 1.7 + 0.2 * max(len(kinds), 4)
+        figure = new_figure(1.8 + len(limits) * (1.4 + 0.38 * max(len(onsets), 5)), height)
         panels = figure.subplots(1, len(limits), squeeze=False, sharey=True)[0]
         for axes, limit in zip(panels, limits, strict=True):
             here = [r for r in rows if r["torque_limit"] == limit]
             _cells(axes, here, kinds, onsets)
             name = "unlimited torque" if limit is None else f"torque within {limit:g} N m"
-            label(axes, "onset of the push in the step [ms]", "", f"{name}: {_count(here)}")
+            label(axes, "onset of the push in the step [ms]", "", f"{name}\n{_count(here)}")
         panels[0].set_ylabel("joints and amplitude of the push [N m]")
         handles = [Patch(fc=c, ec="black", hatch=h, label=t) for t, c, h in VERDICTS.values()]
         figure.legend(handles=handles, loc="outside lower center", ncols=4)

@@ -145,6 +145,7 @@ def _knee_angles(axes: Axes, biped: Biped, q: Array) -> None:
 def _feet(axes: Axes, biped: Biped, q: Array) -> None:
     """p_e, the end of the stance leg, and p_2, the swing foot."""
     p_2 = biped.swing_foot(q)
-    for point, name, shift in ((np.zeros(2), "$p_e$", -0.1), (p_2, "$p_2$", 0.1)):
+    outwards = 0.1 if p_2[0] >= 0 else -0.1
+    for point, name, shift in ((np.zeros(2), "$p_e$", -outwards), (p_2, "$p_2$", outwards)):
         axes.plot(*point, "o", color="black", ms=4, zorder=6)
         _text(axes, point + np.array([shift, 0.05]), name, "black")
