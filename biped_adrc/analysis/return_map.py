@@ -21,6 +21,8 @@ from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.types import Array, ComplexArray
 from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
+_CHORD = 0.1  # the residual must fall by this factor with the old dP/ds, else it is taken anew
+
 Mapper = Callable[[Callable[[Array], Array], Iterable[Array]], Iterable[Array]]
 """Like `map`; a parallel one evaluates the differences at once."""
 
@@ -111,23 +113,27 @@ class ReturnMap:
         self,
         guess: Array,
         tolerance: float = 1e-9,
-        max_iterations: int = 8,
+        max_iterations: int = 12,
         mapper: Mapper = map,
     ) -> PeriodicOrbit:
-        """Newton on P(s) - s from a pre-impact state `guess`.
+        """Newton on P(s) - s from a pre-impact state `guess`; dP/ds is kept while it serves.
 
         Raises SimulationError when it does not converge or the walker does not come back.
         """
         s = self.project(np.asarray(guess, dtype=float))
+        J, s_J, previous = self.jacobian(s, mapper), s, np.inf
         for iteration in range(1, max_iterations + 1):
             gap = self(s) - s
             residual = float(np.max(np.abs(gap)))
-            J = self.jacobian(s, mapper)
-            if residual < tolerance:
+            done = residual < tolerance
+            stale = float(np.max(np.abs(s - s_J))) > self.difference
+            if stale and (done or residual > _CHORD * previous):
+                J, s_J = self.jacobian(s, mapper), s
+            if done:
                 multipliers = np.linalg.eigvals(J).astype(complex)
                 order = np.argsort(-np.abs(multipliers))
                 return PeriodicOrbit(self.lift(s), multipliers[order], residual, iteration)
-            s += np.linalg.solve(np.eye(len(s)) - J, gap)
+            s, previous = s + np.linalg.solve(np.eye(len(s)) - J, gap), residual
         raise SimulationError(
             f"Newton on the return map did not converge in {max_iterations} iterations: "
             f"residual {residual:.3g}, expected below {tolerance:g}; start nearer to the orbit"

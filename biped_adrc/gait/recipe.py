@@ -2,14 +2,15 @@
 
 "The trajectory for the hip is taken as a sine function and the step length is a fraction of the human step
 length"; joint trajectories by inverse kinematics, and "a high order polynomial regression" on Theta. Over the
-share s in [0, 1] of a step, from the stance foot, with (x*, z*) the hip and L the step length in the pose of x*:
+share s in [0, 1] of a step, from the stance foot, with (x*, z*) the hip and L the step length at x*:
 
     hip    x = x* - L (1 - s),                               z = z* + A sin(pi s)
     swing  x = -L + 2 L (c s + (1 - c) (1 - cos(pi s)) / 2), z = H sin(pi s)
     torso  q5 = q5* - B sin(2 pi s)
 
 The pose of x* gives L, x*, z* and q5*. What it leaves open (A, H, c, B) follows from the ratios of hip,
-swing-foot and torso rates at x*; the speed does not. The constraint is not hybrid-invariant: the impact is not smooth, as section VII says.
+swing-foot and torso rates at x*; the speed does not. The constraint is not hybrid-invariant: the impact is
+not smooth, as section VII says.
 """
 
 from __future__ import annotations
@@ -148,7 +149,7 @@ def design_recipe_gait(biped: Biped, parameters: RecipeParameters | None = None)
     q, v = zero.end_state(sigma)
     provenance = {
         "method": "section IV: hip sine, inverse kinematics, polynomial regression on Theta",
-        "source": "pose of x*, section VI; free parameters from the ratios of its hip, swing-foot and torso rates",
+        "source": "pose of x*, section VI; free parameters from the ratios of its rates",
         "step length [m]": f"{p.step_fraction * HUMAN_STEP:.6f}, {p.step_fraction:.4f} of {HUMAN_STEP} m",
         "hip amplitude [m]": f"{p.hip_amplitude:.6f}",
         "clearance [m]": f"{p.clearance:.6f}",

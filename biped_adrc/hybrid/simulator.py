@@ -95,14 +95,17 @@ def simulate(
     arcs: list[Arc] = []
     counts: dict[str, int] = {}
     t, status, detail = t0, Status.COMPLETED, ""
+    fired: str | None = None
     while True:
-        arc, status, detail, outcome = _flow_arc(system, method, t, t0, x, mode, t_end, store_every)
+        arc, status, detail, outcome = _flow_arc(
+            system, method, t, t0, x, mode, t_end, store_every, fired
+        )
         arcs.append(arc)
         if outcome is None:
             break
         event = arc.event
         assert event is not None
-        t, (x, mode) = event.t, outcome
+        t, (x, mode), fired = event.t, outcome, event.guard
         counts[event.guard] = counts.get(event.guard, 0) + 1
         if progress is not None:
             progress(t, sum(counts.values()))
@@ -144,12 +147,13 @@ def _flow_arc(
     mode: Mode,
     t_end: float,
     store_every: int,
+    fired: str | None,
 ) -> tuple[Arc, Status, str, Outcome]:
     """One arc from (t, x): returns it, the status so far, its detail, and (x+, mode+) after an event."""
     record = _Recorder(store_every)
     split = system.split(mode)
     t_arc, status, detail = t, Status.COMPLETED, ""
-    watch = _Watch(system.guards(mode), t, x)
+    watch = _Watch(system.guards(mode), t, x, fired)
     event: Event | None = None
     outcome: Outcome = None
     try:
@@ -243,9 +247,10 @@ def _next_break(
 class _Watch:
     """The witnesses along one arc; a guard is armed once its witness has left zero."""
 
-    def __init__(self, guards: tuple[Guard, ...], t: float, x: Array):
+    def __init__(self, guards: tuple[Guard, ...], t: float, x: Array, fired: str | None):
+        """`fired` has just ended the last arc: what is left of its witness is round-off, taken as zero."""
         self.guards = guards
-        self.values = [guard.witness(t, x) for guard in guards]
+        self.values = [0.0 if g.name == fired else g.witness(t, x) for g in guards]
 
     def first(self, step: Step) -> tuple[Event, Outcome, Status] | None:
         """The earliest crossing in `step` that is an event."""

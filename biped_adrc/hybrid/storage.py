@@ -79,5 +79,5 @@ def _arc(data: Any, i: int, event: dict[str, Any] | None, mode: Callable[..., An
     if event is not None:
         plus = data.get(f"x_plus{i}")
         found = Event(event["guard"], float(event["t"]), data[f"x_minus{i}"], plus)
-    numbers = data[f"mode{i}"].tolist()
+    numbers = np.atleast_1d(data[f"mode{i}"]).tolist()
     return Arc(mode(*numbers), data[f"t{i}"], data[f"x{i}"], data[f"dx{i}"], found)

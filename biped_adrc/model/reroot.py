@@ -46,7 +46,7 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
     links[foot] = _moved(tree.links[foot], here_origin)
     walked: set[str] = set()
     for joint in chain:
-        axis = _minus((0.0, 0.0, 0.0), joint.axis)
+        axis = joint.axis if joint.type == "fixed" else _minus((0.0, 0.0, 0.0), joint.axis)
         # the old joint sits at the old origin of `here`, and at joint.origin of its parent
         joints.append(
             Joint(

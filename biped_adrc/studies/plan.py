@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,9 +12,9 @@ from biped_adrc.gait.published import X_STAR
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.studies.laws import model_laws, numerics_laws, walk_laws
-from biped_adrc.studies.poincare import poincare, regression_of, return_map_samples
+from biped_adrc.studies.poincare import poincare, return_map_samples
 from biped_adrc.studies.pool import Task
-from biped_adrc.studies.push_map import COARSE_PATTERNS, PATTERNS, push_map_tasks
+from biped_adrc.studies.push_map import PATTERNS, push_map_tasks
 from biped_adrc.studies.runs import (
     CONTROLLERS,
     Outcome,
@@ -33,6 +32,8 @@ SINE = joints_push(40.0, MOTORS, step=19, start=0.05, stop=0.3, kind="sine", fre
 TORSO = Push({"q5": 20.0}, step=19, start=0.1, stop=0.3)
 HEAVIER = {"torso": 1.2, "thigh": 1.15}
 POLICIES = ("none", "relabel", "measured", "model")
+FULL_ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
+FULL_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
 ETD_STEP = 5e-4
 """[s], for runs whose ADRC error is compared with NPD's."""
 
@@ -70,11 +71,11 @@ def base_runs(plan: Plan) -> dict[str, Run]:
         h = ETD_STEP if c == "ADRC" else None
         run = Run(c, preset=plan.preset, h=h)
         for preset in plan.presets:
-            runs[f"nominal {preset} {c}"] = Run(c, preset=preset)
+            runs[f"nominal {preset} {c}"] = Run(c, preset=preset, h=1e-3)
         runs[f"sine {c}"] = replace(run, pushes=(SINE,), first_step=17, impacts=9)
         runs[f"torso {c}"] = replace(run, pushes=(TORSO,), first_step=17, impacts=9)
         runs[f"1 kHz {c}"] = Run(c, preset=plan.preset, pushes=plan.pushes, period=1e-3)
-        heavier = replace(run, h=None, mass=HEAVIER, impacts=12)
+        heavier = replace(run, mass=HEAVIER, h=1e-3, impacts=12)
         runs[f"heavier, masses {c}"] = heavier
         runs[f"heavier, masses and inertias {c}"] = replace(heavier, inertia=HEAVIER)
     return {**runs, **literal_runs(plan)}
@@ -84,11 +85,13 @@ def literal_runs(plan: Plan) -> dict[str, Run]:
     """(20) as printed, and every reset policy with and without RABBIT's torque limit."""
     runs = {}
     for c in BOTH:
-        runs[f"as printed {c}"] = Run(c, preset=plan.preset, solve_theta=False, impacts=15)
+        runs[f"as printed {c}"] = Run(c, preset=plan.preset, solve_theta=False, h=1e-3)
     for policy in POLICIES:
         for limit in (None, 150.0):
             name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
-            runs[name] = Run(preset=plan.preset, reset=policy, torque_limit=limit, impacts=8)
+            runs[name] = Run(
+                preset=plan.preset, reset=policy, torque_limit=limit, h=1e-3, impacts=6
+            )
     return runs
 
 
@@ -105,7 +108,7 @@ class RecipeResult:
 
 def recipe_result(preset: str, controller: str) -> RecipeResult:
     """Walk gait (b) and look for its fixed point; whatever comes out is reported."""
-    run = Run(controller, preset=preset, gait="recipe")
+    run = Run(controller, preset=preset, gait="recipe", h=1e-3, impacts=12)
     biped = run.biped()
     record: dict[str, Any] = {}
     try:
@@ -138,7 +141,13 @@ def tasks(plan: Plan) -> dict[str, Task]:
     """Everything to compute, by name, the longest first; each in its own process."""
     adrc, npd = Run("ADRC", preset=plan.preset), Run("NPD", preset=plan.preset)
     pushed = {
-        c: Run(c, preset=plan.preset, pushes=plan.pushes, h=ETD_STEP if c == "ADRC" else 1e-3)
+        c: Run(
+            c,
+            preset=plan.preset,
+            pushes=plan.pushes,
+            h=ETD_STEP if c == "ADRC" else 1e-3,
+            store_every=2 if c == "ADRC" else 1,
+        )
         for c in BOTH
     }
     out = {
@@ -149,7 +158,6 @@ def tasks(plan: Plan) -> dict[str, Task]:
     }
     for c in BOTH:
         out[f"headline {c}"] = Task(f"{c} under the push", headline, (pushed[c],))
-        out[f"regression {c}"] = Task(f"regression {c}", regression_of, (pushed[c],))
     for preset in plan.presets:
         out[f"model {preset}"] = Task(f"laws of the model, {preset}", model_laws, (preset,))
         for c in BOTH:
@@ -164,11 +172,18 @@ def tasks(plan: Plan) -> dict[str, Task]:
 
 def map_tasks(plan: Plan) -> list[Task]:
     """The map of pushes: coarse, or fine with `full`."""
-    base = Run(preset=plan.preset)
-    limits: Sequence[float | None] = (None, 150.0)
+    onsets: tuple[float, ...] = (0.05, 0.3)
+    amplitudes: tuple[float, ...] = (90.0, 150.0)
     if plan.full:
-        onsets = tuple(0.05 * k for k in range(8))
-        return push_map_tasks(
-            base, onsets, (30.0, 60.0, 90.0, 120.0, 150.0), tuple(PATTERNS), limits
-        )
-    return push_map_tasks(base, (0.05, 0.15, 0.25, 0.35), (90.0, 150.0), COARSE_PATTERNS, limits)
+        onsets, amplitudes = FULL_ONSETS, FULL_AMPLITUDES
+    return [
+        task
+        for preset, limits in map_presets(plan).items()
+        for task in push_map_tasks(Run(preset=preset), onsets, amplitudes, tuple(PATTERNS), limits)
+    ]
+
+
+def map_presets(plan: Plan) -> dict[str, tuple[float | None, ...]]:
+    """Torque limits [N m] by preset: the plan's own, and RABBIT without rotors, as published gaits."""
+    limits: dict[str, tuple[float | None, ...]] = {plan.preset: (None, 150.0)}
+    return {"identified-bare": (None,), **limits}

@@ -14,7 +14,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies.runs import Run, execute
+from biped_adrc.studies.runs import Outcome, Run
 from biped_adrc.types import Array
 
 
@@ -87,11 +87,12 @@ class RegressionTest:
         }
 
 
-def regression_of(run: Run) -> RegressionTest:
+def regression_of(outcome: Outcome) -> RegressionTest:
     """(26), (27) over the impacts of a (disturbed) walk, about the gait's fixed point."""
+    run = outcome.run
     gait = load_gait(run.gait, run.biped())
     x_star = np.concatenate((gait.q_minus, gait.v_minus))
-    x_minus = execute(run).x_minus[:, : len(x_star)]
+    x_minus = outcome.x_minus[:, : len(x_star)]
     return RegressionTest(regress_multipliers(x_minus, x_star), run.controller)
 
 

@@ -7,11 +7,13 @@ with RABBIT's 150 N m. The walk starts on the periodic orbit at that step, and h
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+from biped_adrc.gait.gait import load_gait
 from biped_adrc.studies.pool import Task
-from biped_adrc.studies.runs import Push, Run, execute
+from biped_adrc.studies.runs import CONTROLLERS, Push, Run
+from biped_adrc.studies.walk import walk
 
 PATTERNS: dict[str, dict[str, float]] = {
     "all +": {"q1": 1.0, "q2": 1.0, "q3": 1.0, "q4": 1.0},
@@ -27,8 +29,8 @@ PATTERNS: dict[str, dict[str, float]] = {
 }
 """Joint patterns, to be multiplied by the amplitude [N m]."""
 
-COARSE_PATTERNS = ("all +", "all -", "hips together", "stance knee -")
 IMPACTS = 5
+PUSHED_STEP = 19
 DURATION = 0.2
 """[s]."""
 MAP_STEP = 2e-3
@@ -39,6 +41,7 @@ MAP_STEP = 2e-3
 class Cell:
     """One push and what each controller made of it; status by controller."""
 
+    preset: str
     onset: float
     """[s] in the step."""
     amplitude: float
@@ -76,22 +79,22 @@ class Cell:
 def push_cell(base: Run, onset: float, amplitude: float, pattern: str, limit: float | None) -> Cell:
     """Both controllers under one push."""
     torque = {joint: amplitude * factor for joint, factor in PATTERNS[pattern].items()}
-    push = Push(torque, step=19, start=onset, stop=onset + DURATION)
+    push = Push(torque, step=PUSHED_STEP, start=onset, stop=onset + DURATION)
+    biped = base.biped()
+    gait = load_gait(base.gait, biped)
     status = []
-    for controller in ("NPD", "ADRC"):
-        run = Run(
-            controller,
-            base.robot,
-            base.preset,
-            base.gait,
-            pushes=(push,),
-            torque_limit=limit,
-            impacts=IMPACTS,
-            first_step=19,
-            h=MAP_STEP,
+    for controller in CONTROLLERS:
+        run = replace(base, controller=controller, pushes=(push,), torque_limit=limit, h=MAP_STEP)
+        made = walk(
+            run.build(biped, gait),
+            gait,
+            IMPACTS,
+            run.one_step_method(),
+            first_step=PUSHED_STEP,
+            store_every=50,
         )
-        status.append(execute(run).status)
-    return Cell(onset, amplitude, pattern, limit, status[0], status[1])
+        status.append(made.trajectory.status.name)
+    return Cell(base.preset, onset, amplitude, pattern, limit, status[0], status[1])
 
 
 def push_map_tasks(

@@ -6,7 +6,6 @@ summary.json and report.html; each whole or not at all, so that an interrupted r
 
 from __future__ import annotations
 
-import io
 import json
 import time
 from pathlib import Path
@@ -17,25 +16,36 @@ import numpy as np
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.errors import OutputError
 from biped_adrc.files import write_bytes, write_text
-from biped_adrc.gait.gait import load_gait
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.hybrid.storage import save
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
+from biped_adrc.studies.laws import work_identity
 from biped_adrc.studies.plan import BOTH, Plan, tasks
+from biped_adrc.studies.poincare import regression_of
 from biped_adrc.studies.pool import TaskProgress, run_tasks
 from biped_adrc.studies.versions import versions
 from biped_adrc.viz.meshcat import write_animation
 from biped_adrc.viz.plots import (
     multiplier_figure,
     phase_figure,
-    push_map_figure,
     return_map_figure,
     tracking_figure,
 )
+from biped_adrc.viz.push_map_plot import push_map_figure
 from biped_adrc.viz.report import write_report
 from biped_adrc.viz.robot_figure import robot_figure
+from biped_adrc.viz.style import render
+
+CAPTIONS = {
+    "figure1": "Figure 1: the robot",
+    "figure4": "Figure 4: NPD under the push",
+    "figure5": "Figure 5: ADRC with GPI observer under the push",
+    "figure6": "Figure 6: limit cycles",
+    "multipliers": "Multipliers",
+    "return_map": "Return map",
+}
 
 
 def reproduce(
@@ -58,8 +68,10 @@ def reproduce(
     for c in BOTH:
         results[f"headline {c}"], more = results[f"headline {c}"]
         laws = laws + more
+        results[f"regression {c}"] = regression_of(results[f"headline {c}"].outcome)
     for preset in plan.presets:
         laws = laws + results[f"model {preset}"]
+        laws = laws + [work_identity(results[f"nominal {preset} {c}"]) for c in BOTH]
     checks = (
         verdicts.consistency_checks(plan, results)
         + verdicts.push_checks(results)
@@ -153,12 +165,11 @@ def _notes() -> list[str]:
 def _draw(plan: Plan, results: dict[str, Any], cells: list[Any], out: Path) -> dict[str, str]:
     """Write the figures; returns title -> SVG text."""
     biped = Biped.load("rabbit", plan.preset)
-    gait = load_gait("published", biped)
     signals = {c: verdicts.headline_of(results, c).signals for c in BOTH}
     window = _push_window(plan, signals["NPD"])
     magnitudes = {c: results[f"multipliers {c}"].orbit.multipliers for c in BOTH}
     figures = {
-        "figure1": robot_figure(biped, gait.start(biped)[0]),
+        "figure1": robot_figure(biped),
         "figure4": tracking_figure(signals["NPD"], "NPD under the push", window, None),
         "figure5": tracking_figure(
             signals["ADRC"], "ADRC with GPI observer under the push", window, None
@@ -166,17 +177,16 @@ def _draw(plan: Plan, results: dict[str, Any], cells: list[Any], out: Path) -> d
         "figure6": phase_figure(signals),
         "multipliers": multiplier_figure(magnitudes, PUBLISHED_MULTIPLIERS),
         "return_map": return_map_figure(*results["return map"]),
-        "push_map": push_map_figure([cell.row() for cell in cells]),
     }
+    for preset in sorted({cell.preset for cell in cells}):
+        rows = [cell.row() for cell in cells if cell.preset == preset]
+        figures[f"push_map_{preset}"] = push_map_figure(rows)
     pictures = {}
     for name, figure in figures.items():
-        for kind in ("png", "svg"):
-            buffer = io.BytesIO()
-            metadata = {"Date": None} if kind == "svg" else {}
-            figure.savefig(buffer, format=kind, dpi=150, metadata=metadata)
-            write_bytes(out / f"{name}.{kind}", buffer.getvalue())
-            if kind == "svg":
-                pictures[name] = buffer.getvalue().decode("utf-8")
+        write_bytes(out / f"{name}.png", render(figure, "png"))
+        svg = render(figure, "svg")
+        write_bytes(out / f"{name}.svg", svg)
+        pictures[CAPTIONS.get(name, name.replace("_", " "))] = svg.decode("utf-8")
     return pictures
 
 
@@ -194,7 +204,9 @@ def _push_window(plan: Plan, signals: Any) -> tuple[float, float] | None:
 def _animate(plan: Plan, results: dict[str, Any], out: Path) -> None:
     biped = Biped.load("rabbit", plan.preset)
     walks = {c: verdicts.headline_of(results, c).trajectory for c in BOTH}
-    write_animation(out / "walk.html", biped, walks)
+    window = _push_window(plan, verdicts.headline_of(results, "NPD").signals)
+    marks = [] if window is None else [(*window, "push")]
+    write_animation(out / "walk.html", biped, walks, solid="ADRC", marks=marks)
 
 
 def failed(checks: list[dict[str, Any]]) -> list[dict[str, Any]]:

@@ -118,6 +118,7 @@ def map_counts(cells: list[Any]) -> dict[str, dict[str, int]]:
     counts: dict[str, Counter[str]] = {}
     for cell in cells:
         limit = "unlimited" if cell.torque_limit is None else f"{cell.torque_limit:g} N m"
+        limit = f"{cell.preset}, {limit}"
         counts.setdefault(limit, Counter())[cell.verdict] += 1
     return {limit: dict(counter) for limit, counter in counts.items()}
 
@@ -240,7 +241,7 @@ def _map(cells: list[Any]) -> dict[str, Any]:
     verdicts = ["both walk", "only NPD falls", "only ADRC falls", "both fall"]
     counts = map_counts(cells)
     rows = [[limit, *(count.get(v, 0) for v in verdicts)] for limit, count in counts.items()]
-    return {"columns": ["torque limit", *verdicts], "rows": rows}
+    return {"columns": ["preset, torque limit", *verdicts], "rows": rows}
 
 
 def figures_of_merit(plan: Plan, r: Results, cells: list[Any]) -> list[dict[str, Any]]:

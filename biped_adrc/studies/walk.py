@@ -50,7 +50,7 @@ class Walk:
         from biped_adrc.viz.meshcat import write_animation
 
         name = type(self.walker.controller).__name__
-        write_animation(path, self.walker.plant, {name: self.trajectory})
+        write_animation(Path(path), self.walker.plant, {name: self.trajectory})
 
 
 def default_method(walker: Walker) -> OneStepMethod:

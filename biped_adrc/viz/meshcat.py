@@ -7,12 +7,11 @@ points in the model and balls in the URDF: the ground is drawn one radius below 
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import meshcat
-import meshcat.geometry as shapes
 import numpy as np
 
 from biped_adrc.errors import InputError
@@ -23,6 +22,12 @@ from biped_adrc.model.urdf import Joint, Tree, Visual
 from biped_adrc.types import Array
 from biped_adrc.viz.meshcat_page import MemoryWindow, page
 from biped_adrc.viz.placement import Walk, joint_transform
+
+with warnings.catch_warnings():
+    # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here
+    warnings.simplefilter("ignore", DeprecationWarning)
+    import meshcat
+    import meshcat.geometry as shapes
 
 GHOST = 0.35
 """Opacity of a ghost."""

@@ -92,8 +92,14 @@ def _plain(value: Any) -> str:
     return str(value)
 
 
-def _table(caption: str, columns: Iterable[Any], rows: Iterable[Sequence[str]]) -> str:
-    """A table; `rows` hold cells that are escaped already, the first one heads its row."""
+def _table(
+    caption: str, columns: Iterable[Any], rows: Iterable[Sequence[str]], shown: bool = True
+) -> str:
+    """A table; `rows` hold cells that are escaped already, the first one heads its row.
+
+    shown: print the caption; without, it is for screen readers only.
+    """
+    title = f"<caption>{_text(caption)}</caption>" if shown else ""
     head = "".join(f'<th scope="col">{_text(column)}</th>' for column in columns)
     body = "\n".join(
         f'<tr><th scope="row">{row[0]}</th>' + "".join(f"<td>{c}</td>" for c in row[1:]) + "</tr>"
@@ -101,8 +107,7 @@ def _table(caption: str, columns: Iterable[Any], rows: Iterable[Sequence[str]]) 
     )
     return (
         f'<div class="wide" tabindex="0" role="region" aria-label="{_text(caption)}"><table>'
-        f"<caption>{_text(caption)}</caption>\n"
-        f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody>\n</table></div>"
+        f"{title}<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody>\n</table></div>"
     )
 
 

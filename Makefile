@@ -1,0 +1,54 @@
+# make reproduce   the paper: figures, tables, report.html and a verdict in out/
+# make test        the tests
+PYTHON ?= python3
+OUT ?= out
+BIN := .venv/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
+
+.PHONY: reproduce test dev lint format types imports bench clean
+
+reproduce: .venv/.core
+	$(BIN)/biped-adrc reproduce --out $(OUT)
+
+test: .venv/.test
+	$(BIN)/python -m pytest -rs
+
+dev: .venv/.dev
+
+lint: .venv/.dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+format: .venv/.dev
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+types: .venv/.dev
+	$(BIN)/mypy
+
+imports: .venv/.dev
+	$(BIN)/lint-imports
+
+bench: .venv/.core
+	$(BIN)/python benchmarks/step_timing.py
+
+.venv/.made:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "biped_adrc needs Python >= 3.11; found $$($(PYTHON) --version 2>&1). Try: make PYTHON=python3.12 ..."; exit 1; }
+	$(PYTHON) -m venv .venv
+	@touch $@
+
+.venv/.core: .venv/.made pyproject.toml constraints.txt
+	$(PIP) --editable .
+	@touch $@
+
+.venv/.test: .venv/.made pyproject.toml constraints.txt
+	$(PIP) --editable '.[test]'
+	@touch $@ .venv/.core
+
+.venv/.dev: .venv/.made pyproject.toml constraints.txt
+	$(PIP) --editable '.[dev]'
+	@touch $@ .venv/.test .venv/.core
+
+clean:
+	rm -rf .venv out build dist

@@ -1,0 +1,187 @@
+"""One-step methods: order of convergence, energy, and the exponential method's own functions."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from scipy.special import ellipk
+
+import biped_adrc as ba
+from biped_adrc.hybrid.exponential import Exponential, phi_functions
+from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
+from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.hybrid.system import Guard, HybridSystem, Split
+from biped_adrc.observers.gpi import TABLE_I
+
+DATA = Path(pin.__file__).parents[4] / "share" / "example-robot-data" / "robots"
+DOUBLE_PENDULUM = DATA / "double_pendulum_description" / "urdf" / "double_pendulum.urdf"
+
+
+class Pendulum(HybridSystem):
+    """theta'' = -sin(theta)."""
+
+    def flow(self, t, x, mode):
+        return np.array([x[1], -math.sin(x[0])])
+
+    def guards(self, mode):
+        return (Guard("bottom", lambda t, x: x[0], lambda t, x: (x, mode)),)
+
+
+class Chain(HybridSystem):
+    """Any Pinocchio model swinging freely."""
+
+    def __init__(self, model):
+        self.model, self.data = model, model.createData()
+
+    def flow(self, t, x, mode):
+        n = self.model.nv
+        a = pin.aba(self.model, self.data, x[:n], x[n:], np.zeros(n))
+        return np.concatenate((x[n:], a))
+
+    def energy(self, x):
+        n = self.model.nv
+        return pin.computeKineticEnergy(
+            self.model, self.data, x[:n], x[n:]
+        ) + pin.computePotentialEnergy(self.model, self.data, x[:n])
+
+
+class Swing(HybridSystem):
+    """The biped hanging from its stance foot, without torque."""
+
+    def __init__(self, biped):
+        self.biped = biped
+
+    def flow(self, t, x, mode):
+        n = self.biped.n
+        return np.concatenate((x[n:], self.biped.acceleration(x[:n], x[n:], np.zeros(n))))
+
+    def energy(self, x):
+        n = self.biped.n
+        return self.biped.kinetic_energy(x[:n], x[n:]) + self.biped.potential_energy(x[:n])
+
+
+def order(errors, steps):
+    return float(np.polyfit(np.log(steps), np.log(errors), 1)[0])
+
+
+@pytest.mark.parametrize("method", [RK4(1e-3), Adaptive(rtol=1e-11, atol=1e-11), Stiff()])
+def test_pendulum_period_by_elliptic_integral(method):
+    amplitude = 2.0
+    run = simulate(Pendulum(), np.array([amplitude, 0.0]), 0, method, t_end=20.0)
+    period = 4.0 * ellipk(math.sin(amplitude / 2) ** 2)
+    times = [event.t for event in run.events("bottom")]
+    assert times[0] == pytest.approx(period / 4, abs=1e-7)
+    assert times[1] - times[0] == pytest.approx(period, abs=1e-7)
+
+
+def test_order_of_rk4_on_the_passive_swing(biped):
+    x0 = np.array([0.2, 0.5, -0.3, -0.4, 3.3, 0.5, -1.0, 0.3, 0.2, -0.4])
+    system, steps = Swing(biped), np.array([4e-3, 2e-3, 1e-3])
+
+    def end(h):
+        return simulate(system, x0, 0, RK4(h), t_end=0.32).final_state
+
+    exact = end(6.25e-5)
+    errors = [np.max(np.abs(end(h) - exact)) for h in steps]
+    assert order(errors, steps) == pytest.approx(4.0, abs=0.1)
+
+
+@pytest.mark.parametrize("name", ["double pendulum", "biped"])
+def test_energy_of_a_free_swing(biped, name):
+    """Drift per simulated second falls with the tolerance, and is small in absolute terms."""
+    if name == "biped":
+        system, x0 = Swing(biped), np.concatenate(([0.2, 0.5, -0.3, -0.4, 3.3], np.zeros(5)))
+    else:
+        system = Chain(pin.buildModelFromUrdf(str(DOUBLE_PENDULUM)))
+        x0 = np.concatenate(([2.0, -1.0], np.zeros(2)))
+    drifts = {}
+    scale = abs(system.energy(x0)) + 1.0
+    for method in (
+        RK4(2e-3),
+        RK4(1e-3),
+        Adaptive(1e-7, 1e-7),
+        Adaptive(1e-10, 1e-10),
+        Stiff(1e-8, 1e-8),
+    ):
+        run = simulate(system, x0, 0, method, t_end=1.0)
+        drifts[method.label] = abs(system.energy(run.final_state) - system.energy(x0)) / scale
+    coarse, fine, loose, tight, stiff = drifts.values()
+    assert fine < 1e-6
+    assert fine < coarse
+    assert tight < 1e-9
+    assert tight <= loose
+    assert stiff < 1e-5
+
+
+def test_phi_functions_against_their_series_and_recurrence():
+    random = np.random.default_rng(0)
+    A, h = random.normal(size=(4, 4)), 0.3
+    e, phi1, phi2, phi3 = phi_functions(A, h)
+    z, eye = h * A, np.eye(4)
+    powers = [np.linalg.matrix_power(z, k) for k in range(30)]
+    for j, found in enumerate((e, phi1, phi2, phi3)):
+        series = sum(power / math.factorial(k + j) for k, power in enumerate(powers))
+        assert np.allclose(found, series, atol=1e-13)
+    assert np.allclose(z @ phi2, phi1 - eye, atol=1e-13)
+
+
+class StiffPlusSmooth(HybridSystem):
+    """E' = a E + c p, p' = cos(t) - p E: a stiff linear part and a nonlinear one."""
+
+    a = -2000.0
+
+    def flow(self, t, x, mode):
+        p, E = x
+        return np.array([math.cos(t) - p * E, self.a * E + 50.0 * p])
+
+    def split(self, mode):
+        return Split(
+            lambda x: (x[:1], x[1:].reshape(1, 1)),
+            lambda p, E: np.concatenate((p, E.ravel())),
+            np.array([[self.a]]),
+            lambda t, p, E: (np.array([math.cos(t) - p[0] * E[0, 0]]), np.array([[50.0 * p[0]]])),
+        )
+
+
+def test_exponential_method_is_stable_where_rk4_is_not_and_right():
+    system, x0 = StiffPlusSmooth(), np.array([0.5, 0.0])
+    exact = simulate(system, x0, 0, Stiff(1e-11, 1e-12), t_end=1.0).final_state
+    error = np.max(
+        np.abs(simulate(system, x0, 0, Exponential(5e-3), t_end=1.0).final_state - exact)
+    )
+    assert error < 1e-5
+    # h |a| = 10 is far outside RK4's region, which ends at 2.8
+    unstable = simulate(system, x0, 0, RK4(5e-3), t_end=1.0)
+    assert not (unstable.status.ok and np.max(np.abs(unstable.final_state - exact)) < 1e-2)
+
+
+def test_order_of_the_exponential_method_on_a_smooth_closed_loop(biped, gait):
+    """Table I times 0.05, half a step of walking."""
+    observer = ba.GPIObserver.from_poles([0.05 * pole for pole in TABLE_I])
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint, observer))
+    x0 = walker.initial_state(*gait.start(biped))
+
+    def end(h):
+        return simulate(walker, x0, ba.Mode(), Exponential(h), t_end=0.16).final_state[:10]
+
+    steps = np.array([4e-3, 2e-3, 1e-3])
+    exact = end(1.25e-4)
+    assert order([np.max(np.abs(end(h) - exact)) for h in steps], steps) == pytest.approx(
+        4.0, abs=0.3
+    )
+
+
+def test_exponential_agrees_with_a_stiff_method_on_table_one(biped, gait):
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint))
+    x0 = walker.initial_state(*gait.start(biped))
+    stiff = simulate(walker, x0, ba.Mode(), Stiff(1e-8, 1e-10), t_end=0.02).final_state[:10]
+    ours = simulate(walker, x0, ba.Mode(), Exponential(2e-4), t_end=0.02).final_state[:10]
+    assert np.max(np.abs(ours - stiff)) < 2e-5
+
+
+def test_exponential_method_refuses_a_system_without_a_split(biped, gait):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    with pytest.raises(ba.BipedError, match="use RK4, Adaptive or Stiff"):
+        ba.walk(walker, gait, 1, Exponential())

@@ -1,0 +1,254 @@
+"""The hybrid loop against closed forms: events, resets, clocks, switching times, statuses."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+
+from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
+from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.storage import load, save
+from biped_adrc.hybrid.system import Clock, Direction, Guard, HybridSystem
+
+G = 9.81
+
+
+class Ball(HybridSystem):
+    """A bouncing ball of restitution 0.8."""
+
+    e = 0.8
+
+    def flow(self, t, x, mode):
+        return np.array([x[1], -G])
+
+    def guards(self, mode):
+        return (
+            Guard(
+                "bounce",
+                lambda t, x: x[0],
+                lambda t, x: (np.array([0.0, -self.e * x[1]]), mode + 1),
+            ),
+        )
+
+
+@pytest.mark.parametrize("method", [RK4(1e-3), RK4(0.03), Adaptive(), Stiff()])
+def test_bouncing_ball_in_closed_form(method):
+    run = simulate(Ball(), np.array([1.0, 0.0]), 0, method, t_end=10.0, stop_after=("bounce", 6))
+    assert run.status is Status.COMPLETED
+    first = math.sqrt(2.0 / G)
+    expected = [first + 2 * first * sum(0.8**j for j in range(1, k + 1)) for k in range(6)]
+    found = [event.t for event in run.events("bounce")]
+    assert found == pytest.approx(expected, abs=1e-9)
+    for k, event in enumerate(run.events()):
+        assert event.x_minus == pytest.approx([0.0, -G * first * 0.8**k], abs=1e-8)
+        assert event.x_plus[1] == pytest.approx(-0.8 * event.x_minus[1], rel=1e-15)
+    assert [arc.mode for arc in run.arcs] == list(range(6))
+
+
+def test_dense_output_gives_both_sides_of_an_event():
+    run = simulate(Ball(), np.array([1.0, 0.0]), 0, RK4(1e-2), t_end=1.2)
+    t = run.events()[0].t
+    assert run(t, "left")[1] < 0 < run(t)[1]
+    assert run(0.2)[0] == pytest.approx(1 - 0.5 * G * 0.04, abs=1e-12)
+    with pytest.raises(InputError, match="outside"):
+        run(5.0)
+    with pytest.raises(InputError, match="middle"):
+        run(0.1, "middle")
+
+
+@dataclass(frozen=True)
+class Timer(HybridSystem):
+    """x' = rate; a guard on a function of time, whatever it is asked to be."""
+
+    witness: object
+    direction: Direction = Direction.FALLING
+    terminal: Status | None = None
+    accept: bool = True
+    clock: Clock | None = None
+    switches: tuple[float, ...] = ()
+    seen: list = field(default_factory=list)
+
+    def flow(self, t, x, mode):
+        self.seen.append(t)
+        return np.ones_like(x)
+
+    def guards(self, mode):
+        def reset(t, x):
+            return (x + 100.0, mode + 1) if self.accept else None
+
+        return (Guard("g", lambda t, x: self.witness(t), reset, self.direction, self.terminal),)
+
+    def clocks(self):
+        return (self.clock,) if self.clock else ()
+
+    def switching_times(self, mode):
+        return self.switches
+
+
+def go(system, method=None, t_end=1.0, **more):
+    return simulate(system, np.zeros(1), 0, method or RK4(0.1), t_end=t_end, **more)
+
+
+def test_a_zero_at_the_start_does_not_fire_and_one_at_the_end_does():
+    assert not go(Timer(lambda t: -t)).events()
+    events = go(Timer(lambda t: 1.0 - t), t_end=1.0).events()
+    assert [event.t for event in events] == [1.0]
+
+
+@pytest.mark.parametrize(
+    ("direction", "times"),
+    [(Direction.FALLING, [0.25]), (Direction.RISING, [0.75]), (Direction.EITHER, [0.25, 0.75])],
+)
+def test_directions(direction, times):
+    events = go(Timer(lambda t: math.cos(2 * math.pi * t), direction)).events()
+    assert [event.t for event in events] == pytest.approx(times, abs=1e-12)
+
+
+def test_a_double_crossing_inside_a_long_step_is_found():
+    """The witness dips below zero for 6 ms inside a step of 200 ms."""
+    dip = Timer(lambda t: abs(t - 0.5) - 0.003)
+    run = go(dip, RK4(0.2), stop_after=("g", 1))
+    assert run.events()[0].t == pytest.approx(0.497, abs=1e-9)
+
+
+def test_a_crossing_may_be_let_pass():
+    run = go(Timer(lambda t: 0.55 - t, accept=False))
+    assert not run.events()
+    assert run.status is Status.COMPLETED
+    assert run.final_state == pytest.approx([1.0])
+
+
+def test_a_terminal_guard_ends_the_run_with_its_status():
+    run = go(Timer(lambda t: 0.35 - t, terminal=Status.FELL))
+    assert run.status is Status.FELL
+    assert run.t_end == pytest.approx(0.35)
+    assert run.events()[0].x_plus is None
+
+
+def test_clock_ticks_are_counted_not_accumulated_and_restart_at_events():
+    ticks = []
+
+    def update(t, x, mode):
+        ticks.append((mode, t))
+        return x
+
+    clock = Clock("c", 0.1, update)
+    go(Timer(lambda t: 0.25 - t, clock=clock), RK4(0.03), t_end=0.5)
+    assert ticks[:3] == [(0, 0.0), (0, 0.0 + 1 * 0.1), (0, 0.0 + 2 * 0.1)]
+    after = [t - 0.25 for mode, t in ticks if mode == 1]
+    assert after == pytest.approx([0.0, 0.1, 0.2], abs=1e-12)
+    ticks.clear()
+    go(
+        Timer(lambda t: 0.25 - t, clock=Clock("c", 0.1, update, restart=False)),
+        RK4(0.03),
+        t_end=0.5,
+    )
+    assert [t for _, t in ticks] == [0.0 + k * 0.1 for k in range(5)]
+
+
+def test_order_at_equal_times_is_reset_tick_flow():
+    """An impact and a tick at 0.2 s: the tick acts on the state after the reset."""
+    seen = []
+
+    def update(t, x, mode):
+        seen.append((mode, t, float(x[0])))
+        return x
+
+    go(Timer(lambda t: 0.2 - t, clock=Clock("c", 0.1, update)), t_end=0.3)
+    at = [row for row in seen if row[1] == pytest.approx(0.2)]
+    assert len(at) == 1
+    assert at[0][0] == 1
+    assert at[0][2] == pytest.approx(100.2)
+
+
+def test_no_step_goes_across_a_switching_time():
+    """The flow is asked for its limit from the left there, then again from the right."""
+
+    class Switch(Timer):
+        def flow(self, t, x, mode):
+            return np.array([0.0 if t < 0.123 else 1.0])
+
+    for method in (RK4(0.05), Adaptive(), Stiff()):
+        run = go(Switch(lambda t: 1.0, switches=(0.123,)), method)
+        assert run.final_state[0] == pytest.approx(1.0 - 0.123, abs=1e-12)
+        assert run(0.06)[0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_time_out_and_event_limit():
+    assert go(Timer(lambda t: 1.0), stop_after=("g", 1)).status is Status.TIME_OUT
+    zeno = simulate(Ball(), np.array([1.0, 0.0]), 0, RK4(0.05), t_end=50.0, max_events=20)
+    assert zeno.status is Status.EVENT_LIMIT
+
+
+def test_a_state_that_is_not_finite_ends_the_run_with_the_last_good_one():
+    class Burst(Timer):
+        def flow(self, t, x, mode):
+            return np.array([math.nan if t > 0.45 else 1.0])
+
+    run = go(Burst(lambda t: 1.0), RK4(0.1))
+    assert run.status is Status.NOT_FINITE
+    assert np.all(np.isfinite(run.final_state))
+    assert run.t_end == pytest.approx(0.4)
+
+    class Raises(Timer):
+        def flow(self, t, x, mode):
+            if t > 0.45:
+                raise NotFiniteError("torque is nan")
+            return np.ones(1)
+
+    run = go(Raises(lambda t: 1.0), RK4(0.1))
+    assert (run.status, run.detail) == (Status.NOT_FINITE, "torque is nan")
+
+
+@pytest.mark.parametrize("t_end", [0.0, -1.0, math.nan, math.inf])
+def test_durations_that_are_no_durations(t_end):
+    with pytest.raises(InputError, match="duration"):
+        go(Timer(lambda t: 1.0), t_end=t_end)
+
+
+def test_bad_starts_and_counts():
+    with pytest.raises(InputError, match="nan"):
+        simulate(Ball(), np.array([math.nan, 0.0]), 0, RK4(), t_end=1.0)
+    with pytest.raises(InputError, match="at least 1"):
+        go(Timer(lambda t: 1.0), stop_after=("g", 0))
+    with pytest.raises(InputError, match="step h"):
+        RK4(-1.0)
+
+
+def test_progress_is_told_of_every_event():
+    told = []
+    simulate(
+        Ball(),
+        np.array([1.0, 0.0]),
+        0,
+        RK4(0.01),
+        t_end=5.0,
+        stop_after=("bounce", 3),
+        progress=lambda t, n: told.append(n),
+    )
+    assert told == [1, 2, 3]
+
+
+def test_runs_are_stored_without_pickle_and_come_back_whole(tmp_path):
+    run = simulate(Ball(), np.array([1.0, 0.0]), 0, RK4(1e-2), t_end=3.0, stop_after=("bounce", 3))
+    save(run, tmp_path / "run.npz", {"note": "ball"})
+    again = load(tmp_path / "run.npz", int_mode)
+    assert again.status is run.status
+    assert again.settings == {"method": "RK4, h = 0.01 s", "note": "ball"}
+    for a, b in zip(run.arcs, again.arcs, strict=True):
+        assert a.mode == b.mode
+        assert np.array_equal(a.x, b.x)
+        assert np.array_equal(a.event.x_plus, b.event.x_plus)
+    assert np.array_equal(run.final_state, again.final_state)
+    (tmp_path / "run.npz").write_bytes((tmp_path / "run.npz").read_bytes()[:200])
+    with pytest.raises(InputError, match="cannot be read"):
+        load(tmp_path / "run.npz")
+    with pytest.raises(InputError, match="not found"):
+        load(tmp_path / "none.npz")
+
+
+def int_mode(*numbers):
+    return int(numbers[0])

@@ -1,0 +1,157 @@
+"""Single support: two models agree, and the laws of mechanics hold."""
+
+import math
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.gait.published import X_STAR
+from biped_adrc.model.biped import GRAVITY
+from biped_adrc.model.reduction import disturbance_acceleration
+
+
+def states(n, count, seed=0):
+    random = np.random.default_rng(seed)
+    for _ in range(count):
+        yield random.uniform(-math.pi, math.pi, n), random.normal(0.0, 3.0, n)
+
+
+def test_pinned_model_is_the_floating_one_projected(any_biped):
+    """D_s and Omega at 1e4 random states over the presets, relative to the largest entry."""
+    b = any_biped
+    for q, v in states(b.n, 10_000 if b.preset == "identified" else 1_000):
+        D, Omega = b.floating.projected(q, v)
+        assert np.max(np.abs(b.inertia(q) - D)) <= 1e-12 * np.max(np.abs(D))
+        assert np.max(np.abs(b.bias(q, v) - Omega)) <= 1e-12 * np.max(np.abs(Omega))
+
+
+def test_inertia_is_symmetric_positive_definite(any_biped):
+    for q, _ in states(any_biped.n, 200):
+        D = any_biped.inertia(q)
+        assert np.allclose(D, D.T, rtol=0, atol=1e-13 * np.max(np.abs(D)))
+        assert np.min(np.linalg.eigvalsh(D)) > 0
+
+
+def test_inertia_rate_minus_twice_coriolis_is_skew(any_biped):
+    b, h = any_biped, 1e-6
+    for q, v in states(b.n, 50):
+        rate = (b.inertia(q + h * v) - b.inertia(q - h * v)) / (2 * h)
+        N = rate - 2 * b.coriolis(q, v)
+        assert np.max(np.abs(N + N.T)) < 1e-6 * max(1.0, np.max(np.abs(rate)))
+        assert np.allclose(b.coriolis(q, v) @ v + b.gravity(q), b.bias(q, v), atol=1e-9)
+
+
+def test_power_balance(any_biped):
+    """dE/dt = q_s'^T B_s u along the forward dynamics."""
+    b, h = any_biped, 1e-5
+    random = np.random.default_rng(3)
+    for q, v in states(b.n, 30):
+        u = random.normal(0.0, 40.0, b.p)
+        a = b.acceleration(q, v, b.B @ u)
+
+        def energy(t, q=q, v=v, a=a):
+            return b.kinetic_energy(q + t * v + 0.5 * t**2 * a, v + t * a) + b.potential_energy(
+                q + t * v + 0.5 * t**2 * a
+            )
+
+        power = float(v @ b.B @ u)
+        scale = abs(power) + np.linalg.norm(v) * np.linalg.norm(b.bias(q, v))
+        assert abs((energy(h) - energy(-h)) / (2 * h) - power) < 1e-6 * scale
+
+
+def test_angular_momentum_about_the_foot_changes_by_gravity_alone(any_biped):
+    """sigma' = -dV/dq5, whatever the motors do."""
+    b, h = any_biped, 1e-6
+    for q, v in states(b.n, 20):
+        a = b.acceleration(q, v, b.B @ np.array([50.0, -30.0, 20.0, 10.0]))
+        rate = (
+            b.angular_momentum(q + h * v, v + h * a) - b.angular_momentum(q - h * v, v - h * a)
+        ) / (2 * h)
+        assert rate == pytest.approx(-b.gravity(q)[-1], rel=1e-5, abs=1e-3)
+
+
+def test_reduction_is_the_dynamics_of_the_actuated_joints(any_biped):
+    """(13) with (14) and (15) against D_s solved whole, disturbances on all joints included."""
+    b = any_biped
+    random = np.random.default_rng(5)
+    for q, v in states(b.n, 50):
+        u, force = random.normal(0, 50, b.p), random.normal(0, 20, b.n)
+        terms = b.reduction(q, v)
+        a = b.acceleration(q, v, b.B @ u + force)
+        xi = terms.xi + disturbance_acceleration(terms, force)
+        assert np.allclose(terms.kappa @ u + xi, a[: b.p], rtol=1e-9, atol=1e-8)
+        assert np.allclose(terms.kappa @ terms.kappa_inverse, np.eye(b.p), atol=1e-10)
+        free = b.acceleration(q, v, b.B @ u)
+        assert np.allclose(terms.A_N @ free[: b.p] + terms.a_N, free[b.p :], rtol=1e-9, atol=1e-8)
+
+
+def test_swing_foot_by_hand(biped):
+    """A link of absolute angle a points along (-sin a, cos a); thigh and shin are 0.4 m."""
+
+    def link(a):
+        return 0.4 * np.array([-np.sin(a), np.cos(a)])
+
+    for q, v in states(biped.n, 20):
+        q1, q2, q3, q4, q5 = q
+        hip = -link(q5 + q1) - link(q5 + q1 + q3)
+        foot = hip + link(q5 + q2) + link(q5 + q2 + q4)
+        assert np.allclose(biped.hip(q), hip, atol=1e-12)
+        assert np.allclose(biped.swing_foot(q), foot, atol=1e-12)
+        h = 1e-6
+        slope = (biped.swing_foot(q + h * v) - biped.swing_foot(q - h * v)) / (2 * h)
+        assert np.allclose(biped.swing_foot_velocity(q, v), slope, atol=1e-7)
+
+
+def test_published_state_stands_on_the_ground(biped):
+    q, v = X_STAR[:5], X_STAR[5:]
+    assert biped.swing_foot(q) == pytest.approx([0.3125, -0.0001], abs=5e-5)
+    assert biped.swing_foot_velocity(q, v) == pytest.approx([1.564, -0.436], abs=5e-4)
+    assert biped.hip_velocity(q, v) == pytest.approx([0.894, -0.394], abs=5e-4)
+    assert biped.phase @ v == pytest.approx(-1.257, abs=1e-9)
+
+
+def test_ground_reaction_is_what_holds_the_floating_robot(any_biped):
+    """The force at the stance foot that the unpinned model (2) needs for the same motion."""
+    b, h = any_biped, 1e-6
+    for q, v in states(b.n, 20):
+        u = np.array([30.0, -20.0, 10.0, 5.0])
+        a = b.acceleration(q, v, b.B @ u)
+        momentum = []
+        for s in (h, -h):
+            D_e = b.extended_inertia(q + s * v)
+            momentum.append(D_e[-2:, : b.n] @ (v + s * a))
+        rate = (momentum[0] - momentum[1]) / (2 * h)
+        weight = np.array([0.0, b.mass * GRAVITY])
+        assert b.ground_reaction(q, v, a) == pytest.approx(rate + weight, rel=1e-5, abs=1e-2)
+
+
+def test_rotor_inertia_adds_to_the_joints():
+    bare, rotors = (ba.Biped.load("rabbit", p) for p in ("identified-bare", "identified"))
+    q = np.array([3.2, 3.5, -0.5, -0.7, 0.1])
+    assert np.allclose(rotors.inertia(q) - bare.inertia(q), np.diag([0.83] * 4 + [0.0]), atol=1e-12)
+
+
+def test_friction_is_off_by_default_and_takes_energy_when_on(biped):
+    v = np.array([1.0, -2.0, 0.5, 3.0, 0.7])
+    assert not np.any(biped.friction_torque(v))
+    rough = ba.Biped.load("rabbit", friction=True)
+    assert rough.friction_torque(v) @ v < 0
+    assert rough.friction_torque(v)[0] == pytest.approx(-16.5 - 15.0, abs=1e-6)
+    assert rough.friction_torque(v)[-1] == 0.0
+
+
+def test_errors_scale_what_they_say(biped):
+    heavy = biped.with_errors(mass={"torso": 1.2, "thigh": 1.15})
+    assert heavy.mass == pytest.approx(1.2 * 12 + 2 * 1.15 * 6.8 + 2 * 3.2)
+    inertial = biped.with_errors(inertia={"shin": 2.0}).tree.links["left_shin"].inertial
+    assert inertial.inertia[3] == pytest.approx(0.40)
+    assert inertial.mass == 3.2
+    assert biped.mass == pytest.approx(32.0)
+
+
+def test_relabelling_swaps_the_legs_and_undoes_itself(biped):
+    R = biped.relabelling
+    assert R.tolist() == [1, 0, 3, 2, 4]
+    q = np.arange(5.0)
+    assert np.array_equal(q[R][R], q)

@@ -1,0 +1,74 @@
+"""The plastic impact (3)-(9)."""
+
+import math
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from biped_adrc.gait.published import X_STAR
+
+NOTES = {  # impulse ratio and delta^2 at x*, worked out independently of this package
+    "identified": (0.52, 0.694),
+    "identified-bare": (0.85, 0.694),
+    "tac2003": (0.71, 0.707),
+}
+
+
+def states(n, count):
+    random = np.random.default_rng(11)
+    for _ in range(count):
+        yield random.uniform(-math.pi, math.pi, n), random.normal(0.0, 3.0, n)
+
+
+def test_momentum_equation_and_standing_foot(any_biped):
+    b = any_biped
+    for q, v in states(b.n, 300):
+        hit = b.impact(q, v)
+        D_e, E_2 = b.extended_inertia(q), b.E_2(q)
+        before = D_e @ np.append(v, [0.0, 0.0])
+        gap = D_e @ hit.v_e - before - E_2.T @ hit.impulse
+        assert np.max(np.abs(gap)) <= 1e-12 * np.max(np.abs(before))
+        assert np.max(np.abs(E_2 @ hit.v_e)) <= 1e-12 * max(1.0, np.max(np.abs(hit.v_e)))
+        assert np.array_equal(hit.q, q[b.relabelling])
+        assert np.array_equal(hit.v, hit.v_e[: b.n][b.relabelling])
+
+
+def test_kinetic_energy_never_grows(any_biped):
+    b = any_biped
+    for q, v in states(b.n, 1000):
+        hit = b.impact(q, v)
+        before = b.kinetic_energy(q, v)
+        assert b.kinetic_energy(hit.q, hit.v) <= before * (1 + 1e-12)
+
+
+def angular_momentum_about(b, q, v_e, point):
+    """Of the links about `point`, from masses, COM velocities and spins (rotors turn with no net spin)."""
+    f = b.floating
+    x, w = f.configuration(q), f.velocity_map(q) @ v_e
+    pin.computeCentroidalMomentum(f.model, f.data, x, w)
+    com, h = f.data.com[0], f.data.hg
+    arm = com - np.array([point[0], 0.0, point[1]])
+    return float((h.angular + np.cross(arm, h.linear))[1])
+
+
+def test_angular_momentum_about_the_new_contact_is_kept(any_biped):
+    b = any_biped
+    for q, v in states(b.n, 100):
+        hit, contact = b.impact(q, v), b.swing_foot(q)
+        before = angular_momentum_about(b, q, np.append(v, [0.0, 0.0]), contact)
+        after = angular_momentum_about(b, q, hit.v_e, contact)
+        assert after == pytest.approx(before, rel=1e-10, abs=1e-10)
+        # and it is sigma of the next step, up to the sign of the pitch axis
+        assert abs(b.angular_momentum(hit.q, hit.v)) == pytest.approx(abs(after), rel=1e-9)
+
+
+def test_impact_at_the_published_state(any_biped):
+    b = any_biped
+    q, v = X_STAR[:5], X_STAR[5:]
+    hit = b.impact(q, v)
+    ratio, delta2 = NOTES[b.preset]
+    assert hit.impulse_ratio == pytest.approx(ratio, abs=6e-3)
+    found = (b.angular_momentum(hit.q, hit.v) / b.angular_momentum(q, v)) ** 2
+    assert found == pytest.approx(delta2, abs=5e-4)
+    assert b.phase @ hit.q == pytest.approx(3.3396, abs=1e-12)

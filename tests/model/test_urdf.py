@@ -1,0 +1,147 @@
+"""Robots are read strictly: what is not physical is refused with one message that names it."""
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.model.pinned import frame_index, velocity_index
+from biped_adrc.model.reroot import reroot
+from biped_adrc.model.robots import load_description, robot_names
+from biped_adrc.model.urdf import load_tree, to_xml
+from biped_adrc.resources import data_folder
+
+FLOATING = data_folder("urdf") / "rabbit" / "floating.urdf"
+TORSO_MASS = '<mass value="12.0"/>'
+HIP = '<joint name="left_hip" type="revolute">\n    <parent link="torso"/>'
+FIRST_AXIS = '<axis xyz="0 -1 0"/>'
+THIGH_INERTIA = 'ixx="0.47" ixy="0" ixz="0" iyy="0.47"'
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (TORSO_MASS, '<mass value="-12"/>', "mass -12 kg"),
+        (TORSO_MASS, '<mass value="0"/>', "mass 0 kg"),
+        (TORSO_MASS, '<mass value="nan"/>', "nan"),
+        (TORSO_MASS, '<mass value="1.5kg"/>', "1.5kg"),
+        (TORSO_MASS, "", "<mass> is missing"),
+        (THIGH_INERTIA, 'ixx="0.47" ixy="0" ixz="0" iyy="4.7"', "triangle inequality"),
+        (THIGH_INERTIA, 'ixx="-0.47" ixy="0" ixz="0" iyy="0.47"', "positive definite"),
+        (FIRST_AXIS, '<axis xyz="0 0 0"/>', "length 0"),
+        (FIRST_AXIS, '<axis xyz="0 -2 0"/>', "length 2"),
+        ('name="left_hip" type="revolute"', 'name="left_hip" type="continuous"', "'continuous'"),
+        ('name="left_hip"', 'name="right_hip"', "two joints are named 'right_hip'"),
+        ('<link name="left_thigh">', '<link name="right_thigh">', "two links are named"),
+        (HIP, HIP.replace("torso", "pelvis"), "no link 'pelvis'"),
+        ('<child link="left_thigh"/>', '<child link="right_thigh"/>', "two parent joints"),
+        ('<link name="world"/>', '<link name="world"/><link name="moon"/>', "root links"),
+        ("</robot>", "", "not well-formed"),
+        ("<robot ", "<machine ", "not well-formed"),
+    ],
+)
+def test_bad_urdf_is_refused(tmp_path, old, new, message):
+    text = FLOATING.read_text()
+    assert old in text
+    path = tmp_path / "bad.urdf"
+    path.write_text(text.replace(old, new, 1))
+    with pytest.raises(ModelError) as caught:
+        load_tree(path)
+    assert message in str(caught.value)
+    assert "bad.urdf" in str(caught.value)
+
+
+def test_missing_file_is_named():
+    with pytest.raises(ModelError, match=r"nowhere\.urdf"):
+        load_tree("nowhere.urdf")
+
+
+def test_xml_round_trip():
+    tree = load_tree(FLOATING)
+    assert to_xml(tree).count("<link") == len(tree.links)
+    again = load_tree_text(to_xml(tree))
+    assert again.links == tree.links
+    assert again.joints == tree.joints
+
+
+def load_tree_text(text):
+    import tempfile
+    from pathlib import Path
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "robot.urdf"
+        path.write_text(text)
+        return load_tree(path)
+
+
+def test_stored_pinned_urdf_is_the_floating_one_rerooted():
+    stored = load_tree(FLOATING.with_name("pinned.urdf"))
+    derived = reroot(load_tree(FLOATING), "left_foot", "torso")
+    assert stored.links == derived.links
+    assert stored.joints == derived.joints
+
+
+def test_default_preset_is_what_the_urdf_says():
+    tree, preset = load_tree(FLOATING), load_description("rabbit").tree()
+    for name, link in tree.links.items():
+        if link.inertial is not None:
+            other = preset.links[name].inertial
+            assert (link.inertial.mass, link.inertial.com) == (other.mass, other.com)
+            assert link.inertial.inertia[3] == other.inertia[3]
+
+
+def test_unknown_names_are_answered_with_the_known_ones(biped):
+    with pytest.raises(ModelError, match=r"no robot 'atlas'.*rabbit"):
+        ba.Biped.load("atlas")
+    with pytest.raises(ModelError, match=r"no preset 'heavy'.*tac2003"):
+        ba.Biped.load("rabbit", "heavy")
+    with pytest.raises(ModelError, match=r"no joint 'q9'.*torso_pitch"):
+        biped.description.joint_index("q9")
+    with pytest.raises(ModelError, match=r"no frame 'hand'"):
+        frame_index(biped.pinned.model, "hand")
+    with pytest.raises(ModelError, match=r"no joint 'elbow'"):
+        velocity_index(biped.pinned.model, "elbow")
+    with pytest.raises(ModelError, match=r"no body 'arm'"):
+        biped.with_errors(mass={"arm": 2.0})
+    with pytest.raises(ModelError, match=r"factor of 'torso' is -1"):
+        biped.with_errors(mass={"torso": -1})
+    assert robot_names() == ("rabbit",)
+
+
+def test_states_that_are_no_states(biped):
+    with pytest.raises(InputError, match=r"shape \(5,\)"):
+        biped.inertia(np.zeros(4))
+    with pytest.raises(NotFiniteError, match="nan"):
+        biped.reduction(np.zeros(5), np.full(5, np.nan))
+
+
+def test_legs_that_differ_are_refused(tmp_path):
+    folder = data_folder("urdf") / "rabbit"
+    text = FLOATING.read_text().replace(
+        '<child link="left_shin"/>\n    <origin xyz="0 0 0.4"/>',
+        '<child link="left_shin"/>\n    <origin xyz="0 0 0.5"/>',
+    )
+    (tmp_path / "floating.urdf").write_text(text)
+    (tmp_path / "robot.toml").write_text((folder / "robot.toml").read_text())
+    with pytest.raises(ModelError, match="legs differ"):
+        ba.Biped.load(tmp_path / "robot.toml")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("phase = [1.0, 0.0, 0.5, 0.0, 1.0]", "phase = [1.0]", "phase has 1 numbers"),
+        ("mass = 12.0", "mass = -12.0", "mass is -12"),
+        ('stance_foot = "left_foot"', 'stance_foot = "left_toe"', "left_toe"),
+        ('name = "rabbit"', "name = rabbit", "not valid TOML"),
+        ('unactuated = "torso_pitch"\n', "", "'unactuated' is missing"),
+    ],
+)
+def test_bad_robot_record_is_refused(tmp_path, old, new, message):
+    folder = data_folder("urdf") / "rabbit"
+    text = (folder / "robot.toml").read_text()
+    assert old in text
+    (tmp_path / "floating.urdf").write_text(FLOATING.read_text())
+    (tmp_path / "robot.toml").write_text(text.replace(old, new, 1))
+    with pytest.raises(ModelError, match=message):
+        ba.Biped.load(tmp_path / "robot.toml")
