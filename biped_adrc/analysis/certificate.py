@@ -12,6 +12,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
+from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import GRAVITY
@@ -103,8 +104,8 @@ def _certificate(walker: Walker, s: Signals, x_minus: Array) -> Certificate:
         old_foot_velocity=float(impact.old_foot_velocity[1]),
         clearance=float(np.min(s.swing_foot[inner, 1])),
         peak_torque=float(np.max(np.abs(s.u))),
-        joint_work=float(np.trapezoid(np.sum(power, axis=1), s.t)),
+        joint_work=integrate(s.t, np.sum(power, axis=1)),
         energy_lost=b.kinetic_energy(q, v) - after,
-        cost_of_transport=float(np.trapezoid(np.sum(np.abs(power), axis=1), s.t))
+        cost_of_transport=integrate(s.t, np.sum(np.abs(power), axis=1))
         / (b.mass * GRAVITY * length),
     )

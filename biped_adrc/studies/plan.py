@@ -78,7 +78,7 @@ def base_runs(plan: Plan) -> dict[str, Run]:
         heavier = replace(run, mass=HEAVIER, h=1e-3, impacts=12)
         runs[f"heavier, masses {c}"] = heavier
         runs[f"heavier, masses and inertias {c}"] = replace(heavier, inertia=HEAVIER)
-    return {**runs, **literal_runs(plan)}
+    return {name: replace(run, store_every=2) for name, run in (runs | literal_runs(plan)).items()}
 
 
 def literal_runs(plan: Plan) -> dict[str, Run]:

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate
+from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Controller
 from biped_adrc.control.npd import NPDController
@@ -214,7 +215,7 @@ def _outcome(run: Run, made: Walk) -> Outcome:
     times = np.array([0.0, *(event.t for event in events)])
     squares = np.mean(s.error**2, axis=1)
     duration = s.t[-1] - s.t[0]
-    mean = float(np.trapezoid(squares, s.t)) / duration if duration > 0 else float(squares[0])
+    mean = integrate(s.t, squares) / duration if duration > 0 else float(squares[0])
     return Outcome(
         run,
         trajectory.status.name,

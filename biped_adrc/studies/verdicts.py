@@ -7,13 +7,18 @@ from typing import Any
 
 import numpy as np
 
+from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
+from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies.checks import Check, at_least, at_most, below
 from biped_adrc.studies.plan import BOTH, POLICIES, Headline, Plan, RecipeResult
 from biped_adrc.studies.poincare import PoincareResult
 from biped_adrc.studies.runs import Outcome
 
 Results = dict[str, Any]
+
+PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)
+"""As the paper prints them, with its thousands separators ("-11.020", "-19.836") read as such."""
 
 
 def distance(outcome: Outcome) -> float:
@@ -136,6 +141,16 @@ def map_checks(cells: list[Any]) -> list[Check]:
 def tables(plan: Plan, r: Results, cells: list[Any], figures: dict[str, float]) -> dict[str, Any]:
     """What is reported beside the checks."""
     return {
+        "Table I: observer eigenvalues [rad/s]": {
+            "columns": ["paper, rounded", "here, 180 x 1.8^k"],
+            "rows": [
+                [printed, pole] for printed, pole in zip(PRINTED_TABLE_I, TABLE_I, strict=True)
+            ],
+        },
+        "Table II: controller constants": {
+            "columns": ["constant", "paper", "here"],
+            "rows": [["K_p [1/s^2]", 5000, TABLE_II.K_p], ["K_d [1/s]", 50, TABLE_II.K_d]],
+        },
         "Runs": _runs(r),
         "Stability: multipliers": _multipliers(r),
         "Gait (b), the paper's recipe": _recipe(plan, r),

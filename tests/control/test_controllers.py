@@ -1,0 +1,175 @@
+"""Controllers in the loop: what (20) and (28) promise, both time bases, saturation, users' own laws."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.linear_loop import tracking_error
+from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.observers.gpi import TABLE_I
+from biped_adrc.studies.laws import held_joint
+
+
+def off_orbit(gait, biped, seed=2):
+    random = np.random.default_rng(seed)
+    q, v = gait.start(biped)
+    return q + random.normal(0, 0.02, biped.n), v + random.normal(0, 0.3, biped.n)
+
+
+def error_dynamics(walker, gait, q, v):
+    """e'' + K_d e' + K_p e on the plant, with e'' from the plant's own acceleration."""
+    x = walker.initial_state(q, v)
+    i = walker.instant(0.0, x, ba.Mode())
+    r = gait.constraint(0.0, q, v)
+    p = walker.plant.p
+    e, de = q[:p] - r.q_d, v[:p] - r.dq_d
+    dde = i.a[:p] - (r.drift + r.H @ i.a)
+    return dde + 50.0 * de + 5000.0 * e, dde
+
+
+def test_npd_makes_the_error_linear(biped, gait):
+    """The loop through Theta'' solved: e'' + K_d e' + K_p e = 0 exactly, off the orbit too."""
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    rest, dde = error_dynamics(walker, gait, *off_orbit(gait, biped))
+    assert np.max(np.abs(rest)) < 1e-8 * np.max(np.abs(dde))
+
+
+def test_adrc_does_the_same_when_its_estimates_are_exact(biped, gait):
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint))
+    rest, dde = error_dynamics(walker, gait, *off_orbit(gait, biped))
+    assert np.max(np.abs(rest)) < 1e-8 * np.max(np.abs(dde))
+
+
+def test_as_printed_the_feedforward_of_theta_is_missing(biped, gait):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint, solve_theta=False))
+    q, v = gait.start(biped)
+    i = walker.instant(0.0, walker.initial_state(q, v), ba.Mode())
+    r = gait.constraint(0.0, q, v)
+    missing = r.H @ i.a
+    assert np.max(np.abs(missing)) > 1.0
+    rest, _ = error_dynamics(walker, gait, q, v)
+    assert rest == pytest.approx(-missing, rel=1e-6, abs=1e-6)
+
+
+def test_tracking_error_on_a_held_joint_is_the_corrected_transfer_function():
+    simulated, corrected, printed = held_joint(t_end=1.5, h=5e-4)
+    assert simulated == pytest.approx(corrected, rel=1e-3)
+    assert abs(simulated / printed - 1.0) > 0.03
+
+
+def test_transfer_function_without_extended_states():
+    """m = 0: xi^ = 0, and e_q is the sum of both terms of (23) by hand."""
+    observer, s = ba.GPIObserver.from_poles((-30.0, -40.0)), 5j
+    chi = (s + 30) * (s + 40)
+    expected = (50 * s + 5000 + 50 * 70 + chi) / (s**2 + 50 * s + 5000) / chi
+    assert tracking_error(observer, TABLE_II, s) == pytest.approx(expected)
+
+
+def test_torque_limit_holds_and_is_what_the_observer_is_fed(biped, gait):
+    push = ba.TorquePulse([120.0, -120.0, 120.0, -120.0, 0.0], step=1, start=0.05, stop=0.15)
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint), push, torque_limit=100.0)
+    made = ba.walk(walker, gait, 1, ba.Exponential(1e-3))
+    assert np.max(np.abs(made.signals.u)) == 100.0
+    free = ba.walk(ba.Walker(biped, walker.controller, push), gait, 1, ba.Exponential(1e-3))
+    assert np.max(np.abs(free.signals.u)) > 100.0
+
+
+def test_disturbance_estimate_follows_the_push(biped, gait):
+    """xi^ against q_b'' - kappa u, in the middle of the push."""
+    push = ba.TorquePulse([30.0] * 4 + [0.0], step=1, start=0.05, stop=0.3)
+    made = ba.walk(ba.Walker(biped, ba.ADRCController(gait.constraint), push), gait, 1)
+    s = made.signals
+    middle = (s.t > 0.15) & (s.t < 0.28)
+    size = np.max(np.abs(s.xi[middle]))
+    assert np.max(np.abs(s.xi_estimate[middle] - s.xi[middle])) < 1e-3 * size
+    assert np.max(np.abs(s.xi_external[middle])) > 1.0
+
+
+def test_sampled_adrc_with_table_one_walks_at_1_khz(biped, gait):
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint), timing=ba.SampledTime(1e-3))
+    made = ba.walk(walker, gait, 4)
+    assert made.trajectory.status.ok
+    assert np.max(np.abs(made.signals.error)) < 1e-3
+
+
+@dataclass(frozen=True)
+class Own(ba.Controller):
+    """A user's law without state, in plain Python."""
+
+    reference: ba.Reference
+    bad: object = None
+
+    def output(self, s, m):
+        if self.bad is not None and m.t >= 0.0:
+            return self.bad
+        r = self.reference(m.t, m.q, m.v)
+        return 2500.0 * (r.q_d - m.q_b) + 120.0 * (r.dq_d - m.v_b) + m.terms.Omega[:4]
+
+
+@pytest.mark.parametrize("timing", [ba.ContinuousTime(), ba.SampledTime(5e-4)])
+def test_a_law_of_ones_own_works_in_both_time_bases(biped, gait, timing):
+    walker = ba.Walker(biped, Own(gait.constraint), timing=timing)
+    assert ba.walk(walker, gait, 2).trajectory.status.ok
+
+
+def test_a_law_that_does_not_fit_is_refused(biped, gait):
+    with pytest.raises(InputError, match=r"shape \(3,\), expected \(4,\)"):
+        ba.walk(ba.Walker(biped, Own(gait.constraint, np.zeros(3))), gait, 1)
+    with pytest.raises(NotFiniteError, match="nan"):
+        ba.walk(ba.Walker(biped, Own(gait.constraint, np.full(4, np.nan))), gait, 1)
+
+
+def test_a_law_that_turns_nan_ends_the_run_with_a_status(biped, gait):
+    class Late(Own):
+        def output(self, s, m):
+            return np.full(4, np.nan) if m.t > 0.1 else super().output(s, m)
+
+    run = ba.walk(ba.Walker(biped, Late(gait.constraint)), gait, 1).trajectory
+    assert run.status is ba.Status.NOT_FINITE
+    assert np.all(np.isfinite(run.final_state))
+    assert "Late" in run.detail
+
+
+def test_a_state_without_a_discrete_form_is_refused_in_sampled_time(biped, gait):
+    class Stateful(Own):
+        def initial_state(self, m):
+            return np.zeros(1)
+
+        def flow(self, s, m, u):
+            return np.ones(1)
+
+    walker = ba.Walker(biped, Stateful(gait.constraint), timing=ba.SampledTime(1e-3))
+    with pytest.raises(InputError, match="Stateful has no discrete form"):
+        ba.walk(walker, gait, 1)
+    assert ba.walk(ba.Walker(biped, Stateful(gait.constraint)), gait, 1).trajectory.status.ok
+
+
+def test_a_walk_that_falls_says_so(biped, gait):
+    weak = ba.Walker(biped, ba.NPDController(gait.constraint), torque_limit=5.0)
+    run = ba.walk(weak, gait, 5).trajectory
+    assert run.status in (ba.Status.FELL, ba.Status.STALLED)
+    assert "push less" in run.status.value
+
+
+def test_time_reference_drives_a_joint_without_a_loop():
+    reference = ba.TimeReference(lambda t: (np.array([t]), np.array([1.0]), np.array([0.0])))
+    point = reference(2.0, np.zeros(1), np.zeros(1))
+    assert point.q_d == 2.0
+    assert not np.any(point.H)
+
+
+@pytest.mark.parametrize("gains", [{"K_p": -1.0}, {"K_d": 0.0}, {"K_p": float("nan")}])
+def test_gains_must_be_positive(gains):
+    with pytest.raises(InputError, match="expected positive"):
+        Gains(**gains)
+
+
+def test_limits_and_periods_must_be_positive(biped, gait):
+    with pytest.raises(InputError, match="torque limit is -3"):
+        ba.Walker(biped, ba.NPDController(gait.constraint), torque_limit=-3.0)
+    with pytest.raises(InputError, match="period is -1"):
+        ba.SampledTime(-1.0)
+    assert len(TABLE_I) == 9

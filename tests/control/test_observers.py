@@ -1,0 +1,146 @@
+"""The GPI observer: its poles, what it estimates exactly, its discrete form, its resets."""
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.linear_loop import error_matrix, estimation_error
+from biped_adrc.errors import InputError
+from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.hybrid.system import HybridSystem
+from biped_adrc.observers.gpi import TABLE_I, GPIObserver
+
+POLES = [
+    (-3.0, -5.0),
+    (-10.0, -20.0, -30.0),
+    (-10 + 5j, -10 - 5j, -40.0, -8.0),
+    tuple(-20.0 * 1.5**k for k in range(6)),
+    TABLE_I,
+]
+
+
+@pytest.mark.parametrize("poles", POLES)
+def test_error_matrix_has_the_poles_chosen(poles):
+    observer = GPIObserver.from_poles(poles)
+    found = np.sort_complex(np.linalg.eigvals(observer.error_system().A))
+    assert np.allclose(found, np.sort_complex(np.array(poles, complex)), rtol=1e-8)
+    assert observer.m == len(poles) - 2
+
+
+def test_table_one_is_what_the_paper_prints():
+    printed = [-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836]
+    assert np.round(TABLE_I) == pytest.approx(printed, abs=0.5)
+    observer = GPIObserver.from_poles()
+    assert np.linalg.cond(observer.error_system().A) < 1e7
+    assert np.linalg.cond(error_matrix(observer)) > 1e20
+
+
+def test_gains_are_the_coefficients_of_the_polynomial():
+    observer = GPIObserver.from_poles((-2.0, -3.0, -5.0))
+    assert observer.gains == pytest.approx([10.0, 31.0, 30.0])
+    s = 0.7j
+    assert estimation_error(observer, s) == pytest.approx(s / ((s + 2) * (s + 3) * (s + 5)))
+
+
+class DoubleIntegrator(HybridSystem):
+    """q'' = u + xi(t), observed; u is known."""
+
+    def __init__(self, observer, xi):
+        self.observer, self.xi = observer, xi
+
+    def flow(self, t, x, mode):
+        u = np.array([np.cos(3 * t)])
+        dz = self.observer.flow(x[2:], x[:1], u)
+        return np.concatenate((x[1:2], u + self.xi(t), dz))
+
+
+@pytest.mark.parametrize("m", [0, 1, 2, 3])
+def test_polynomial_disturbances_up_to_degree_m_minus_one_are_found_exactly(m):
+    observer = GPIObserver.from_bandwidth(20.0, m)
+    coefficients = np.array([4.0, -3.0, 2.0][:m])
+
+    def xi(t):
+        return float(sum(c * t**k for k, c in enumerate(coefficients)))
+
+    z = observer.initial_state(np.array([0.1]), np.array([0.2]), np.array([0.0]))
+    start = np.concatenate(([0.5, -0.3], z))
+    run = simulate(DoubleIntegrator(observer, xi), start, None, RK4(1e-3), t_end=3.0)
+    x, t = run.final_state, 3.0
+    found = observer.estimate(x[2:])
+    assert found.position[0] == pytest.approx(x[0], abs=1e-6)
+    assert found.velocity[0] == pytest.approx(x[1], abs=1e-5)
+    if m > 0:
+        assert found.disturbance[0] == pytest.approx(xi(t), abs=1e-3)
+
+
+@pytest.mark.parametrize("period", [1e-3, 5e-3, 2e-2])
+@pytest.mark.parametrize("poles", [(-10.0, -20.0, -35.0), (-10 + 5j, -10 - 5j, -40.0)])
+def test_discrete_form_has_the_poles_exp_sT(poles, period):
+    k = GPIObserver.from_poles(poles).sampled(period).parameters
+    closed = (np.eye(len(poles)) - np.outer(k.L, np.eye(len(poles))[0])) @ k.Phi
+    expected = np.exp(np.array(poles) * period)
+    found = np.linalg.eigvals(closed)
+    assert np.allclose(np.sort_complex(found), np.sort_complex(expected.astype(complex)), atol=1e-7)
+
+
+def test_table_one_sampled_at_1_khz_is_stable_and_has_its_polynomial():
+    k = GPIObserver.from_poles().sampled(1e-3).parameters
+    closed = (np.eye(9) - np.outer(k.L, np.eye(9)[0])) @ k.Phi
+    assert np.max(np.abs(np.linalg.eigvals(closed))) == pytest.approx(np.exp(-0.18), abs=1e-6)
+    assert np.allclose(np.poly(closed), np.poly(np.exp(np.array(TABLE_I) * 1e-3)), atol=1e-8)
+
+
+def test_discrete_observer_follows_a_constant_disturbance():
+    observer = GPIObserver.from_bandwidth(50.0, 2).sampled(1e-2)
+    z = observer.initial_state(np.zeros(1), np.zeros(1), np.zeros(1))
+    q, v, a = 0.0, 0.0, 3.0
+    for _ in range(400):
+        z = observer.correct(z, np.array([q]))
+        z = observer.predict(z, np.array([1.0]))
+        q, v = q + 1e-2 * v + 0.5e-4 * (a + 1.0), v + 1e-2 * (a + 1.0)
+    found = observer.estimate(observer.correct(z, np.array([q])))
+    assert found.disturbance[0] == pytest.approx(3.0, abs=1e-8)
+    assert found.velocity[0] == pytest.approx(v, abs=1e-9)
+
+
+def test_reset_policies():
+    observer = GPIObserver.from_bandwidth(10.0, 2)
+    Z = np.arange(16.0).reshape(4, 4)
+    swap = np.array([1, 0, 3, 2])
+    y, dy, xi = np.full(4, 100.0), np.full(4, 200.0), np.full(4, 300.0)
+
+    def reset(policy):
+        return observer.reset(Z.ravel(), ba.ResetPolicy(policy), swap, y, dy, xi).reshape(4, 4)
+
+    assert np.array_equal(reset("none"), Z)
+    assert np.array_equal(reset("relabel"), Z[:, swap])
+    measured = reset("measured")
+    assert np.array_equal(measured[2:], Z[2:, swap])
+    found = observer.estimate(measured.ravel())
+    assert found.position == pytest.approx(y)
+    assert found.velocity == pytest.approx(dy)
+    model = observer.estimate(reset("model").ravel())
+    assert model.disturbance == pytest.approx(xi)
+    assert not np.any(reset("model")[3])
+    with pytest.raises(InputError, match=r"'sometimes'.*relabel"):
+        ba.ResetPolicy.named("sometimes")
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: GPIObserver.from_poles((-1.0, 2.0)), "pole 2 rad/s is not stable"),
+        (lambda: GPIObserver.from_poles((-1.0, 0.0)), "not stable"),
+        (lambda: GPIObserver.from_poles((-1.0, float("nan"))), "nan"),
+        (lambda: GPIObserver.from_poles((-1.0,)), "at least 2 poles"),
+        (lambda: GPIObserver.from_poles((-1.0, -2.0, -3.0), m=2), "m = 2 has 4 poles, found 3"),
+        (lambda: GPIObserver.from_poles((-1 + 1j, -2.0)), "no conjugate"),
+        (lambda: GPIObserver.from_bandwidth(-5.0), "bandwidth is -5"),
+        (lambda: GPIObserver.from_bandwidth(5.0, -1), "m = -1"),
+        (lambda: GPIObserver.from_poles().sampled(0.0), "period is 0"),
+    ],
+)
+def test_bad_observers(call, message):
+    with pytest.raises(InputError, match=message):
+        call()

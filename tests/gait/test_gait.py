@@ -1,0 +1,174 @@
+"""Curves, constraints, zero dynamics, gait files, and the gait through x*."""
+
+import json
+from math import comb
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.errors import GaitError, OutputError
+from biped_adrc.gait.curves import Bezier, Polynomial
+from biped_adrc.gait.published import X_STAR, design_published_gait
+from biped_adrc.gait.through_state import GaitLimits, constraint_through, onto_section
+from biped_adrc.gait.zero_dynamics import ZeroDynamics, gauss_nodes
+
+
+@pytest.mark.parametrize("kind", [Bezier, Polynomial])
+def test_curves_by_definition_and_difference(kind):
+    a = np.random.default_rng(0).normal(size=(3, 7))
+    curve = kind(a)
+    for s in (-0.1, 0.0, 0.3, 1.0, 1.2):
+        k = np.arange(7)
+        if kind is Bezier:
+            weights = [comb(6, j) * s**j * (1 - s) ** (6 - j) for j in k]
+        else:
+            weights = [s**j for j in k]
+        h, dh, ddh = curve(s)
+        assert h == pytest.approx(a @ weights, abs=1e-12)
+        d = 1e-5
+        assert dh == pytest.approx((curve(s + d)[0] - curve(s - d)[0]) / (2 * d), abs=1e-6)
+        assert ddh == pytest.approx((curve(s + d)[1] - curve(s - d)[1]) / (2 * d), abs=1e-5)
+
+
+def test_curves_that_are_no_curves():
+    for bad in (np.zeros(3), np.zeros((2, 1)), np.full((2, 3), np.nan)):
+        with pytest.raises(GaitError, match="curve coefficients"):
+            Bezier(bad)
+    with pytest.raises(GaitError, match="two different ends"):
+        ba.VirtualConstraint(Bezier(np.zeros((4, 3))), np.ones(5), 1.0, 1.0)
+
+
+def test_reference_is_the_derivative_of_the_constraint(biped, gait):
+    """q_d' and q_d'' along an arbitrary motion q(t) = q + v t + a t^2/2."""
+    q, v = gait.start(biped)
+    a = np.array([1.0, -2.0, 3.0, 0.5, -1.0])
+    c, d = gait.constraint, 1e-5
+
+    def at(t):
+        return c(t, q + v * t + 0.5 * a * t**2, v + a * t)
+
+    r = at(0.0)
+    assert r.dq_d == pytest.approx((at(d).q_d - at(-d).q_d) / (2 * d), abs=1e-7)
+    assert r.drift + r.H @ a == pytest.approx((at(d).dq_d - at(-d).dq_d) / (2 * d), abs=1e-5)
+
+
+def test_gauss_nodes_integrate_polynomials_exactly():
+    s, w, C = gauss_nodes(12)
+    for k in range(11):
+        assert w @ s**k == pytest.approx(1 / (k + 1), abs=1e-14)
+        assert C @ s**k == pytest.approx(s ** (k + 1) / (k + 1), abs=1e-13)
+
+
+def test_quadrature_predicts_the_simulated_step(any_biped):
+    """sigma at impact, the period and the torques, against a simulation that knows no zero dynamics."""
+    b = any_biped
+    g = ba.load_gait("published", b)
+    zero = ZeroDynamics.of(b, g.constraint)
+    sigma = zero.sigma_minus
+    made = ba.walk(ba.Walker(b, ba.NPDController(g.constraint)), g, 2, ba.RK4(5e-4))
+    x = made.trajectory.before("foot_strike")[-1]
+    assert b.angular_momentum(x[:5], x[5:10]) == pytest.approx(sigma, rel=1e-8)
+    orbit = zero.orbit(sigma * zero.delta)
+    last = made.certificates[-1]
+    assert orbit.period == pytest.approx(last.duration, abs=1e-8)
+    assert orbit.period == pytest.approx(g.period, abs=1e-12)
+    at = made.trajectory.arcs[-1].t[0] + orbit.period * 0.5
+    x_mid = made.trajectory(float(at))
+    u_mid = made.walker.instant(float(at), x_mid, ba.Mode()).u
+    theta = float(b.phase @ x_mid[:5])
+    order = np.argsort(orbit.theta)
+    found = [np.interp(theta, orbit.theta[order], orbit.u[order, j]) for j in range(4)]
+    assert u_mid == pytest.approx(found, abs=0.5)
+
+
+def test_published_gait_closes_on_the_published_state(any_biped):
+    g = ba.load_gait("published", any_biped)
+    x = np.append(g.q_minus, g.v_minus)
+    assert np.max(np.abs(x - X_STAR)) < 5e-4
+    made = ba.walk(ba.Walker(any_biped, ba.NPDController(g.constraint)), g, 3)
+    assert np.max(np.abs(made.trajectory.before("foot_strike")[-1] - x)) < 1e-7
+    assert np.max(np.abs(made.signals.error)) < 1e-7
+    assert not made.certificates[-1].violations()
+
+
+def test_design_gives_the_stored_gait(biped):
+    stored = ba.load_gait("published", biped)
+    fresh = design_published_gait(biped)
+    assert fresh.constraint.curve.coefficients == pytest.approx(
+        stored.constraint.curve.coefficients, abs=1e-4
+    )
+    assert fresh.period == pytest.approx(stored.period, abs=1e-5)
+
+
+def test_section_is_reached_by_the_smallest_move(biped):
+    q = onto_section(biped, X_STAR[:5])
+    assert abs(biped.swing_foot(q)[1]) < 1e-14
+    assert q[4] == X_STAR[4]
+    assert np.max(np.abs(q - X_STAR[:5])) < 5e-4
+
+
+def test_impossible_gaits_name_what_fails(biped):
+    q = onto_section(biped, X_STAR[:5])
+    with pytest.raises(GaitError, match="above the ground"):
+        constraint_through(biped, X_STAR[:5] + 0.1, X_STAR[5:])
+    with pytest.raises(GaitError, match="one sign"):
+        constraint_through(biped, q, -X_STAR[5:] * np.array([1, -1, 1, -1, 1]))
+    with pytest.raises(GaitError, match="degree is 3"):
+        constraint_through(biped, q, X_STAR[5:], degree=3)
+    with pytest.raises(GaitError, match="torque misses by"):
+        constraint_through(biped, q, X_STAR[5:], limits=GaitLimits(torque=20.0), max_evaluations=15)
+
+
+def test_gait_files_come_back_exactly(tmp_path, biped, gait):
+    gait.save(tmp_path / "g.json")
+    again = ba.load_gait(tmp_path / "g.json", biped)
+    assert np.array_equal(again.constraint.curve.coefficients, gait.constraint.curve.coefficients)
+    assert np.array_equal(again.v_minus, gait.v_minus)
+    assert again.provenance == gait.provenance
+
+
+def spoil(path, gait, **changes):
+    gait.save(path)
+    record = json.loads(path.read_text())
+    for key, value in changes.items():
+        if value is None:
+            del record[key]
+        else:
+            record[key] = value
+    path.write_text(json.dumps(record))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"period": None}, "'period' is missing"),
+        ({"q_minus": [1.0, 2.0]}, "q_minus is"),
+        ({"v_minus": [float("nan")] * 5}, "v_minus is"),
+        ({"format": "other"}, "format is 'other'"),
+        ({"curve": "spline"}, "curve is 'spline'"),
+        ({"coefficients": [[0.0, 1.0], [float("nan"), 1.0]]}, "curve coefficients"),
+        ({"theta_plus": 3.0}, "does not close"),
+        ({"theta_plus": "much"}, "much"),
+        ({"coefficients": [[0.0, 1.0]] * 3}, "3 joints"),
+    ],
+)
+def test_bad_gait_files(tmp_path, biped, gait, changes, message):
+    path = tmp_path / "bad.json"
+    spoil(path, gait, **changes)
+    with pytest.raises(GaitError, match=message) as caught:
+        ba.load_gait(path, biped)
+    assert "bad.json" in str(caught.value)
+
+
+def test_missing_and_unreadable_gaits(tmp_path, biped, gait):
+    with pytest.raises(GaitError, match=r"no gait 'run'.*published"):
+        ba.load_gait("run", biped)
+    with pytest.raises(GaitError, match="not found"):
+        ba.load_gait(tmp_path / "none.json", biped)
+    (tmp_path / "text.json").write_text("hello")
+    with pytest.raises(GaitError, match="not valid JSON"):
+        ba.load_gait(tmp_path / "text.json", biped)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OutputError, match="cannot write"):
+        gait.save(tmp_path / "file" / "g.json")

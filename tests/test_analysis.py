@@ -1,0 +1,131 @@
+"""Return map, regression, certificates, checks and the map of pushes."""
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.regression import regress_multipliers
+from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.studies.checks import at_least, at_most, between
+from biped_adrc.studies.poincare import speed_slope
+from biped_adrc.studies.push_map import push_cell
+from biped_adrc.studies.runs import Push, Run, execute, from_record
+
+
+@pytest.fixture(scope="module")
+def return_map(biped, gait):
+    return ba.ReturnMap(ba.Walker(biped, ba.NPDController(gait.constraint)), ba.RK4(1e-3))
+
+
+def test_largest_multiplier_is_delta_squared(return_map, biped, gait):
+    """Two routes that share no code: differences of the simulated map, and one quadrature."""
+    orbit = return_map.fixed_point(np.concatenate((gait.q_minus, gait.v_minus)))
+    delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
+    sizes = np.abs(orbit.multipliers)
+    assert abs(sizes[0] - delta2) < 1e-5
+    assert np.all(sizes[1:] < 1e-3)
+    assert orbit.stable
+    assert orbit.x_minus[:5] == pytest.approx(gait.q_minus, abs=1e-7)
+
+
+def test_section_coordinates_come_back(return_map, gait):
+    x = np.concatenate((gait.q_minus, gait.v_minus))
+    s = return_map.project(x)
+    assert s.shape == (9,)
+    assert return_map.lift(s) == pytest.approx(x, abs=1e-12)
+
+
+def test_adrc_counts_its_observer(biped, gait):
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint))
+    x = walker.initial_state(gait.q_minus, gait.v_minus)
+    whole = ba.ReturnMap(walker, ba.Exponential(1e-3))
+    plant = ba.ReturnMap(walker, ba.Exponential(1e-3), controller_states=False)
+    assert whole.project(x).shape == (45,)
+    assert plant.project(x).shape == (9,)
+    image = whole(whole.project(x))
+    assert image[:9] == pytest.approx(plant(plant.project(x)), abs=1e-12)
+
+
+def test_a_map_without_a_return_raises_with_the_status(return_map, gait):
+    x = np.concatenate((gait.q_minus, 0.05 * gait.v_minus))
+    with pytest.raises(SimulationError, match=r"no return to the section: (FELL|STALLED)"):
+        return_map(return_map.project(x))
+
+
+def test_regression_finds_a_linear_map_and_warns_when_it_cannot():
+    random = np.random.default_rng(0)
+    Phi = np.diag([0.9, -0.5, 0.2])
+    x = [random.normal(size=3)]
+    for _ in range(6):
+        x.append(Phi @ x[-1])
+    good = regress_multipliers(np.array(x), np.zeros(3))
+    assert good.magnitudes == pytest.approx([0.9, 0.5, 0.2], abs=1e-8)
+    assert good.warning == ""
+    line = np.outer(0.7 ** np.arange(8), np.ones(3))
+    poor = regress_multipliers(line, np.zeros(3))
+    assert poor.rank == 1
+    assert "no multipliers" in poor.warning
+    with pytest.raises(InputError, match="k >= 3"):
+        regress_multipliers(np.zeros((2, 3)), np.zeros(3))
+
+
+def test_certificate_says_what_dry_ground_would_not_bear(biped, gait):
+    made = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 2)
+    c = made.certificates[-1]
+    assert c.joint_work == pytest.approx(c.energy_lost, rel=1e-4)
+    assert c.violations() == ()
+    assert c.violations(friction=0.1) == (f"friction {c.friction:.3g} > 0.1",)
+    assert "torque" in c.violations(torque=50.0)[0]
+    assert c.step_length == pytest.approx(0.3124, abs=1e-4)
+    assert len(made.signals.of_step(2).t) < len(made.signals.t)
+
+
+def test_checks_do_not_hold_for_nan():
+    assert at_most("a", "law", 1.0, 1.0).holds
+    assert not at_most("a", "law", float("nan"), 1.0).holds
+    assert not at_least("a", "law", float("nan"), 1.0).holds
+    assert not between("a", "law", 3.0, 1.0, 2.0).holds
+    assert at_most("a", "law", float("inf"), 1.0).record()["value"] == "inf"
+
+
+def test_the_push_map_knows_a_push_that_only_npd_falls_from():
+    """A late push on the hips of RABBIT without rotor inertia; an early one both walk through."""
+    late = push_cell(Run(preset="identified-bare"), 0.3, 150.0, "hips together", None)
+    assert late.verdict == "only NPD falls"
+    assert late.row()["onset_ms"] == pytest.approx(300.0)
+    early = push_cell(Run(), 0.05, 90.0, "swing knee +", None)
+    assert early.verdict == "both walk"
+
+
+def test_runs_are_records_and_come_back():
+    run = Run("NPD", pushes=(Push({"torso_pitch": 5.0}, step=2),), period=1e-3, impacts=2)
+    assert from_record(run.record()) == run
+    with pytest.raises(InputError, match="do not describe a run"):
+        from_record({"colour": "red"})
+    outcome = execute(run)
+    assert outcome.walked
+    assert outcome.x_minus.shape[0] == 2
+    assert outcome.run is run
+
+
+@pytest.mark.parametrize(
+    ("run", "message"),
+    [
+        (Run("PID"), r"controller 'PID'.*NPD"),
+        (Run(method="euler"), r"method 'euler'.*rk4"),
+        (Run(method="stiff", h=1e-3), "chooses its own step"),
+        (Run(reset="never"), "reset policy 'never'"),
+        (Run(impacts=0), "0 impacts"),
+        (Run(pushes=(Push({"q1": 1.0}, kind="shove"),)), "push kind 'shove'"),
+        (Run("NPD", method="exponential"), "use RK4, Adaptive or Stiff"),
+    ],
+)
+def test_bad_runs(run, message):
+    with pytest.raises(InputError, match=message):
+        execute(run)
+
+
+def test_slope_of_sampled_map(biped):
+    x = np.linspace(1.0, 2.0, 5)
+    assert speed_slope(biped, (x, 0.5 * x)) == pytest.approx(0.5)

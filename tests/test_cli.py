@@ -1,0 +1,129 @@
+"""The command: help, exit codes, one clear message for bad input, files that survive an interruption."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from biped_adrc.cli import parse_push
+from biped_adrc.errors import InputError
+from biped_adrc.studies.runs import Push
+
+
+def command(*arguments, **more):
+    return subprocess.run(
+        [sys.executable, "-m", "biped_adrc.cli", *arguments],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+        **more,
+    )
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--help"],
+        *[[name, "--help"] for name in ("reproduce", "simulate", "poincare", "animate", "gait")],
+    ],
+)
+def test_help(arguments):
+    done = command(*arguments)
+    assert done.returncode == 0
+    assert "Usage" in done.stdout
+
+
+def test_walk_store_and_animate(tmp_path):
+    run, page = tmp_path / "run.npz", tmp_path / "walk.html"
+    done = command(
+        "simulate", "--controller", "npd", "--impacts", "2", "--push", "q1,q2=10@1:0.1-0.2",
+        "-o", str(run),
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "COMPLETED" in done.stdout
+    settings = json.loads(run.with_suffix(".json").read_text())["settings"]
+    assert settings["run"]["pushes"][0]["torque"] == {"q1": 10.0, "q2": 10.0}
+    assert "pin" in settings["versions"]
+    done = command("animate", str(run), "-o", str(page))
+    assert done.returncode == 0, done.stderr
+    assert page.stat().st_size > 100_000
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "message"),
+    [
+        (["simulate", "--preset", "foo"], 3, "no preset 'foo'"),
+        (["simulate", "--gait", "foo"], 3, "no gait 'foo'"),
+        (["simulate", "--poles=-1,2"], 3, "pole 2 rad/s is not stable"),
+        (["simulate", "--poles=-1,x"], 3, "expected numbers"),
+        (["simulate", "--push", "q1=5"], 3, "expected JOINTS=TORQUE@STEP"),
+        (["simulate", "--push", "q7=5@1:0-1"], 3, "no joint 'q7'"),
+        (["simulate", "--period", "-1"], 3, "period is -1"),
+        (["simulate", "--step", "0"], 3, "step h"),
+        (["simulate", "--impacts", "0"], 3, "0 impacts"),
+        (["simulate", "--torque-limit", "5", "--impacts", "4"], 4, ""),
+        (["animate", "nowhere.npz"], 3, "not found"),
+        (["simulate", "--colour", "red"], 2, "No such option"),
+        (["reproduce", "--preset", "foo"], 3, "no preset 'foo'"),
+    ],
+)
+def test_exit_codes(arguments, code, message):
+    done = command(*arguments)
+    assert done.returncode == code, (done.stdout, done.stderr)
+    assert message in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_folder_that_cannot_be_written_is_refused_before_the_first_run(tmp_path):
+    (tmp_path / "file").write_text("")
+    begin = time.monotonic()
+    done = command("reproduce", "--out", str(tmp_path / "file" / "out"))
+    assert done.returncode == 5
+    assert "cannot write" in done.stderr
+    assert time.monotonic() - begin < 60
+
+
+def test_interruption_leaves_no_process_and_no_half_file(tmp_path):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "biped_adrc.cli", "reproduce", "--out", str(tmp_path)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    time.sleep(8.0)
+    os.killpg(process.pid, signal.SIGINT)
+    _, stderr = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "interrupted" in stderr
+    assert "Traceback" not in stderr
+    assert gone(process.pid, within=10.0)
+    assert not [path for path in tmp_path.iterdir() if path.name.startswith(".")]
+
+
+def gone(group, within):
+    """Whether the last process of a group has ended within so many seconds."""
+    deadline = time.monotonic() + within
+    while time.monotonic() < deadline:
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return True
+        time.sleep(0.1)
+    return False
+
+
+def test_pushes_from_text():
+    assert parse_push("q1,q2=30@19:0.1-0.3") == Push({"q1": 30.0, "q2": 30.0}, 19, 0.1, 0.3)
+    assert parse_push("q1=5,q5=-2.5@3:0-0.2:sine=4") == Push(
+        {"q1": 5.0, "q5": -2.5}, 3, 0.0, 0.2, "sine", 4.0
+    )
+    assert parse_push("torso_pitch=1@2:0.1-").kind == "step"
+    for bad in ("", "q1@1:0-1", "q1=x@1:0-1", "q1,q2@1:0-1", "q1=1@0.5:0-1"):
+        with pytest.raises(InputError, match="push"):
+            parse_push(bad)
