@@ -296,10 +296,9 @@ def animate(
     ),
 ) -> None:
     """Write one offline page in which the walk can be watched in a browser."""
-    from biped_adrc.viz.meshcat import write_animation
-
     from biped_adrc.hybrid.storage import load
     from biped_adrc.studies.runs import from_record
+    from biped_adrc.viz.meshcat import write_animation
     from biped_adrc.walker import Mode
 
     walks, first = {}, None
@@ -342,9 +341,8 @@ def gait_recipe(
     ] = None,
 ) -> None:
     """Design gait (b): hip sine, inverse kinematics and polynomial regression, section IV."""
-    from biped_adrc.studies.recipe_orbit import design_recipe_orbit
-
     from biped_adrc.model.biped import Biped
+    from biped_adrc.studies.recipe_orbit import design_recipe_orbit
 
     _save(design_recipe_orbit(Biped.load("rabbit", preset)), out)
 
@@ -373,6 +371,10 @@ def _save(gait: Any, out: Path | None) -> None:
     console.print(f"period {gait.period:.6f} s; written to {path}")
 
 
+def _say_interrupted() -> None:
+    Console(stderr=True).print("interrupted; what was already written is complete")
+
+
 def main() -> None:
     """Entry point: errors become one message and an exit code."""
     try:
@@ -380,8 +382,12 @@ def main() -> None:
     except BipedError as error:
         Console(stderr=True).print(f"error: {error}", markup=False, highlight=False, soft_wrap=True)
         sys.exit(error.exit_code)
+    except SystemExit as stop:
+        if stop.code == EXIT_INTERRUPTED:
+            _say_interrupted()
+        raise
     except KeyboardInterrupt:
-        Console(stderr=True).print("interrupted; what was already written is complete")
+        _say_interrupted()
         sys.exit(EXIT_INTERRUPTED)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

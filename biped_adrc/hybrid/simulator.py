@@ -97,9 +97,10 @@ def simulate(
     t, status, detail = t0, Status.COMPLETED, ""
     fired: str | None = None
     while True:
-        arc, status, detail, outcome = _flow_arc(
-            system, method, t, t0, x, mode, t_end, store_every, fired
-        )
+        with np.errstate(over="ignore", invalid="ignore"):  # ends as the status NOT_FINITE
+            arc, status, detail, outcome = _flow_arc(
+                system, method, t, t0, x, mode, t_end, store_every, fired
+            )
         arcs.append(arc)
         if outcome is None:
             break

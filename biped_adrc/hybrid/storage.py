@@ -62,7 +62,7 @@ def load(path: Path | str, mode: Callable[..., Any] = lambda *numbers: numbers) 
     if not path.is_file():
         raise InputError(f"run '{path}' not found")
     try:
-        with np.load(path, allow_pickle=False) as data:
+        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as data:
             meta = json.loads(str(data["meta"]))
             if meta["format"] != FORMAT:
                 raise InputError(f"run '{path}' has format '{meta['format']}', expected '{FORMAT}'")

@@ -147,7 +147,7 @@ class StiffPlusSmooth(HybridSystem):
 
 def test_exponential_method_is_stable_where_rk4_is_not_and_right():
     system, x0 = StiffPlusSmooth(), np.array([0.5, 0.0])
-    exact = simulate(system, x0, 0, Stiff(1e-11, 1e-12), t_end=1.0).final_state
+    exact = simulate(system, x0, 0, Adaptive(1e-11, 1e-12), t_end=1.0).final_state
     error = np.max(
         np.abs(simulate(system, x0, 0, Exponential(5e-3), t_end=1.0).final_state - exact)
     )
