@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.regression import regress_multipliers
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
@@ -129,3 +130,14 @@ def test_bad_runs(run, message):
 def test_slope_of_sampled_map(biped):
     x = np.linspace(1.0, 2.0, 5)
     assert speed_slope(biped, (x, 0.5 * x)) == pytest.approx(0.5)
+
+
+def test_power_balance_over_a_pushed_step(biped, gait):
+    """Energy gained is the work of motors and push; the push begins and ends inside the step."""
+    push = ba.TorquePulse([30.0] * 4 + [-10.0], step=1, start=0.1, stop=0.3)
+    made = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint), push), gait, 1)
+    s = made.signals
+    power = np.sum(s.u * s.v[:, :4], axis=1) + np.sum(s.zeta * s.v, axis=1)
+    gained = s.kinetic[-1] + s.potential[-1] - s.kinetic[0] - s.potential[0]
+    assert integrate(s.t, power) == pytest.approx(gained, abs=1e-5 * s.kinetic[0])
+    assert abs(integrate(s.t, np.sum(s.zeta * s.v, axis=1))) > 1.0

@@ -5,6 +5,7 @@ Controllers have no hidden state, so the signals are computed again from the sto
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -74,8 +75,12 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     rows: list[tuple[object, ...]] = []
     foothold = 0.0
     for arc in trajectory.arcs:
-        for t, x in zip(arc.t, arc.x, strict=True):
-            rows.append((*_row(walker, reference, float(t), x, arc.mode), foothold))
+        later = np.append(arc.t[1:], arc.t[-1])
+        for t, t_next, x in zip(arc.t, later, arc.x, strict=True):
+            # a repeated time is a jump: its first node sees what acted before it
+            seen = math.nextafter(t, -math.inf) if t == t_next else float(t)
+            row = _row(walker, reference, seen, x, arc.mode)
+            rows.append((float(t), *row[1:], foothold))
         if arc.event is not None and arc.event.x_plus is not None:
             foothold += float(walker.plant.swing_foot(arc.event.x_minus[: walker.plant.n])[0])
     columns = (np.array(column) for column in zip(*rows, strict=True))
