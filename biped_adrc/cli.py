@@ -8,7 +8,6 @@ come back; 5 a result cannot be written; 130 interrupted with Ctrl-C.
 from __future__ import annotations
 
 import os
-import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -28,7 +27,8 @@ from rich.table import Table
 from biped_adrc.errors import BipedError, InputError
 
 if TYPE_CHECKING:
-    from biped_adrc.studies.runs import Push
+    from biped_adrc.studies.push import Push
+    from biped_adrc.studies.runs import Outcome
 
 EXIT_CHECK_FAILED, EXIT_FELL, EXIT_INTERRUPTED = 1, 4, 130
 
@@ -61,42 +61,10 @@ Pushes = Annotated[
     ),
 ]
 
-_PUSH = re.compile(
-    r"(?P<joints>[^@]+)@(?P<step>\d+):(?P<start>[0-9.eE+]+)-(?P<stop>[0-9.eE+]*)(:sine=(?P<f>[0-9.eE+]+))?"
-)
-
-
-def parse_push(text: str) -> Push:
-    """A push from its text. Raises InputError with the form expected."""
-    from biped_adrc.studies.runs import Push
-
-    match = _PUSH.fullmatch(text.strip())
-    if match is None:
-        raise InputError(
-            f"push '{text}' is not understood; expected JOINTS=TORQUE@STEP:START-STOP, such as "
-            "'q1,q2=30@19:0.1-0.3'"
-        )
-    try:
-        torque: dict[str, float] = {}
-        waiting: list[str] = []
-        for part in match["joints"].split(","):
-            joint, equals, value = part.partition("=")
-            waiting.append(joint.strip())
-            if equals:
-                torque |= dict.fromkeys(waiting, float(value))
-                waiting = []
-        if waiting:
-            raise ValueError(f"no torque for {waiting}")
-        start = float(match["start"])
-        stop = float(match["stop"]) if match["stop"] else float("inf")
-        frequency = float(match["f"]) if match["f"] else 5.0
-    except ValueError as error:
-        raise InputError(f"push '{text}': {error}") from error
-    kind = "sine" if match["f"] else "pulse" if match["stop"] else "step"
-    return Push(torque, int(match["step"]), start, stop, kind, frequency)
-
 
 def _parse_pushes(texts: list[str] | None) -> tuple[Push, ...]:
+    from biped_adrc.studies.push import parse_push
+
     return tuple(parse_push(text) for text in texts or ())
 
 
@@ -230,6 +198,15 @@ def simulate(
         task = bar.add_task(f"walking, {run.controller}", total=impacts)
         full = execute_fully(run, lambda t, n: bar.update(task, completed=n))
     o = full.outcome
+    _print_steps(o)
+    if out is not None:
+        save(full.trajectory, out, {"run": run.record(), "versions": versions()})
+        console.print(f"written to {out.with_suffix('.npz')}")
+    if not o.walked:
+        raise typer.Exit(EXIT_FELL)
+
+
+def _print_steps(o: Outcome) -> None:
     table = Table("step", "time [s]", "length [m]", "torque [N m]", "friction", "F_N [N]", "remark")
     for c in o.certificates:
         table.add_row(
@@ -246,11 +223,6 @@ def simulate(
         f"{o.status}: {o.message}\n{o.impacts} impacts, largest tracking error {o.peak_error:.3e} rad, "
         f"peak torque {o.peak_torque:.1f} N m, {o.method}"
     )
-    if out is not None:
-        save(full.trajectory, out, {"run": run.record(), "versions": versions()})
-        console.print(f"written to {out.with_suffix('.npz')}")
-    if not o.walked:
-        raise typer.Exit(EXIT_FELL)
 
 
 def _numbers(text: str, what: str) -> tuple[float, ...]:

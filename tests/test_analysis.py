@@ -10,8 +10,9 @@ from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.studies.checks import at_least, at_most, between
 from biped_adrc.studies.poincare import speed_slope
+from biped_adrc.studies.push import Push
 from biped_adrc.studies.push_map import push_cell
-from biped_adrc.studies.runs import Push, Run, execute, from_record
+from biped_adrc.studies.runs import Run, execute, from_record
 
 
 @pytest.fixture(scope="module")

@@ -9,9 +9,8 @@ import time
 
 import pytest
 
-from biped_adrc.cli import parse_push
 from biped_adrc.errors import InputError
-from biped_adrc.studies.runs import Push
+from biped_adrc.studies.push import Push, parse_push
 
 
 def command(*arguments, **more):

@@ -14,16 +14,9 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.studies.laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.studies.poincare import poincare, return_map_samples
 from biped_adrc.studies.pool import Task
+from biped_adrc.studies.push import Push, joints_push
 from biped_adrc.studies.push_map import PATTERNS, push_map_tasks
-from biped_adrc.studies.runs import (
-    CONTROLLERS,
-    Outcome,
-    Push,
-    Run,
-    execute,
-    execute_fully,
-    joints_push,
-)
+from biped_adrc.studies.runs import CONTROLLERS, Outcome, Run, execute, execute_fully
 
 BOTH = CONTROLLERS
 MOTORS = ("q1", "q2", "q3", "q4")

@@ -12,7 +12,8 @@ from typing import Any
 
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.studies.pool import Task
-from biped_adrc.studies.runs import CONTROLLERS, Push, Run
+from biped_adrc.studies.push import Push
+from biped_adrc.studies.runs import CONTROLLERS, Run
 from biped_adrc.studies.walk import walk
 
 PATTERNS: dict[str, dict[str, float]] = {

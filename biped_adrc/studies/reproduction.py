@@ -22,9 +22,12 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
 from biped_adrc.studies.laws import work_identity
-from biped_adrc.studies.plan import BOTH, Plan, tasks
+from biped_adrc.studies.merits import figures_of_merit
+from biped_adrc.studies.plan import BOTH, Plan
+from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.poincare import regression_of
 from biped_adrc.studies.pool import TaskProgress, run_tasks
+from biped_adrc.studies.tables import tables
 from biped_adrc.studies.versions import versions
 from biped_adrc.viz.meshcat import write_animation
 from biped_adrc.viz.plots import (
@@ -61,7 +64,7 @@ def reproduce(
     """
     started = time.perf_counter()
     probe(out)
-    named = tasks(plan)
+    named = planned_tasks(plan)
     results = dict(zip(named, run_tasks(list(named.values()), workers, progress), strict=True))
     cells = [value for name, value in results.items() if name.startswith("map ")]
     laws, figures = results["numerics"]
@@ -86,9 +89,9 @@ def reproduce(
         "settings": _settings(plan),
         "versions": versions(),
         "holds": all(check.holds for check in checks),
-        "figures_of_merit": verdicts.figures_of_merit(plan, results, cells),
+        "figures_of_merit": figures_of_merit(plan, results, cells),
         "checks": [check.record() for check in checks],
-        "tables": verdicts.tables(plan, results, cells, figures),
+        "tables": tables(plan, results, cells, figures),
         "nominal": _nominal(plan, results),
         "multipliers": {c: results[f"multipliers {c}"].record() for c in BOTH},
         "regression": {c: results[f"regression {c}"].record() for c in BOTH},

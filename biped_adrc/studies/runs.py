@@ -5,7 +5,6 @@ A `Run` can be sent to another process, stored as JSON, and carried out again.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -17,10 +16,7 @@ from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Controller
 from biped_adrc.control.npd import NPDController
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.disturbances.base import Disturbance, Sum
-from biped_adrc.disturbances.pulse import TorquePulse
-from biped_adrc.disturbances.sine import TorqueSine
-from biped_adrc.disturbances.step import TorqueStep
+from biped_adrc.disturbances.base import Sum
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.reference import Reference
@@ -30,40 +26,13 @@ from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
+from biped_adrc.studies.push import Push
 from biped_adrc.studies.walk import Walk, walk
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, ContinuousTime, SampledTime, Walker
 
 CONTROLLERS = ("NPD", "ADRC")
 METHODS = {"rk4": RK4, "exponential": Exponential, "adaptive": Adaptive, "stiff": Stiff}
-
-
-@dataclass(frozen=True)
-class Push:
-    """A disturbance by name: torques [N m] on joints in single support `step`, [start, stop) s.
-
-    kind: pulse, sine (with `frequency` [Hz]) or step (from `start` on, for good).
-    """
-
-    torque: dict[str, float]
-    step: int = 19
-    start: float = 0.1
-    stop: float = 0.3
-    kind: str = "pulse"
-    frequency: float = 5.0
-
-    def disturbance(self, biped: Biped) -> Disturbance:
-        """The disturbance for this robot. Raises InputError for an unknown kind or joint."""
-        amplitude = np.zeros(biped.n)
-        for joint, value in self.torque.items():
-            amplitude[biped.description.joint_index(joint)] += value
-        if self.kind == "pulse":
-            return TorquePulse(amplitude, self.step, self.start, self.stop)
-        if self.kind == "sine":
-            return TorqueSine(amplitude, self.step, self.start, self.stop, self.frequency)
-        if self.kind == "step":
-            return TorqueStep(amplitude, self.step, self.start)
-        raise InputError(f"push kind '{self.kind}' is unknown; choose pulse, sine or step")
 
 
 @dataclass(frozen=True)
@@ -240,8 +209,3 @@ def from_record(record: dict[str, Any]) -> Run:
         return Run(**values)
     except TypeError as error:
         raise InputError(f"these settings do not describe a run: {error}") from error
-
-
-def joints_push(torque: float, joints: Sequence[str], **window: Any) -> Push:
-    """The same torque [N m] on several joints."""
-    return Push(dict.fromkeys(joints, torque), **window)

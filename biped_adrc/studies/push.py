@@ -1,0 +1,82 @@
+"""Pushes described by plain values, and by the text of the command line."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.disturbances.base import Disturbance
+from biped_adrc.disturbances.pulse import TorquePulse
+from biped_adrc.disturbances.sine import TorqueSine
+from biped_adrc.disturbances.step import TorqueStep
+from biped_adrc.errors import InputError
+from biped_adrc.model.biped import Biped
+
+_PUSH = re.compile(
+    r"(?P<joints>[^@]+)@(?P<step>\d+):(?P<start>[0-9.eE+]+)-(?P<stop>[0-9.eE+]*)(:sine=(?P<f>[0-9.eE+]+))?"
+)
+
+
+@dataclass(frozen=True)
+class Push:
+    """A disturbance by name: torques [N m] on joints in single support `step`, [start, stop) s.
+
+    kind: pulse, sine (with `frequency` [Hz]) or step (from `start` on, for good).
+    """
+
+    torque: dict[str, float]
+    step: int = 19
+    start: float = 0.1
+    stop: float = 0.3
+    kind: str = "pulse"
+    frequency: float = 5.0
+
+    def disturbance(self, biped: Biped) -> Disturbance:
+        """The disturbance for this robot. Raises InputError for an unknown kind or joint."""
+        amplitude = np.zeros(biped.n)
+        for joint, value in self.torque.items():
+            amplitude[biped.description.joint_index(joint)] += value
+        if self.kind == "pulse":
+            return TorquePulse(amplitude, self.step, self.start, self.stop)
+        if self.kind == "sine":
+            return TorqueSine(amplitude, self.step, self.start, self.stop, self.frequency)
+        if self.kind == "step":
+            return TorqueStep(amplitude, self.step, self.start)
+        raise InputError(f"push kind '{self.kind}' is unknown; choose pulse, sine or step")
+
+
+def parse_push(text: str) -> Push:
+    """A push from its text. Raises InputError with the form expected."""
+    match = _PUSH.fullmatch(text.strip())
+    if match is None:
+        raise InputError(
+            f"push '{text}' is not understood; expected JOINTS=TORQUE@STEP:START-STOP, such as "
+            "'q1,q2=30@19:0.1-0.3'"
+        )
+    try:
+        torque: dict[str, float] = {}
+        waiting: list[str] = []
+        for part in match["joints"].split(","):
+            joint, equals, value = part.partition("=")
+            waiting.append(joint.strip())
+            if equals:
+                torque |= dict.fromkeys(waiting, float(value))
+                waiting = []
+        if waiting:
+            raise ValueError(f"no torque for {waiting}")
+        start = float(match["start"])
+        stop = float(match["stop"]) if match["stop"] else float("inf")
+        frequency = float(match["f"]) if match["f"] else 5.0
+    except ValueError as error:
+        raise InputError(f"push '{text}': {error}") from error
+    kind = "sine" if match["f"] else "pulse" if match["stop"] else "step"
+    return Push(torque, int(match["step"]), start, stop, kind, frequency)
+
+
+def joints_push(torque: float, joints: Sequence[str], **window: Any) -> Push:
+    """The same torque [N m] on several joints."""
+    return Push(dict.fromkeys(joints, torque), **window)
