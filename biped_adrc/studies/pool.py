@@ -5,10 +5,11 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 TaskProgress = Callable[[int, int, str], None]
 """Called with tasks done, tasks in all, and the name of the one that has just finished."""
@@ -23,6 +24,19 @@ class Task:
     arguments: tuple[Any, ...] = ()
 
 
+class Timed(NamedTuple):
+    """A result and the time it took [s]."""
+
+    value: Any
+    seconds: float
+
+
+def _timed(task: Task) -> Timed:
+    begin = time.perf_counter()
+    value = task.function(*task.arguments)
+    return Timed(value, time.perf_counter() - begin)
+
+
 def _ignore_interrupt() -> None:
     """Ctrl-C reaches every process of the terminal; the parent alone answers it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -30,13 +44,13 @@ def _ignore_interrupt() -> None:
 
 def run_tasks(
     tasks: Sequence[Task], workers: int | None = None, progress: TaskProgress | None = None
-) -> list[Any]:
+) -> list[Timed]:
     """Results in the order of `tasks`. An error in one, or Ctrl-C, ends all workers and is raised."""
     workers = workers or os.cpu_count() or 1
     if workers == 1:
         results = []
         for i, task in enumerate(tasks):
-            results.append(task.function(*task.arguments))
+            results.append(_timed(task))
             if progress is not None:
                 progress(i + 1, len(tasks), task.name)
         return results
@@ -45,7 +59,7 @@ def run_tasks(
     )
     processes: list[Any] = []
     try:
-        futures = [pool.submit(task.function, *task.arguments) for task in tasks]
+        futures = [pool.submit(_timed, task) for task in tasks]
         processes = list((pool._processes or {}).values())
         _collect(dict(zip(futures, tasks, strict=True)), progress)
         return [future.result() for future in futures]

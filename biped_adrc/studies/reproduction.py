@@ -65,7 +65,8 @@ def reproduce(
     started = time.perf_counter()
     probe(out)
     named = planned_tasks(plan)
-    results = dict(zip(named, run_tasks(list(named.values()), workers, progress), strict=True))
+    done = run_tasks(list(named.values()), workers, progress)
+    results = {name: found.value for name, found in zip(named, done, strict=True)}
     cells = [value for name, value in results.items() if name.startswith("map ")]
     laws, figures = results["numerics"]
     for c in BOTH:
@@ -96,6 +97,7 @@ def reproduce(
         "multipliers": {c: results[f"multipliers {c}"].record() for c in BOTH},
         "regression": {c: results[f"regression {c}"].record() for c in BOTH},
         "push_map": [cell.row() for cell in cells],
+        "seconds": {name: found.seconds for name, found in zip(named, done, strict=True)},
         "notes": _notes() + verdicts.recipe_notes(results, plan),
     }
     pictures = _draw(plan, results, cells, out)
