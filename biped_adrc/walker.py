@@ -21,6 +21,7 @@ from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, Guard, HybridSystem, Split
+from biped_adrc.linear import solve
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 
@@ -160,7 +161,13 @@ class Walker(HybridSystem):
         m = self.measure(t, q, v, mode)
         u = x[-self.plant.p :] if self.sampled else self._saturate(self.law.output(s, m))
         force = self._force(t, q, v, u, mode)
-        return Instant(m, s, u, force, self.plant.acceleration(q, v, force))
+        return Instant(m, s, u, force, self._acceleration(m, force))
+
+    def _acceleration(self, m: Measurement, force: Array) -> Array:
+        """q'' of the plant; where it is the nominal model, D_s and Omega are at hand already."""
+        if self.model is None and not self.plant.friction:
+            return solve(m.terms.D, force - m.terms.Omega, "D_s")
+        return self.plant.acceleration(m.q, m.v, force)
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
         if self.sampled:

@@ -29,9 +29,9 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 
-HUMAN_STEP = 0.75
-"""[m], a typical step of a grown human at comfortable speed (Winter, Biomechanics and Motor Control of
-Human Movement: stride about 1.5 m)."""
+HUMAN_STEP = 0.70
+"""[m], step length of adults at comfortable speed, about 0.70 m for men and 0.64 m for women (Scientific
+Reports 11, 2021, s41598-021-91633-1, Table 1). Only the fraction depends on it: L comes from x*."""
 SAMPLES = 401
 
 

@@ -1,0 +1,132 @@
+"""Gait (b), the recipe of section IV: kinematics, regression, closing, unsmooth impact, stored files."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from biped_adrc.analysis.return_map import ReturnMap
+from biped_adrc.control.npd import NPDController
+from biped_adrc.errors import GaitError
+from biped_adrc.gait.gait import load_gait
+from biped_adrc.gait.published import X_STAR
+from biped_adrc.gait.recipe import (
+    HUMAN_STEP,
+    design_recipe_gait,
+    fit_to_x_star,
+    impact_smoothness,
+    inverse_kinematics,
+    joint_trajectories,
+    recipe_constraint,
+    regress,
+)
+from biped_adrc.gait.through_state import onto_section
+from biped_adrc.gait.zero_dynamics import configuration
+from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.walker import Walker
+
+LENGTH = 0.4  # [m], thigh and shin of RABBIT
+EDGE = 1e-6  # share of a step over which end slopes are taken
+
+
+def test_inverse_kinematics_inverts_the_forward_kinematics(biped):
+    rng = np.random.default_rng(0)
+    for q in rng.uniform([2.7, 2.7, -1.5, -1.5, -0.3], [3.7, 3.7, -0.02, -0.02, 0.3], (200, 5)):
+        hip, foot = biped.hip(q), biped.swing_foot(q)
+        stance, stance_knee = inverse_kinematics(-hip, LENGTH)
+        swing, swing_knee = inverse_kinematics(foot - hip, LENGTH)
+        found = [stance - q[4], swing - q[4], stance_knee, swing_knee, q[4]]
+        np.testing.assert_allclose(found, q, atol=1e-9)
+
+
+@pytest.mark.parametrize("leg", [(0.0, 0.0), (0.0, -0.81)])
+def test_inverse_kinematics_refuses_what_the_leg_cannot_reach(leg):
+    with pytest.raises(GaitError, match=r"the leg reaches 0\.8 m"):
+        inverse_kinematics(np.array(leg), LENGTH)
+
+
+def test_the_feet_and_the_hip_follow_the_recipe(biped):
+    p = fit_to_x_star(biped)
+    s = np.linspace(0.0, 1.0, 21)
+    q = joint_trajectories(biped, p, s)
+    L = p.step_fraction * HUMAN_STEP
+    end = biped.hip(onto_section(biped, X_STAR[:5]))
+    lift = np.sin(np.pi * s)
+    hip = np.column_stack((end[0] - L * (1.0 - s), end[1] + p.hip_amplitude * lift))
+    np.testing.assert_allclose([biped.hip(row) for row in q], hip, atol=1e-12)
+    np.testing.assert_allclose(
+        [biped.swing_foot(row)[1] for row in q], p.clearance * lift, atol=1e-12
+    )
+    assert np.all(q[:, 2:4] < 0), "a knee bends forwards"
+
+
+def test_the_step_ends_in_the_pose_of_x_star_and_starts_in_it_relabelled(any_biped):
+    pose = onto_section(any_biped, X_STAR[:5])
+    constraint, _ = recipe_constraint(any_biped, fit_to_x_star(any_biped))
+    end, _, _ = configuration(constraint, constraint.theta_minus)
+    begin, _, _ = configuration(constraint, constraint.theta_plus)
+    np.testing.assert_allclose(end, pose, atol=1e-12)
+    np.testing.assert_allclose(begin, pose[any_biped.relabelling], atol=1e-12)
+    np.testing.assert_allclose(pose, X_STAR[:5], atol=5e-4)
+
+
+def test_the_path_leaves_in_the_direction_of_the_rates_of_x_star(biped):
+    """dq/dTheta at s = 1 is q'/Theta' of x*: all that x* says of its rates but the speed."""
+    q = joint_trajectories(biped, fit_to_x_star(biped), np.array([1.0 - EDGE, 1.0]))
+    slope = (q[1] - q[0]) / (biped.phase @ (q[1] - q[0]))
+    np.testing.assert_allclose(slope, X_STAR[5:] / (biped.phase @ X_STAR[5:]), atol=1e-4)
+
+
+def test_the_regression_keeps_both_ends_and_reports_its_largest_residual(biped):
+    theta = np.linspace(3.0, 2.0, 101)
+    joints = np.column_stack((np.sin(3.0 * theta), theta**3))
+    curve, residual = regress(theta, joints, 9)
+    s = (theta - theta[0]) / (theta[-1] - theta[0])
+    values = np.array([curve(x)[0] for x in s])
+    np.testing.assert_allclose(values[[0, -1]], joints[[0, -1]], atol=1e-12)
+    assert residual == pytest.approx(np.max(np.abs(values - joints)), abs=1e-12)
+    assert residual < 1e-7
+
+
+def test_a_higher_degree_leaves_a_smaller_residual(biped):
+    p = fit_to_x_star(biped)
+    residuals = [recipe_constraint(biped, replace(p, degree=d))[1] for d in (6, 8, 10, 12)]
+    assert np.all(np.diff(residuals) < 0)
+    assert residuals[1] < 5e-4, "degree 8, the one used [rad]"
+
+
+def test_parameters_that_make_no_step_are_refused(biped):
+    """Theta follows the hip alone, so only a hip that goes backwards turns it."""
+    p = fit_to_x_star(biped)
+    with pytest.raises(GaitError, match="Theta does not decrease"):
+        recipe_constraint(biped, replace(p, step_fraction=-0.1, hip_amplitude=0.0))
+    with pytest.raises(GaitError, match="the leg reaches"):
+        recipe_constraint(biped, replace(p, hip_amplitude=0.1))
+
+
+def test_the_impact_is_smooth_on_the_published_gait_and_not_on_the_recipe(any_biped):
+    published = impact_smoothness(load_gait("published", any_biped), any_biped)
+    recipe = impact_smoothness(load_gait("recipe", any_biped), any_biped)
+    assert np.max(np.abs(published)) < 1e-6
+    assert np.max(np.abs(recipe)) > 0.5, "[rad/s]"
+
+
+def test_the_design_reproduces_the_stored_file(any_biped):
+    stored, designed = load_gait("recipe", any_biped), design_recipe_gait(any_biped)
+    a, b = stored.constraint, designed.constraint
+    np.testing.assert_allclose(a.curve.coefficients, b.curve.coefficients, atol=1e-8)
+    np.testing.assert_allclose(
+        [a.theta_plus, a.theta_minus], [b.theta_plus, b.theta_minus], atol=1e-12
+    )
+    written = {k: v for k, v in stored.provenance.items() if k != "cycle"}
+    assert written == dict(designed.provenance)
+
+
+def test_the_stored_state_is_a_fixed_point_of_the_walk_under_npd(any_biped):
+    gait = load_gait("recipe", any_biped)
+    walker = Walker(any_biped, NPDController(gait.constraint))
+    P = ReturnMap(walker, RK4(1e-3))
+    s = P.project(np.concatenate((gait.q_minus, gait.v_minus)))
+    np.testing.assert_allclose(P(s), s, atol=1e-7)
