@@ -145,6 +145,9 @@ def tasks(plan: Plan) -> dict[str, Task]:
     }
     out = {
         "multipliers ADRC": Task("multipliers ADRC", poincare, (adrc,)),
+        "multipliers ADRC measured": Task(
+            "multipliers ADRC, reset measured", poincare, (replace(adrc, reset="measured"),)
+        ),
         "multipliers NPD": Task("multipliers NPD", poincare, (npd,)),
         "numerics": Task("orders and (23)", numerics_laws, (plan.preset,)),
         "return map": Task("return map", return_map_samples, (npd,)),

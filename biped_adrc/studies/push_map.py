@@ -1,7 +1,7 @@
 """Section VI's other claim as a map: in which phase of the step does a push throw which controller?
 
 Pushes of 0.2 s in the 19th single support, over onset, amplitude and joint pattern, with unlimited torque and
-with RABBIT's 150 N m. The walk starts on the periodic orbit at that step, and has to make four more impacts.
+with RABBIT's 150 N m. The walk starts on the periodic orbit at that step, and has to make three more impacts.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ PATTERNS: dict[str, dict[str, float]] = {
 }
 """Joint patterns, to be multiplied by the amplitude [N m]."""
 
-IMPACTS = 5
+IMPACTS = 4
 PUSHED_STEP = 19
 DURATION = 0.2
 """[s]."""

@@ -75,6 +75,14 @@ def _multipliers(r: Results) -> dict[str, Any]:
         ]
         for c in BOTH
     ]
+    measured = r["multipliers ADRC measured"].orbit.multipliers
+    rows.append(
+        [
+            f"central differences, ADRC, reset 'measured', {len(measured)} coordinates",
+            np.abs(measured)[:10].tolist(),
+            "the observer's xi^ and its derivatives live on through the impact",
+        ]
+    )
     rows.append(["delta^2 of the zero dynamics", [r["multipliers NPD"].delta_squared], ""])
     for c in BOTH:
         test = r[f"regression {c}"].regression

@@ -57,6 +57,7 @@ def multiplier_checks(r: Results) -> list[Check]:
     npd: PoincareResult = r["multipliers NPD"]
     adrc: PoincareResult = r["multipliers ADRC"]
     sizes = np.abs(npd.orbit.multipliers)
+    remembering: PoincareResult = r["multipliers ADRC measured"]
     count = len(adrc.orbit.multipliers)
     return [
         at_most(
@@ -70,6 +71,12 @@ def multiplier_checks(r: Results) -> list[Check]:
             f"ADRC: largest of {count} multipliers, observer states included",
             "reproduced",
             float(np.abs(adrc.orbit.multipliers[0])),
+            1.0,
+        ),
+        below(
+            f"ADRC, reset 'measured' (xi^ remembered): largest of {count} multipliers",
+            "reproduced",
+            float(np.abs(remembering.orbit.multipliers[0])),
             1.0,
         ),
     ]
