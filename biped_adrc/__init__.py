@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from biped_adrc.control.adrc import ADRCController
     from biped_adrc.control.base import Controller, Measurement
     from biped_adrc.control.npd import NPDController
-    from biped_adrc.control.tracking import Gains
+    from biped_adrc.control.tracking import TABLE_II, Gains
     from biped_adrc.disturbances.base import Disturbance
     from biped_adrc.disturbances.pulse import TorquePulse
     from biped_adrc.disturbances.sine import TorqueSine
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from biped_adrc.hybrid.trajectory import Trajectory
     from biped_adrc.model.biped import Biped
     from biped_adrc.observers.base import Observer, ResetPolicy
-    from biped_adrc.observers.gpi import GPIObserver
+    from biped_adrc.observers.gpi import TABLE_I, GPIObserver
     from biped_adrc.studies.walk import Walk, walk
     from biped_adrc.walker import ContinuousTime, Mode, SampledTime, Walker
 
@@ -57,6 +57,8 @@ _HOMES = {
     "ResetPolicy": "observers.base",
     "ReturnMap": "analysis.return_map",
     "SampledTime": "walker",
+    "TABLE_I": "observers.gpi",
+    "TABLE_II": "control.tracking",
     "Status": "hybrid.status",
     "Stiff": "hybrid.integrators",
     "TimeReference": "gait.reference",
@@ -94,6 +96,8 @@ __all__ = [  # noqa: RUF022 -- in the order of _HOMES
     "ResetPolicy",
     "ReturnMap",
     "SampledTime",
+    "TABLE_I",
+    "TABLE_II",
     "Status",
     "Stiff",
     "TimeReference",
