@@ -78,7 +78,7 @@ def literal_runs(plan: Plan) -> dict[str, Run]:
     """(20) as printed, and every reset policy with and without RABBIT's torque limit."""
     runs = {}
     for c in BOTH:
-        runs[f"as printed {c}"] = Run(c, preset=plan.preset, solve_theta=False, h=1e-3)
+        runs[f"as printed {c}"] = Run(c, preset=plan.preset, solve_theta=False, h=1e-3, impacts=15)
     for policy in POLICIES:
         for limit in (None, 150.0):
             name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
@@ -101,7 +101,7 @@ class RecipeResult:
 
 def recipe_result(preset: str, controller: str) -> RecipeResult:
     """Walk gait (b) and look for its fixed point; whatever comes out is reported."""
-    run = Run(controller, preset=preset, gait="recipe", h=1e-3, impacts=12)
+    run = Run(controller, preset=preset, gait="recipe", h=1e-3, impacts=8)
     biped = run.biped()
     record: dict[str, Any] = {}
     try:
