@@ -81,6 +81,7 @@ def reproduce(
         + verdicts.push_checks(results)
         + verdicts.map_checks(cells)
         + verdicts.multiplier_checks(results)
+        + verdicts.recipe_checks(plan, results)
         + verdicts.certificate_checks(plan, results)
         + laws
     )

@@ -140,6 +140,18 @@ def map_checks(cells: list[Any]) -> list[Check]:
     return [at_least(name, "reproduced", fewer, 1)]
 
 
+def recipe_checks(plan: Plan, r: Results) -> list[Check]:
+    """Gait (b) closes in a stable cycle; its certificates are reported, not asserted."""
+    found = []
+    for preset in plan.presets:
+        for c in BOTH:
+            result: RecipeResult = r[f"recipe {preset} {c}"]
+            largest = result.record["multipliers"][0] if result.closes else float("inf")
+            name = f"gait (b), {preset}, {c}: largest multiplier of its cycle"
+            found.append(below(name, "reproduced", largest, 1.0))
+    return found
+
+
 def recipe_notes(r: Results, plan: Plan) -> list[str]:
     """Plain sentences on gait (b)."""
     notes = []
