@@ -145,7 +145,9 @@ def sampling_order(run: Run, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4)) ->
 
 
 def exponential_order(preset: str, factor: float) -> tuple[float, float]:
-    """Observed order of ETD-RK4 on half a step with Table I times `factor`, and its error at 0.5 ms [rad]."""
+    """Observed order of ETD-RK4 from 0.25 to 0.125 ms over 0.1 s of walking with Table I times `factor`,
+    and its error at 0.5 ms [rad]. With longer steps the fast joints of a robot without rotors are not resolved.
+    """
     run = Run("ADRC", preset=preset, poles=tuple(factor * pole for pole in TABLE_I))
     biped = run.biped()
     gait = load_gait(run.gait, biped)
@@ -154,14 +156,12 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
     x0 = walker.initial_state(q, v)
 
     def end(h: float) -> Array:
-        method = Exponential(h)
-        return simulate(walker, x0, StepMode(), method, t_end=0.2).final_state[:10]
+        return simulate(walker, x0, StepMode(), Exponential(h), t_end=0.1).final_state[:10]
 
-    steps = (4e-3, 2e-3, 1e-3)
-    exact = end(1.25e-4)
-    gaps = [float(np.max(np.abs(end(h) - exact))) for h in steps]
+    exact = end(3.125e-5)
+    coarse, fine = (float(np.max(np.abs(end(h) - exact))) for h in (2.5e-4, 1.25e-4))
     at_half = float(np.max(np.abs(end(5e-4) - exact)[:5]))
-    return float(np.polyfit(np.log(steps), np.log(gaps), 1)[0]), at_half
+    return math.log2(coarse / fine), at_half
 
 
 def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
@@ -178,13 +178,13 @@ def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
         between(
             "order of continuous against sampled control in the period", "law", order, 0.9, 1.1
         ),
-        between("order of the exponential method, Table I times 0.05", "law", etd, 3.7, 4.5),
+        between("order of the exponential method, Table I times 0.05", "law", etd, 3.7, 4.3),
     ]
     figures = {
         "tracking error per unit disturbance on a held joint, simulated [s^2]": simulated,
         "the same by (23) corrected [s^2]": corrected,
         "the same by (23) as printed [s^2]": printed,
         "order of the exponential method with Table I itself": etd_table,
-        "error of the exponential method with Table I at 0.5 ms over 0.2 s [rad]": error,
+        "error of the exponential method with Table I at 0.5 ms over 0.1 s [rad]": error,
     }
     return checks, figures
