@@ -268,27 +268,14 @@ def animate(
     ),
 ) -> None:
     """Write one offline page in which the walk can be watched in a browser."""
-    from biped_adrc.hybrid.storage import load
-    from biped_adrc.studies.runs import from_record
+    from biped_adrc.studies.runs import load_walk
     from biped_adrc.viz.meshcat import write_animation
-    from biped_adrc.walker import Mode
 
-    walks, first = {}, None
-    for path in [run] if ghost is None else [ghost, run]:
-        trajectory = load(path, lambda step, start: Mode(int(step), start))
-        described = from_record(_run_record(trajectory.settings, path))
-        walks[f"{described.controller} ({path.stem})"] = trajectory
-        first = first or described.biped()
-    assert first is not None
-    write_animation(out, first, walks)
+    paths = [run] if ghost is None else [ghost, run]
+    loaded = {path: load_walk(path) for path in paths}
+    walks = {f"{walk.controller_name} ({path.stem})": walk for path, walk in loaded.items()}
+    write_animation(out, walks)
     console.print(f"written to {out}")
-
-
-def _run_record(settings: dict[str, Any], path: Path) -> dict[str, Any]:
-    if "run" not in settings:
-        raise InputError(f"run '{path}' does not say which robot it is of")
-    record: dict[str, Any] = settings["run"]
-    return record
 
 
 @gait_app.command("published")

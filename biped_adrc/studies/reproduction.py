@@ -27,6 +27,7 @@ from biped_adrc.studies.plan import BOTH, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.poincare import regression_of
 from biped_adrc.studies.pool import TaskProgress, run_tasks
+from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
 from biped_adrc.studies.versions import versions
 from biped_adrc.viz.meshcat import write_animation
@@ -208,11 +209,11 @@ def _push_window(plan: Plan, signals: Any) -> tuple[float, float] | None:
 
 
 def _animate(plan: Plan, results: dict[str, Any], out: Path) -> None:
-    biped = Biped.load("rabbit", plan.preset)
-    walks = {c: verdicts.headline_of(results, c).trajectory for c in BOTH}
+    heads = {c: verdicts.headline_of(results, c) for c in BOTH}
+    walks = {c: replay(head.outcome.run, head.trajectory) for c, head in heads.items()}
     window = _push_window(plan, verdicts.headline_of(results, "NPD").signals)
     marks = [] if window is None else [(*window, "push")]
-    write_animation(out / "walk.html", biped, walks, solid="ADRC", marks=marks)
+    write_animation(out / "walk.html", walks, solid="ADRC", marks=marks)
 
 
 def failed(checks: list[dict[str, Any]]) -> list[dict[str, Any]]:

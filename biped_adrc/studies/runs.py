@@ -6,6 +6,7 @@ A `Run` can be sent to another process, stored as JSON, and carried out again.
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,13 +24,15 @@ from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
 from biped_adrc.hybrid.simulator import Progress
+from biped_adrc.hybrid.storage import load
+from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 from biped_adrc.studies.push import Push
 from biped_adrc.studies.walk import Walk, walk
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, ContinuousTime, SampledTime, Walker
+from biped_adrc.walker import FOOT_STRIKE, ContinuousTime, Mode, SampledTime, Walker
 
 CONTROLLERS = ("NPD", "ADRC")
 METHODS = {"rk4": RK4, "exponential": Exponential, "adaptive": Adaptive, "stiff": Stiff}
@@ -198,6 +201,25 @@ def _outcome(run: Run, made: Walk) -> Outcome:
         made.certificates,
         str(trajectory.settings["method"]),
     )
+
+
+def replay(run: Run, trajectory: Trajectory) -> Walk:
+    """The walk of a stored or sent trajectory: its walker is built again from the run."""
+    biped = run.biped()
+    gait = load_gait(run.gait, biped)
+    return Walk(run.build(biped, gait), gait, trajectory)
+
+
+def load_walk(path: Path | str) -> Walk:
+    """The walk in a run file (.npz) written by `simulate` or `reproduce`. Raises InputError."""
+    trajectory = load(path, lambda step, start: Mode(int(step), start))
+    record = trajectory.settings.get("run")
+    if record is None:
+        raise InputError(
+            f"run '{path}' does not say which robot, gait and controller it is of; runs written by "
+            "'biped-adrc simulate' and 'reproduce' do"
+        )
+    return replay(from_record(record), trajectory)
 
 
 def from_record(record: dict[str, Any]) -> Run:

@@ -39,6 +39,11 @@ class Walk:
         """What each step would have asked of a real robot on dry ground."""
         return certificates(self.walker, self.trajectory, self.signals)
 
+    @property
+    def controller_name(self) -> str:
+        """Name of the controller's class without "Controller"."""
+        return type(self.walker.controller).__name__.removesuffix("Controller")
+
     def plot(self, title: str = "", push: tuple[float, float] | None = None) -> Figure:
         """References against joint angles, and torques, as figures 4 and 5; push is marked [s]."""
         from biped_adrc.viz.plots import tracking_figure
@@ -49,8 +54,7 @@ class Walk:
         """Write one offline page with the walk in Meshcat. Raises OutputError."""
         from biped_adrc.viz.meshcat import write_animation
 
-        name = type(self.walker.controller).__name__
-        write_animation(Path(path), self.walker.plant, {name: self.trajectory})
+        write_animation(Path(path), {self.controller_name: self})
 
 
 def default_method(walker: Walker) -> OneStepMethod:

@@ -16,12 +16,11 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
-from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.urdf import Joint, Tree, Visual
 from biped_adrc.types import Array
 from biped_adrc.viz.meshcat_page import MemoryWindow, page
-from biped_adrc.viz.placement import Walk, joint_transform
+from biped_adrc.viz.placement import Recorded, Scene, joint_transform
 
 with warnings.catch_warnings():
     # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here
@@ -43,8 +42,7 @@ Marks = Sequence[tuple[float, float, str]]
 
 def write_animation(
     path: Path,
-    biped: Biped,
-    walks: Mapping[str, Trajectory],
+    walks: Mapping[str, Recorded],
     solid: str | None = None,
     marks: Marks = (),
     fps: float = 60.0,
@@ -55,12 +53,11 @@ def write_animation(
     are translucent. marks: (start, stop, text) [s], shown beside the clock. fps [1/s]: frames sampled
     from the trajectories. Raises InputError and OutputError.
     """
-    write_text(path, animation_html(biped, walks, solid, marks, fps))
+    write_text(path, animation_html(walks, solid, marks, fps))
 
 
 def animation_html(
-    biped: Biped,
-    walks: Mapping[str, Trajectory],
+    walks: Mapping[str, Recorded],
     solid: str | None = None,
     marks: Marks = (),
     fps: float = 60.0,
@@ -69,27 +66,28 @@ def animation_html(
     names, solid = _names(walks, solid)
     if not (math.isfinite(fps) and fps > 0):
         raise InputError(f"fps is {fps} frames per second, expected a positive number")
-    laid_out = {name: Walk.of(biped, walks[name]) for name in names}
+    laid_out = {name: Scene.of(walks[name]) for name in names}
     window = MemoryWindow()
     viewer = meshcat.Visualizer(window=window)
     for lane, name in enumerate(names):
-        opacity = 1.0 if name == solid else GHOST
+        opacity, biped = 1.0 if name == solid else GHOST, laid_out[name].biped
         robot = viewer[f"robots/{node_name(name)}"]
         robot.set_transform(_shift((0.0, LANE * lane, 0.0)))
         _add_robot(robot, biped.tree, opacity)
         _add_footprints(robot["footprints"], laid_out[name].footholds, _sole(biped), opacity)
+    leader = laid_out[solid].biped
     low, high = _range(laid_out.values())
-    _add_ground(viewer["ground"], low, high, _sole(biped), LANE * (len(names) - 1))
+    _add_ground(viewer["ground"], low, high, _sole(leader), LANE * (len(names) - 1))
     _set_stage(viewer)
     window.pack(_animation(laid_out, fps))
-    base_x = next(j for j in biped.tree.joints if j.name == biped.description.base[0])
-    follow = f"/meshcat/robots/{node_name(solid)}/{_path(biped.tree, base_x)}"
+    base_x = next(j for j in leader.tree.joints if j.name == leader.description.base[0])
+    follow = f"/meshcat/robots/{node_name(solid)}/{_path(leader.tree, base_x)}"
     return page(
         window, " and ".join(walks), _caption(names, solid), follow, [list(m) for m in marks]
     )
 
 
-def _names(walks: Mapping[str, Trajectory], solid: str | None) -> tuple[list[str], str]:
+def _names(walks: Mapping[str, Recorded], solid: str | None) -> tuple[list[str], str]:
     """The solid walk first, then the ghosts."""
     if not walks:
         raise InputError("there is no walk to animate; expected at least one")
@@ -203,14 +201,14 @@ def _set_stage(viewer: Any) -> None:
 
 
 # -- motion ----------------------------------------------------------------------------------------
-def frame_times(walks: Mapping[str, Walk], fps: float) -> Array:
+def frame_times(walks: Mapping[str, Scene], fps: float) -> Array:
     """Times of the frames (K,) [s], every 1/fps to the end of the longest walk."""
     start = min(walk.trajectory.t_start for walk in walks.values())
     end = max(walk.trajectory.t_end for walk in walks.values())
     return start + np.arange(math.ceil((end - start) * fps) + 1) / fps
 
 
-def _animation(walks: Mapping[str, Walk], fps: float) -> dict[str, Any]:
+def _animation(walks: Mapping[str, Scene], fps: float) -> dict[str, Any]:
     """Meshcat's command: a clip per moving joint; a walk that has ended stays in its last pose."""
     times = frame_times(walks, fps)
     clips = []

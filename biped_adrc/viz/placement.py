@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.urdf import Joint, Tree
 from biped_adrc.types import Array
+from biped_adrc.walker import Walker
 
 
 def turn(axis: tuple[float, float, float], angle: float) -> Array:
@@ -64,29 +66,47 @@ def joint_values(biped: Biped, q: Array, step: int = 1, foothold: float = 0.0) -
     return values
 
 
-@dataclass(frozen=True)
-class Walk:
-    """A trajectory laid out in the world; `footholds` (arcs,) is x of the stance foot [m]."""
+class Recorded(Protocol):
+    """A walker and what it did."""
 
-    biped: Biped
+    @property
+    def walker(self) -> Walker: ...
+    @property
+    def trajectory(self) -> Trajectory: ...
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A walk laid out in the world; `footholds` (arcs,) is x of the stance foot [m]."""
+
+    walker: Walker
     trajectory: Trajectory
     footholds: Array
 
     @classmethod
-    def of(cls, biped: Biped, trajectory: Trajectory) -> Walk:
+    def of(cls, walk: Recorded) -> Scene:
         """The first stance foot stands at x = 0; each impact moves it by p_2 of x-."""
-        x, footholds = 0.0, []
-        for arc in trajectory.arcs:
+        x, footholds, plant = 0.0, [], walk.walker.plant
+        for arc in walk.trajectory.arcs:
             footholds.append(x)
             if arc.event is not None and arc.event.x_plus is not None:
-                x += float(biped.swing_foot(arc.event.x_minus[: biped.n])[0])
-        return cls(biped, trajectory, np.array(footholds))
+                x += float(plant.swing_foot(arc.event.x_minus[: plant.n])[0])
+        return cls(walk.walker, walk.trajectory, np.array(footholds))
+
+    @property
+    def biped(self) -> Biped:
+        """The robot drawn: the plant."""
+        return self.walker.plant
+
+    def arc_at(self, t: float) -> int:
+        """Index of the arc that is shown at t [s]; at an impact, the one after it."""
+        ends = [arc.t[-1] for arc in self.trajectory.arcs]
+        return min(int(np.searchsorted(ends, t, side="right")), len(ends) - 1)
 
     def joints(self, t: float) -> dict[str, float]:
         """Joint values of the URDF at t [s]; before and after the run, those of its ends."""
-        arcs = self.trajectory.arcs
         t = min(max(t, self.trajectory.t_start), self.trajectory.t_end)
-        i = int(np.searchsorted([arc.t[-1] for arc in arcs], t, side="right"))
-        i = min(i, len(arcs) - 1)
-        q = arcs[i](t)[: self.biped.n]
-        return joint_values(self.biped, q, arcs[i].mode.step, float(self.footholds[i]))
+        i = self.arc_at(t)
+        arc = self.trajectory.arcs[i]
+        q = arc(t)[: self.biped.n]
+        return joint_values(self.biped, q, arc.mode.step, float(self.footholds[i]))
