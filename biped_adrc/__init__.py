@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped
     from biped_adrc.observers.base import Observer, ResetPolicy
     from biped_adrc.observers.gpi import TABLE_I, GPIObserver
+    from biped_adrc.studies.runs import load_walk
     from biped_adrc.studies.walk import Walk, walk
     from biped_adrc.walker import ContinuousTime, Mode, SampledTime, Walker
 
@@ -71,6 +72,7 @@ _HOMES = {
     "Walker": "walker",
     "ZeroDynamics": "gait.zero_dynamics",
     "load_gait": "gait.gait",
+    "load_walk": "studies.runs",
     "simulate": "hybrid.simulator",
     "walk": "studies.walk",
 }
@@ -110,6 +112,7 @@ __all__ = [  # noqa: RUF022 -- in the order of _HOMES
     "Walker",
     "ZeroDynamics",
     "load_gait",
+    "load_walk",
     "simulate",
     "walk",
 ]

@@ -30,7 +30,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 from biped_adrc.studies.push import Push
-from biped_adrc.studies.walk import Walk, walk
+from biped_adrc.studies.walk import Walk, walk, watched
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, ContinuousTime, Mode, SampledTime, Walker
 
@@ -207,7 +207,7 @@ def replay(run: Run, trajectory: Trajectory) -> Walk:
     """The walk of a stored or sent trajectory: its walker is built again from the run."""
     biped = run.biped()
     gait = load_gait(run.gait, biped)
-    return Walk(run.build(biped, gait), gait, trajectory)
+    return watched(run.build(biped, gait), gait, trajectory)
 
 
 def load_walk(path: Path | str) -> Walk:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -50,11 +50,52 @@ class Walk:
 
         return tracking_figure(self.signals, title, push, self.walker.torque_limit)
 
-    def animate(self, path: Path | str) -> None:
-        """Write one offline page with the walk in Meshcat. Raises OutputError."""
-        from biped_adrc.viz.meshcat import write_animation
+    def animate(self, path: Path | str, view: str = "side") -> None:
+        """Write the walk by the suffix of `path`: an offline page (.html), a picture (.gif) or a strip (.png).
 
-        write_animation(Path(path), {self.controller_name: self})
+        view: "side" (orthographic) or "perspective", of the page. Raises InputError and OutputError.
+        """
+        from biped_adrc.viz.export import export
+
+        export(Path(path), {self.controller_name: self}, view=view)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the animation, and references and torques."""
+        from biped_adrc.viz.meshcat import animation_html
+        from biped_adrc.viz.notebook import inline
+
+        impacts = len(self.trajectory.events(FOOT_STRIKE))
+        status = self.trajectory.status
+        summary = f"{self.controller_name}: {impacts} impacts. {status.name}: {status.value}"
+        return inline(summary, animation_html({self.controller_name: self}), [self.plot()])
+
+
+@dataclass(frozen=True)
+class WalkViewer:
+    """Draws trajectories of one walker that was asked to follow one gait."""
+
+    walker: Walker
+    gait: Gait
+
+    def animate(self, trajectory: Trajectory, path: Path | str) -> None:
+        """As `Walk.animate`."""
+        self._walk(trajectory).animate(path)
+
+    def plot(self, trajectory: Trajectory) -> Figure:
+        """As `Walk.plot`."""
+        return self._walk(trajectory).plot()
+
+    def html(self, trajectory: Trajectory) -> str:
+        """As a walk in a notebook."""
+        return self._walk(trajectory)._repr_html_()
+
+    def _walk(self, trajectory: Trajectory) -> Walk:
+        return Walk(self.walker, self.gait, trajectory)
+
+
+def watched(walker: Walker, gait: Gait, trajectory: Trajectory) -> Walk:
+    """The walk whose trajectory can draw itself."""
+    return Walk(walker, gait, replace(trajectory, viewer=WalkViewer(walker, gait)))
 
 
 def default_method(walker: Walker) -> OneStepMethod:
@@ -89,4 +130,4 @@ def walk(
         store_every=store_every,
         progress=progress,
     )
-    return Walk(walker, gait, trajectory)
+    return watched(walker, gait, trajectory)

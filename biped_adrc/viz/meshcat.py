@@ -1,14 +1,10 @@
-"""Walks in Meshcat: one offline HTML file with the viewer, the robots, the animation and its controls.
-
-The scene mirrors the tree of the URDF, a node per joint, so links stay together between frames. The feet are
-points in the model and balls in the URDF: the ground is drawn one radius below z = 0.
-"""
+"""Walks in Meshcat: one offline HTML file with the viewer, the robots, their motion and the controls."""
 
 from __future__ import annotations
 
-import math
-import warnings
+import base64
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,28 +12,54 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
-from biped_adrc.model.biped import Biped
-from biped_adrc.model.urdf import Joint, Tree, Visual
+from biped_adrc.model.biped import GRAVITY, Biped
 from biped_adrc.types import Array
+from biped_adrc.viz import meshcat_scene as draw
+from biped_adrc.viz.frames import Frames
 from biped_adrc.viz.meshcat_page import MemoryWindow, page
-from biped_adrc.viz.placement import Recorded, Scene, joint_transform
-
-with warnings.catch_warnings():
-    # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here
-    warnings.simplefilter("ignore", DeprecationWarning)
-    import meshcat
-    import meshcat.geometry as shapes
+from biped_adrc.viz.placement import Recorded, Scene
 
 GHOST = 0.35
 """Opacity of a ghost."""
 LANE = 0.4
 """[m], by which each ghost walks farther from the camera: faces in one plane flicker."""
-TILE = 0.5
-"""[m], length of a tile of the ground."""
-VIEW = 2.0
-"""[m], height of the picture."""
+WEIGHT_LENGTH = 0.4
+"""[m], length of the arrow of a ground reaction as large as the robot's weight."""
+METRES_PER_NEWTON_METRE = 0.004
+"""Radius of the ring of an external torque [m / N m]."""
+TRACE_POINTS = 20_000
+"""Room for the traces of a walk whose length is not known beforehand."""
+VIEWS = ("side", "perspective")
 
 Marks = Sequence[tuple[float, float, str]]
+
+
+@dataclass(frozen=True)
+class Look:
+    """How walks are shown.
+
+    solid: name of the walk drawn opaque and followed by the camera, the last one if None; the others are
+    translucent. marks: (start, stop, text) [s], shown beside the clock. fps [1/s]: frames sampled from the
+    trajectories. view: "side" (orthographic) or "perspective".
+    """
+
+    solid: str | None = None
+    marks: Marks = ()
+    fps: float = 60.0
+    view: str = "side"
+
+    def order(self, walks: Mapping[str, Recorded]) -> list[str]:
+        """The solid walk first, then the ghosts. Raises InputError for what does not fit."""
+        if not walks:
+            raise InputError("there is no walk to animate; expected at least one")
+        if self.view not in VIEWS:
+            raise InputError(f"view is '{self.view}', choose one of {list(VIEWS)}")
+        solid = list(walks)[-1] if self.solid is None else self.solid
+        if solid not in walks:
+            raise InputError(
+                f"there is no walk '{solid}' to draw solid; choose one of {list(walks)}"
+            )
+        return [solid, *(name for name in walks if name != solid)]
 
 
 def write_animation(
@@ -46,14 +68,13 @@ def write_animation(
     solid: str | None = None,
     marks: Marks = (),
     fps: float = 60.0,
+    view: str = "side",
 ) -> None:
     """Write the walks, overlaid, as one HTML file that needs no server and no network.
 
-    solid: name of the walk drawn opaque and followed by the camera, the last one if not given; the others
-    are translucent. marks: (start, stop, text) [s], shown beside the clock. fps [1/s]: frames sampled
-    from the trajectories. Raises InputError and OutputError.
+    For the arguments see `Look`. Raises InputError and OutputError.
     """
-    write_text(path, animation_html(walks, solid, marks, fps))
+    write_text(path, animation_html(walks, solid, marks, fps, view))
 
 
 def animation_html(
@@ -61,179 +82,154 @@ def animation_html(
     solid: str | None = None,
     marks: Marks = (),
     fps: float = 60.0,
+    view: str = "side",
 ) -> str:
     """The text of the file of `write_animation`; the same walks give the same text."""
-    names, solid = _names(walks, solid)
-    if not (math.isfinite(fps) and fps > 0):
-        raise InputError(f"fps is {fps} frames per second, expected a positive number")
-    laid_out = {name: Scene.of(walks[name]) for name in names}
+    look = Look(solid, marks, fps, view)
+    scenes = {name: Scene.of(walks[name]) for name in look.order(walks)}
+    frames = {name: Frames.of(scene, fps) for name, scene in scenes.items()}
+    settings = scene_settings(scenes, look, {name: len(f.t) for name, f in frames.items()})
+    for walk, f in zip(settings["walks"], frames.values(), strict=True):
+        walk["data"] = _packed(f)
+    return page(settings, " and ".join(walks), captions(scenes))
+
+
+def _packed(frames: Frames) -> dict[str, str]:
+    """Times as float64, the rest as float32, in base64."""
+    columns = dict.fromkeys(("arc", "joints", "rates", "loads", "points"), np.float32)
+    return {
+        name: _base64(np.asarray(getattr(frames, name), dtype=kind))
+        for name, kind in {"t": np.float64, **columns}.items()
+    }
+
+
+def _base64(values: Array) -> str:
+    return base64.b64encode(np.ascontiguousarray(values).tobytes()).decode("ascii")
+
+
+# -- scene -----------------------------------------------------------------------------------------
+def scene_settings(
+    scenes: Mapping[str, Scene], look: Look, points: Mapping[str, int] | None = None
+) -> dict[str, Any]:
+    """What the player is told: Meshcat's commands and, by walk, the paths of what moves.
+
+    scenes: the solid walk first. points: number of nodes of each trace.
+    """
     window = MemoryWindow()
-    viewer = meshcat.Visualizer(window=window)
-    for lane, name in enumerate(names):
-        opacity, biped = 1.0 if name == solid else GHOST, laid_out[name].biped
-        robot = viewer[f"robots/{node_name(name)}"]
-        robot.set_transform(_shift((0.0, LANE * lane, 0.0)))
-        _add_robot(robot, biped.tree, opacity)
-        _add_footprints(robot["footprints"], laid_out[name].footholds, _sole(biped), opacity)
-    leader = laid_out[solid].biped
-    low, high = _range(laid_out.values())
-    _add_ground(viewer["ground"], low, high, _sole(leader), LANE * (len(names) - 1))
-    _set_stage(viewer)
-    window.pack(_animation(laid_out, fps))
-    base_x = next(j for j in leader.tree.joints if j.name == leader.description.base[0])
-    follow = f"/meshcat/robots/{node_name(solid)}/{_path(leader.tree, base_x)}"
-    return page(
-        window, " and ".join(walks), _caption(names, solid), follow, [list(m) for m in marks]
-    )
+    viewer = draw.visualizer(window)
+    names = node_names(scenes)
+    described = []
+    for lane, (name, scene) in enumerate(scenes.items()):
+        opacity, room = (1.0 if lane == 0 else GHOST), (points or {}).get(name, TRACE_POINTS)
+        robot = viewer[f"robots/{names[name]}"]
+        robot.set_transform(draw.shift((0.0, LANE * lane, 0.0)))
+        described.append(_add_walk(robot, f"meshcat/robots/{names[name]}", scene, opacity, room))
+    solid = next(iter(scenes.values()))
+    footholds = [scene.footholds for scene in scenes.values()]
+    draw.add_ground(viewer["ground"], footholds, draw.sole(solid.biped), LANE * (len(scenes) - 1))
+    draw.set_stage(viewer)
+    tree, base = solid.biped.tree, solid.biped.description.base[0]
+    base_x = next(joint for joint in tree.joints if joint.name == base)
+    return {
+        "walks": described,
+        "leader": 0,
+        "follow": f"meshcat/robots/{next(iter(names.values()))}/{draw.joint_path(tree, base_x)}",
+        "marks": [list(mark) for mark in look.marks],
+        "fps": look.fps,
+        "start": min(scene.trajectory.t_start for scene in scenes.values()),
+        "end": max(scene.trajectory.t_end for scene in scenes.values()),
+        "view": look.view,
+        "views": {kind: _view(kind) for kind in VIEWS},
+        "commands": window.packed(),
+        "live": False,
+    }
 
 
-def _names(walks: Mapping[str, Recorded], solid: str | None) -> tuple[list[str], str]:
-    """The solid walk first, then the ghosts."""
-    if not walks:
-        raise InputError("there is no walk to animate; expected at least one")
-    solid = list(walks)[-1] if solid is None else solid
-    if solid not in walks:
-        raise InputError(f"there is no walk '{solid}' to draw solid; choose one of {list(walks)}")
-    return [solid, *(name for name in walks if name != solid)], solid
+def _view(kind: str) -> dict[str, Any]:
+    window = MemoryWindow(kind)
+    position, target = draw.set_camera(draw.visualizer(window), kind)
+    return {"commands": window.packed(), "position": position, "target": target}
 
 
-def node_name(name: str) -> str:
-    """A name as it may stand in a path of the scene."""
-    return "".join(c if c.isalnum() else "_" for c in name)
+def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) -> dict[str, Any]:
+    """Draw one walk and say where its parts are."""
+    biped, depth = scene.biped, draw.sole(scene.biped)
+    tree = biped.tree
+    draw.add_robot(robot, tree, opacity)
+    prints = draw.add_footprints(robot["footprints"], scene.footholds, depth, opacity)
+    draw.add_trace(robot["hip_trace"], room, draw.DARK, opacity)
+    draw.add_trace(robot["foot_trace"], room, draw.SWING, opacity)
+    draw.add_arrow(robot["ground_reaction"], draw.REACTION, opacity)
+    rings = [_add_ring(robot, biped, name, opacity) for name in biped.description.joints]
+    return {
+        "joints": [
+            {
+                "path": f"{path}/{draw.joint_path(tree, joint)}",
+                "type": joint.type,
+                "axis": list(joint.axis),
+                "origin": list(joint.origin),
+            }
+            for joint in tree.joints
+            if joint.type != "fixed"
+        ],
+        "legs": [[f"{path}/{part}" for part in leg] for leg in draw.leg_visuals(biped)],
+        "colours": [draw.colour(draw.STANCE), draw.colour(draw.SWING)],
+        "rings": [f"{path}/{ring}/turn" for ring in rings],
+        "arrow": f"{path}/ground_reaction",
+        "traces": [f"{path}/hip_trace", f"{path}/foot_trace"],
+        "footprints": [f"{path}/footprints/{name}" for name in prints],
+        "supports": [
+            {"number": arc.mode.step, "x": float(x)}
+            for arc, x in zip(scene.trajectory.arcs, scene.footholds, strict=True)
+        ],
+        "ground": -depth,
+        "head": draw.HEAD,
+        "metres_per_newton": WEIGHT_LENGTH / (biped.mass * GRAVITY),
+        "metres_per_newton_metre": METRES_PER_NEWTON_METRE,
+    }
 
 
-def _caption(names: list[str], solid: str) -> str:
-    ghosts = ", ".join(name for name in names if name != solid)
-    if not ghosts:
-        return f"{solid}."
-    return (
-        f"{solid}: solid. {ghosts}: translucent, {LANE:g} m farther away; drag to see them apart."
-    )
+def _add_ring(robot: Any, biped: Biped, name: str, opacity: float) -> str:
+    """The ring of a joint; the torso's is at its COM, away from the hips."""
+    joint = next(joint for joint in biped.tree.joints if joint.name == name)
+    inertial = biped.tree.links[joint.child].inertial
+    torso = name not in biped.description.actuated and inertial is not None
+    path = f"{draw.joint_path(biped.tree, joint)}/torque"
+    origin = inertial.com if torso and inertial is not None else (0.0, 0.0, 0.0)
+    draw.add_ring(robot[path], origin, draw.TORQUE, opacity)
+    return path
 
 
-def _path(tree: Tree, joint: Joint) -> str:
-    """Path of a joint's node below its robot."""
-    above = [j.name for j in tree.path_to_root(joint.parent)]
-    return "/".join([*reversed(above), joint.name])
+def node_names(names: Mapping[str, Any]) -> dict[str, str]:
+    """Each name as it may stand in a path of the scene; no two alike."""
+    found: dict[str, str] = {}
+    for name in names:
+        plain = "".join(c if c.isalnum() else "_" for c in name) or "walk"
+        while plain in found.values():
+            plain += "_"
+        found[name] = plain
+    return found
 
 
-def _shift(origin: Sequence[float]) -> Array:
-    M = np.eye(4)
-    M[:3, 3] = origin
-    return M
+def captions(scenes: Mapping[str, Scene]) -> list[tuple[str, str]]:
+    """(colour, text) of the legend; the colour is empty for plain text."""
+    solid, *ghosts = scenes
+    biped = scenes[solid].biped
+    newtons = 0.1 * biped.mass * GRAVITY / WEIGHT_LENGTH
+    entries = [
+        (_css(draw.STANCE), "stance leg"),
+        (_css(draw.SWING), "swing leg"),
+        (_css(draw.REACTION), f"ground reaction, 0.1 m = {newtons:.0f} N"),
+        (
+            _css(draw.TORQUE),
+            f"torque from outside, radius 0.1 m = {0.1 / METRES_PER_NEWTON_METRE:.0f} N m",
+        ),
+    ]
+    if ghosts:
+        text = f"{solid}: solid. {', '.join(ghosts)}: translucent, {LANE:g} m farther away."
+        return [("", text), *entries]
+    return [("", f"{solid}."), *entries]
 
 
-# -- objects ---------------------------------------------------------------------------------------
-def _add_robot(robot: Any, tree: Tree, opacity: float) -> None:
-    """A node per joint at its zero, the primitives of its child below it."""
-    for joint in tree.joints:
-        node = robot[_path(tree, joint)]
-        node.set_transform(joint_transform(joint, 0.0))
-        for k, visual in enumerate(tree.links[joint.child].visuals):
-            part = node[f"visual_{k}"]
-            part.set_object(_shape(visual), _paint(visual.rgba, opacity))
-            part.set_transform(visual_transform(visual))
-
-
-def _shape(visual: Visual) -> Any:
-    if visual.shape == "box":
-        return shapes.Box(list(visual.size))
-    if visual.shape == "sphere":
-        return shapes.Sphere(visual.size[0])
-    return shapes.Cylinder(visual.size[1], visual.size[0])
-
-
-def visual_transform(visual: Visual) -> Array:
-    """Placement (4, 4) of a primitive in its link; a URDF cylinder lies along z, Meshcat's along y."""
-    M = _shift(visual.origin)
-    if visual.shape == "cylinder":
-        M[:3, :3] = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-    return M
-
-
-def _paint(rgba: Sequence[float], opacity: float) -> Any:
-    red, green, blue = (round(255 * c) for c in rgba[:3])
-    colour = (red << 16) + (green << 8) + blue
-    return shapes.MeshLambertMaterial(color=colour, opacity=opacity * rgba[3])
-
-
-def _sole(biped: Biped) -> float:
-    """Radius of the ball of a foot [m]; 0 for a foot without one."""
-    foot = biped.tree.links[biped.description.stance_foot]
-    return max((v.size[0] for v in foot.visuals if v.shape == "sphere"), default=0.0)
-
-
-def _add_footprints(node: Any, footholds: Array, sole: float, opacity: float) -> None:
-    """A flat plate under every stance foot."""
-    for k, x in enumerate(footholds):
-        plate = node[f"{k}"]
-        plate.set_object(shapes.Box([0.06, 0.1, 0.004]), _paint((0.1, 0.1, 0.1, 1.0), opacity))
-        plate.set_transform(_shift((float(x), 0.0, -sole)))
-
-
-def _range(walks: Any) -> tuple[int, int]:
-    """First and last tile of the ground, two before and three behind the walks."""
-    footholds = np.concatenate([walk.footholds for walk in walks])
-    low, high = footholds.min() / TILE, footholds.max() / TILE
-    return math.floor(low) - 2, math.ceil(high) + 3
-
-
-def _add_ground(node: Any, low: int, high: int, sole: float, depth: float) -> None:
-    """Light and dark tiles of TILE [m]; the top is at z = -sole."""
-    for k in range(low, high):
-        grey = 0.78 if k % 2 == 0 else 0.62
-        tile = node[f"{k - low}"]
-        tile.set_object(shapes.Box([TILE, 1.0 + depth, 0.03]), _paint((grey, grey, grey, 1.0), 1.0))
-        tile.set_transform(_shift(((k + 0.5) * TILE, 0.5 * depth, -sole - 0.015)))
-
-
-def _set_stage(viewer: Any) -> None:
-    """White background and an orthographic camera at the robot's right side: x to the right, z up."""
-    for name in ("/Axes", "/Grid"):
-        viewer[name].set_property("visible", False)
-    for name in ("top_color", "bottom_color"):
-        viewer["/Background"].set_property(name, [1.0, 1.0, 1.0])
-    half = 0.5 * VIEW
-    camera = shapes.OrthographicCamera(-half, half, half, -half, near=0.1, far=100.0)
-    viewer["/Cameras/default/rotated"].set_object(camera)
-    # the camera's own frame has y up and z towards the robot's right
-    viewer["/Cameras/default/rotated/<object>"].set_property("position", [0.0, 0.7, 8.0])
-
-
-# -- motion ----------------------------------------------------------------------------------------
-def frame_times(walks: Mapping[str, Scene], fps: float) -> Array:
-    """Times of the frames (K,) [s], every 1/fps to the end of the longest walk."""
-    start = min(walk.trajectory.t_start for walk in walks.values())
-    end = max(walk.trajectory.t_end for walk in walks.values())
-    return start + np.arange(math.ceil((end - start) * fps) + 1) / fps
-
-
-def _animation(walks: Mapping[str, Scene], fps: float) -> dict[str, Any]:
-    """Meshcat's command: a clip per moving joint; a walk that has ended stays in its last pose."""
-    times = frame_times(walks, fps)
-    clips = []
-    for name, walk in walks.items():
-        tree = walk.biped.tree
-        frames = [walk.joints(float(t)) for t in times]
-        for joint in tree.joints:
-            if joint.type == "fixed":
-                continue
-            values = np.array([frame[joint.name] for frame in frames])
-            clip = {"fps": fps, "name": "default", "tracks": [_track(joint, values)]}
-            path = f"/meshcat/robots/{node_name(name)}/{_path(tree, joint)}"
-            clips.append({"path": path, "clip": clip})
-    options = {"play": True, "repetitions": math.inf}
-    return {"type": "set_animation", "animations": clips, "options": options, "path": ""}
-
-
-def _track(joint: Joint, values: Array) -> dict[str, Any]:
-    """Keys of one joint, their time counted in frames: quaternion (x, y, z, w), or position [m]."""
-    axis = np.array(joint.axis)
-    if joint.type == "revolute":
-        name, kind = ".quaternion", "quaternion"
-        keys = np.column_stack((np.sin(values / 2)[:, None] * axis, np.cos(values / 2)))
-    else:
-        name, kind = ".position", "vector3"
-        keys = np.array(joint.origin) + values[:, None] * axis
-    rows = [{"time": k, "value": row} for k, row in enumerate(keys.tolist())]
-    return {"name": name, "type": kind, "keys": rows}
+def _css(rgb: Sequence[float]) -> str:
+    return f"#{draw.colour(rgb):06x}"

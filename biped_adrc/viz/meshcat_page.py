@@ -5,7 +5,9 @@ from __future__ import annotations
 import base64
 import html
 import json
+import random
 import uuid
+from collections.abc import Sequence
 from importlib.resources import files
 from typing import Any, Protocol
 
@@ -28,14 +30,20 @@ class Command(Protocol):
 class MemoryWindow:
     """Takes the place of meshcat's window: keeps the commands, opens no port and starts no process."""
 
-    def __init__(self) -> None:
+    def __init__(self, seed: str = "scene") -> None:
         self.commands: list[bytes] = []
         self._names: dict[str, str] = {}
+        self._source = random.Random(seed)
+
+    def packed(self) -> list[str]:
+        """The commands in base64."""
+        return [base64.b64encode(command).decode("ascii") for command in self.commands]
 
     def send(self, command: Command) -> None:
         """Pack a command of meshcat as its viewer expects it.
 
-        Meshcat names objects by clock and host (uuid1); they are counted here, for the same bytes every time.
+        Meshcat names objects by clock and host (uuid1); here names come from a seeded source, for the same
+        bytes every time.
         """
         plain = command.lower()
         self._count(plain)
@@ -51,7 +59,7 @@ class MemoryWindow:
                 self._count(item)
         elif isinstance(value, dict):
             if "uuid" in value:
-                number = uuid.UUID(int=len(self._names) + 1)
+                number = uuid.UUID(int=self._source.getrandbits(128), version=4)
                 self._names.setdefault(value["uuid"], str(number))
             for item in value.values():
                 self._count(item)
@@ -64,67 +72,47 @@ class MemoryWindow:
         return self._names.get(value, value) if isinstance(value, str) else value
 
 
-def page(window: MemoryWindow, title: str, caption: str, follow: str, marks: list[Any]) -> str:
-    """The page. follow: path of the node whose x the camera follows; marks: [start, stop, text] [s].
+def page(settings: dict[str, Any], title: str, captions: Sequence[tuple[str, str]]) -> str:
+    """The page that plays `settings` (see `meshcat.scene_settings`).
 
-    `title` and `caption` are plain text and are escaped here.
+    captions: (colour, text) of the legend. Texts are plain and are escaped here.
     """
     viewer = files("meshcat").joinpath("viewer", "dist", "main.min.js").read_text(encoding="utf-8")
-    commands = [base64.b64encode(c).decode("ascii") for c in window.commands]
-    settings = {"follow": follow.strip("/").split("/"), "marks": marks, "commands": commands}
+    own = files("biped_adrc.viz")
+    style, script = (
+        own.joinpath(f"player.{kind}").read_text(encoding="utf-8") for kind in ("css", "js")
+    )
     data = json.dumps(settings).replace("<", "\\u003c")
+    policy = POLICY + ("; connect-src 'self'" if settings["live"] else "")
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">\n'
-        f"<title>{html.escape(title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
-        '<div id="meshcat-pane"></div>\n'
-        f'<p id="caption">{html.escape(caption)} <output id="clock"></output></p>\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
+        f"<title>{html.escape(title)}</title>\n<style>{style}</style>\n</head>\n<body>\n"
+        f'<div id="meshcat-pane" role="img" aria-label="{html.escape(title)}, walking"></div>\n'
+        '<p id="message" role="alert" hidden></p>\n'
+        f'<div id="panel">{_bar(settings)}<p id="caption">{_legend(captions)}</p></div>\n'
         f"<script>{viewer}</script>\n"
         f'<script type="application/json" id="scene">{data}</script>\n'
-        f"<script>{SCRIPT}</script>\n</body>\n</html>\n"
+        f"<script>{script}</script>\n</body>\n</html>\n"
     )
 
 
-STYLE = """
-body { margin: 0; }
-#meshcat-pane { width: 100vw; height: 100vh; overflow: hidden; }
-#caption { position: absolute; left: 0; bottom: 0; margin: 0; padding: 0.5em 1em; font: 15px sans-serif;
-  background: rgba(255, 255, 255, 0.85); color: #111; }
-#clock { font-variant-numeric: tabular-nums; font-weight: bold; }
-"""
+def _bar(settings: dict[str, Any]) -> str:
+    speeds = {"1": "1 x", "0.5": "1/2 x", "0.25": "1/4 x", "0.1": "1/10 x", "2": "2 x"}
+    options = "".join(f'<option value="{v}">{text}</option>' for v, text in speeds.items())
+    return (
+        '<div id="bar"><button id="play" title="space">pause</button>'
+        f'<input id="seek" type="range" min="{settings["start"]}" max="{settings["end"]}" '
+        f'step="{1.0 / settings["fps"]}" aria-label="time [s]">'
+        f'<output id="clock"></output><select id="speed" aria-label="speed">{options}</select>'
+        '<button id="view" title="v">perspective</button></div>'
+    )
 
-SCRIPT = """
-const scene = JSON.parse(document.getElementById("scene").textContent);
-const viewer = new MeshCat.Viewer(document.getElementById("meshcat-pane"));
-// the viewer keeps the left edge of an orthographic camera and moves the right one; keep the middle instead
-const resize = viewer.set_3d_pane_size.bind(viewer);
-viewer.set_3d_pane_size = (w, h) => {
-  const camera = viewer.camera;
-  if (camera.isOrthographicCamera) {
-    const width = w === undefined ? viewer.dom_element.offsetWidth : w;
-    const height = h === undefined ? window.innerHeight : h;
-    camera.left = -0.5 * (camera.top - camera.bottom) * width / height;
-  }
-  resize(w, h);
-};
-for (const text of scene.commands) {
-  viewer.handle_command_bytearray(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)));
-}
-const leader = viewer.scene_tree.find(scene.follow).object;
-const clock = document.getElementById("clock");
-const render = viewer.render.bind(viewer);
-let x = 0;
-viewer.render = () => {
-  const step = leader.position.x - x;
-  x += step;
-  viewer.camera.position.x += step;
-  viewer.controls.target.x += step;
-  const t = viewer.animator.time;
-  const now = scene.marks.filter((m) => m[0] <= t && t < m[1]).map((m) => ", " + m[2]);
-  clock.textContent = "t = " + t.toFixed(2) + " s" + now.join("");
-  render();
-};
-viewer.controls.target.set(0, viewer.camera.position.y, 0);
-viewer.gui.open();
-viewer.gui.__folders["Scene"].close();
-"""
+
+def _legend(captions: Sequence[tuple[str, str]]) -> str:
+    entries = []
+    for colour, text in captions:
+        swatch = f'<i class="swatch" style="background:{colour}"></i>' if colour else ""
+        entries.append(f"<span>{swatch}{html.escape(text)}</span>")
+    return " &nbsp; ".join(entries)

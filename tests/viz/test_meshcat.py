@@ -7,15 +7,22 @@ import json
 import re
 
 import numpy as np
-import pinocchio as pin
 import pytest
 import umsgpack
 
+from biped_adrc.control.npd import NPDController
+from biped_adrc.disturbances.pulse import TorquePulse
 from biped_adrc.errors import InputError, OutputError
+from biped_adrc.gait.gait import load_gait
+from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.hybrid.trajectory import hermite
 from biped_adrc.model.biped import Biped
 from biped_adrc.studies.walk import Walk
-from biped_adrc.viz.meshcat import animation_html, frame_times, visual_transform, write_animation
+from biped_adrc.studies.walk import walk as walk_of
+from biped_adrc.viz.meshcat import animation_html, node_names, write_animation
+from biped_adrc.viz.meshcat_scene import ring_mesh, visual_transform
 from biped_adrc.viz.placement import Scene
+from biped_adrc.walker import Walker
 
 from .pinocchio_view import floating
 
@@ -35,45 +42,105 @@ def scene(text: str) -> tuple[dict[str, object], list[dict]]:
     return settings, commands
 
 
-def played(commands: list[dict], robot: str) -> dict[str, list[list[float]]]:
-    """Keys of the moving joints of one robot, by joint."""
-    animation = next(c for c in commands if c["type"] == "set_animation")
-    tracks = {}
-    for item in animation["animations"]:
-        where = item["path"].split("/")
-        assert item["clip"]["fps"] == FPS
-        if where[3] == robot:
-            keys = item["clip"]["tracks"][0]["keys"]
-            assert [key["time"] for key in keys] == list(range(len(keys)))
-            tracks[where[-1]] = [key["value"] for key in keys]
-    return tracks
+def data(walk: dict) -> dict[str, np.ndarray]:
+    """The arrays the player is given, a row per node."""
+    t = np.frombuffer(base64.b64decode(walk["data"]["t"]), dtype=np.float64)
+    flat = {
+        name: np.frombuffer(base64.b64decode(walk["data"][name]), dtype=np.float32)
+        for name in ("arc", "joints", "rates", "loads", "points")
+    }
+    return {"t": t, **{name: values.reshape(len(t), -1) for name, values in flat.items()}}
+
+
+def robot_of(settings: dict, name: str) -> dict:
+    return next(w for w in settings["walks"] if f"/robots/{name}/" in w["arrow"])
+
+
+def placed(biped: Biped, walk: dict, values: np.ndarray) -> dict[str, np.ndarray]:
+    """Placements by Pinocchio of the joint values the player is given."""
+    names = [joint["path"].split("/")[-1] for joint in walk["joints"]]
+    return floating(biped, dict(zip(names, map(float, values), strict=True)))
 
 
 @pytest.mark.parametrize("robot", ["NPD", "ADRC"])
 def test_the_animation_plays_the_walk(
     biped: Biped, walks: dict[str, Walk], page: str, robot: str
 ) -> None:
-    tracks = played(scene(page)[1], robot)
-    walk = Scene.of(walks[robot])
-    times = frame_times({n: Scene.of(w) for n, w in walks.items()}, FPS)
-    joints = {joint.name: joint for joint in biped.tree.joints}
-    assert set(tracks) == {n for n, j in joints.items() if j.type != "fixed"}
-    ends = [arc.t[-1] for arc in walks[robot].trajectory.arcs]
-    for k, t in enumerate(times):
-        values = {}
-        for name, keys in tracks.items():
-            if joints[name].type == "prismatic":
-                values[name] = float(np.array(keys[k]) @ np.array(joints[name].axis))
-            else:
-                quaternion = pin.Quaternion(np.array(keys[k]))
-                values[name] = float(pin.log3(quaternion.matrix()) @ np.array(joints[name].axis))
-        at = floating(biped, values)
-        i = min(int(np.searchsorted(ends, t, side="right")), len(ends) - 1)
+    found = robot_of(scene(page)[0], robot)
+    d, walk = data(found), Scene.of(walks[robot])
+    moving = {j.name for j in biped.tree.joints if j.type != "fixed"}
+    assert {joint["path"].split("/")[-1] for joint in found["joints"]} == moving
+    arcs = walks[robot].trajectory.arcs
+    assert d["t"][0] == arcs[0].t[0]
+    assert d["t"][-1] == arcs[-1].t[-1]
+    assert np.max(np.diff(d["t"])) <= 1.0 / FPS + 1e-12
+    for k, i in enumerate(d["arc"][:, 0].astype(int)):
+        at = placed(biped, found, d["joints"][k])
         foot = ("left", "right")[i % 2]
         footprint = np.array([walk.footholds[i], 0.0, 0.0])
-        assert np.max(np.abs(at[f"{foot}_foot"][:3, 3] - footprint)) < 1e-4
+        assert np.max(np.abs(at[f"{foot}_foot"][:3, 3] - footprint)) < 1e-5
         lowest = min(at[f"{side}_foot"][2, 3] for side in ("left", "right"))
         assert lowest > -1e-4
+        np.testing.assert_allclose(d["points"][k][:2], at["torso"][[0, 2], 3], atol=1e-5)
+        swing = ("right", "left")[i % 2]
+        np.testing.assert_allclose(d["points"][k][2:], at[f"{swing}_foot"][[0, 2], 3], atol=1e-5)
+
+
+def test_between_nodes_the_walk_is_within_tolerance(walks: dict[str, Walk], page: str) -> None:
+    for name, walk in walks.items():
+        d, laid_out = data(robot_of(scene(page)[0], name)), Scene.of(walk)
+        names = [joint["path"].split("/")[-1] for joint in robot_of(scene(page)[0], name)["joints"]]
+        rng = np.random.default_rng(3)
+        for t in rng.uniform(d["t"][0], d["t"][-1], 200):
+            i = int(np.searchsorted(d["t"], t, side="right")) - 1
+            ends = [(d["t"][k], d["joints"][k], d["rates"][k]) for k in (i, i + 1)]
+            (t0, x0, dx0), (t1, x1, dx1) = ends
+            drawn = hermite(t0, t1, x0, x1, dx0, dx1, t)
+            true = laid_out.joints(float(t))
+            np.testing.assert_allclose(drawn, [true[n] for n in names], atol=3e-6)
+
+
+def test_arrows_are_the_loads(walks: dict[str, Walk], page: str) -> None:
+    """The ground reaction against Newton's law for the centre of mass, from the nodes themselves."""
+    walk = walks["NPD"]
+    d = data(robot_of(scene(page)[0], "NPD"))
+    s = walk.signals
+    for arc in range(len(walk.trajectory.arcs)):
+        mine, theirs = d["arc"][:, 0] == arc, s.step == arc + 1
+        for column in (0, 1):
+            expected = np.interp(d["t"][mine], s.t[theirs], s.ground_reaction[theirs][:, column])
+            np.testing.assert_allclose(d["loads"][mine][:, column], expected, rtol=0.02, atol=2.0)
+    assert not d["loads"][:, 2:].any()  # nobody pushed
+
+
+def test_a_push_is_drawn_on_the_joint_that_is_pushed(biped: Biped) -> None:
+    gait = load_gait("published", biped)
+    push = TorquePulse([30.0, 0.0, -20.0, 0.0, 5.0], step=2, start=0.1, stop=0.2)
+    made = walk_of(Walker(biped, NPDController(gait.constraint), push), gait, 2, RK4(2e-3))
+    d = data(scene(animation_html({"NPD": made}, fps=FPS))[0]["walks"][0])
+    zeta, begin = d["loads"][:, 2:], made.trajectory.arcs[1].t[0]
+    inside = (d["t"] >= begin + 0.1) & (d["t"] < begin + 0.2)
+    assert inside.sum() >= 6
+    # in step 2 the stance leg is the right one: hips and knees are drawn the other way round
+    expected = np.tile([0.0, 30.0, 0.0, -20.0, 5.0], (inside.sum(), 1))
+    np.testing.assert_array_equal(zeta[inside], expected)
+    assert not zeta[~inside].any()
+
+
+def test_the_ring_turns_counter_clockwise_and_ends_in_its_head() -> None:
+    vertices, faces = ring_mesh()
+    assert faces.max() == len(vertices) - 1
+    angle = np.unwrap(np.arctan2(vertices[:40, 2], vertices[:40, 0]))
+    assert np.all(np.diff(angle) > 0)
+    tip = np.arctan2(vertices[-1, 2], vertices[-1, 0])
+    assert np.hypot(*vertices[-1, [0, 2]]) == pytest.approx(1.0)
+    assert (tip - angle[-1]) % (2 * np.pi) == pytest.approx(np.radians(40.0))
+
+
+def test_names_that_look_alike_stay_apart() -> None:
+    names = node_names({"a b": 0, "a/b": 0, "a_b": 0, "": 0})
+    assert len(set(names.values())) == 4
+    assert all("/" not in name and name for name in names.values())
 
 
 def test_primitives_are_those_of_the_urdf(biped: Biped, page: str) -> None:
@@ -106,9 +173,12 @@ def test_the_page_stands_alone(page: str) -> None:
     outside = set(re.findall(r"https?://[\w./-]+", page))
     assert outside <= {"http://www.w3.org/1999/xhtml"}  # a namespace, never loaded
     settings, commands = scene(page)
-    types = [command["type"] for command in commands]
-    assert types.count("set_animation") == 1
-    assert settings["follow"][:3] == ["meshcat", "robots", "ADRC"]
+    assert {command["type"] for command in commands} == {
+        "set_object",
+        "set_property",
+        "set_transform",
+    }
+    assert settings["follow"].startswith("meshcat/robots/ADRC/")
 
 
 def test_the_page_repeats_byte_for_byte(biped: Biped, walks: dict[str, Walk], page: str) -> None:
@@ -129,6 +199,8 @@ def test_animation_refuses_bad_input(biped: Biped, walks: dict[str, Walk], tmp_p
         animation_html(walks, solid="LQR")
     with pytest.raises(InputError, match="fps"):
         animation_html(walks, fps=0.0)
+    with pytest.raises(InputError, match="perspective"):
+        animation_html(walks, view="top")
     (tmp_path / "file").write_text("")
     with pytest.raises(OutputError):
         write_animation(tmp_path / "file" / "walk.html", walks, fps=10.0)

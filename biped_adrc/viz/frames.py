@@ -1,0 +1,122 @@
+"""A walk sampled for a player that draws it at any time: cubic Hermite interpolation between nodes.
+
+Nodes are the frames, both ends of every single support and the edges of pushes; where that is not enough for
+the joints to be within `TOLERANCE` of the trajectory between two nodes, the interval is halved.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from biped_adrc.errors import InputError
+from biped_adrc.hybrid.trajectory import Arc, hermite
+from biped_adrc.types import Array
+from biped_adrc.viz.loads import loads
+from biped_adrc.viz.placement import Scene, joint_values
+
+TOLERANCE = 1e-6
+"""[rad], of an interpolated joint angle."""
+HALVINGS = 6
+EPSILON = 1e-6
+"""[s], half the interval of the central difference that gives the rates of the base."""
+
+
+@dataclass(frozen=True)
+class Pose:
+    """All that is drawn at one time."""
+
+    joints: Array
+    """(J,) of the moving joints in the order of the URDF [rad], [m]."""
+    rates: Array
+    """(J,) [rad/s], [m/s]."""
+    loads: Array
+    """(2 + n,), F_T, F_N [N] and the external torque on the drawn joints of q1..qn [N m]."""
+    points: Array
+    """(4,), x and z of the hip and of the swing foot in the world [m]."""
+
+
+@dataclass(frozen=True)
+class Frames:
+    """Rows are nodes (K,); a node at an impact is there twice, before and after it."""
+
+    t: Array
+    """(K,) [s]."""
+    arc: Array
+    """(K,) index of the single support."""
+    joints: Array
+    rates: Array
+    loads: Array
+    points: Array
+
+    @classmethod
+    def of(cls, scene: Scene, fps: float) -> Frames:
+        """Sample a walk. Raises InputError for a number of frames per second that is not positive."""
+        if not (math.isfinite(fps) and fps > 0):
+            raise InputError(f"fps is {fps} frames per second, expected a positive number")
+        t, arcs, poses = [], [], []
+        for i, arc in enumerate(scene.trajectory.arcs):
+            nodes = _nodes(scene, arc, fps)
+            t.append(nodes)
+            arcs.append(np.full(len(nodes), i))
+            poses += [pose(scene, i, float(node)) for node in nodes]
+        columns = (
+            np.array([getattr(p, name) for p in poses])
+            for name in ("joints", "rates", "loads", "points")
+        )
+        return cls(np.concatenate(t), np.concatenate(arcs), *columns)
+
+
+def pose(scene: Scene, i: int, t: float) -> Pose:
+    """The pose in arc i at t [s]."""
+    arc, biped, foothold = scene.trajectory.arcs[i], scene.biped, float(scene.footholds[i])
+    n, step = biped.n, arc.mode.step
+    x = arc(t, "left" if t == arc.t[-1] else "right")
+    q, v = x[:n], x[n : 2 * n]
+    moving = [joint.name for joint in biped.tree.joints if joint.type != "fixed"]
+    at, later, earlier = (
+        joint_values(biped, q + s * EPSILON * v, step, foothold) for s in (0.0, 1.0, -1.0)
+    )
+    rates = [(later[name] - earlier[name]) / (2.0 * EPSILON) for name in moving]
+    acting = loads(scene, min(t, math.nextafter(float(arc.t[-1]), -math.inf)))
+    zeta = acting.zeta if step % 2 == 1 else acting.zeta[biped.relabelling]
+    points = np.concatenate((biped.hip(q), biped.swing_foot(q)))
+    points[[0, 2]] += foothold
+    return Pose(
+        np.array([at[name] for name in moving]),
+        np.array(rates),
+        np.concatenate((acting.ground_reaction, zeta)),
+        points,
+    )
+
+
+def _nodes(scene: Scene, arc: Arc, fps: float) -> Array:
+    """Times (K,) [s] of one single support."""
+    start, end = float(arc.t[0]), float(arc.t[-1])
+    first = scene.trajectory.t_start
+    frames = first + np.arange(math.ceil((start - first) * fps), (end - first) * fps) / fps
+    edges = scene.walker.switching_times(arc.mode)
+    inside = [t for t in (*frames, *edges) if start < t < end]
+    nodes = np.unique([start, *inside, end])
+    q, v = _states(arc, nodes, scene.biped.n)
+    for _ in range(HALVINGS):
+        middles = 0.5 * (nodes[:-1] + nodes[1:])
+        found, _ = _states(arc, middles, scene.biped.n)
+        ends = zip(nodes, nodes[1:], q, q[1:], v, v[1:], middles, strict=False)
+        guess = np.array([hermite(*row) for row in ends]).reshape(found.shape)
+        rough = np.max(np.abs(guess - found), axis=1, initial=0.0) > TOLERANCE
+        if not rough.any():
+            break
+        nodes = np.sort(np.append(nodes, middles[rough]))
+        q, v = _states(arc, nodes, scene.biped.n)
+    return nodes
+
+
+def _states(arc: Arc, times: Array, n: int) -> tuple[Array, Array]:
+    """q and v (K, n) of the arc."""
+    last = float(arc.t[-1])
+    x = np.array([arc(float(t), "left" if t == last else "right") for t in times])
+    x = x.reshape(len(times), arc.x.shape[1])
+    return x[:, :n], x[:, n : 2 * n]

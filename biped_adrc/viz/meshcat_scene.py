@@ -1,0 +1,209 @@
+"""Objects of the scene in Meshcat: robots from their URDF, ground, footprints, traces, arrows, cameras.
+
+The scene mirrors the tree of the URDF, a node per joint, so links stay together between frames. The feet are
+points in the model and balls in the URDF: the ground is drawn one radius below z = 0.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.urdf import Joint, Tree, Visual
+from biped_adrc.types import Array
+from biped_adrc.viz.placement import joint_transform
+
+with warnings.catch_warnings():
+    # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here
+    warnings.simplefilter("ignore", DeprecationWarning)
+    import meshcat
+    import meshcat.geometry as shapes
+
+STANCE, SWING = (0.0, 0.447, 0.698), (0.902, 0.624, 0.0)
+"""Colours of the legs: blue and orange (Okabe and Ito), dark and light in grey print."""
+REACTION, TORQUE = (0.0, 0.62, 0.451), (0.8, 0.475, 0.655)
+"""Bluish green and reddish purple: the ground reaction, a torque from outside."""
+DARK = (0.1, 0.1, 0.1)
+TILE = 0.5
+"""[m], length of a tile of the ground."""
+VIEW = 2.0
+"""[m], height of the picture from the side."""
+HEAD = 0.09
+"""[m], length of the head of an arrow."""
+
+
+def shift(origin: Sequence[float]) -> Array:
+    """A translation (4, 4)."""
+    M = np.eye(4)
+    M[:3, 3] = origin
+    return M
+
+
+def paint(rgb: Sequence[float], opacity: float = 1.0) -> Any:
+    """A material of one colour."""
+    return shapes.MeshLambertMaterial(color=colour(rgb), opacity=opacity)
+
+
+def colour(rgb: Sequence[float]) -> int:
+    """0xRRGGBB of red, green, blue in 0..1."""
+    red, green, blue = (round(255 * c) for c in rgb[:3])
+    return (red << 16) + (green << 8) + blue
+
+
+# -- robot -----------------------------------------------------------------------------------------
+def joint_path(tree: Tree, joint: Joint) -> str:
+    """Path of a joint's node below its robot."""
+    above = [j.name for j in tree.path_to_root(joint.parent)]
+    return "/".join([*reversed(above), joint.name])
+
+
+def add_robot(node: Any, tree: Tree, opacity: float) -> None:
+    """A node per joint at its zero, the primitives of its child below it."""
+    for joint in tree.joints:
+        here = node[joint_path(tree, joint)]
+        here.set_transform(joint_transform(joint, 0.0))
+        for k, visual in enumerate(tree.links[joint.child].visuals):
+            part = here[f"visual_{k}"]
+            part.set_object(_shape(visual), paint(visual.rgba, opacity * visual.rgba[3]))
+            part.set_transform(visual_transform(visual))
+
+
+def _shape(visual: Visual) -> Any:
+    if visual.shape == "box":
+        return shapes.Box(list(visual.size))
+    if visual.shape == "sphere":
+        return shapes.Sphere(visual.size[0])
+    return shapes.Cylinder(visual.size[1], visual.size[0])
+
+
+def visual_transform(visual: Visual) -> Array:
+    """Placement (4, 4) of a primitive in its link; a URDF cylinder lies along z, Meshcat's along y."""
+    return shift(visual.origin) @ (UPRIGHT if visual.shape == "cylinder" else np.eye(4))
+
+
+UPRIGHT = np.array(
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
+)
+"""Turns y, the axis of Meshcat's cylinders, to z."""
+
+
+def leg_visuals(biped: Biped) -> list[list[str]]:
+    """Paths below the robot of the parts of the leg that is stance leg in odd steps, and of the other."""
+    d, tree = biped.description, biped.tree
+    legs = [[j.name for j in tree.path_to_root(foot)] for foot in (d.stance_foot, d.swing_foot)]
+    return [
+        [
+            f"{joint_path(tree, joint)}/visual_{k}"
+            for joint in tree.joints
+            if joint.name in own and joint.name not in other
+            for k in range(len(tree.links[joint.child].visuals))
+        ]
+        for own, other in (legs, legs[::-1])
+    ]
+
+
+def sole(biped: Biped) -> float:
+    """Radius of the ball of a foot [m]; 0 for a foot without one."""
+    foot = biped.tree.links[biped.description.stance_foot]
+    return max((v.size[0] for v in foot.visuals if v.shape == "sphere"), default=0.0)
+
+
+# -- what surrounds it -----------------------------------------------------------------------------
+def add_footprints(node: Any, footholds: Array, depth: float, opacity: float) -> list[str]:
+    """A flat plate under every stance foot; returns their names."""
+    for k, x in enumerate(footholds):
+        plate = node[f"{k}"]
+        plate.set_object(shapes.Box([0.06, 0.1, 0.004]), paint(DARK, opacity))
+        plate.set_transform(shift((float(x), 0.0, -depth)))
+    return [f"{k}" for k in range(len(footholds))]
+
+
+def add_trace(node: Any, points: int, rgb: Sequence[float], opacity: float) -> None:
+    """Room for a line of `points` points, drawn by the player."""
+    room = np.zeros((3, 2 * max(points - 1, 1)), dtype=np.float32)
+    material = shapes.LineBasicMaterial(color=colour(rgb), opacity=opacity)
+    node.set_object(shapes.LineSegments(shapes.PointsGeometry(room), material))
+
+
+def add_arrow(node: Any, rgb: Sequence[float], opacity: float) -> None:
+    """An arrow along z: `shaft` of length 1 m and `head` of `HEAD`, to be scaled by the player."""
+    shaft, head = node["shaft"]["body"], node["head"]["body"]
+    shaft.set_object(shapes.Cylinder(1.0, 0.012), paint(rgb, opacity))
+    shaft.set_transform(shift((0.0, 0.0, 0.5)) @ UPRIGHT)
+    head.set_object(shapes.Cylinder(HEAD, radiusTop=0.0, radiusBottom=0.035), paint(rgb, opacity))
+    head.set_transform(shift((0.0, 0.0, 0.5 * HEAD)) @ UPRIGHT)
+
+
+def add_ring(node: Any, origin: Sequence[float], rgb: Sequence[float], opacity: float) -> None:
+    """A bent arrow of radius 1 m in the x-z plane, counter-clockwise as q; `turn` is scaled by the player."""
+    node.set_transform(shift(origin))
+    vertices, faces = ring_mesh()
+    node["turn"]["body"].set_object(
+        shapes.TriangularMeshGeometry(vertices, faces), paint(rgb, opacity)
+    )
+
+
+def ring_mesh(width: float = 0.12, segments: int = 40) -> tuple[Array, NDArray[np.int_]]:
+    """Vertices (V, 3) and faces (F, 3) of a flat bent arrow over 300 degrees, its head at the end."""
+    angle = np.linspace(math.radians(-60.0), math.radians(200.0), segments)
+    rim = np.column_stack((np.cos(angle), np.zeros(segments), np.sin(angle)))
+    vertices = np.vstack(((1.0 - width) * rim, (1.0 + width) * rim))
+    k = np.arange(segments - 1)
+    faces = np.vstack(
+        (
+            np.column_stack((k, k + 1, k + segments)),
+            np.column_stack((k + 1, k + 1 + segments, k + segments)),
+        )
+    )
+    end, tip = angle[-1], math.radians(240.0)
+    head = [
+        [r * math.cos(a), 0.0, r * math.sin(a)]
+        for r, a in ((1.0 - 2.5 * width, end), (1.0 + 2.5 * width, end), (1.0, tip))
+    ]
+    faces = np.vstack((faces, [[len(vertices), len(vertices) + 1, len(vertices) + 2]]))
+    return np.vstack((vertices, head)), faces
+
+
+def add_ground(node: Any, footholds: Iterable[Array], depth: float, width: float) -> None:
+    """Light and dark tiles of TILE [m], two before and three behind the walks; the top at z = -depth."""
+    x = np.concatenate(list(footholds))
+    low, high = math.floor(x.min() / TILE) - 2, math.ceil(x.max() / TILE) + 3
+    for k in range(low, high):
+        grey = 0.78 if k % 2 == 0 else 0.62
+        tile = node[f"{k - low}"]
+        tile.set_object(shapes.Box([TILE, 1.0 + width, 0.03]), paint((grey, grey, grey)))
+        tile.set_transform(shift(((k + 0.5) * TILE, 0.5 * width, -depth - 0.015)))
+
+
+def set_stage(viewer: Any) -> None:
+    """White background, no axes, no grid."""
+    for name in ("/Axes", "/Grid"):
+        viewer[name].set_property("visible", False)
+    for name in ("top_color", "bottom_color"):
+        viewer["/Background"].set_property(name, [1.0, 1.0, 1.0])
+
+
+def set_camera(viewer: Any, kind: str) -> tuple[list[float], list[float]]:
+    """A camera at the robot's right side (x to the right, z up) or before it; its position and target [m].
+
+    The camera's own frame has y up and z towards the robot's right.
+    """
+    node = viewer[f"/Cameras/{kind}/rotated"]
+    node.set_transform(UPRIGHT)
+    if kind == "side":
+        half = 0.5 * VIEW
+        node.set_object(shapes.OrthographicCamera(-half, half, half, -half, near=0.1, far=100.0))
+        return [0.0, 0.7, 8.0], [0.0, 0.7, 0.0]
+    node.set_object(shapes.PerspectiveCamera(fov=40.0, near=0.05, far=100.0))
+    return [1.7, 1.3, 2.6], [0.1, 0.6, 0.0]
+
+
+def visualizer(window: Any) -> Any:
+    """Meshcat's tree of nodes, writing to `window`."""
+    return meshcat.Visualizer(window=window)

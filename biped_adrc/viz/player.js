@@ -1,0 +1,261 @@
+"use strict";
+// Draws walks in Meshcat's viewer at any time t, from the data of the page or from a server's messages.
+const scene = JSON.parse(document.getElementById("scene").textContent);
+const viewer = new MeshCat.Viewer(document.getElementById("meshcat-pane"));
+const element = (id) => document.getElementById(id);
+const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+const command = (text) => viewer.handle_command_bytearray(bytes(text));
+const node = (path) => viewer.scene_tree.find(path.split("/")).object;
+
+// the viewer keeps the left edge of an orthographic camera and moves the right one; keep the middle instead
+const resize = viewer.set_3d_pane_size.bind(viewer);
+viewer.set_3d_pane_size = (w, h) => {
+  const camera = viewer.camera;
+  const width = w === undefined ? viewer.dom_element.offsetWidth : w;
+  const height = h === undefined ? viewer.dom_element.offsetHeight : h;
+  if (camera.isOrthographicCamera) {
+    camera.left = -0.5 * (camera.top - camera.bottom) * width / height;
+  }
+  resize(width, height);
+};
+scene.commands.forEach(command);
+
+// -- one walk --------------------------------------------------------------------------------------
+class Trace {
+  constructor(path, broken) {
+    this.line = node(path + "/<object>");
+    this.line.frustumCulled = false; // its points move after its bounds were computed
+    this.broken = broken;
+  }
+  // points: {x, z, arc}; a broken trace has no line from one arc to the next
+  fill(points) {
+    const place = this.line.geometry.attributes.position;
+    const count = Math.min(points.length - 1, place.count / 2);
+    for (let i = 0; i < count; i++) {
+      const b = points[i + 1];
+      const a = this.broken && points[i].arc !== b.arc ? b : points[i];
+      place.array.set([a.x, 0, a.z, b.x, 0, b.z], 6 * i);
+    }
+    this.line.geometry.setDrawRange(0, 2 * Math.max(count, 0));
+    place.needsUpdate = true;
+  }
+}
+
+class Robot {
+  constructor(walk) {
+    this.walk = walk;
+    this.joints = walk.joints.map((j) => ({ ...j, object: node(j.path) }));
+    this.legs = walk.legs.map((leg) => leg.map((path) => node(path + "/<object>").material));
+    this.rings = walk.rings.map(node);
+    this.arrow = node(walk.arrow);
+    this.shaft = node(walk.arrow + "/shaft");
+    this.head = node(walk.arrow + "/head");
+    this.hip = new Trace(walk.traces[0], false);
+    this.foot = new Trace(walk.traces[1], true);
+    this.footprints = walk.footprints.map(node);
+    this.passed = [];
+    this.data = walk.data ? this.unpack(walk.data) : null;
+  }
+  unpack(data) {
+    const all = { t: new Float64Array(bytes(data.t).buffer) };
+    for (const name of ["arc", "joints", "rates", "loads", "points"]) {
+      const flat = new Float32Array(bytes(data[name]).buffer);
+      const width = flat.length / all.t.length;
+      all[name] = Array.from(all.t, (_, k) => flat.subarray(k * width, (k + 1) * width));
+    }
+    return all;
+  }
+  // the pose at t [s], by cubic Hermite interpolation; loads are those of the last node
+  at(t) {
+    const d = this.data;
+    let low = 0, high = d.t.length - 1;
+    t = Math.min(Math.max(t, d.t[0]), d.t[high]);
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (d.t[middle] <= t) low = middle; else high = middle - 1;
+    }
+    const i = low, k = Math.min(low + 1, d.t.length - 1);
+    const h = d.t[k] - d.t[i];
+    const s = h > 0 ? (t - d.t[i]) / h : 0, r = 1 - s;
+    const joints = Array.from(d.joints[i], (a, j) =>
+      r * r * (1 + 2 * s) * a + s * s * (3 - 2 * s) * d.joints[k][j]
+        + h * s * r * (r * d.rates[i][j] - s * d.rates[k][j]));
+    const points = Array.from(d.points[i], (a, j) => r * a + s * d.points[k][j]);
+    this.passed = d.points.slice(0, i + 1).map((p, j) => ({ p, arc: d.arc[j][0] }));
+    return { t, joints, loads: d.loads[i], points, arc: d.arc[i][0] };
+  }
+  show(pose) {
+    const w = this.walk, support = w.supports[pose.arc];
+    this.joints.forEach((j, k) => {
+      const value = pose.joints[k], [x, y, z] = j.axis;
+      if (j.type === "revolute") {
+        const s = Math.sin(0.5 * value);
+        j.object.quaternion.set(s * x, s * y, s * z, Math.cos(0.5 * value));
+      } else {
+        j.object.position.set(...j.origin.map((o, a) => o + value * j.axis[a]));
+      }
+    });
+    const stance = support.number % 2 === 1 ? 0 : 1;
+    this.legs.forEach((leg, k) =>
+      leg.forEach((material) => material.color.setHex(k === stance ? w.colours[0] : w.colours[1])));
+    this.footprints.forEach((print, k) => { print.visible = k <= pose.arc; });
+    this.push(pose, support);
+    const here = [...this.passed, { p: pose.points, arc: pose.arc }];
+    this.hip.fill(here.map(({ p, arc }) => ({ x: p[0], z: p[1], arc })));
+    this.foot.fill(here.map(({ p, arc }) => ({ x: p[2], z: p[3], arc })));
+  }
+  // arrows: the ground reaction at the stance foot, a ring around every joint that is pushed
+  push(pose, support) {
+    const w = this.walk, [tangent, normal, ...zeta] = pose.loads;
+    const length = w.metres_per_newton * Math.hypot(tangent, normal);
+    const tip = Math.min(w.head, length);
+    this.arrow.visible = length > 0;
+    this.arrow.position.set(support.x, 0, w.ground);
+    const half = 0.5 * Math.atan2(tangent, normal);
+    this.arrow.quaternion.set(0, Math.sin(half), 0, Math.cos(half));
+    this.shaft.scale.set(1, 1, Math.max(length - tip, 1e-6));
+    this.head.position.set(0, 0, length - tip);
+    this.head.scale.setScalar(Math.max(tip / w.head, 1e-6));
+    this.rings.forEach((ring, k) => {
+      const radius = w.metres_per_newton_metre * Math.abs(zeta[k]);
+      ring.visible = radius > 0;
+      if (ring.visible) ring.scale.set(Math.sign(zeta[k]) * radius, radius, radius);
+    });
+  }
+}
+const robots = scene.walks.map((walk) => new Robot(walk));
+const leader = robots[scene.leader];
+
+// -- camera ----------------------------------------------------------------------------------------
+let view = scene.view, followed = 0;
+for (const kind of Object.values(scene.views)) {
+  viewer.controls.dispose();
+  kind.commands.forEach(command);
+  kind.camera = viewer.camera;
+}
+function look(kind) {
+  view = kind;
+  viewer.controls.dispose();
+  viewer.set_camera(scene.views[kind].camera);
+  viewer.camera.position.set(...scene.views[kind].position);
+  viewer.controls.target.set(...scene.views[kind].target);
+  followed = 0;
+  viewer.controls.update();
+  element("view").textContent = kind === "side" ? "perspective" : "side view";
+  viewer.set_3d_pane_size();
+  viewer.set_dirty();
+}
+const eye = node(scene.follow);
+const render = viewer.render.bind(viewer);
+viewer.render = () => {
+  const step = eye.position.x - followed;
+  followed += step;
+  viewer.camera.position.x += step;
+  viewer.controls.target.x += step;
+  render();
+};
+
+// -- time ------------------------------------------------------------------------------------------
+const animator = viewer.animator;
+const reduced = matchMedia("(prefers-reduced-motion: reduce)").matches;
+let playing = !scene.live && !reduced, speed = 1, last = null;
+
+function describe(t, pose) {
+  const support = leader.walk.supports[pose.arc];
+  const now = scene.marks.filter((m) => m[0] <= t && t < m[1]).map((m) => ", " + m[2]);
+  if (now.length === 0 && pose.loads.slice(2).some((zeta) => zeta !== 0)) now.push(", pushed");
+  element("clock").textContent = "t = " + t.toFixed(2) + " s, step " + support.number + now.join("");
+}
+function show(t, poses) {
+  animator.time = t;
+  robots.forEach((robot, k) => robot.show(poses[k]));
+  describe(t, poses[scene.leader]);
+  viewer.set_dirty();
+}
+animator.seek = (t) => {
+  t = Math.min(Math.max(t, scene.start), scene.end);
+  show(t, robots.map((robot) => robot.at(t)));
+  element("seek").value = t;
+  element("seek").setAttribute("aria-valuetext", element("clock").textContent);
+};
+animator.play = () => {
+  playing = true;
+  last = null;
+  if (animator.time >= scene.end) animator.seek(scene.start);
+  element("play").textContent = "pause";
+};
+animator.pause = () => {
+  playing = false;
+  element("play").textContent = "play";
+};
+animator.update = () => {
+  if (!playing || scene.live) return;
+  const now = performance.now();
+  const t = animator.time + (last === null ? 0 : speed * 1e-3 * (now - last));
+  last = now;
+  animator.seek(t > scene.end ? scene.start : t);
+};
+animator.duration = scene.end - scene.start;
+
+// -- controls --------------------------------------------------------------------------------------
+const toggle = () => (playing ? animator.pause() : animator.play());
+element("play").onclick = toggle;
+element("seek").oninput = (e) => { animator.pause(); animator.seek(Number(e.target.value)); };
+element("speed").onchange = (e) => { speed = Number(e.target.value); };
+element("view").onclick = () => look(view === "side" ? "perspective" : "side");
+const keys = {
+  " ": toggle,
+  ArrowLeft: () => { animator.pause(); animator.seek(animator.time - 1 / scene.fps); },
+  ArrowRight: () => { animator.pause(); animator.seek(animator.time + 1 / scene.fps); },
+  Home: () => animator.seek(scene.start),
+  End: () => { animator.pause(); animator.seek(scene.end); },
+  v: () => element("view").click(),
+};
+document.addEventListener("keydown", (e) => {
+  const own = ["BUTTON", "SELECT", "INPUT"].includes(e.target.tagName);
+  if (scene.live && e.key !== "v") return;
+  if (e.ctrlKey || e.altKey || e.metaKey || !(e.key in keys) || (own && e.key !== "v")) return;
+  e.preventDefault();
+  keys[e.key]();
+});
+viewer.gui.close();
+look(scene.view);
+
+// -- live ------------------------------------------------------------------------------------------
+function connect() {
+  const socket = new WebSocket("ws://" + location.host + "/poses");
+  let heard = performance.now(), over = false;
+  const say = (text) => {
+    over = true;
+    element("message").textContent = text;
+    element("message").hidden = false;
+  };
+  socket.onmessage = (event) => {
+    heard = performance.now();
+    const message = JSON.parse(event.data);
+    if (message.over) { say(message.over); return; }
+    if (!message.poses) return;
+    message.poses.forEach((pose, k) => {
+      const passed = robots[k].passed;
+      if (message.restart) passed.length = 0;
+      robots[k].show(pose);
+      passed.push({ p: pose.points, arc: pose.arc });
+    });
+    animator.time = message.t;
+    describe(message.t, message.poses[scene.leader]);
+    viewer.set_dirty();
+  };
+  const lost = "The server has stopped: this picture no longer moves. Start it again, or write a page that "
+    + "needs no server with 'biped-adrc animate RUN.npz -o walk.html'.";
+  socket.onclose = () => { if (!over) say(lost); };
+  setInterval(() => {
+    if (!over && performance.now() - heard > 3000) { say(lost); socket.close(); }
+  }, 500);
+}
+if (scene.live) {
+  document.body.classList.add("live");
+  connect();
+} else {
+  animator.seek(scene.start);
+  if (playing) animator.play(); else animator.pause();
+}
