@@ -261,20 +261,56 @@ def poincare(
 def animate(
     run: Annotated[Path, typer.Argument(help="A run written by 'simulate' or 'reproduce' (.npz).")],
     ghost: Annotated[
-        Path | None, typer.Option(help="A second run, drawn translucent beside the first.")
+        list[Path] | None,
+        typer.Option(help="Another run, drawn translucent beside the first. May be repeated."),
     ] = None,
-    out: Annotated[Path, typer.Option("--out", "-o", help="The page to write.")] = Path(
-        "walk.html"
-    ),
+    out: Annotated[
+        Path,
+        typer.Option(
+            "--out",
+            "-o",
+            help="What to write: .html (offline page), .gif, or .png or .svg (strip).",
+        ),
+    ] = Path("walk.html"),
+    view: Annotated[
+        str, typer.Option(help="side (orthographic) or perspective; of the page.")
+    ] = "side",
+    start: Annotated[
+        float | None, typer.Option("--from", help="Start of a .gif or strip [s].")
+    ] = None,
+    stop: Annotated[float | None, typer.Option("--to", help="End of a .gif or strip [s].")] = None,
+    fps: Annotated[
+        float | None, typer.Option(help="Frames per second; 60, or 25 for a .gif.")
+    ] = None,
+    live: Annotated[
+        bool,
+        typer.Option("--live", help="Show it in the browser from a server on 127.0.0.1 instead."),
+    ] = False,
+    port: Annotated[int, typer.Option(help="Port of --live; 0 takes a free one.")] = 0,
+    browser: Annotated[
+        bool, typer.Option(help="Open the browser with --live, or only print the address.")
+    ] = True,
+    wait: Annotated[
+        float, typer.Option(help="How long --live waits for the first page [s].")
+    ] = 120.0,
 ) -> None:
-    """Write one offline page in which the walk can be watched in a browser."""
-    from biped_adrc.studies.runs import load_walk
-    from biped_adrc.viz.meshcat import write_animation
+    """Write the walk as a page, a picture or a strip; or show it live."""
+    from biped_adrc.studies.runs import load_walks
+    from biped_adrc.viz.export import Clip, check_suffix, export
 
-    paths = [run] if ghost is None else [ghost, run]
-    loaded = {path: load_walk(path) for path in paths}
-    walks = {f"{walk.controller_name} ({path.stem})": walk for path, walk in loaded.items()}
-    write_animation(out, walks)
+    if not live:
+        check_suffix(out)
+    walks = load_walks([*(ghost or []), run])
+    if live:
+        from biped_adrc.viz.live import play
+        from biped_adrc.viz.meshcat import Look
+
+        look = Look(fps=60.0 if fps is None else fps, view=view)
+        console.print(
+            play(walks, look, port=port, open_browser=browser, wait=wait, say=console.print)
+        )
+        return
+    export(out, walks, Clip(start, stop, fps, view))
     console.print(f"written to {out}")
 
 

@@ -5,6 +5,7 @@ A `Run` can be sent to another process, stored as JSON, and carried out again.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -220,6 +221,17 @@ def load_walk(path: Path | str) -> Walk:
             "'biped-adrc simulate' and 'reproduce' do"
         )
     return replay(from_record(record), trajectory)
+
+
+def load_walks(paths: Sequence[Path]) -> dict[str, Walk]:
+    """The walks in run files, named by controller and, where that is not enough, by file."""
+    found = [(path, load_walk(path)) for path in paths]
+    names = [walk.controller_name for _, walk in found]
+    if len(set(names)) < len(names):
+        names = [f"{walk.controller_name} ({path.stem})" for path, walk in found]
+    if len(set(names)) < len(names):
+        names = [f"{name} {k}" for k, name in enumerate(names, start=1)]
+    return dict(zip(names, (walk for _, walk in found), strict=True))
 
 
 def from_record(record: dict[str, Any]) -> Run:

@@ -55,9 +55,9 @@ class Walk:
 
         view: "side" (orthographic) or "perspective", of the page. Raises InputError and OutputError.
         """
-        from biped_adrc.viz.export import export
+        from biped_adrc.viz.export import Clip, export
 
-        export(Path(path), {self.controller_name: self}, view=view)
+        export(Path(path), {self.controller_name: self}, Clip(view=view))
 
     def _repr_html_(self) -> str:
         """What a notebook shows: the animation, and references and torques."""

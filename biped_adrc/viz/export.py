@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from biped_adrc.errors import InputError
@@ -22,10 +23,25 @@ def check_suffix(path: Path) -> str:
     return suffix
 
 
-def export(path: Path, walks: Mapping[str, Recorded], view: str = "side") -> None:
+@dataclass(frozen=True)
+class Clip:
+    """What part of the walks is shown, and how.
+
+    start, stop [s]: of a moving picture or a strip; the whole walk, or its last two steps for a strip, if None.
+    fps [1/s]: 60 for a page and 25 for a moving picture if None. view: "side" or "perspective", of a page.
+    """
+
+    start: float | None = None
+    stop: float | None = None
+    fps: float | None = None
+    view: str = "side"
+
+
+def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) -> None:
     """Write the walks to `path`; a strip shows the last of them. Raises InputError and OutputError."""
     from biped_adrc.viz.meshcat import write_animation
 
+    clip = Clip() if clip is None else clip
     suffix = check_suffix(path)
     if suffix == ".html":
-        write_animation(path, walks, view=view)
+        write_animation(path, walks, fps=60.0 if clip.fps is None else clip.fps, view=clip.view)

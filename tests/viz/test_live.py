@@ -1,0 +1,207 @@
+"""Live mode: who can reach it, how it ends, and that it never hangs."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import threading
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+from queue import Empty, Queue
+
+import psutil
+import pytest
+from selenium.webdriver.common.by import By
+
+from biped_adrc.hybrid.storage import save
+from biped_adrc.studies.runs import Run, execute_fully
+
+from .browser import chromium, console, needs_chromium
+
+SOON = 5.0
+"""[s] within which a session ends once its browser or its server is gone."""
+
+
+@pytest.fixture(scope="module")
+def stored(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    run = Run("NPD", impacts=3, h=2e-3)
+    path = tmp_path_factory.mktemp("runs") / "walk.npz"
+    save(execute_fully(run).trajectory, path, {"run": run.record()})
+    return path
+
+
+class Live:
+    """`biped-adrc animate --live` as a process of its own."""
+
+    def __init__(self, run: Path, *options: str) -> None:
+        command = [sys.executable, "-m", "biped_adrc.cli", "animate", str(run), "--live"]
+        self.process = subprocess.Popen(
+            [*command, "--no-browser", *options],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        self.lines: Queue[str] = Queue()
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
+        self.url = self.line().split()[0]
+        self.port = int(self.url.rstrip("/").rsplit(":", 1)[1])
+
+    def _read(self) -> None:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            self.lines.put(line)
+
+    def line(self, timeout: float = 30.0) -> str:
+        try:
+            return self.lines.get(timeout=timeout)
+        except Empty:
+            pytest.fail("the session said nothing")
+
+    def ends(self, timeout: float = SOON) -> tuple[int, str]:
+        code = self.process.wait(timeout)
+        self.reader.join(SOON)
+        rest = []
+        while not self.lines.empty():
+            rest.append(self.lines.get())
+        return code, " ".join("".join(rest).split())
+
+    def close(self) -> None:
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+        self.reader.join(SOON)
+        assert self.process.stdout is not None
+        self.process.stdout.close()
+
+
+@pytest.fixture
+def live(stored: Path) -> Iterator[Live]:
+    session = Live(stored)
+    yield session
+    session.close()
+
+
+def listening(process: int) -> list[tuple[str, int]]:
+    """Sockets the operating system lists for the process and its children."""
+    parent = psutil.Process(process)
+    connections = [
+        c for p in (parent, *parent.children(recursive=True)) for c in p.net_connections("inet")
+    ]
+    return [(c.laddr.ip, c.laddr.port) for c in connections if c.status == psutil.CONN_LISTEN]
+
+
+def get(url: str, host: str | None = None) -> str:
+    request = urllib.request.Request(url, headers={} if host is None else {"Host": host})
+    with urllib.request.urlopen(request, timeout=10) as answer:
+        return str(answer.read().decode("utf-8"))
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_and_nothing_is_left(live: Live, number: signal.Signals) -> None:
+    assert listening(live.process.pid) == [("127.0.0.1", live.port)]
+    assert "MeshCat" in get(live.url)
+    assert psutil.Process(live.process.pid).children() == []
+    live.process.send_signal(number)
+    code, said = live.ends()
+    assert code == 0
+    assert said == f"stopped by {number.name}"
+    with pytest.raises(urllib.error.URLError):
+        get(live.url)
+
+
+def test_two_sessions_do_not_collide(live: Live, stored: Path) -> None:
+    other = Live(stored)
+    try:
+        assert other.port != live.port
+        assert "MeshCat" in get(other.url)
+        other.process.send_signal(signal.SIGTERM)
+        assert other.ends()[0] == 0
+        assert "MeshCat" in get(live.url)
+    finally:
+        other.close()
+
+
+def test_a_port_in_use_is_refused(live: Live, stored: Path) -> None:
+    command = [sys.executable, "-m", "biped_adrc.cli", "animate", str(stored), "--live"]
+    found = subprocess.run(
+        [*command, "--no-browser", "--port", str(live.port)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert found.returncode == 3
+    assert f"port {live.port} cannot be used" in found.stderr
+
+
+def test_other_names_of_this_machine_are_refused(live: Live) -> None:
+    with pytest.raises(urllib.error.HTTPError, match="403"):
+        get(live.url, host="attacker.example")
+
+
+@needs_chromium
+def test_the_page_moves_and_closing_it_ends_the_session(live: Live) -> None:
+    with chromium() as browser:
+        browser.get(live.url)
+        browser.execute_async_script("setTimeout(arguments[0], 700)")
+        times = []
+        for _ in range(2):
+            times.append(browser.execute_script("return viewer.animator.time"))
+            browser.execute_async_script("setTimeout(arguments[0], 300)")
+        assert times[1] > times[0] > 0.0
+        assert browser.find_element(By.ID, "clock").text.startswith("t = ")
+        assert console(browser) == []
+    code, said = live.ends()
+    assert (code, said) == (0, "the browser has closed the page")
+
+
+@needs_chromium
+def test_killing_the_browser_ends_the_session(live: Live) -> None:
+    with chromium() as browser:
+        browser.get(live.url)
+        browser.execute_async_script("setTimeout(arguments[0], 500)")
+        driver = psutil.Process(browser.service.process.pid)
+        for process in driver.children(recursive=True):
+            process.kill()
+        assert live.ends() == (0, "the browser has closed the page")
+
+
+@needs_chromium
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
+def test_the_page_says_that_the_server_is_gone(live: Live, number: signal.Signals) -> None:
+    with chromium() as browser:
+        browser.get(live.url)
+        browser.execute_async_script("setTimeout(arguments[0], 500)")
+        live.process.send_signal(number)
+        message, until = browser.find_element(By.ID, "message"), time.monotonic() + SOON
+        while not message.is_displayed():
+            assert time.monotonic() < until, "the page says nothing"
+            time.sleep(0.1)
+        assert message.text.startswith("The server has stopped")
+
+
+@needs_chromium
+def test_ending_it_tells_the_page(live: Live) -> None:
+    with chromium() as browser:
+        browser.get(live.url)
+        browser.execute_async_script("setTimeout(arguments[0], 500)")
+        live.process.send_signal(signal.SIGTERM)
+        assert live.ends()[0] == 0
+        message, until = browser.find_element(By.ID, "message"), time.monotonic() + SOON
+        while not message.is_displayed():
+            assert time.monotonic() < until
+            time.sleep(0.1)
+        assert "was ended where it was started" in message.text
+
+
+def test_it_does_not_wait_for_ever_for_a_browser(stored: Path) -> None:
+    session = Live(stored, "--wait", "0.5")
+    try:
+        code, said = session.ends()
+        assert (code, said) == (0, "no browser has opened the page within 0.5 s")
+    finally:
+        session.close()
