@@ -5,13 +5,25 @@ OUT ?= out
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
-.PHONY: reproduce test dev lint format types imports bench clean
+.PHONY: reproduce test docs pictures results dev lint format types imports bench clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT)
 
 test: .venv/.test
 	$(BIN)/python -m pytest -rs
+
+# the pages, in docs/_build/html
+docs: .venv/.dev
+	$(BIN)/sphinx-build -W --keep-going -n -b html docs docs/_build/html
+
+# what the README shows, from the runs of 'make reproduce'
+pictures: .venv/.core
+	$(BIN)/python docs/make_pictures.py $(OUT)
+
+# the reproduction's results in docs/ and README.md, from its summary
+results: .venv/.core
+	$(BIN)/python docs/write_results.py $(OUT)
 
 dev: .venv/.dev
 
