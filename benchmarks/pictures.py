@@ -29,7 +29,9 @@ def quickest(write: Callable[[], None]) -> float:
 
 
 def main() -> None:
-    walks: dict[str, Walk] = {c: execute_fully(Run(c, pushes=(PAPER_PUSH,))) for c in ("NPD", "ADRC")}
+    walks: dict[str, Walk] = {
+        c: execute_fully(Run(c, pushes=(PAPER_PUSH,))) for c in ("NPD", "ADRC")
+    }
     one = {"ADRC": walks["ADRC"]}
     with tempfile.TemporaryDirectory() as folder:
         for title, shown, name, clip in (

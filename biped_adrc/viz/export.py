@@ -7,7 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from biped_adrc.errors import InputError
+from biped_adrc.viz.gif import write_gif
+from biped_adrc.viz.meshcat import write_animation
 from biped_adrc.viz.placement import Recorded
+from biped_adrc.viz.stick import write_strip
 
 SUFFIXES = (".html", ".gif", ".png", ".svg")
 
@@ -39,9 +42,14 @@ class Clip:
 
 def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) -> None:
     """Write the walks to `path`; a strip shows the last of them. Raises InputError and OutputError."""
-    from biped_adrc.viz.meshcat import write_animation
-
     clip = Clip() if clip is None else clip
     suffix = check_suffix(path)
+    if not walks:
+        raise InputError("there is no walk to draw; expected at least one")
     if suffix == ".html":
         write_animation(path, walks, fps=60.0 if clip.fps is None else clip.fps, view=clip.view)
+    elif suffix == ".gif":
+        fps = 25.0 if clip.fps is None else clip.fps
+        write_gif(path, walks, start=clip.start, stop=clip.stop, fps=fps)
+    else:
+        write_strip(path, list(walks.values())[-1], clip.start, clip.stop)

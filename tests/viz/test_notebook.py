@@ -32,7 +32,7 @@ def test_a_trajectory_draws_itself(walks: dict[str, Walk], tmp_path) -> None:
     text = (tmp_path / "walk.html").read_text(encoding="utf-8")
     assert text == animation_html({"NPD": walk})
     assert len(walk.trajectory.plot().axes) == len(walk.plot().axes)
-    with pytest.raises(InputError, match="ends in '.mov'"):
+    with pytest.raises(InputError, match=r"ends in '\.mov'"):
         walk.trajectory.animate(tmp_path / "walk.mov")
 
 

@@ -1,0 +1,124 @@
+"""The robot from the side in matplotlib: its links as lines, from the primitives of the URDF."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from biped_adrc.model.biped import GRAVITY, Biped
+from biped_adrc.model.urdf import Visual
+from biped_adrc.types import Array
+from biped_adrc.viz.placement import Scene, link_placements
+
+STANCE, SWING, TRUNK = "#0072B2", "#E69F00", "#333333"
+"""Blue, orange, dark grey: dark, light and black in print."""
+WEIGHT_LENGTH = 0.4
+"""[m], length of the arrow of a ground reaction as large as the robot's weight."""
+
+
+@dataclass(frozen=True)
+class Bone:
+    """A line in the frame of a link; `leg` is "stance" for the leg that carries odd steps, "swing", or ""."""
+
+    link: str
+    ends: Array
+    """(2, 3) [m]."""
+    leg: str
+
+
+def bones(biped: Biped) -> list[Bone]:
+    """The axes of cylinders and the longest sides of boxes; lines from joint to joint where there are none."""
+    legs = _legs(biped)
+    found = [
+        Bone(name, ends, legs.get(name, ""))
+        for name, link in biped.tree.links.items()
+        for visual in link.visuals
+        if (ends := _axis(visual)) is not None
+    ]
+    if found:
+        return found
+    return [
+        Bone(j.parent, np.array([[0.0, 0.0, 0.0], j.origin]), legs.get(j.child, ""))
+        for j in biped.tree.joints
+        if any(j.origin)
+    ]
+
+
+def _legs(biped: Biped) -> dict[str, str]:
+    """The leg each link belongs to; links of both paths belong to the trunk."""
+    d, tree = biped.description, biped.tree
+    paths = {
+        "stance": {joint.child for joint in tree.path_to_root(d.stance_foot)},
+        "swing": {joint.child for joint in tree.path_to_root(d.swing_foot)},
+    }
+    both = paths["stance"] & paths["swing"]
+    return {link: leg for leg, links in paths.items() for link in links - both}
+
+
+def _axis(visual: Visual) -> Array | None:
+    """Ends (2, 3) of the line a primitive stands for; None for a ball."""
+    if visual.shape == "sphere":
+        return None
+    along = np.zeros(3)
+    if visual.shape == "cylinder":
+        along[2] = 0.5 * visual.size[1]
+    else:
+        longest = int(np.argmax(visual.size))
+        along[longest] = 0.5 * visual.size[longest]
+    return np.array(visual.origin) + np.array([-along, along])
+
+
+@dataclass(frozen=True)
+class SideView:
+    """Where the lines of a walk are in the x-z plane of the world."""
+
+    scene: Scene
+
+    @cached_property
+    def bones(self) -> list[Bone]:
+        return bones(self.scene.biped)
+
+    def segments(self, t: float) -> Array:
+        """(bones, 2, 2), x and z of both ends [m], in the order of `bones`."""
+        placements = link_placements(self.scene.biped.tree, self.scene.joints(t))
+        rows = []
+        for bone in self.bones:
+            M = placements[bone.link]
+            rows.append((bone.ends @ M[:3, :3].T + M[:3, 3])[:, [0, 2]])
+        return np.array(rows)
+
+    def step(self, t: float) -> int:
+        """Number of the single support."""
+        number: int = self.scene.trajectory.arcs[self.scene.arc_at(t)].mode.step
+        return number
+
+    def roles(self, t: float) -> list[str]:
+        """ "stance", "swing" or "" by bone at t: the legs change over at every impact."""
+        if self.step(t) % 2 == 1:
+            return [bone.leg for bone in self.bones]
+        other = {"stance": "swing", "swing": "stance", "": ""}
+        return [other[bone.leg] for bone in self.bones]
+
+    def points(self, t: float) -> Array:
+        """(4,), x and z of the hip and of the swing foot [m]."""
+        trajectory, biped = self.scene.trajectory, self.scene.biped
+        t = min(max(t, trajectory.t_start), trajectory.t_end)
+        i = self.scene.arc_at(t)
+        q = trajectory.arcs[i](t)[: biped.n]
+        points = np.concatenate((biped.hip(q), biped.swing_foot(q)))
+        points[[0, 2]] += float(self.scene.footholds[i])
+        return points
+
+    @cached_property
+    def height(self) -> float:
+        """Highest point of the robot on this walk [m], for the limits of a picture."""
+        trajectory = self.scene.trajectory
+        times = np.linspace(trajectory.t_start, trajectory.t_end, 50)
+        return float(max(self.segments(float(t))[:, :, 1].max() for t in times))
+
+    @cached_property
+    def metres_per_newton(self) -> float:
+        """Scale of the arrow of the ground reaction."""
+        return WEIGHT_LENGTH / (self.scene.biped.mass * GRAVITY)

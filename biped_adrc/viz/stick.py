@@ -1,0 +1,111 @@
+"""A strip of stick figures over a few steps, as in papers on walking."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+
+from biped_adrc.errors import InputError
+from biped_adrc.files import write_bytes
+from biped_adrc.viz.placement import Recorded, Scene
+from biped_adrc.viz.side_view import STANCE, SWING, TRUNK, SideView
+from biped_adrc.viz.style import label, new_figure, render, style
+
+LOOKS = {
+    "swing": (SWING, 1.4, (0, (4, 1.5)), "swing leg"),
+    "stance": (STANCE, 2.0, "-", "stance leg"),
+    "": (TRUNK, 2.6, "-", "torso"),
+}
+"""Colour, width and dash by role."""
+
+
+def strip(
+    axes: Axes,
+    walk: Recorded,
+    start: float | None = None,
+    stop: float | None = None,
+    poses: int = 13,
+) -> Axes:
+    """Draw the robot at `poses` times, equally spaced from `start` to `stop` [s]; returns the axes.
+
+    Without times: the last two whole steps. Poses grow darker with time. Raises InputError.
+    """
+    scene = Scene.of(walk)
+    start, stop = _interval(scene, start, stop)
+    if poses < 2:
+        raise InputError(f"a strip of {poses} poses was asked for, expected at least 2")
+    view = SideView(scene)
+    times = np.linspace(start, stop, poses)
+    for k, t in enumerate(times):
+        # the end of the last step is its own last pose, not the first of the next
+        _pose(
+            axes,
+            view,
+            float(np.nextafter(t, start)) if k else float(t),
+            (k + 1) / poses,
+            k == poses - 1,
+        )
+    _ground(axes, scene, start, stop)
+    axes.set_aspect("equal")
+    axes.grid(False)
+    axes.legend(loc="upper right", bbox_to_anchor=(1.0, 1.1), ncols=4, borderaxespad=0.0)
+    axes.set_ylim(-0.08, 1.05 * view.height)
+    label(axes, "x [m]", "z [m]", f"a pose every {1e3 * (times[1] - times[0]):.0f} ms")
+    return axes
+
+
+def _interval(scene: Scene, start: float | None, stop: float | None) -> tuple[float, float]:
+    trajectory = scene.trajectory
+    arcs = trajectory.arcs[-2:]
+    start = float(arcs[0].t[0]) if start is None else start
+    stop = float(arcs[-1].t[-1]) if stop is None else stop
+    if not trajectory.t_start <= start < stop <= trajectory.t_end:
+        raise InputError(
+            f"the part from {start:g} to {stop:g} s was asked for; the walk lasts from "
+            f"{trajectory.t_start:g} to {trajectory.t_end:g} s"
+        )
+    return start, stop
+
+
+def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) -> None:
+    segments, roles = view.segments(t), view.roles(t)
+    for role, (colour, width, dash, name) in LOOKS.items():
+        mine = [s for s, r in zip(segments, roles, strict=True) if r == role]
+        lines = LineCollection(
+            mine,
+            colors=colour,
+            linewidths=width,
+            linestyles=dash,
+            alpha=0.25 + 0.75 * darkness,
+            label=name if named and mine else "_",
+            capstyle="round",
+            zorder=3,
+        )
+        axes.add_collection(lines)
+
+
+def _ground(axes: Axes, scene: Scene, start: float, stop: float) -> None:
+    first, last = scene.arc_at(start), scene.arc_at(float(np.nextafter(stop, start)))
+    x = scene.footholds[first : last + 1]
+    reach = scene.footholds[min(last + 1, len(scene.footholds) - 1)]
+    low, high = float(x.min()) - 0.6, max(float(x.max()), float(reach)) + 0.6
+    axes.plot([low, high], [0.0, 0.0], color="black", lw=0.8, label="_", zorder=1)
+    axes.plot(x, np.zeros(len(x)), "^", color="black", ms=5, label="footprint", zorder=4)
+    axes.set_xlim(low, high)
+
+
+def write_strip(
+    path: Path,
+    walk: Recorded,
+    start: float | None = None,
+    stop: float | None = None,
+    poses: int = 13,
+) -> None:
+    """Write a strip as .png or .svg. Raises InputError and OutputError."""
+    with style():
+        figure = new_figure(6.4, 5.2)
+        strip(figure.subplots(), walk, start, stop, poses)
+    write_bytes(path, render(figure, path.suffix.lower().removeprefix(".")))
