@@ -1,0 +1,258 @@
+"""Every code block of README.md and docs/ runs, and what the pages name exists.
+
+Blocks of one document run in order and share a namespace and a temporary folder, in which `tests` is that of the
+checkout. What a fence says of its block:
+
+    python          executed; a first line `# name.py` writes it to that file instead
+    console         `biped-adrc` and `python FILE` are run, `make` and `pip` have to be in .ci/run
+    toml, xml, json parsed; a first line that is a comment with a path writes the block to that file
+    text            left alone
+    {code-cell}     run by the build of the documentation
+"""
+
+from __future__ import annotations
+
+import ast
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tomllib
+import xml.etree.ElementTree as ET
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from markdown_it import MarkdownIt
+
+ROOT = Path(__file__).resolve().parents[1]
+BUILT = {"_build", "jupyter_execute"}
+PAGES = sorted(
+    path for path in (ROOT / "docs").rglob("*.md") if not BUILT & set(path.relative_to(ROOT).parts)
+)
+DOCUMENTS = [ROOT / "README.md", *PAGES]
+
+RUN_BY_CI = {  # documented command: what has to stand in .ci/run
+    "make reproduce": "make reproduce",
+    "make test": "make test",
+    "make docs": "make docs",
+    "pip install .": "pip --disable-pip-version-check install",
+}
+"""Commands too large for a test."""
+
+UNATTENDED = {"--live": ["--no-browser", "--wait", "1"]}
+"""Options that are added where a command would wait for its user."""
+
+SHELLS = ("console", "bash", "sh", "shell")
+DIRECTIVES = {"{toctree}", "{figure}", "{eval-rst}", "{math}", "{image}"}
+WRITTEN = re.compile(r"^(?:#|<!--) ([\w./-]+\.\w+)(?: -->)?$")
+TEST_NAME = re.compile(r"tests/[\w/]+\.py(?:::\w+)?")
+
+
+class Block(NamedTuple):
+    """A fenced or indented block: what its fence says, its text, and its first line in the document."""
+
+    info: str
+    text: str
+    line: int
+
+
+def blocks(text: str) -> list[Block]:
+    """All code blocks in order; an indented one is a shell block."""
+    found = []
+    for token in MarkdownIt().parse(without_header(text)):
+        if token.type in ("fence", "code_block"):
+            info = token.info.strip().split() if token.type == "fence" else ["console"]
+            found.append(Block(info[0] if info else "", token.content, token.map[0] + 1))
+    return found
+
+
+def without_header(text: str) -> str:
+    """The text with a jupytext header blanked, so that lines keep their numbers."""
+    header = re.match(r"---\n.*?\n---\n", text, re.DOTALL)
+    return text if header is None else "\n" * header[0].count("\n") + text[header.end() :]
+
+
+def commands(text: str) -> list[str]:
+    """The commands of a shell block; a prompt, comments and continued lines are understood."""
+    lines = text.replace("\\\n", " ").splitlines()
+    stripped = (line.strip().removeprefix("$ ") for line in lines)
+    return [line for line in stripped if line and not line.startswith("#")]
+
+
+def run(command: str, folder: Path) -> None:
+    """Run one documented command in `folder`."""
+    words = shlex.split(command, comments=True)
+    tool = Path(sys.executable).with_name(words[0])
+    if words[0] == "python" and len(words) > 1 and words[1].endswith(".py"):
+        words = [sys.executable, "-W", "error", *words[1:]]
+    elif words[0] == "biped-adrc":
+        assert tool.is_file(), f"{tool} is missing: install the package"
+        words[0] = str(tool)
+    else:
+        check_run_by_ci(command)
+        return
+    for option, more in UNATTENDED.items():
+        words += more if option in words else []
+    done = subprocess.run(
+        words,
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        env={**os.environ, "MPLBACKEND": "agg"},
+    )
+    assert done.returncode == 0, f"'{command}' ended with {done.returncode}: {done.stderr[-2000:]}"
+
+
+def check_run_by_ci(command: str) -> None:
+    """A command that no test runs has to be in .ci/run."""
+    plain = shlex.join(shlex.split(command, comments=True))
+    assert plain in RUN_BY_CI, (
+        f"'{plain}' is run by no one: make it run here, or add it to .ci/run and to RUN_BY_CI"
+    )
+    script = (ROOT / ".ci" / "run").read_text()
+    assert RUN_BY_CI[plain] in script, f"'{plain}': .ci/run has no '{RUN_BY_CI[plain]}'"
+
+
+def write(text: str, folder: Path) -> Path | None:
+    """The file that the first line (or the second, after an XML declaration) names, written."""
+    for line in text.splitlines()[:2]:
+        match = WRITTEN.match(line.strip())
+        if match is not None:
+            path = folder / match[1]
+            assert folder in path.resolve().parents, f"'{match[1]}' is outside of the folder"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+            return path
+    return None
+
+
+def execute(block: Block, names: dict[str, object], folder: Path, document: Path) -> None:
+    """Run or check one block."""
+    if block.info in SHELLS:
+        for command in commands(block.text):
+            run(command, folder)
+    elif block.info == "python":
+        if write(block.text, folder) is None:
+            padded = "\n" * block.line + block.text  # tracebacks point into the document
+            exec(compile(padded, str(document), "exec"), names)
+    elif block.info == "toml":
+        tomllib.loads(block.text)
+        write(block.text, folder)
+    elif block.info == "xml":
+        ET.fromstring(block.text.strip())
+        write(block.text, folder)
+    elif block.info == "json":
+        json.loads(block.text)
+    elif block.info == "{code-cell}":
+        header = document.read_text().partition("\n---\n")[0]
+        assert "jupytext:" in header, "a {code-cell} outside of a notebook is run by no one"
+        assert "kernelspec:" in header, "a {code-cell} without a kernel is run by no one"
+    else:
+        known = block.info in DIRECTIVES | {"text", "bibtex"}
+        assert known, (
+            f"line {block.line}: a block of '{block.info or 'no language'}' is run by no one"
+        )
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_every_block_runs(document, tmp_path, monkeypatch):
+    (tmp_path / "tests").symlink_to(ROOT / "tests")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    before = set(sys.modules)
+    names: dict[str, object] = {"__name__": "document"}
+    try:
+        for block in blocks(document.read_text()):
+            execute(block, names, tmp_path, document)
+    finally:
+        for module in set(sys.modules) - before:
+            origin = getattr(sys.modules[module], "__file__", None) or ""
+            if origin.startswith(str(tmp_path)):  # a file the document wrote
+                del sys.modules[module]
+
+
+def test_blocks_are_found():
+    text = "---\nx: 1\n---\n\n```python\na = 1\n```\n\n    make test\n\n- b\n  ```console\n  $ ls\n  ```\n"
+    assert blocks(text) == [
+        Block("python", "a = 1\n", 5),
+        Block("console", "make test\n", 9),
+        Block("console", "$ ls\n", 12),
+    ]
+    assert commands("$ a b \\\n  c\n# no\n\nd\n") == ["a b    c", "d"]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("```console\nrm -rf /\n```", "run by no one"),
+        ("```console\nmake coffee\n```", "run by no one"),
+        ("```console\nbiped-adrc simulate --controller PID\n```", "controller 'PID' is unknown"),
+        ("```console\npython missing.py\n```", "missing.py"),
+        (
+            "```python\n# own.py\nraise ValueError('own')\n```\n```console\npython own.py\n```",
+            "own",
+        ),
+        ("```python\n# ../out.py\n```", "outside of the folder"),
+        ("```julia\n1\n```", "block of 'julia'"),
+        ("```\n1\n```", "no language"),
+        ("```{code-cell} ipython3\n1\n```", "outside of a notebook"),
+    ],
+)
+def test_a_block_that_cannot_run_fails(text, message, tmp_path):
+    document = tmp_path / "page.md"
+    document.write_text(text)
+    with pytest.raises(AssertionError, match=re.escape(message)):
+        for block in blocks(text):
+            execute(block, {}, tmp_path, document)
+
+
+@pytest.mark.parametrize(
+    ("text", "error"),
+    [
+        ("```python\n1 / 0\n```", ZeroDivisionError),
+        ("```toml\na = \n```", tomllib.TOMLDecodeError),
+        ("```xml\n<a>\n```", ET.ParseError),
+    ],
+)
+def test_a_block_that_raises_fails(text, error, tmp_path):
+    with pytest.raises(error):
+        execute(blocks(text)[0], {}, tmp_path, tmp_path / "page.md")
+
+
+def test_commands_left_to_ci_are_in_ci():
+    for command in RUN_BY_CI:
+        check_run_by_ci(command)
+
+
+def test_every_equation_of_the_paper_has_its_place():
+    text = (ROOT / "docs" / "theory.md").read_text()
+    sections = re.split(r"^\(eq-(\d+)\)=\n", text, flags=re.MULTILINE)
+    assert [int(number) for number in sections[1::2]] == list(range(1, 29))
+    for number, section in zip(sections[1::2], sections[2::2], strict=True):
+        assert section.startswith(f"### ({number}) ")
+        assert f"\\tag{{{number}" in section
+        assert "{py:" in section, f"equation ({number}) names no code"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_tests_that_a_page_names_exist(page):
+    for name in TEST_NAME.findall(page.read_text()):
+        path, _, function = name.partition("::")
+        assert (ROOT / path).is_file(), name
+        if function:
+            tree = ast.parse((ROOT / path).read_text())
+            assert function in {n.name for n in tree.body if isinstance(n, ast.FunctionDef)}, name
+
+
+def test_every_package_is_in_the_reference():
+    text = "".join(page.read_text() for page in (ROOT / "docs" / "api").glob("*.md"))
+    for path in (ROOT / "biped_adrc").iterdir():
+        if path.name.startswith("_") or (path.is_file() and path.suffix != ".py"):
+            continue
+        name = f"biped_adrc.{path.stem}"
+        assert f"<!-- modules of {name} -->" in text or f"automodule:: {name}\n" in text, name
