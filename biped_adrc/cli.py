@@ -314,6 +314,33 @@ def animate(
     console.print(f"written to {out}")
 
 
+@app.command()
+def plot(
+    run: Annotated[Path, typer.Argument(help="A run written by 'simulate' or 'reproduce' (.npz).")],
+    beside: Annotated[
+        list[Path] | None, typer.Option("--with", help="Another run to compare. May be repeated.")
+    ] = None,
+    figure: Annotated[
+        str,
+        typer.Option(
+            help="tracking, disturbance, ground, energy; phase or comparison of all runs."
+        ),
+    ] = "tracking",
+    out: Annotated[Path, typer.Option("--out", "-o", help="What to write: .png or .svg.")] = Path(
+        "figure.png"
+    ),
+) -> None:
+    """Draw the signals of a run."""
+    from biped_adrc.files import write_bytes
+    from biped_adrc.studies.figures import draw
+    from biped_adrc.studies.runs import load_walks
+    from biped_adrc.viz.style import render
+
+    walks = load_walks([run, *(beside or [])])
+    write_bytes(out, render(draw(figure, walks), out.suffix.lower().removeprefix(".")))
+    console.print(f"written to {out}")
+
+
 @gait_app.command("published")
 def gait_published(
     preset: Preset = "identified",

@@ -62,6 +62,8 @@ class Instant(NamedTuple):
     s: Array
     u: Array
     """Torque applied (p,) [N m]."""
+    zeta: Array
+    """External torque (n,) [N m]."""
     force: Array
     """B_s u + zeta (n,) [N m]."""
     a: Array
@@ -148,11 +150,14 @@ class Walker(HybridSystem):
             raise NotFiniteError(f"{type(self.controller).__name__}.output returned {u} N m")
         return u
 
-    def _force(self, t: float, q: Array, v: Array, u: Array, mode: Mode) -> Array:
-        force = np.zeros(self.plant.n)
-        force[: self.plant.p] = u
-        if self.disturbance is not None:
-            force += self.disturbance.torque(t, mode.step, mode.start, q, v)
+    def _external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
+        if self.disturbance is None:
+            return np.zeros(self.plant.n)
+        return self.disturbance.torque(t, mode.step, mode.start, q, v)
+
+    def _force(self, u: Array, zeta: Array) -> Array:
+        force = zeta.copy()
+        force[: self.plant.p] += u
         return force
 
     def instant(self, t: float, x: Array, mode: Mode) -> Instant:
@@ -160,8 +165,9 @@ class Walker(HybridSystem):
         q, v, s = self.split_state(x)
         m = self.measure(t, q, v, mode)
         u = x[-self.plant.p :] if self.sampled else self._saturate(self.law.output(s, m))
-        force = self._force(t, q, v, u, mode)
-        return Instant(m, s, u, force, self._acceleration(m, force))
+        zeta = self._external(t, q, v, mode)
+        force = self._force(u, zeta)
+        return Instant(m, s, u, zeta, force, self._acceleration(m, force))
 
     def _acceleration(self, m: Measurement, force: Array) -> Array:
         """q'' of the plant; where it is the nominal model, D_s and Omega are at hand already."""
@@ -174,7 +180,7 @@ class Walker(HybridSystem):
             q, v, _ = self.split_state(x)
             dx = np.zeros_like(x)
             n = self.plant.n
-            force = self._force(t, q, v, x[-self.plant.p :], mode)
+            force = self._force(x[-self.plant.p :], self._external(t, q, v, mode))
             dx[:n], dx[n : 2 * n] = v, self.plant.acceleration(q, v, force)
             return dx
         i = self.instant(t, x, mode)

@@ -12,7 +12,7 @@ import numpy as np
 
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.reduction import disturbance_acceleration
+from biped_adrc.model.reduction import disturbance_parts
 from biped_adrc.types import Array
 from biped_adrc.walker import Mode, Walker
 
@@ -51,6 +51,13 @@ class Signals:
     """(K, p) estimate of xi [rad/s^2]; NaN without an observer."""
     xi_external: Array
     """(K, p) the part of xi that zeta makes, matched and unmatched [rad/s^2]."""
+    xi_matched: Array
+    """(K, p) kappa zeta_b, the matched part of it: what a motor could cancel [rad/s^2]."""
+    xi_nominal: Array
+    """(K, p) (14) without xi~: the part of xi the nominal model knows [rad/s^2]."""
+    zeta_estimate: Array
+    """(K, p) kappa^-1 (xi^ - xi_nominal): the joint torque the estimate amounts to beyond the nominal
+    model [N m]; NaN without an observer."""
     ground_reaction: Array
     """(K, 2), (F_T, F_N) [N]."""
     kinetic: Array
@@ -95,7 +102,8 @@ def _row(
     q, v, a, p = m.q, m.v, i.a, walker.plant.p
     r = reference(t, q, v)
     estimate = walker.law.estimate(i.s, m)
-    zeta = i.force - np.append(i.u, np.zeros(b.n - p))
+    xi_estimate = np.full(p, np.nan) if estimate is None else estimate.disturbance
+    matched, unmatched = disturbance_parts(m.terms, i.zeta)
     return (
         t,
         mode.step,
@@ -108,10 +116,13 @@ def _row(
         r.dq_d,
         q[:p] - r.q_d,
         i.u,
-        zeta,
+        i.zeta,
         a[:p] - m.terms.kappa @ i.u,
-        np.full(p, np.nan) if estimate is None else estimate.disturbance,
-        disturbance_acceleration(m.terms, zeta),
+        xi_estimate,
+        matched + unmatched,
+        matched,
+        m.terms.xi,
+        m.terms.kappa_inverse @ (xi_estimate - m.terms.xi),
         b.ground_reaction(q, v, a),
         b.kinetic_energy(q, v),
         b.potential_energy(q),

@@ -30,13 +30,13 @@ from biped_adrc.studies.pool import TaskProgress, run_tasks
 from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
 from biped_adrc.studies.versions import versions
-from biped_adrc.viz.meshcat import write_animation
-from biped_adrc.viz.plots import (
+from biped_adrc.viz.figures import (
     multiplier_figure,
     phase_figure,
     return_map_figure,
     tracking_figure,
 )
+from biped_adrc.viz.meshcat import write_animation
 from biped_adrc.viz.push_map_plot import push_map_figure
 from biped_adrc.viz.report import write_report
 from biped_adrc.viz.robot_figure import robot_figure

@@ -46,7 +46,7 @@ class Walk:
 
     def plot(self, title: str = "", push: tuple[float, float] | None = None) -> Figure:
         """References against joint angles, and torques, as figures 4 and 5; push is marked [s]."""
-        from biped_adrc.viz.plots import tracking_figure
+        from biped_adrc.viz.figures import tracking_figure
 
         return tracking_figure(self.signals, title, push, self.walker.torque_limit)
 

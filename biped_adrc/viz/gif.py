@@ -210,7 +210,9 @@ def _encoded(images: list[Image.Image], fps: float) -> bytes:
     """One palette for all frames, so that colours do not flicker; no used colour is missing from it."""
     some = [np.asarray(image)[::3] for image in images[:: max(1, len(images) // 8)]]
     width = some[0].shape[1]
-    swatches = [ImageColor.getrgb(c) for c in (*COLOURS.values(), REACTION, TORQUE, "#000000")]
+    swatches = [
+        ImageColor.getrgb(c) for c in (*COLOURS.values(), REACTION, TORQUE, "black", "white")
+    ]
     band = [np.full((len(some[0]) // 4, width, 3), rgb, dtype=np.uint8) for rgb in swatches]
     palette = Image.fromarray(np.concatenate([*some, *band])).quantize(64)
     frames = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]

@@ -28,5 +28,4 @@ def loads(scene: Scene, t: float) -> Loads:
     k = min(max(int(np.searchsorted(arc.t, t, side="right")) - 1, 0), len(arc.t) - 1)
     i = scene.walker.instant(float(arc.t[k]), arc.x[k], arc.mode)
     m, biped = i.measurement, scene.biped
-    zeta = i.force - np.append(i.u, np.zeros(biped.n - biped.p))
-    return Loads(biped.ground_reaction(m.q, m.v, i.a), zeta)
+    return Loads(biped.ground_reaction(m.q, m.v, i.a), i.zeta)

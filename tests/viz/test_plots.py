@@ -7,12 +7,24 @@ import re
 import matplotlib as mpl
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 
+from biped_adrc.control.adrc import ADRCController
+from biped_adrc.control.npd import NPDController
+from biped_adrc.disturbances.pulse import TorquePulse
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import load_gait
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
+from biped_adrc.studies.figures import NAMES, draw
 from biped_adrc.studies.walk import Walk
-from biped_adrc.viz.plots import (
+from biped_adrc.studies.walk import walk as walk_of
+from biped_adrc.viz import plots
+from biped_adrc.viz.figures import (
+    comparison_figure,
     multiplier_figure,
     phase_figure,
     push_map_figure,
@@ -21,6 +33,7 @@ from biped_adrc.viz.plots import (
 )
 from biped_adrc.viz.robot_figure import robot_figure
 from biped_adrc.viz.style import render
+from biped_adrc.walker import Walker
 
 
 def labels(figure) -> list[tuple[str, str]]:
@@ -64,8 +77,158 @@ def test_multiplier_and_return_map_figures() -> None:
     assert circle.get_aspect() == 1.0
     before = np.linspace(-1.3, -1.2, 5)
     axes = return_map_figure(before, -1.25 + 0.7 * (before + 1.25)).axes[0]
-    assert axes.get_lines()[2].get_xdata()[0] == pytest.approx(-1.25)
+    diagonal, drawn, first, second, settled = axes.get_lines()
+    np.testing.assert_array_equal(diagonal.get_xdata(), diagonal.get_ydata())
+    np.testing.assert_array_equal(drawn.get_xdata(), before)
+    for stairs in (first, second):
+        # the multiplier is 0.7: after 12 steps a distance of 0.05 rad/s is 0.7^12 of it
+        assert abs(stairs.get_xdata()[-1] + 1.25) == pytest.approx(0.05 * 0.7**12)
+        corners = np.diff(np.column_stack(stairs.get_data()), axis=0)
+        assert np.all(np.min(np.abs(corners), axis=1) == 0.0)  # straight up or straight across
+    assert settled.get_xdata()[0] == pytest.approx(-1.25, abs=1e-3)
     assert "[rad/s]" in axes.get_xlabel()
+    with pytest.raises(InputError, match="finite samples"):
+        return_map_figure(before[:1], before[:1])
+
+
+@pytest.fixture(scope="module")
+def pushed(biped: Biped) -> dict[str, Walk]:
+    """Both controllers, pushed on every joint in step 2."""
+    gait = load_gait("published", biped)
+    push = TorquePulse([30.0, 20.0, -10.0, 5.0, 0.0], step=2, start=0.1, stop=0.3)
+    laws = {
+        "NPD": (NPDController(gait.constraint), RK4(2e-3)),
+        "ADRC": (ADRCController(gait.constraint), Exponential(1e-3)),
+    }
+    return {c: walk_of(Walker(biped, law, push), gait, 3, m) for c, (law, m) in laws.items()}
+
+
+def axes_of_my_own() -> Axes:
+    return Figure().subplots()
+
+
+def finite(line) -> np.ndarray:
+    y = np.asarray(line.get_ydata(), dtype=float)
+    return y[~np.isnan(y)]
+
+
+def drawn_lines(axes: Axes) -> dict[str, np.ndarray]:
+    """Data of the named lines."""
+    return {x.get_label(): finite(x) for x in axes.get_lines() if x.get_label()[0] != "_"}
+
+
+def test_plots_draw_the_signals_on_axes_of_ones_own(pushed: dict[str, Walk]) -> None:
+    s = pushed["ADRC"].signals
+    axes = axes_of_my_own()
+    assert plots.joint_tracking(axes, s, [0, 2]) is axes
+    assert set(drawn_lines(axes)) == {"$q_1$ stance hip", "$q_3$ stance knee", "references"}
+    np.testing.assert_array_equal(drawn_lines(axes)["$q_3$ stance knee"], s.q[:, 2])
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("time [s]", "angle [rad]")
+    with pytest.raises(InputError, match="from 0 to 3"):
+        plots.joint_tracking(axes, s, [4])
+
+    axes = plots.torques(axes_of_my_own(), s, limit=150.0, push=(0.5, 0.7))
+    assert set(drawn_lines(axes)) == {"$u_1$", "$u_2$", "$u_3$", "$u_4$", "limit 150 N m"}
+    np.testing.assert_array_equal(drawn_lines(axes)["$u_4$"], s.u[:, 3])
+    assert axes.get_ylabel() == "torque [N m]"
+    assert "push" in axes.get_legend_handles_labels()[1]
+
+    axes = plots.tracking_errors(axes_of_my_own(), s)
+    unit = {"rad": 1.0, "mrad": 1e3, "µrad": 1e6, "nrad": 1e9}[axes.get_ylabel()[16:-1]]
+    np.testing.assert_allclose(drawn_lines(axes)["$q_2$"], unit * s.error[:, 1])
+
+    axes = plots.energy(axes_of_my_own(), s)
+    lines = drawn_lines(axes)
+    np.testing.assert_allclose(lines["kinetic"] + lines["potential"], lines["total"])
+    assert lines["potential"].min() == 0.0
+    assert axes.get_ylabel() == "energy [J]"
+
+    axes = plots.phase_portrait(axes_of_my_own(), s)
+    np.testing.assert_array_equal(drawn_lines(axes)["walk"], s.dtheta)
+
+
+def test_the_estimate_is_drawn_against_what_it_estimates(pushed: dict[str, Walk]) -> None:
+    s = pushed["ADRC"].signals
+    axes = plots.total_disturbance(axes_of_my_own(), s, 1)
+    lines = drawn_lines(axes)
+    np.testing.assert_array_equal(lines[r"$\xi_2$"], s.xi[:, 1])
+    np.testing.assert_array_equal(lines[r"$\hat{\xi}_2$"], s.xi_estimate[:, 1])
+    assert axes.get_ylabel() == r"$\xi_2$ [rad/s²]"
+    for i, torque in enumerate((30.0, 20.0, -10.0, 5.0)):
+        axes = plots.matched_disturbance(axes_of_my_own(), s, i)
+        lines = drawn_lines(axes)
+        true, seen = lines[f"$\\zeta_{i + 1}$"], lines[f"$\\hat{{\\zeta}}_{i + 1}$"]
+        assert set(np.unique(true)) == {min(0.0, torque), max(0.0, torque)}
+        # 50 ms after its start the observer has the torque to 1 %
+        late = (s.step == 2) & (s.t > s.t[true != 0.0][0] + 0.05) & (true != 0.0)
+        assert late.sum() > 20
+        np.testing.assert_allclose(seen[late], torque, rtol=0.01)
+        assert axes.get_ylabel() == f"$\\zeta_{i + 1}$ [N m]"
+
+
+def test_without_an_observer_the_plot_says_so(pushed: dict[str, Walk]) -> None:
+    for plot in (plots.total_disturbance, plots.matched_disturbance):
+        axes = plot(axes_of_my_own(), pushed["NPD"].signals)
+        assert [text.get_text() for text in axes.texts] == ["no observer: nothing is estimated"]
+        assert len(drawn_lines(axes)) == 1
+
+
+def test_the_friction_cone_has_its_slope(pushed: dict[str, Walk]) -> None:
+    s = pushed["NPD"].signals
+    axes = plots.friction_cone(axes_of_my_own(), s, mu=0.5)
+    edge = next(x for x in axes.get_lines() if x.get_label() == "cone, $\\mu$ = 0.5")
+    (x0, x1), (y0, y1) = edge.get_data()
+    assert (x1 - x0) / (y1 - y0) == pytest.approx(0.5)
+    np.testing.assert_array_equal(drawn_lines(axes)["ground reaction"], s.ground_reaction[:, 1])
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("$F_T$ [N]", "$F_N$ [N]")
+    with pytest.raises(InputError, match="positive"):
+        plots.friction_cone(axes, s, mu=0.0)
+    axes = plots.ground_reaction(axes_of_my_own(), s)
+    np.testing.assert_array_equal(drawn_lines(axes)["$F_T$"], s.ground_reaction[:, 0])
+
+
+def test_controllers_side_by_side(pushed: dict[str, Walk]) -> None:
+    signals = {name: found.signals for name, found in pushed.items()}
+    figure = comparison_figure(signals, (0.5, 0.7))
+    over_time, sizes, torque = figure.axes
+    assert over_time.get_yscale() == sizes.get_yscale() == "log"
+    for i, (name, s) in enumerate(signals.items()):
+        peak = np.max(np.abs(s.error))
+        assert drawn_lines(over_time)[name].max() == peak
+        assert sizes.get_lines()[i].get_ydata()[0] == peak
+        bars = torque.containers[i]
+        np.testing.assert_array_equal([b.get_height() for b in bars], np.max(np.abs(s.u), axis=0))
+    assert [a.get_ylabel() for a in figure.axes] == [
+        "largest tracking error [rad]",
+        "tracking error [rad]",
+        "peak torque [N m]",
+    ]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_figure_has_labels_with_units_and_apart_in_grey(
+    pushed: dict[str, Walk], name: str
+) -> None:
+    figure = draw(name, pushed)
+    for axes in figure.axes:
+        assert re.search(r"\[.+\]", axes.get_ylabel())
+        shared = axes.get_subplotspec().is_last_row()
+        assert not shared or re.search(r"\[.+\]", axes.get_xlabel())
+        looks = []
+        for x in axes.get_lines():
+            if x.get_label()[0] != "_" and len(x.get_xdata()) > 2:
+                grey = round(float(np.dot(to_rgb(x.get_color()), (0.299, 0.587, 0.114))), 1)
+                dash = x._unscaled_dash_pattern
+                looks.append((grey, str(dash), x.get_linewidth(), x.get_marker()))
+        assert len(set(looks)) == len(looks)
+    assert len(render(figure, "svg")) < 4_000_000
+
+
+def test_unknown_figures_are_refused(pushed: dict[str, Walk]) -> None:
+    with pytest.raises(InputError, match="choose one of"):
+        draw("pie", pushed)
+    with pytest.raises(InputError, match="at least one"):
+        draw("energy", {})
 
 
 def test_push_map_figure() -> None:

@@ -1,0 +1,86 @@
+"""Multipliers of the return map, and the map itself as a staircase."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import ArrayLike
+
+from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+from biped_adrc.viz.style import GREY, PALETTE, label
+
+MARKERS = "ox^s"
+
+
+def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
+    """Multipliers (k,), complex, by name in the unit circle."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 361)
+    axes.plot(np.cos(angle), np.sin(angle), color="black", lw=1.0, label="unit circle")
+    for i, (name, values) in enumerate(found.items()):
+        z = np.atleast_1d(np.asarray(values, dtype=complex))
+        axes.plot(z.real, z.imag, mfc="none", ms=7 + 2 * i, **_mark(i, name))
+    axes.set_aspect("equal")
+    label(axes, r"Re $\lambda$ [-]", r"Im $\lambda$ [-]")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.14), ncols=3, frameon=False)
+    return axes
+
+
+def magnitudes(
+    axes: Axes, found: Mapping[str, ArrayLike], published: ArrayLike | None = None
+) -> Axes:
+    """|lambda| by name in decreasing order; stable below 1.
+
+    published: magnitudes printed in the paper; they come from a regression and are shown for comparison only.
+    """
+    axes.axhline(1.0, color="black", lw=1.0, label="unit circle")
+    for i, (name, values) in enumerate(found.items()):
+        size = np.sort(np.abs(np.atleast_1d(np.asarray(values, dtype=complex))))[::-1]
+        axes.plot(1 + np.arange(len(size)), size, mfc="none", ms=6, **_mark(i, name))
+    if published is not None:
+        size = np.sort(np.abs(np.asarray(published)))[::-1]
+        name = "printed in the paper (regression)"
+        axes.plot(1 + np.arange(len(size)), size, "+", color=GREY, ms=8, label=name)
+    axes.set_yscale("log")
+    label(axes, "number in decreasing order [-]", r"$|\lambda|$ [-]")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.14), ncols=2, frameon=False)
+    return axes
+
+
+def _mark(i: int, name: str) -> dict[str, Any]:
+    return {"marker": MARKERS[i % 4], "ls": "", "mec": PALETTE[i], "label": name}
+
+
+def staircase(axes: Axes, before: Array, after: Array, steps: int = 12) -> Axes:
+    """The return map of one coordinate, the diagonal, and the way of `steps` steps from either end of it.
+
+    before, after (k,): Theta' before an impact and before the next [rad/s]; between the samples the map is
+    interpolated linearly. The walk settles where the stairs end: at the fixed point.
+    """
+    order = np.argsort(before)
+    x, y = np.asarray(before, dtype=float)[order], np.asarray(after, dtype=float)[order]
+    if len(x) < 2 or not (np.isfinite(x).all() and np.isfinite(y).all()):
+        raise InputError(f"a return map of {len(x)} finite samples was given, expected at least 2")
+    axes.plot([x[0], x[-1]], [x[0], x[-1]], color=GREY, ls="--", label="the same speed")
+    axes.plot(x, y, color=PALETTE[0], marker="o", ms=3, label="return map")
+    for k, start in enumerate((x[0], x[-1])):
+        stairs = _stairs(x, y, float(start), steps)
+        name = "step by step" if k == 0 else "_"
+        axes.plot(*stairs.T, color=PALETTE[1], lw=0.9, label=name)
+    axes.plot(*stairs[-1], "s", color="black", ms=7, mfc="none", label="where it settles")
+    label(axes, r"$\dot\Theta$ before impact $k$ [rad/s]", r"before impact $k+1$ [rad/s]")
+    axes.legend(loc="best", frameon=False)
+    return axes
+
+
+def _stairs(x: Array, y: Array, start: float, steps: int) -> Array:
+    """Corners (2 steps + 1, 2): up or down to the map, across to the diagonal."""
+    corners, here = [(start, start)], start
+    for _ in range(steps):
+        there = float(np.interp(here, x, y))
+        corners += [(here, there), (there, there)]
+        here = there
+    return np.array(corners)
