@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -47,6 +48,16 @@ class Push:
         if self.kind == "step":
             return TorqueStep(amplitude, self.step, self.start)
         raise InputError(f"push kind '{self.kind}' is unknown; choose pulse, sine or step")
+
+    def text(self) -> str:
+        """As on the command line, JOINTS=TORQUE@STEP:START-STOP [N m], [s]; `parse_push` reads it."""
+        groups = [
+            f"{','.join(joint for joint, _ in group)}={torque:g}"
+            for torque, group in groupby(self.torque.items(), lambda item: item[1])
+        ]
+        stop = "" if self.kind == "step" else f"{self.stop:g}"
+        sine = f":sine={self.frequency:g}" if self.kind == "sine" else ""
+        return f"{','.join(groups)}@{self.step}:{self.start:g}-{stop}{sine}"
 
 
 def parse_push(text: str) -> Push:

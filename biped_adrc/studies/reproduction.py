@@ -18,9 +18,10 @@ from biped_adrc.errors import OutputError
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.hybrid.storage import save
-from biped_adrc.model.biped import Biped
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
+from biped_adrc.studies.figures import push_window
+from biped_adrc.studies.findings import findings
 from biped_adrc.studies.laws import work_identity
 from biped_adrc.studies.merits import figures_of_merit
 from biped_adrc.studies.plan import BOTH, Plan
@@ -30,26 +31,22 @@ from biped_adrc.studies.pool import TaskProgress, run_tasks
 from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
 from biped_adrc.studies.versions import versions
+from biped_adrc.studies.walk import Walk
 from biped_adrc.viz.figures import (
+    comparison_figure,
+    disturbance_figure,
+    energy_figure,
+    ground_figure,
     multiplier_figure,
     phase_figure,
+    push_map_figure,
     return_map_figure,
     tracking_figure,
 )
-from biped_adrc.viz.meshcat import write_animation
-from biped_adrc.viz.push_map_plot import push_map_figure
+from biped_adrc.viz.meshcat import animation_html
 from biped_adrc.viz.report import write_report
 from biped_adrc.viz.robot_figure import robot_figure
 from biped_adrc.viz.style import render
-
-CAPTIONS = {
-    "figure1": "Figure 1: the robot",
-    "figure4": "Figure 4: NPD under the push",
-    "figure5": "Figure 5: ADRC with GPI observer under the push",
-    "figure6": "Figure 6: limit cycles",
-    "multipliers": "Multipliers",
-    "return_map": "Return map",
-}
 
 
 def reproduce(
@@ -86,9 +83,12 @@ def reproduce(
         + verdicts.certificate_checks(plan, results)
         + laws
     )
+    simulated = time.perf_counter()
     summary = {
         "command": command,
         "preset": plan.preset,
+        "left_out": list(plan.left_out),
+        "findings": findings(plan, results, cells),
         "settings": _settings(plan),
         "versions": versions(),
         "holds": all(check.holds for check in checks),
@@ -96,20 +96,24 @@ def reproduce(
         "checks": [check.record() for check in checks],
         "tables": tables(plan, results, cells, figures),
         "nominal": _nominal(plan, results),
-        "multipliers": {c: results[f"multipliers {c}"].record() for c in BOTH},
+        "multipliers": {
+            c: results[f"multipliers {c}"].record() for c in BOTH if f"multipliers {c}" in results
+        },
         "regression": {c: results[f"regression {c}"].record() for c in BOTH},
         "push_map": [cell.row() for cell in cells],
         "seconds": {name: found.seconds for name, found in zip(named, done, strict=True)},
         "notes": _notes() + verdicts.recipe_notes(results, plan),
     }
-    pictures = _draw(plan, results, cells, out)
-    _animate(plan, results, out)
     for c in BOTH:
         head = verdicts.headline_of(results, c)
         save(head.trajectory, out / f"walk-{c.lower()}.npz", _run_settings(head))
+    pictures = _draw(plan, results, cells, out)
+    animation = _animate(plan, results)
+    write_text(out / "walk.html", animation)
     summary["wall_time_s"] = time.perf_counter() - started
+    write_report(out / "report.html", clean(summary), pictures, animation)
+    summary["seconds_writing"] = time.perf_counter() - simulated
     write_text(out / "summary.json", json.dumps(clean(summary), indent=1) + "\n")
-    write_report(out / "report.html", clean(summary), pictures)
     return summary
 
 
@@ -136,10 +140,11 @@ def clean(value: Any) -> Any:
 
 
 def _settings(plan: Plan) -> dict[str, Any]:
-    head = Plan.__dataclass_fields__
+    fields = [name for name in Plan.__dataclass_fields__ if name != "pushes"]
     return {
-        **{name: getattr(plan, name) for name in head if name != "pushes"},
-        "pushes": [push.__dict__ for push in plan.pushes],
+        **{name: getattr(plan, name) for name in fields},
+        "presets": list(plan.presets),
+        "pushes": [push.text() for push in plan.pushes],
         "Table I, observer eigenvalues [rad/s]": list(TABLE_I),
         "Table II": {"K_p": TABLE_II.K_p, "K_d": TABLE_II.K_d},
     }
@@ -170,18 +175,24 @@ def _notes() -> list[str]:
 
 
 def _draw(plan: Plan, results: dict[str, Any], cells: list[Any], out: Path) -> dict[str, str]:
-    """Write the figures; returns title -> SVG text."""
-    biped = Biped.load("rabbit", plan.preset)
+    """Write the figures; returns name -> SVG text."""
+    walks = headline_walks(results)
     signals = {c: verdicts.headline_of(results, c).signals for c in BOTH}
-    window = _push_window(plan, signals["NPD"])
-    magnitudes = {c: results[f"multipliers {c}"].orbit.multipliers for c in BOTH}
+    window = push_window(walks["NPD"])
+    found = [c for c in BOTH if f"multipliers {c}" in results]
+    magnitudes = {c: results[f"multipliers {c}"].orbit.multipliers for c in found}
+    mu = walks["ADRC"].walker.plant.description.friction_coefficient
     figures = {
-        "figure1": robot_figure(biped),
-        "figure4": tracking_figure(signals["NPD"], "NPD under the push", window, None),
+        "figure1": robot_figure(walks["NPD"].walker.nominal),
+        "figure4": tracking_figure(signals["NPD"], "NPD under the push", window),
         "figure5": tracking_figure(
-            signals["ADRC"], "ADRC with GPI observer under the push", window, None
+            signals["ADRC"], "ADRC with GPI observer under the push", window
         ),
         "figure6": phase_figure(signals),
+        "comparison": comparison_figure(signals, window),
+        "disturbance": disturbance_figure(signals["ADRC"], "ADRC", window),
+        "ground": ground_figure(signals["ADRC"], "ADRC", mu),
+        "energy": energy_figure(signals["ADRC"], "ADRC", window),
         "multipliers": multiplier_figure(magnitudes, PUBLISHED_MULTIPLIERS),
         "return_map": return_map_figure(*results["return map"]),
     }
@@ -193,27 +204,20 @@ def _draw(plan: Plan, results: dict[str, Any], cells: list[Any], out: Path) -> d
         write_bytes(out / f"{name}.png", render(figure, "png"))
         svg = render(figure, "svg")
         write_bytes(out / f"{name}.svg", svg)
-        pictures[CAPTIONS.get(name, name.replace("_", " "))] = svg.decode("utf-8")
+        pictures[name] = svg.decode("utf-8")
     return pictures
 
 
-def _push_window(plan: Plan, signals: Any) -> tuple[float, float] | None:
-    """The first push in time of the run [s]."""
-    if not plan.pushes:
-        return None
-    push = plan.pushes[0]
-    rows = signals.t[signals.step == push.step]
-    if len(rows) == 0:
-        return None
-    return float(rows[0] + push.start), float(min(rows[0] + push.stop, rows[-1]))
-
-
-def _animate(plan: Plan, results: dict[str, Any], out: Path) -> None:
+def headline_walks(results: dict[str, Any]) -> dict[str, Walk]:
+    """The pushed walks by controller."""
     heads = {c: verdicts.headline_of(results, c) for c in BOTH}
-    walks = {c: replay(head.outcome.run, head.trajectory) for c, head in heads.items()}
-    window = _push_window(plan, verdicts.headline_of(results, "NPD").signals)
-    marks = [] if window is None else [(*window, "push")]
-    write_animation(out / "walk.html", walks, solid="ADRC", marks=marks)
+    return {c: replay(head.outcome.run, head.trajectory) for c, head in heads.items()}
+
+
+def _animate(plan: Plan, results: dict[str, Any]) -> str:
+    walks = headline_walks(results)
+    window = push_window(walks["NPD"])
+    return animation_html(walks, "ADRC", [] if window is None else [(*window, "push")])
 
 
 def failed(checks: list[dict[str, Any]]) -> list[dict[str, Any]]:

@@ -2,46 +2,90 @@
 
 from __future__ import annotations
 
-import base64
-import html
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
+from biped_adrc.viz.meshcat_page import POLICY
+from biped_adrc.viz.report_parts import frame, mark, picture, section, table, text
 
-TITLES = {
-    "figure1": "Figure 1: the robot and its coordinates",
-    "figure4": "Figure 4: tracking, torque and error under NPD",
-    "figure5": "Figure 5: tracking, torque and error under ADRC",
-    "figure6": "Figure 6: limit cycles",
-    "multipliers": "Multipliers of the return map",
-    "return_map": "Return map",
-    "push_map": "Map of pushes: which controller falls",
+PAPER = (
+    "J. Arcos-Legarda, J. Cortes-Romero, A. Tovar: Active Disturbance Rejection Control based on "
+    "Generalized Proportional Integral Observer to Control a Bipedal Robot with Five Degrees of Freedom."
+)
+
+FIGURES = {
+    "figure1": (
+        "Figure 1: the robot and its coordinates",
+        "Hips are relative to the torso, knees to the thigh, the torso to the vertical. "
+        "Counter-clockwise is positive.",
+    ),
+    "figure4": (
+        "Figure 4: NPD under the push",
+        "In the last row: how far the joints leave their references while the push lasts, and how they "
+        "come back.",
+    ),
+    "figure5": (
+        "Figure 5: ADRC with GPI observer under the push",
+        "The same push; mind the unit of the error. In the third row: the torque that answers the push.",
+    ),
+    "figure6": (
+        "Figure 6: limit cycles",
+        "Theta against its rate. Lines that lie on one another are a periodic walk.",
+    ),
+    "comparison": (
+        "The controllers side by side",
+        "Error before, under and after the push on one logarithmic scale, and what the motors gave for it.",
+    ),
+    "disturbance": (
+        "What the observer sees",
+        "Left: the total disturbance of (13) and its estimate. Right: the torque the joints are pushed with, "
+        "and the part of the estimate that the nominal model does not explain, as a torque.",
+    ),
+    "ground": (
+        "Ground reaction under the push, ADRC",
+        "A foot would slip outside the cone and lift off below its tip. Impulses at impact are not in it.",
+    ),
+    "energy": (
+        "Energy under the push, ADRC",
+        "An impact takes kinetic energy; the motors have to give it back within the step.",
+    ),
+    "multipliers": (
+        "Multipliers of the return map",
+        "What lies inside the unit circle dies out from step to step. Numbers printed in the paper come from "
+        "a regression and are no target.",
+    ),
+    "return_map": (
+        "Return map",
+        "The stairs lead from either end to where the map crosses the diagonal: the periodic walk.",
+    ),
+    "push_map": (
+        "Map of pushes",
+        "Which controller falls, over when in the step the push comes, how strong it is and which joints it "
+        "turns.",
+    ),
 }
-"""Headings of the figures by name; another name is its own heading."""
+"""Heading of each figure and what to look for in it, by the start of its name."""
 
 KINDS = {
-    "law": "physics and numerics",
-    "consistency": "what was built in",
-    "reproduced": "what could have failed",
+    "reproduced": "what the paper claims and what could have failed",
+    "law": "physics and numerics that hold whatever the paper says",
+    "consistency": "what was built in and has to come out again",
 }
-
-MAGIC = {b"\x89PNG": "image/png", b"<?xml": "image/svg+xml", b"<svg": "image/svg+xml"}
 
 
 def write_report(
     path: Path,
     summary: Mapping[str, Any],
     figures: Mapping[str, str | Path],
-    animation: str | None = "walk.html",
+    animation: str | None = None,
 ) -> None:
     """Write the page.
 
-    summary: "preset", "command", "versions", "figures_of_merit", "checks", "tables" and "notes" as in
-    summary.json; what is missing is left out. figures: name -> SVG text, or the path of an SVG or PNG
-    file. animation: where the page links to. Raises InputError and OutputError.
+    summary: as in summary.json; what is missing is left out. figures: name -> SVG text, or the path of an SVG
+    or PNG file. animation: text of the page of `meshcat.animation_html`. Raises InputError and OutputError.
     """
     write_text(path, report_html(summary, figures, animation))
 
@@ -49,91 +93,56 @@ def write_report(
 def report_html(
     summary: Mapping[str, Any],
     figures: Mapping[str, str | Path],
-    animation: str | None = "walk.html",
+    animation: str | None = None,
 ) -> str:
-    """The text of the page of `write_report`."""
-    sections = [
-        _head(summary, animation),
-        _merits(summary.get("figures_of_merit", [])),
-        _checks(summary.get("checks", [])),
-        *(_figure(name, source) for name, source in figures.items()),
-        *(_reported(title, table) for title, table in summary.get("tables", {}).items()),
-        _notes(summary.get("notes", [])),
-        _versions(summary.get("versions", {})),
-    ]
+    """The text of the page of `write_report`; the same summary gives the same text."""
+    parts = {
+        "walk": ("The walks", "" if animation is None else _walks(animation)),
+        "merits": ("Published and measured", _merits(summary.get("figures_of_merit", []))),
+        "figures": ("Figures", "\n".join(_figure(n, source) for n, source in figures.items())),
+        "checks": ("Checks", _checks(summary.get("checks", []))),
+        "tables": ("Tables", _tables(summary.get("tables", {}))),
+        "notes": ("Notes", _list(summary.get("notes", []))),
+        "settings": ("Settings and versions", _settings(summary)),
+    }
+    shown = {name: part for name, part in parts.items() if part[1]}
+    links = "".join(f'<li><a href="#{n}">{text(title)}</a></li>' for n, (title, _) in shown.items())
+    style = files("biped_adrc.viz").joinpath("report.css").read_text(encoding="utf-8")
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        '<meta http-equiv="Content-Security-Policy" '
-        "content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\">\n"
-        f"<title>Reproduction, preset {_text(summary.get('preset', ''))}</title>\n"
-        f"<style>{STYLE}</style>\n</head>\n<body>\n<main>\n"
-        + "\n".join(section for section in sections if section)
+        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">\n'
+        f"<title>The paper, reproduced: preset {text(summary.get('preset', ''))}</title>\n"
+        f'<style>{style}</style>\n</head>\n<body>\n<a class="skip" href="#content">to the content</a>\n'
+        f'<main id="content">\n{_head(summary)}\n<nav aria-label="parts"><ul>{links}</ul></nav>\n'
+        + "\n".join(section(name, title, body) for name, (title, body) in shown.items())
         + "\n</main>\n</body>\n</html>\n"
     )
 
 
-def _text(value: Any) -> str:
-    """A value as escaped text; numbers to four significant digits."""
-    return html.escape(_plain(value))
-
-
-def _plain(value: Any) -> str:
-    if value is None:
-        return "–"
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, float):
-        return f"{value:.4g}"
-    if isinstance(value, Mapping):
-        return ", ".join(f"{key}: {_plain(item)}" for key, item in value.items())
-    if isinstance(value, Sequence) and not isinstance(value, str):
-        return ", ".join(_plain(item) for item in value)
-    return str(value)
-
-
-def _table(
-    caption: str, columns: Iterable[Any], rows: Iterable[Sequence[str]], shown: bool = True
-) -> str:
-    """A table; `rows` hold cells that are escaped already, the first one heads its row.
-
-    shown: print the caption; without, it is for screen readers only.
-    """
-    title = f"<caption>{_text(caption)}</caption>" if shown else ""
-    head = "".join(f'<th scope="col">{_text(column)}</th>' for column in columns)
-    body = "\n".join(
-        f'<tr><th scope="row">{row[0]}</th>' + "".join(f"<td>{c}</td>" for c in row[1:]) + "</tr>"
-        for row in rows
-    )
-    return (
-        f'<div class="wide" tabindex="0" role="region" aria-label="{_text(caption)}"><table>'
-        f"{title}<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody>\n</table></div>"
-    )
-
-
-def _head(summary: Mapping[str, Any], animation: str | None) -> str:
+def _head(summary: Mapping[str, Any]) -> str:
     checks = summary.get("checks", [])
-    failed = sum(not check["holds"] for check in checks)
-    verdict = f"{len(checks) - failed} of {len(checks)} checks hold."
-    tone = "bad" if failed else "good"
-    link = ""
-    if animation:
-        link = f'<p><a href="{html.escape(animation)}">Watch the walk</a> (plays without a network).</p>'
+    held = sum(bool(check["holds"]) for check in checks)
+    verdict = mark(f"{held} of {len(checks)} checks hold.", held == len(checks))
+    missing = summary.get("left_out", [])
+    left_out = f"<p><b>Left out of this run:</b> {text(missing)}.</p>" if missing else ""
     wall = summary.get("wall_time_s")
     took = f" It took {wall:.0f} s." if isinstance(wall, int | float) else ""
     return (
         "<header>\n<h1>The paper, reproduced</h1>\n"
-        f"<p>Active disturbance rejection control with a GPI observer of a planar biped, preset "
-        f"<b>{_text(summary.get('preset', ''))}</b>.{took}</p>\n"
-        f'<p class="{tone}">{verdict}</p>\n'
-        f"<p>Command: <code>{_text(summary.get('command', ''))}</code></p>\n{link}</header>"
+        f"<blockquote>{text(PAPER)}</blockquote>\n"
+        f"<p>Robot parameters: preset <b>{text(summary.get('preset', ''))}</b>.{took} "
+        f"Command: <code>{text(summary.get('command', ''))}</code></p>\n"
+        f"<p>{verdict}</p>\n{left_out}{_list(summary.get('findings', []))}</header>"
     )
 
 
-def _mark(text: str, good: bool) -> str:
-    """A verdict whose meaning does not hang on its colour alone."""
-    sign, tone = ("✓", "good") if good else ("✗", "bad")
-    return f'<span class="{tone}">{sign} {_text(text)}</span>'
+def _walks(animation: str) -> str:
+    return (
+        "<p>Both walks under the push, ADRC solid and NPD behind it. Space plays and pauses, the arrow keys "
+        "go frame by frame, v changes the view; drag to look from elsewhere.</p>\n"
+        + frame(animation)
+    )
 
 
 def _merits(merits: Sequence[Mapping[str, Any]]) -> str:
@@ -141,17 +150,23 @@ def _merits(merits: Sequence[Mapping[str, Any]]) -> str:
         return ""
     rows = [
         [
-            _text(m["name"]),
-            _text(m["published"]),
-            _text(m["measured"]),
-            _mark(m["verdict"], not str(m["verdict"]).startswith("not")),
-            _text(m.get("note", "")),
+            text(m["name"]),
+            text(m["published"]),
+            text(m["measured"]),
+            mark(m["verdict"], not str(m["verdict"]).startswith("not")),
+            text(m.get("note", "")),
         ]
         for m in merits
     ]
     columns = ("figure of merit", "published", "measured", "verdict", "note")
-    table = _table("Each published figure of merit beside ours", columns, rows)
-    return f"<section>\n<h2>Published and measured</h2>\n{table}\n</section>"
+    return table("Each published figure of merit beside ours", columns, rows)
+
+
+def _figure(name: str, source: str | Path) -> str:
+    known = [key for key in FIGURES if name == key or name.startswith(f"{key}_")]
+    title, caption = FIGURES[known[0]] if known else (name, "")
+    rest = name.removeprefix(known[0]).replace("_", " ").strip() if known else ""
+    return picture(f"{title}, {rest}" if rest else title, caption, source)
 
 
 def _checks(checks: Sequence[Mapping[str, Any]]) -> str:
@@ -160,76 +175,45 @@ def _checks(checks: Sequence[Mapping[str, Any]]) -> str:
     for kind in dict.fromkeys([*KINDS, *(check["kind"] for check in checks)]):
         rows = [
             [
-                _text(c["name"]),
-                _text(c["value"]),
-                _text(c["limit"]),
-                _mark("holds" if c["holds"] else "does not hold", c["holds"]),
+                text(c["name"]),
+                text(c["value"]),
+                text(c["limit"]),
+                mark("holds" if c["holds"] else "does not hold", c["holds"]),
             ]
             for c in checks
             if c["kind"] == kind
         ]
         if rows:
             caption = f"{kind}: {KINDS[kind]}" if kind in KINDS else kind
-            tables.append(_table(caption, ("check", "value", "limit", "verdict"), rows))
-    if not tables:
-        return ""
-    return "<section>\n<h2>Checks</h2>\n" + "\n".join(tables) + "\n</section>"
+            tables.append(table(caption, ("check", "value", "limit", "verdict"), rows))
+    return "\n".join(tables)
 
 
-def _figure(name: str, source: str | Path) -> str:
-    """The picture as a data URI: nothing in an SVG can run or clash with the page."""
-    data = source.read_bytes() if isinstance(source, Path) else source.encode("utf-8")
-    kinds = [kind for start, kind in MAGIC.items() if data.lstrip().startswith(start)]
-    if not kinds:
-        raise InputError(
-            f"figure '{name}' is neither PNG nor SVG; give SVG text or a Path to a file"
-        )
-    title = _text(TITLES.get(name, name))
-    uri = f"data:{kinds[0]};base64,{base64.b64encode(data).decode('ascii')}"
-    return (
-        f'<section>\n<h2>{title}</h2>\n<figure><img src="{uri}" alt="{title}"></figure>\n</section>'
+def _tables(tables: Mapping[str, Any]) -> str:
+    return "\n".join(
+        table(title, found["columns"], [[text(cell) for cell in row] for row in found["rows"]])
+        for title, found in tables.items()
     )
 
 
-def _reported(title: str, table: Mapping[str, Any]) -> str:
-    rows = [[_text(cell) for cell in row] for row in table["rows"]]
-    return (
-        f"<section>\n<h2>{_text(title)}</h2>\n{_table(title, table['columns'], rows)}\n</section>"
-    )
-
-
-def _notes(notes: Sequence[str]) -> str:
-    if not notes:
+def _list(items: Sequence[str]) -> str:
+    if not items:
         return ""
-    items = "\n".join(f"<li>{_text(note)}</li>" for note in notes)
-    return f"<section>\n<h2>Notes</h2>\n<ul>\n{items}\n</ul>\n</section>"
+    return "<ul>\n" + "\n".join(f"<li>{text(item)}</li>" for item in items) + "\n</ul>"
 
 
-def _versions(versions: Mapping[str, Any]) -> str:
-    if not versions:
-        return ""
-    rows = [[_text(name), _text(number)] for name, number in versions.items()]
-    table = _table("What the numbers depend on", ("part", "version"), rows)
-    return f"<section>\n<h2>Versions</h2>\n{table}\n</section>"
-
-
-STYLE = """
-body { margin: 0; font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: #fff; }
-main { max-width: 68rem; margin: 0 auto; padding: 1.5rem; }
-h1 { margin: 0 0 0.5rem; } h2 { margin: 2rem 0 0.5rem; font-size: 1.25rem; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; margin: 0.5rem 0 1rem; font-size: 0.875rem; }
-caption { text-align: left; color: #444; padding-bottom: 0.25rem; }
-th, td { border-bottom: 1px solid #ccc; padding: 0.3rem 0.6rem; text-align: left; vertical-align: top; }
-thead th { border-bottom: 2px solid #555; } tbody th { font-weight: normal; }
-td { font-variant-numeric: tabular-nums; overflow-wrap: break-word; max-width: 24rem; }
-figure { margin: 0; } img { max-width: 100%; height: auto; }
-code { background: #f2f2f2; padding: 0.1rem 0.3rem; overflow-wrap: anywhere; }
-.good { color: #00593f; font-weight: 600; } .bad { color: #a33a00; font-weight: 600; }
-a { color: #00508a; }
-@media (prefers-color-scheme: dark) {
-  body { color: #eee; background: #161616; } caption { color: #bbb; } th, td { border-color: #444; }
-  code { background: #2a2a2a; } .good { color: #5fd3ac; } .bad { color: #ff9d66; } a { color: #7cc4ff; }
-}
-@media print { .wide { overflow: visible; } section { break-inside: avoid-page; } }
-"""
+def _settings(summary: Mapping[str, Any]) -> str:
+    """What was asked for, what the numbers depend on, and what took how long."""
+    found = {
+        "settings": ("setting", "value", "What was asked for"),
+        "versions": ("part", "version", "What the numbers depend on"),
+        "seconds": ("task", "seconds", "Time by task"),
+    }
+    parts = []
+    for key, (left, right, caption) in found.items():
+        entries = summary.get(key, {})
+        if entries:
+            rows = [[text(name), text(value)] for name, value in entries.items()]
+            shown = table(caption, (left, right), rows)
+            parts.append(f"<details><summary>{text(caption)}</summary>\n{shown}\n</details>")
+    return "\n".join(parts)

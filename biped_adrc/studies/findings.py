@@ -1,0 +1,103 @@
+"""What a reproduction comes to, in sentences whose every number is taken from its runs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.studies.plan import BOTH, Plan
+from biped_adrc.studies.verdicts import Results, distance, map_counts
+
+
+def findings(plan: Plan, r: Results, cells: list[Any]) -> list[str]:
+    """The main findings, one sentence or two each."""
+    return [
+        _push(plan, r),
+        _heavier(r),
+        _fixed_point(plan, r),
+        _recipe(plan, r),
+        _stability(r),
+        *(_map(cells) if cells else []),
+        _torso(r),
+    ]
+
+
+def _push(plan: Plan, r: Results) -> str:
+    npd, adrc = (r[f"headline {c}"].outcome for c in BOTH)
+    pushes = "; ".join(push.text() for push in plan.pushes)
+    return (
+        f"Under the push ({pushes}) NPD makes {npd.impacts} and ADRC {adrc.impacts} of "
+        f"{npd.run.impacts} impacts. The largest tracking error is {npd.peak_error:.1e} rad under NPD "
+        f"and {adrc.peak_error:.1e} rad under ADRC."
+    )
+
+
+def _heavier(r: Results) -> str:
+    masses, both = (
+        r[f"heavier, {kind} ADRC"].peak_error / r[f"heavier, {kind} NPD"].peak_error
+        for kind in ("masses", "masses and inertias")
+    )
+    return (
+        f"With a plant heavier than the model ADRC's largest error is {masses:.2f} (masses) and "
+        f"{both:.2f} (masses and inertias) of NPD's; the unmatched part of the change enters the "
+        "reference itself."
+    )
+
+
+def _fixed_point(plan: Plan, r: Results) -> str:
+    walks = [r[f"nominal {p} {c}"] for p in plan.presets for c in BOTH]
+    gap = max(distance(o) for o in walks)
+    return (
+        f"After {walks[0].run.impacts} undisturbed impacts the gait designed through the published x* "
+        f"is at most {gap:.1e} from it, under both controllers, in: {', '.join(plan.presets)}."
+    )
+
+
+def _recipe(plan: Plan, r: Results) -> str:
+    found = [r[f"recipe {p} {c}"] for p in plan.presets for c in BOTH]
+    stable = [f for f in found if f.closes and f.record.get("stable")]
+    text = (
+        f"The recipe of section IV walks in a stable cycle in {len(stable)} of {len(found)} cases"
+    )
+    if not stable:
+        return f"{text}."
+    gap = max(float(np.max(np.abs(f.record["distance_to_x_star"]))) for f in stable)
+    torques = [f.record["peak_torque"] for f in stable]
+    return (
+        f"{text}, no component of its state more than {gap:.2g} (rad, rad/s) from x*; its torque peaks "
+        f"between {min(torques):.0f} and {max(torques):.0f} N m, where RABBIT's motors give 150."
+    )
+
+
+def _stability(r: Results) -> str:
+    npd = r["multipliers NPD"]
+    text = (
+        f"The largest multiplier is {abs(npd.orbit.multipliers[0]):.6f}; the closed form of the zero "
+        f"dynamics says {npd.delta_squared:.6f}."
+    )
+    if "multipliers ADRC" in r:
+        z = np.abs(r["multipliers ADRC"].orbit.multipliers)
+        text += f" Under ADRC the largest of {len(z)}, observer states included, is {z[0]:.4f}."
+    return f"{text} The printed ones come from a regression that such data do not determine."
+
+
+def _map(cells: list[Any]) -> list[str]:
+    parts = []
+    for where, count in map_counts(cells).items():
+        total = sum(count.values())
+        parts.append(
+            f"{count.get('only NPD falls', 0)} of {total} pushes throw only NPD and "
+            f"{count.get('only ADRC falls', 0)} only ADRC ({where})"
+        )
+    return ["Of the map of pushes: " + "; ".join(parts) + "."]
+
+
+def _torso(r: Results) -> str:
+    npd, adrc = (r[f"torso {c}"] for c in BOTH)
+    usual = float(npd.durations[0])
+    slow = [float(o.durations[np.argmax(np.abs(o.durations - usual))]) for o in (npd, adrc)]
+    return (
+        f"A push on the unactuated torso changes the speed: the step that changes most lasts "
+        f"{slow[0]:.4f} s under NPD and {slow[1]:.4f} s under ADRC instead of {usual:.4f} s."
+    )

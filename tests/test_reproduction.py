@@ -1,0 +1,54 @@
+"""What a reproduction plans, and how its pushes are said."""
+
+from __future__ import annotations
+
+import pytest
+
+from biped_adrc.errors import InputError
+from biped_adrc.studies.plan import PAPER_PUSH, SINE, Plan, base_runs, tasks
+from biped_adrc.studies.push import Push, parse_push
+
+
+def test_a_quick_plan_leaves_out_what_it_says() -> None:
+    whole, quick = tasks(Plan()), tasks(Plan(quick=True))
+    assert set(quick) < set(whole)
+    missing = set(whole) - set(quick)
+    assert {"multipliers ADRC", "multipliers ADRC measured"} <= missing
+    assert not [name for name in quick if name.startswith(("map", "reset", "as printed"))]
+    assert not [name for name in quick if "tac2003" in name or "bare" in name]
+    assert {"headline NPD", "headline ADRC", "multipliers NPD", "numerics"} <= set(quick)
+    assert len(Plan(quick=True).left_out) == 5
+    assert Plan().left_out == ()
+
+
+def test_quick_and_full_exclude_one_another() -> None:
+    with pytest.raises(InputError, match="exclude one another"):
+        Plan(quick=True, full=True)
+
+
+def test_the_full_map_is_finer() -> None:
+    coarse, fine = (
+        sum(name.startswith("map") for name in tasks(Plan(full=full))) for full in (False, True)
+    )
+    assert fine > 5 * coarse > 0
+
+
+def test_both_controllers_are_run_alike() -> None:
+    runs = base_runs(Plan())
+    for name, run in runs.items():
+        if name.endswith(" NPD"):
+            other = runs[f"{name.removesuffix('NPD')}ADRC"]
+            assert (other.pushes, other.mass, other.impacts) == (run.pushes, run.mass, run.impacts)
+
+
+@pytest.mark.parametrize(
+    "push",
+    [
+        PAPER_PUSH,
+        SINE,
+        Push({"q1": 30.0, "q3": -20.5, "q4": -20.5}, 7, 0.05, 0.15),
+        Push({"q5": 20.0}, 2, 0.1, float("inf"), "step"),
+    ],
+)
+def test_a_push_is_said_as_it_is_read(push: Push) -> None:
+    assert parse_push(push.text()) == push
