@@ -27,6 +27,8 @@ from typing import NamedTuple
 import pytest
 from markdown_it import MarkdownIt
 
+from biped_adrc.cli import app, gait_app
+
 ROOT = Path(__file__).resolve().parents[1]
 BUILT = {"_build", "jupyter_execute"}
 PAGES = sorted(
@@ -258,3 +260,11 @@ def test_every_package_is_in_the_reference():
             continue
         name = f"biped_adrc.{path.stem}"
         assert f"<!-- modules of {name} -->" in text or f"automodule:: {name}\n" in text, name
+
+
+def test_every_command_is_in_the_reference():
+    page = (ROOT / "docs" / "api" / "cli.md").read_text()
+    for group, prefix in ((app, ""), (gait_app, "gait ")):
+        for command in group.registered_commands:
+            name = command.name or command.callback.__name__
+            assert f"<!-- help of biped-adrc {prefix}{name} -->" in page, name

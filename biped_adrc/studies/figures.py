@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from biped_adrc.analysis.signals import Signals
 from biped_adrc.errors import InputError
 from biped_adrc.studies.walk import Walk
 
@@ -26,7 +27,7 @@ def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
         raise InputError("there is no walk to draw; expected at least one")
     title, walk = next(iter(walks.items()))
     signals = {n: w.signals for n, w in walks.items()}
-    first, push = signals[title], push_window(walk)
+    first, push = signals[title], push_window(signals[title])
     if name == "tracking":
         return figures.tracking_figure(first, title, push, walk.walker.torque_limit)
     if name == "disturbance":
@@ -41,9 +42,8 @@ def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
     return figures.comparison_figure(signals, push)
 
 
-def push_window(walk: Walk) -> tuple[float, float] | None:
+def push_window(s: Signals) -> tuple[float, float] | None:
     """From the first to the last time of the first step in which a torque from outside acts [s], if any."""
-    s = walk.signals
     pushed = np.any(s.zeta != 0.0, axis=1)
     if not pushed.any():
         return None

@@ -25,7 +25,7 @@ def findings(plan: Plan, r: Results, cells: list[Any]) -> list[str]:
 
 def _push(plan: Plan, r: Results) -> str:
     npd, adrc = (r[f"headline {c}"].outcome for c in BOTH)
-    pushes = "; ".join(push.text() for push in plan.pushes)
+    pushes = "; ".join(push.in_words() for push in plan.pushes)
     return (
         f"Under the push ({pushes}) NPD makes {npd.impacts} and ADRC {adrc.impacts} of "
         f"{npd.run.impacts} impacts. The largest tracking error is {npd.peak_error:.1e} rad under NPD "

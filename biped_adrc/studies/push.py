@@ -49,6 +49,18 @@ class Push:
             return TorqueStep(amplitude, self.step, self.start)
         raise InputError(f"push kind '{self.kind}' is unknown; choose pulse, sine or step")
 
+    def in_words(self) -> str:
+        """For a reader."""
+        parts = [
+            f"{torque:g} N m on {', '.join(joint for joint, _ in group)}"
+            for torque, group in groupby(self.torque.items(), lambda item: item[1])
+        ]
+        sine = f", a sine of {self.frequency:g} Hz," if self.kind == "sine" else ""
+        until = " s on" if self.kind == "step" else f" to {self.stop:g} s"
+        return (
+            f"{' and '.join(parts)}{sine} from {self.start:g}{until} in single support {self.step}"
+        )
+
     def text(self) -> str:
         """As on the command line, JOINTS=TORQUE@STEP:START-STOP [N m], [s]; `parse_push` reads it."""
         groups = [

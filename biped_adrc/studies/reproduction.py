@@ -178,7 +178,7 @@ def _draw(plan: Plan, results: dict[str, Any], cells: list[Any], out: Path) -> d
     """Write the figures; returns name -> SVG text."""
     walks = headline_walks(results)
     signals = {c: verdicts.headline_of(results, c).signals for c in BOTH}
-    window = push_window(walks["NPD"])
+    window = push_window(signals["NPD"])
     found = [c for c in BOTH if f"multipliers {c}" in results]
     magnitudes = {c: results[f"multipliers {c}"].orbit.multipliers for c in found}
     mu = walks["ADRC"].walker.plant.description.friction_coefficient
@@ -216,7 +216,7 @@ def headline_walks(results: dict[str, Any]) -> dict[str, Walk]:
 
 def _animate(plan: Plan, results: dict[str, Any]) -> str:
     walks = headline_walks(results)
-    window = push_window(walks["NPD"])
+    window = push_window(verdicts.headline_of(results, "NPD").signals)
     return animation_html(walks, "ADRC", [] if window is None else [(*window, "push")])
 
 

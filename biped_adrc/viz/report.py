@@ -125,7 +125,7 @@ def _head(summary: Mapping[str, Any]) -> str:
     held = sum(bool(check["holds"]) for check in checks)
     verdict = mark(f"{held} of {len(checks)} checks hold.", held == len(checks))
     missing = summary.get("left_out", [])
-    left_out = f"<p><b>Left out of this run:</b> {text(missing)}.</p>" if missing else ""
+    left_out = f"<p><b>Left out of this run:</b> {text('; '.join(missing))}.</p>" if missing else ""
     wall = summary.get("wall_time_s")
     took = f" It took {wall:.0f} s." if isinstance(wall, int | float) else ""
     return (
