@@ -2,13 +2,14 @@
 # make test        the tests
 PYTHON ?= python3
 OUT ?= out
+ARGS ?=
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
 .PHONY: reproduce test docs pictures results dev lint format types imports bench clean
 
 reproduce: .venv/.core
-	$(BIN)/biped-adrc reproduce --out $(OUT)
+	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
 
 test: .venv/.test
 	$(BIN)/python -m pytest -rs

@@ -1,0 +1,74 @@
+"""Sphinx configuration. Build: sphinx-build -W --keep-going -n -E -b html docs docs/_build/html
+
+The build needs no network: pages load MathJax from its CDN when they are read.
+"""
+
+import sys
+from pathlib import Path
+
+import biped_adrc
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import docstrings
+import expand
+
+docstrings.name_array_types()  # before any other module of the package is imported
+
+project = "biped_adrc"
+copyright = "the biped_adrc authors, BSD-3-Clause"
+version = release = biped_adrc.__version__
+html_title = f"biped_adrc {release}"
+
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.mathjax"]
+exclude_patterns = ["_build", "**/.ipynb_checkpoints", "jupyter_execute"]
+nitpicky = True
+nitpick_ignore_regex = [
+    # no network, hence no inventories of these projects
+    (r"py:.*", r"(numpy|np|scipy|matplotlib|pin|pinocchio|meshcat|tornado|typer|rich)\b.*"),
+    (r"py:.*", r"_?(asyncio|collections|pathlib|enum|abc|concurrent|functools|types|typing)\b.*"),
+    (r"py:.*", r"(Figure|Axes|ArrayLike|NDArray|Path|Callable|Mapping|Sequence|Iterator|Iterable)"),
+    (r"py:.*", r"(.*\.)?_[A-Za-z]\w*"),  # private names in signatures
+]
+
+# -- docstrings: plain text with indented equations ---------------------------------------------
+autodoc_member_order = "bysource"
+autodoc_default_options = {
+    "members": True,
+    "undoc-members": True,
+    "show-inheritance": True,
+    "special-members": "__call__",
+}
+autodoc_typehints_format = "short"
+autodoc_preserve_defaults = True
+
+# -- Markdown and notebooks -----------------------------------------------------------------------
+myst_enable_extensions = ["dollarmath", "colon_fence", "deflist", "attrs_inline"]
+myst_heading_anchors = 3
+myst_dmath_double_inline = True
+nb_execution_mode = "force"
+nb_execution_in_temp = True
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+nb_merge_streams = True
+nb_mime_priority_overrides = [("html", "image/svg+xml", 0)]
+
+highlight_language = "text"  # indented equations of docstrings; fences say what they are
+smartquotes = False  # q'' is a second derivative
+
+# -- pages ------------------------------------------------------------------------------------------
+html_theme = "furo"
+html_static_path = ["_static"]
+html_css_files = ["extra.css"]
+html_last_updated_fmt = None
+html_copy_source = False
+html_show_sourcelink = False
+html_theme_options = {"top_of_page_buttons": []}
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", docstrings.plain)
+    app.connect("autodoc-process-signature", docstrings.signature)
+    app.connect("autodoc-process-bases", docstrings.bases)
+    app.connect("autodoc-skip-member", docstrings.skip)
+    app.connect("source-read", expand.placeholders)
