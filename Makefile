@@ -16,7 +16,7 @@ test: .venv/.test
 
 # the pages, in docs/_build/html
 docs: .venv/.dev
-	$(BIN)/sphinx-build -W --keep-going -n -b html docs docs/_build/html
+	$(BIN)/sphinx-build -W --keep-going -n -E -q -b html docs docs/_build/html
 
 # what the README shows, from the runs of 'make reproduce'
 pictures: .venv/.core

@@ -99,7 +99,7 @@ class Biped:
 
     @cached_property
     def relabelling(self) -> Array:
-        """Permutation R (n,) that swaps the legs: q_new = q[R]. dtype int."""
+        """Permutation R (n,) that swaps the legs: q_new = q[R]. dtype int. Raises ModelError without pairs."""
         names = self.description.joints
         swap = {"left": "right", "right": "left"}
         twins = [
@@ -107,6 +107,12 @@ class Biped:
             for name in names
             for side, _, rest in [name.partition("_")]
         ]
+        missing = sorted(set(twins) - set(names))
+        if missing:
+            raise ModelError(
+                f"robot '{self.description.name}': the legs change over at impact, but there is no joint "
+                f"{missing} among {list(names)}; name the joints of the legs left_... and right_... in pairs"
+            )
         return np.array([names.index(twin) for twin in twins])
 
     # -- the two Pinocchio models ----------------------------------------------------------------

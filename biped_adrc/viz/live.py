@@ -126,12 +126,25 @@ def play(
     """Show the walks in the browser until the page is closed or the process is told to stop; returns why.
 
     look: as for a file. port: 0 for a free one. wait [s]: how long to wait for the first page. say: is given
-    the address. Raises InputError for a port that is in use.
+    the address. Raises InputError for a port that is in use and inside a running event loop.
     """
+    if _inside_a_loop():
+        raise InputError(
+            "live mode runs an event loop of its own and one is running already, as in a notebook; there "
+            "a walk as the last line of a cell shows itself"
+        )
     scenes = {name: Scene.of(walks[name]) for name in look.order(walks)}
     settings = {**scene_settings(scenes, look), "live": True}
     html = page(settings, " and ".join(walks), captions(scenes))
     return asyncio.run(_serve(scenes, html, look.fps, port, open_browser, wait, say))
+
+
+def _inside_a_loop() -> bool:
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        return False
+    return True
 
 
 async def _serve(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import signal
 import subprocess
 import sys
@@ -17,8 +18,11 @@ import psutil
 import pytest
 from selenium.webdriver.common.by import By
 
+from biped_adrc.errors import InputError
 from biped_adrc.hybrid.storage import save
-from biped_adrc.studies.runs import Run, execute_fully
+from biped_adrc.studies.runs import Run, execute_fully, load_walk
+from biped_adrc.viz.live import play
+from biped_adrc.viz.meshcat import Look
 
 from .browser import chromium, console, needs_chromium
 
@@ -205,3 +209,11 @@ def test_it_does_not_wait_for_ever_for_a_browser(stored: Path) -> None:
         assert (code, said) == (0, "no browser has opened the page within 0.5 s")
     finally:
         session.close()
+
+
+def test_inside_a_running_loop_it_says_what_to_do(stored: Path) -> None:
+    async def inside() -> None:
+        play({"NPD": load_walk(stored)}, Look(), open_browser=False)
+
+    with pytest.raises(InputError, match="last line of a cell"):
+        asyncio.run(inside())

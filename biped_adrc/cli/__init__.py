@@ -1,0 +1,42 @@
+"""The command `biped-adrc`.
+
+Exit codes: 0 all is well (for `reproduce`: every check holds); 1 a check of `reproduce` does not hold;
+2 the command line is wrong; 3 bad input (robot, gait, poles, duration, file); 4 the robot fell or did not
+come back; 5 a result cannot be written; 130 interrupted with Ctrl-C.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from rich.console import Console
+
+from biped_adrc.cli import gait, look, reproduce, walk
+from biped_adrc.cli.app import EXIT_INTERRUPTED, app, gait_app
+from biped_adrc.errors import BipedError
+
+__all__ = ["app", "gait", "gait_app", "look", "main", "reproduce", "walk"]
+
+
+def _say_interrupted() -> None:
+    Console(stderr=True).print("interrupted; what was already written is complete")
+
+
+def main() -> None:
+    """Entry point: errors become one message and an exit code."""
+    try:
+        app(standalone_mode=True)
+    except BipedError as error:
+        Console(stderr=True).print(f"error: {error}", markup=False, highlight=False, soft_wrap=True)
+        sys.exit(error.exit_code)
+    except SystemExit as stop:
+        if stop.code == EXIT_INTERRUPTED:
+            _say_interrupted()
+        raise
+    except KeyboardInterrupt:
+        _say_interrupted()
+        sys.exit(EXIT_INTERRUPTED)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(0)

@@ -1,0 +1,62 @@
+"""`biped-adrc gait`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from biped_adrc.cli.app import Preset, console, gait_app
+
+
+@gait_app.command("published")
+def gait_published(
+    preset: Preset = "identified",
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", help="Where to write it (.json).")
+    ] = None,
+) -> None:
+    """Design gait (a): the constraint of least torque whose orbit passes through the published x*."""
+    from biped_adrc.gait.published import design_published_gait
+    from biped_adrc.model.biped import Biped
+
+    _save(design_published_gait(Biped.load("rabbit", preset)), out)
+
+
+@gait_app.command("recipe")
+def gait_recipe(
+    preset: Preset = "identified",
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", help="Where to write it (.json).")
+    ] = None,
+) -> None:
+    """Design gait (b): hip sine, inverse kinematics and polynomial regression, section IV."""
+    from biped_adrc.model.biped import Biped
+    from biped_adrc.studies.recipe_orbit import design_recipe_orbit
+
+    _save(design_recipe_orbit(Biped.load("rabbit", preset)), out)
+
+
+@gait_app.command("show")
+def gait_show(
+    gait: Annotated[str, typer.Argument(help="published, recipe, or a .json file.")] = "published",
+    preset: Preset = "identified",
+) -> None:
+    """Print a stored gait's provenance and its zero dynamics."""
+    from biped_adrc.gait.gait import load_gait
+    from biped_adrc.gait.zero_dynamics import ZeroDynamics
+    from biped_adrc.model.biped import Biped
+
+    biped = Biped.load("rabbit", preset)
+    found = load_gait(gait, biped)
+    for key, value in found.provenance.items():
+        console.print(f"{key}: {value}")
+    zero = ZeroDynamics.of(biped, found.constraint)
+    console.print(f"period {found.period:.6f} s, delta^2 {zero.delta**2:.6f}")
+
+
+def _save(gait: Any, out: Path | None) -> None:
+    path = out or Path(f"{gait.name}-{gait.preset}.json")
+    gait.save(path)
+    console.print(f"period {gait.period:.6f} s; written to {path}")

@@ -1,0 +1,94 @@
+"""`biped-adrc animate` and `plot`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from biped_adrc.cli.app import app, console
+
+
+@app.command()
+def animate(
+    run: Annotated[Path, typer.Argument(help="A run written by 'simulate' or 'reproduce' (.npz).")],
+    ghost: Annotated[
+        list[Path] | None,
+        typer.Option(help="Another run, drawn translucent beside the first. May be repeated."),
+    ] = None,
+    out: Annotated[
+        Path,
+        typer.Option(
+            "--out",
+            "-o",
+            help="What to write: .html (offline page), .gif, or .png or .svg (strip).",
+        ),
+    ] = Path("walk.html"),
+    view: Annotated[
+        str, typer.Option(help="side (orthographic) or perspective; of the page.")
+    ] = "side",
+    start: Annotated[
+        float | None, typer.Option("--from", help="Start of a .gif or strip [s].")
+    ] = None,
+    stop: Annotated[float | None, typer.Option("--to", help="End of a .gif or strip [s].")] = None,
+    fps: Annotated[
+        float | None, typer.Option(help="Frames per second; 60, or 25 for a .gif.")
+    ] = None,
+    live: Annotated[
+        bool,
+        typer.Option("--live", help="Show it in the browser from a server on 127.0.0.1 instead."),
+    ] = False,
+    port: Annotated[int, typer.Option(help="Port of --live; 0 takes a free one.")] = 0,
+    browser: Annotated[
+        bool, typer.Option(help="Open the browser with --live, or only print the address.")
+    ] = True,
+    wait: Annotated[
+        float, typer.Option(help="How long --live waits for the first page [s].")
+    ] = 120.0,
+) -> None:
+    """Write the walk as a page, a picture or a strip; or show it live."""
+    from biped_adrc.studies.runs import load_walks
+    from biped_adrc.viz.export import Clip, check_suffix, export
+
+    if not live:
+        check_suffix(out)
+    walks = load_walks([*(ghost or []), run])
+    if live:
+        from biped_adrc.viz.live import play
+        from biped_adrc.viz.meshcat import Look
+
+        look = Look(fps=60.0 if fps is None else fps, view=view)
+        console.print(
+            play(walks, look, port=port, open_browser=browser, wait=wait, say=console.print)
+        )
+        return
+    export(out, walks, Clip(start, stop, fps, view))
+    console.print(f"written to {out}")
+
+
+@app.command()
+def plot(
+    run: Annotated[Path, typer.Argument(help="A run written by 'simulate' or 'reproduce' (.npz).")],
+    beside: Annotated[
+        list[Path] | None, typer.Option("--with", help="Another run to compare. May be repeated.")
+    ] = None,
+    figure: Annotated[
+        str,
+        typer.Option(
+            help="tracking, disturbance, ground, energy; phase or comparison of all runs."
+        ),
+    ] = "tracking",
+    out: Annotated[Path, typer.Option("--out", "-o", help="What to write: .png or .svg.")] = Path(
+        "figure.png"
+    ),
+) -> None:
+    """Draw the signals of a run."""
+    from biped_adrc.files import write_bytes
+    from biped_adrc.studies.figures import draw
+    from biped_adrc.studies.runs import load_walks
+    from biped_adrc.viz.style import render
+
+    walks = load_walks([run, *(beside or [])])
+    write_bytes(out, render(draw(figure, walks), out.suffix.lower().removeprefix(".")))
+    console.print(f"written to {out}")

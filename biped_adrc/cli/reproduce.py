@@ -1,0 +1,73 @@
+"""`biped-adrc reproduce`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.table import Table
+
+from biped_adrc.cli.app import (
+    EXIT_CHECK_FAILED,
+    Preset,
+    Pushes,
+    app,
+    bar,
+    command,
+    console,
+    parse_pushes,
+)
+
+
+@app.command()
+def reproduce(
+    out: Annotated[
+        Path, typer.Option(help="Folder for figures, runs, tables and the report.")
+    ] = Path("out"),
+    preset: Preset = "identified",
+    push: Pushes = None,
+    full: Annotated[
+        bool,
+        typer.Option("--full", help="A finer map of pushes: 8 onsets, 5 amplitudes."),
+    ] = False,
+    quick: Annotated[
+        bool,
+        typer.Option(
+            "--quick", help="A first look: no map of pushes, one preset, no multipliers of ADRC."
+        ),
+    ] = False,
+    workers: Annotated[int | None, typer.Option(help="Processes; by default one per core.")] = None,
+) -> None:
+    """Reproduce the paper: runs, figures 1, 4, 5, 6, Tables I and II, stability, and a verdict."""
+    from biped_adrc.model.robots import load_description
+    from biped_adrc.studies.plan import PAPER_PUSH, Plan
+    from biped_adrc.studies.reproduction import failed, main_table
+    from biped_adrc.studies.reproduction import reproduce as run
+
+    pushes = parse_pushes(push)
+    description = load_description("rabbit")
+    description.preset(preset)
+    for joint in (joint for p in pushes for joint in p.torque):
+        description.joint_index(joint)
+    plan = Plan(preset, pushes=pushes or (PAPER_PUSH,), full=full, quick=quick)
+    with bar() as shown:
+        task = shown.add_task("starting", total=None)
+
+        def progress(done: int, total: int, name: str) -> None:
+            shown.update(task, completed=done, total=total, description=name)
+
+        summary = run(plan, out, command(), workers, progress)
+    table = Table("", "paper", "here", "verdict", title="Reproduction")
+    for row in main_table(summary):
+        table.add_row(*row)
+    console.print(table)
+    if plan.left_out:
+        console.print(f"left out of this run: {', '.join(plan.left_out)}")
+    broken = failed(summary["checks"])
+    console.print(f"{len(summary['checks']) - len(broken)} of {len(summary['checks'])} checks hold")
+    for check in broken:
+        console.print(f"does not hold: {check['name']}: {check['value']} {check['limit']}")
+    console.print(f"written to {out}: report.html, walk.html, summary.json, figures and runs")
+    if broken:
+        raise typer.Exit(EXIT_CHECK_FAILED)

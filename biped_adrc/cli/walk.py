@@ -1,0 +1,144 @@
+"""`biped-adrc simulate` and `poincare`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.table import Table
+
+from biped_adrc.cli.app import EXIT_FELL, Preset, Pushes, app, bar, console, parse_pushes
+from biped_adrc.errors import InputError
+
+if TYPE_CHECKING:
+    from biped_adrc.studies.runs import Outcome
+
+
+@app.command()
+def simulate(
+    controller: Annotated[str, typer.Option(help="ADRC or NPD.")] = "ADRC",
+    gait: Annotated[
+        str, typer.Option(help="published (through x*), recipe (section IV), or a .json file.")
+    ] = "published",
+    preset: Preset = "identified",
+    push: Pushes = None,
+    impacts: Annotated[
+        int, typer.Option(help="Impacts to walk (12.5 steps of the paper are 25).")
+    ] = 25,
+    period: Annotated[
+        float | None,
+        typer.Option(help="Sampling period [s] of the controller; continuous if left out."),
+    ] = None,
+    torque_limit: Annotated[
+        float | None, typer.Option(help="Saturation of the motors [N m].")
+    ] = None,
+    poles: Annotated[
+        str | None,
+        typer.Option(help="m + 2 observer poles [rad/s], comma separated; by default Table I."),
+    ] = None,
+    bandwidth: Annotated[
+        float | None, typer.Option(help="Observer bandwidth [rad/s] instead of poles.")
+    ] = None,
+    order: Annotated[int, typer.Option(help="Order m of the observer, with --bandwidth.")] = 1,
+    reset: Annotated[
+        str, typer.Option(help="Observer at impact: none, relabel, measured or model.")
+    ] = "model",
+    as_printed: Annotated[
+        bool, typer.Option("--as-printed", help="Drop h' Theta'' from (20) and (28), as printed.")
+    ] = False,
+    friction: Annotated[
+        bool, typer.Option("--friction", help="Add RABBIT's joint friction.")
+    ] = False,
+    method: Annotated[str | None, typer.Option(help="rk4, exponential, adaptive or stiff.")] = None,
+    step: Annotated[float | None, typer.Option(help="Step of rk4 and exponential [s].")] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", help="Write the run (.npz, .json).")
+    ] = None,
+) -> None:
+    """Walk, and print what each step needed."""
+    from biped_adrc.hybrid.storage import save
+    from biped_adrc.studies.runs import Run, execute_fully
+    from biped_adrc.studies.versions import versions
+
+    extra: dict[str, Any] = {}
+    if poles is not None:
+        extra["poles"] = _numbers(poles, "--poles")
+    run = Run(
+        controller.upper(),
+        preset=preset,
+        gait=gait,
+        pushes=parse_pushes(push),
+        period=period,
+        torque_limit=torque_limit,
+        friction=friction,
+        impacts=impacts,
+        bandwidth=bandwidth,
+        order=order,
+        solve_theta=not as_printed,
+        reset=reset,
+        method=method,
+        h=step,
+        **extra,
+    )
+    with bar() as shown:
+        task = shown.add_task(f"walking, {run.controller}", total=impacts)
+        full = execute_fully(run, lambda t, n: shown.update(task, completed=n))
+    o = full.outcome
+    _print_steps(o)
+    if out is not None:
+        save(full.trajectory, out, {"run": run.record(), "versions": versions()})
+        console.print(f"written to {out.with_suffix('.npz')}")
+    if not o.walked:
+        raise typer.Exit(EXIT_FELL)
+
+
+def _print_steps(o: Outcome) -> None:
+    table = Table("step", "time [s]", "length [m]", "torque [N m]", "friction", "F_N [N]", "remark")
+    for c in o.certificates:
+        table.add_row(
+            f"{c.step}",
+            f"{c.duration:.4f}",
+            f"{c.step_length:.4f}",
+            f"{c.peak_torque:.1f}",
+            f"{c.friction:.3f}",
+            f"{c.least_normal_force:.1f}",
+            "; ".join(c.violations()),
+        )
+    console.print(table)
+    console.print(
+        f"{o.status}: {o.message}\n{o.impacts} impacts, largest tracking error {o.peak_error:.3e} rad, "
+        f"peak torque {o.peak_torque:.1f} N m, {o.method}"
+    )
+
+
+def _numbers(text: str, what: str) -> tuple[float, ...]:
+    try:
+        return tuple(float(word) for word in text.split(","))
+    except ValueError:
+        raise InputError(f"{what} is '{text}', expected numbers separated by commas") from None
+
+
+@app.command()
+def poincare(
+    controller: Annotated[str, typer.Option(help="ADRC or NPD.")] = "NPD",
+    gait: Annotated[str, typer.Option(help="published, recipe, or a .json file.")] = "published",
+    preset: Preset = "identified",
+    observer_states: Annotated[
+        bool, typer.Option(help="Count the observer's states among the coordinates.")
+    ] = True,
+) -> None:
+    """Fixed point of the return map and its multipliers, by central differences."""
+    from biped_adrc.studies.poincare import poincare as find
+    from biped_adrc.studies.runs import Run
+
+    run = Run(controller.upper(), preset=preset, gait=gait)
+    with console.status("Newton on the return map"):
+        found = find(run, observer_states)
+    o = found.orbit
+    console.print("x- =", " ".join(f"{value:.6f}" for value in o.x_minus[:10]))
+    console.print("|lambda| =", " ".join(f"{abs(value):.4g}" for value in o.multipliers))
+    console.print(
+        f"delta^2 of the zero dynamics {found.delta_squared:.6f}, residual {o.residual:.1e}, "
+        f"{'stable' if o.stable else 'unstable'}"
+    )
