@@ -15,8 +15,7 @@ import numpy as np
 
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.errors import OutputError
-from biped_adrc.files import write_bytes, write_text
-from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
+from biped_adrc.files import write_text
 from biped_adrc.hybrid.storage import save
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
@@ -24,6 +23,7 @@ from biped_adrc.studies.figures import push_window
 from biped_adrc.studies.findings import findings
 from biped_adrc.studies.laws import work_identity
 from biped_adrc.studies.merits import figures_of_merit
+from biped_adrc.studies.pictures import draw_all
 from biped_adrc.studies.plan import BOTH, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.poincare import regression_of
@@ -32,21 +32,8 @@ from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
 from biped_adrc.studies.versions import versions
 from biped_adrc.studies.walk import Walk
-from biped_adrc.viz.figures import (
-    comparison_figure,
-    disturbance_figure,
-    energy_figure,
-    ground_figure,
-    multiplier_figure,
-    phase_figure,
-    push_map_figure,
-    return_map_figure,
-    tracking_figure,
-)
 from biped_adrc.viz.meshcat import animation_html
 from biped_adrc.viz.report import write_report
-from biped_adrc.viz.robot_figure import robot_figure
-from biped_adrc.viz.style import render
 
 
 def reproduce(
@@ -107,7 +94,7 @@ def reproduce(
     for c in BOTH:
         head = verdicts.headline_of(results, c)
         save(head.trajectory, out / f"walk-{c.lower()}.npz", _run_settings(head))
-    pictures = _draw(plan, results, cells, out)
+    pictures = draw_all(plan, results, cells, out, workers)
     animation = _animate(plan, results)
     write_text(out / "walk.html", animation)
     summary["wall_time_s"] = time.perf_counter() - started
@@ -172,40 +159,6 @@ def _notes() -> list[str]:
         "The impulse ratio at impact is reported without a limit: the pinned model of the paper cannot slip.",
         "A torque on the unactuated torso enters the zero dynamics; no tracking controller rejects it.",
     ]
-
-
-def _draw(plan: Plan, results: dict[str, Any], cells: list[Any], out: Path) -> dict[str, str]:
-    """Write the figures; returns name -> SVG text."""
-    walks = headline_walks(results)
-    signals = {c: verdicts.headline_of(results, c).signals for c in BOTH}
-    window = push_window(signals["NPD"])
-    found = [c for c in BOTH if f"multipliers {c}" in results]
-    magnitudes = {c: results[f"multipliers {c}"].orbit.multipliers for c in found}
-    mu = walks["ADRC"].walker.plant.description.friction_coefficient
-    figures = {
-        "figure1": robot_figure(walks["NPD"].walker.nominal),
-        "figure4": tracking_figure(signals["NPD"], "NPD under the push", window),
-        "figure5": tracking_figure(
-            signals["ADRC"], "ADRC with GPI observer under the push", window
-        ),
-        "figure6": phase_figure(signals),
-        "comparison": comparison_figure(signals, window),
-        "disturbance": disturbance_figure(signals["ADRC"], "ADRC", window),
-        "ground": ground_figure(signals["ADRC"], "ADRC", mu),
-        "energy": energy_figure(signals["ADRC"], "ADRC", window),
-        "multipliers": multiplier_figure(magnitudes, PUBLISHED_MULTIPLIERS),
-        "return_map": return_map_figure(*results["return map"]),
-    }
-    for preset in sorted({cell.preset for cell in cells}):
-        rows = [cell.row() for cell in cells if cell.preset == preset]
-        figures[f"push_map_{preset}"] = push_map_figure(rows)
-    pictures = {}
-    for name, figure in figures.items():
-        write_bytes(out / f"{name}.png", render(figure, "png"))
-        svg = render(figure, "svg")
-        write_bytes(out / f"{name}.svg", svg)
-        pictures[name] = svg.decode("utf-8")
-    return pictures
 
 
 def headline_walks(results: dict[str, Any]) -> dict[str, Walk]:

@@ -1,0 +1,80 @@
+"""The figures of the reproduction, drawn side by side in several processes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from biped_adrc.files import write_bytes
+from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
+from biped_adrc.model.biped import Biped
+from biped_adrc.studies import verdicts
+from biped_adrc.studies.figures import push_window
+from biped_adrc.studies.plan import BOTH, Plan
+from biped_adrc.studies.pool import Task, run_tasks
+from biped_adrc.studies.verdicts import Results
+from biped_adrc.viz import figures
+from biped_adrc.viz.robot_figure import robot_figure
+from biped_adrc.viz.style import render
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def draw_all(
+    plan: Plan, r: Results, cells: list[Any], out: Path, workers: int | None = None
+) -> dict[str, str]:
+    """Write every figure as .png and .svg to `out`; returns name -> SVG text."""
+    named = pictures(plan, r, cells)
+    drawn = run_tasks(list(named.values()), workers)
+    found = {}
+    for name, picture in zip(named, drawn, strict=True):
+        png, svg = picture.value
+        write_bytes(out / f"{name}.png", png)
+        write_bytes(out / f"{name}.svg", svg)
+        found[name] = svg.decode("utf-8")
+    return found
+
+
+def pictures(plan: Plan, r: Results, cells: list[Any]) -> dict[str, Task]:
+    """What is drawn, by name."""
+    signals = {c: verdicts.headline_of(r, c).signals for c in BOTH}
+    npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
+    found = [c for c in BOTH if f"multipliers {c}" in r]
+    magnitudes = {c: r[f"multipliers {c}"].orbit.multipliers for c in found}
+    mu = Biped.load("rabbit", plan.preset).description.friction_coefficient
+    maps = {
+        f"push_map_{preset}": (
+            figures.push_map_figure,
+            [cell.row() for cell in cells if cell.preset == preset],
+        )
+        for preset in sorted({cell.preset for cell in cells})
+    }
+    made: dict[str, tuple[Any, ...]] = {
+        "figure1": (draw_robot, plan.preset),
+        "figure4": (figures.tracking_figure, npd, "NPD under the push", window),
+        "figure5": (figures.tracking_figure, adrc, "ADRC under the push", window),
+        "figure6": (figures.phase_figure, signals),
+        "comparison": (figures.comparison_figure, signals, window),
+        "disturbance": (figures.disturbance_figure, adrc, "ADRC", window),
+        "ground": (figures.ground_figure, adrc, "ADRC", mu),
+        "energy": (figures.energy_figure, adrc, "ADRC", window),
+        "multipliers": (figures.multiplier_figure, magnitudes, PUBLISHED_MULTIPLIERS),
+        "return_map": (figures.return_map_figure, *r["return map"]),
+        **maps,
+    }
+    return {name: Task(name, rendered, arguments) for name, arguments in made.items()}
+
+
+def draw_robot(preset: str) -> Figure:
+    """Figure 1."""
+    return robot_figure(Biped.load("rabbit", preset))
+
+
+def rendered(draw: Callable[..., Figure], *arguments: Any) -> tuple[bytes, bytes]:
+    """A figure as PNG and as SVG, laid out once."""
+    figure = draw(*arguments)
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    return render(figure, "png"), render(figure, "svg")
