@@ -15,7 +15,7 @@ from biped_adrc.viz.gif import write_gif
 from biped_adrc.viz.style import render
 
 IMAGES = Path(__file__).resolve().parent / "images"
-BEFORE, AFTER = 0.15, 0.65
+BEFORE, AFTER = 0.5, 1.3
 """[s], shown before and after the push."""
 
 

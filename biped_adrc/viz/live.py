@@ -128,6 +128,8 @@ def play(
     look: as for a file. port: 0 for a free one. wait [s]: how long to wait for the first page. say: is given
     the address. Raises InputError for a port that is in use and inside a running event loop.
     """
+    if not 0 <= port <= 65535:
+        raise InputError(f"port is {port}, expected 1 to 65535, or 0 for a free one")
     if _inside_a_loop():
         raise InputError(
             "live mode runs an event loop of its own and one is running already, as in a notebook; there "

@@ -109,7 +109,7 @@ class Robot {
     const w = this.walk, [tangent, normal, ...zeta] = pose.loads;
     const length = w.metres_per_newton * Math.hypot(tangent, normal);
     const tip = Math.min(w.head, length);
-    this.arrow.visible = length > 0;
+    this.arrow.visible = length > 0 && Number.isFinite(length); // a walk that diverges may overflow
     this.arrow.position.set(support.x, 0, w.ground);
     const half = 0.5 * Math.atan2(tangent, normal);
     this.arrow.quaternion.set(0, Math.sin(half), 0, Math.cos(half));

@@ -142,6 +142,11 @@ def test_a_port_in_use_is_refused(live: Live, stored: Path) -> None:
     assert f"port {live.port} cannot be used" in found.stderr
 
 
+def test_a_port_that_does_not_exist_is_refused(stored: Path) -> None:
+    with pytest.raises(InputError, match="port is 99999, expected 1 to 65535"):
+        play({"NPD": load_walk(stored)}, Look(), port=99999, open_browser=False)
+
+
 def test_other_names_of_this_machine_are_refused(live: Live) -> None:
     with pytest.raises(urllib.error.HTTPError, match="403"):
         get(live.url, host="attacker.example")
