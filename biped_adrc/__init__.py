@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from biped_adrc.control.adrc import ADRCController
     from biped_adrc.control.base import Controller, Measurement
     from biped_adrc.control.npd import NPDController
+    from biped_adrc.control.passive import Passive
     from biped_adrc.control.tracking import TABLE_II, Gains
     from biped_adrc.disturbances.base import Disturbance
     from biped_adrc.disturbances.pulse import TorquePulse
@@ -53,6 +54,7 @@ _HOMES = {
     "Mode": "walker",
     "NPDController": "control.npd",
     "Observer": "observers.base",
+    "Passive": "control.passive",
     "RK4": "hybrid.integrators",
     "Reference": "gait.reference",
     "ResetPolicy": "observers.base",
@@ -93,6 +95,7 @@ __all__ = [  # noqa: RUF022 -- in the order of _HOMES
     "Mode",
     "NPDController",
     "Observer",
+    "Passive",
     "RK4",
     "Reference",
     "ResetPolicy",

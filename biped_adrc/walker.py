@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -74,6 +74,7 @@ class Instant(NamedTuple):
 class Walker(HybridSystem):
     """torque_limit [N m] saturates every motor; the observer is fed the torque applied.
 
+    slope [rad]: of the ground, positive downhill.
     fall_height: the run ends as a fall when the hip is below this fraction of its height at start.
     max_step_time [s]: a longer single support ends as stalled.
     """
@@ -86,8 +87,11 @@ class Walker(HybridSystem):
     torque_limit: float | None = None
     fall_height: float = 0.35
     max_step_time: float = 2.0
+    slope: float = 0.0
 
     def __post_init__(self) -> None:
+        if not abs(self.slope) < 0.5 * math.pi:
+            raise InputError(f"the slope is {self.slope} rad, expected less than a right angle")
         limit = self.torque_limit
         if limit is not None and not (math.isfinite(limit) and limit > 0):
             raise InputError(f"the torque limit is {limit} N m, expected a positive number or None")
@@ -212,9 +216,21 @@ class Walker(HybridSystem):
         impact = self.plant.impact(q, v)
         mode = Mode(mode.step + 1, t)
         after = self.measure(t, impact.q, impact.v, mode)
-        s = self.law.jump(s, after, self.plant.relabelling[: self.plant.p])
+        s = self.law.jump(s, after, self._swap)
         held = [x[-self.plant.p :]] if self.sampled else []
         return np.concatenate((impact.q, impact.v, s, *held)), mode
+
+    @cached_property
+    def _swap(self) -> Any:
+        """Relabelling of the actuated joints (p,), dtype int."""
+        if self.plant.p == 0:
+            return np.zeros(0, dtype=int)
+        return self.plant.relabelling[: self.plant.p]
+
+    def clearance(self, q: Array) -> float:
+        """Height of the swing foot above the ground [m], measured along the vertical."""
+        x, z = self.plant.swing_foot(q)
+        return float(z + math.tan(self.slope) * x)
 
     @cached_property
     def _lowest_hip(self) -> float:
@@ -226,7 +242,7 @@ class Walker(HybridSystem):
         return (
             Guard(
                 FOOT_STRIKE,
-                lambda t, x: float(self.plant.swing_foot(x[:n])[1]),
+                lambda t, x: self.clearance(x[:n]),
                 lambda t, x: self.strike(t, x, mode),
             ),
             Guard(

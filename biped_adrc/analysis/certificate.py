@@ -8,6 +8,7 @@ level ground these two are equal.
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -15,7 +16,6 @@ import numpy as np
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.biped import GRAVITY
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Walker
 
@@ -88,7 +88,9 @@ def _certificate(walker: Walker, s: Signals, x_minus: Array) -> Certificate:
     b, n, p = walker.plant, walker.plant.n, walker.plant.p
     q, v = x_minus[:n], x_minus[n : 2 * n]
     impact = b.impact(q, v)
-    F_T, F_N = s.ground_reaction.T
+    along, across = _slope(walker.slope)
+    F_T, F_N = s.ground_reaction @ along, s.ground_reaction @ across
+    height = s.swing_foot[:, 1] + math.tan(walker.slope) * s.swing_foot[:, 0]
     time = s.t - s.t[0]
     inner = (time > ENDS * time[-1]) & (time < (1.0 - ENDS) * time[-1])
     power = s.u * s.v[:, :p]
@@ -100,12 +102,17 @@ def _certificate(walker: Walker, s: Signals, x_minus: Array) -> Certificate:
         step_length=length,
         least_normal_force=float(np.min(F_N)),
         friction=float(np.max(np.abs(F_T) / np.where(F_N > 0, F_N, np.nan))),
-        impulse_ratio=impact.impulse_ratio,
-        old_foot_velocity=float(impact.old_foot_velocity[1]),
-        clearance=float(np.min(s.swing_foot[inner, 1])),
-        peak_torque=float(np.max(np.abs(s.u))),
+        impulse_ratio=float(abs(impact.impulse @ along) / (impact.impulse @ across)),
+        old_foot_velocity=float(impact.old_foot_velocity @ across),
+        clearance=float(np.min(height[inner])),
+        peak_torque=float(np.max(np.abs(s.u), initial=0.0)),
         joint_work=integrate(s.t, np.sum(power, axis=1)),
         energy_lost=b.kinetic_energy(q, v) - after,
-        cost_of_transport=integrate(s.t, np.sum(np.abs(power), axis=1))
-        / (b.mass * GRAVITY * length),
+        cost_of_transport=integrate(s.t, np.sum(np.abs(power), axis=1)) / (b.weight * length),
     )
+
+
+def _slope(angle: float) -> tuple[Array, Array]:
+    """Unit vectors (x, z) along the ground, downhill for a positive slope [rad], and out of it."""
+    along = np.array([math.cos(angle), -math.sin(angle)])
+    return along, np.array([math.sin(angle), math.cos(angle)])

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from math import tan
 
 import numpy as np
 
@@ -50,13 +51,15 @@ class ReturnMap:
     """P in section coordinates s for a walker and a method.
 
     controller_states: keep the controller's states as coordinates; False starts the controller anew at
-    each passage. difference: half width of the central differences [rad, rad/s].
+    each passage. difference: half width of the central differences [rad, rad/s]. pitch: where the search for
+    q_N starts [rad].
     """
 
     walker: Walker
     method: OneStepMethod
     controller_states: bool = True
     difference: float = 1e-5
+    pitch: float = 0.0
 
     @property
     def _dropped(self) -> int:
@@ -69,15 +72,15 @@ class ReturnMap:
 
     def lift(self, s: Array) -> Array:
         """The pre-impact state of section coordinates: q_N puts the swing foot on the ground."""
-        x = np.insert(s, self._dropped, 0.0)
+        x = np.insert(s, self._dropped, self.pitch)
         plant, n = self.walker.plant, self.walker.plant.n
         for _ in range(50):
-            height = plant.swing_foot(x[:n])[1]
-            slope = plant.swing_foot_jacobian(x[:n])[1, -1]
-            x[self._dropped] -= height / slope
+            height = self.walker.clearance(x[:n])
+            d_x, d_z = plant.swing_foot_jacobian(x[:n])[:, -1]
+            x[self._dropped] -= height / (d_z + tan(self.walker.slope) * d_x)
             if abs(height) < 1e-15:
                 break
-        if abs(plant.swing_foot(x[:n])[1]) > 1e-12:
+        if abs(self.walker.clearance(x[:n])) > 1e-12:
             raise SimulationError("no torso angle puts the swing foot of this state on the ground")
         if not self.controller_states:
             x = self.walker.initial_state(x[:n], x[n : 2 * n])

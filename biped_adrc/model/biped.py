@@ -16,17 +16,18 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.model.contact import FloatingDynamics, Impact
 from biped_adrc.model.pinned import PinnedDynamics
 from biped_adrc.model.reduction import Reduction, reduce
+from biped_adrc.model.relabelling import relabelling
 from biped_adrc.model.reroot import reroot
 from biped_adrc.model.robots import RobotDescription, load_description
 from biped_adrc.model.urdf import Inertial, Tree
 from biped_adrc.types import Array
 
-GRAVITY = 9.81  # [m/s^2], Pinocchio's default
 STICTION_SPEED = 0.05  # [rad/s], width of the smoothed sign of static friction
 
 
@@ -65,11 +66,12 @@ class Biped:
 
         The kinetic energy with the base at rest must not change when the legs swap roles. Raises ModelError.
         """
-        n, R = self.n, self.relabelling
+        n, R = self.n, self.R
         q, v = 0.3 * np.arange(1.0, n + 1.0), np.cos(np.arange(float(n)))
-        one, other = (self.floating.inertia_on_fixed_base(x) for x in (q, q[R]))
-        lengths = [float(np.linalg.norm(self.floating.legs(x))) for x in (q, q[R])]
-        alike = math.isclose(v @ one @ v, v[R] @ other @ v[R], rel_tol=1e-9)
+        one, other = (self.floating.inertia_on_fixed_base(x) for x in (q, self.relabel(q)))
+        lengths = [float(np.linalg.norm(self.floating.legs(x))) for x in (q, self.relabel(q))]
+        w = R @ v
+        alike = math.isclose(v @ one @ v, w @ other @ w, rel_tol=1e-9)
         if not (alike and math.isclose(*lengths, rel_tol=1e-9)):
             raise ModelError(
                 f"robot '{self.description.name}': the legs differ in mass or length; relabelling at "
@@ -98,42 +100,55 @@ class Biped:
         return np.array(self.description.phase)
 
     @cached_property
-    def relabelling(self) -> Array:
-        """Permutation R (n,) that swaps the legs: q_new = q[R]. dtype int. Raises ModelError without pairs."""
-        names = self.description.joints
-        swap = {"left": "right", "right": "left"}
-        twins = [
-            f"{swap[side]}_{rest}" if side in swap else name
-            for name in names
-            for side, _, rest in [name.partition("_")]
-        ]
-        missing = sorted(set(twins) - set(names))
-        if missing:
+    def R(self) -> Array:
+        """(n, n): q+ = R q- + r exchanges the legs at impact, as `relabel` does. Raises ModelError."""
+        return relabelling(self.tree, self.description.joints, self._feet)
+
+    def relabel(self, q: Array) -> Array:
+        """q (n,) in the coordinates of the next single support [rad]."""
+        return self.R @ q + self._offset
+
+    @cached_property
+    def _offset(self) -> Array:
+        return np.array(self.description.offset)
+
+    @cached_property
+    def relabelling(self) -> NDArray[np.int_]:
+        """R as a permutation (n,): q_new = q[R], dtype int. Raises ModelError where it is none."""
+        rows, columns = np.nonzero(self.R)
+        ones = np.array_equal(rows, np.arange(self.n)) and np.all(self.R[rows, columns] == 1.0)
+        if not ones or self._offset.any():
             raise ModelError(
-                f"robot '{self.description.name}': the legs change over at impact, but there is no joint "
-                f"{missing} among {list(names)}; name the joints of the legs left_... and right_... in pairs"
+                f"robot '{self.description.name}': relabelling combines coordinates or adds to them, it is "
+                "no permutation; use Biped.R and Biped.relabel"
             )
-        return np.array([names.index(twin) for twin in twins])
+        return np.asarray(columns)
 
     # -- the two Pinocchio models ----------------------------------------------------------------
     @cached_property
     def pinned_tree(self) -> Tree:
         """The tree rooted at the stance foot."""
-        return reroot(self.tree, self.description.stance_foot, self.description.hip)
+        return reroot(self.tree, self.description.stance_foot, self.description.trunk)
 
     @cached_property
     def pinned(self) -> PinnedDynamics:
         """Single-support dynamics from the pinned model."""
         d = self.description
         return PinnedDynamics(
-            self.pinned_tree, d.joints, self._stance_chain(), self._feet, d.hip, self._rotors
+            self.pinned_tree,
+            d.joints,
+            self._stance_chain(),
+            self._feet,
+            d.hip,
+            self._rotors,
+            d.gravity,
         )
 
     @cached_property
     def floating(self) -> FloatingDynamics:
         """Unpinned dynamics from the floating model."""
         d = self.description
-        return FloatingDynamics(self.tree, d.joints, d.base, self._feet, self._rotors)
+        return FloatingDynamics(self.tree, d.joints, d.base, self._feet, self._rotors, d.gravity)
 
     @property
     def _feet(self) -> tuple[str, str]:
@@ -146,10 +161,10 @@ class Biped:
     def _stance_chain(self) -> Array:
         """Row (n,): absolute angle of the stance foot's link as a sum of coordinates."""
         row = np.zeros(self.n)
-        pitch = self.tree.joint_above(self.description.hip)
+        pitch = self.tree.joint_above(self.description.trunk)
         if pitch is None or pitch.name != self.description.unactuated:
             raise ModelError(
-                f"URDF '{self.tree.source}': link '{self.description.hip}' hangs on "
+                f"URDF '{self.tree.source}': link '{self.description.trunk}' hangs on "
                 f"'{pitch.name if pitch else 'nothing'}', expected '{self.description.unactuated}'"
             )
         for joint in self.tree.path_to_root(self.description.stance_foot):
@@ -237,6 +252,11 @@ class Biped:
         """Total mass [kg]."""
         return self.pinned.mass
 
+    @property
+    def weight(self) -> float:
+        """Mass times gravity [N]."""
+        return self.mass * self.description.gravity
+
     # -- contact (2)-(9) -------------------------------------------------------------------------
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
         """Force of the ground on the stance foot (F_T, F_N) [N] in single support at (q, q', q'').
@@ -245,7 +265,7 @@ class Biped:
         enter; forces on links from outside would.
         """
         acceleration = self.pinned.centre_of_mass(self._angles(q), v, a)[2]
-        return self.mass * (acceleration + np.array([0.0, GRAVITY]))
+        return self.mass * (acceleration + np.array([0.0, self.description.gravity]))
 
     def extended_inertia(self, q: Array) -> Array:
         """D_e(q) (n + 2, n + 2) of (2)."""
@@ -257,7 +277,7 @@ class Biped:
 
     def impact(self, q: Array, v: Array) -> Impact:
         """Delta (8) and Sigma (9) at (q-, q'-), and the relabelled state after it."""
-        return self.floating.impact(self._angles(q), self._angles(v), self.relabelling)
+        return self.floating.impact(self._angles(q), self._angles(v), self.R, self._offset)
 
     # -- variations ------------------------------------------------------------------------------
     def with_errors(

@@ -57,8 +57,9 @@ class FloatingDynamics:
         base: tuple[str, str],
         feet: tuple[str, str],
         armature: dict[str, float],
+        gravity: float,
     ):
-        self.model = build(tree, armature)
+        self.model = build(tree, armature, gravity)
         self.data = self.model.createData()
         self.n = len(joints)
         self.angles = np.array([velocity_index(self.model, name) for name in joints])
@@ -133,8 +134,8 @@ class FloatingDynamics:
         nle = pin.nonLinearEffects(self.model, self.data, x, w)
         return Z.T @ M @ Z, Z.T @ (nle + M @ Zdot_v)
 
-    def impact(self, q: Array, v: Array, relabel: Array) -> Impact:
-        """Solve (7) at (q-, v-) and relabel by the permutation `relabel` (n,)."""
+    def impact(self, q: Array, v: Array, R: Array, offset: Array) -> Impact:
+        """Solve (7) at (q-, v-) and relabel: q+ = R q- + offset, v+ = R v (n,)."""
         n = self.n
         D_e = self.extended_inertia(q)
         E_2 = self.swing_jacobian(q)
@@ -145,4 +146,4 @@ class FloatingDynamics:
         rhs = np.concatenate((D_e[:, :n] @ v, np.zeros(2)))
         solution = np.asarray(np.linalg.solve(K, rhs), dtype=np.float64)
         v_e = solution[: n + 2]
-        return Impact(q[relabel], v_e[:n][relabel], solution[n + 2 :], v_e)
+        return Impact(R @ q + offset, R @ v_e[:n], solution[n + 2 :], v_e)

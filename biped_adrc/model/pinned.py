@@ -18,8 +18,8 @@ from biped_adrc.types import Array
 _XZ = [0, 2]
 
 
-def build(tree: Tree, armature: dict[str, float]) -> pin.Model:
-    """The Pinocchio model of `tree` with rotor inertias [kg m^2] by joint name."""
+def build(tree: Tree, armature: dict[str, float], gravity: float) -> pin.Model:
+    """The Pinocchio model of `tree` with rotor inertias [kg m^2] by joint name; gravity [m/s^2] downwards."""
     model = pin.buildModelFromXML(to_xml(tree))
     if model.nq != model.nv:
         raise ModelError(f"URDF '{tree.source}': nq = {model.nq} differs from nv = {model.nv}")
@@ -27,6 +27,7 @@ def build(tree: Tree, armature: dict[str, float]) -> pin.Model:
     for joint, value in armature.items():
         rotor[velocity_index(model, joint)] = value
     model.armature = rotor
+    model.gravity.linear = np.array([0.0, 0.0, -gravity])
     return model
 
 
@@ -57,9 +58,10 @@ class PinnedDynamics:
         feet: tuple[str, str],
         hip: str,
         armature: dict[str, float],
+        gravity: float,
     ):
         """`joints` names q1..qN, `stance_chain` (n,) gives the pin's angle as a sum of them."""
-        self.model = build(tree, armature)
+        self.model = build(tree, armature, gravity)
         self.data = self.model.createData()
         n = len(joints)
         if self.model.nv != n:
@@ -136,7 +138,7 @@ class PinnedDynamics:
         J = pin.computeFrameJacobian(
             self.model, self.data, self.T @ q, frame, pin.LOCAL_WORLD_ALIGNED
         )
-        return J[_XZ] @ self.T
+        return J.reshape(6, -1)[_XZ] @ self.T  # one coordinate comes without its axis
 
     def centre_of_mass(
         self, q: Array, v: Array | None = None, a: Array | None = None

@@ -40,7 +40,11 @@ class Reduction(NamedTuple):
 
 
 def reduce(D: Array, Omega: Array, p: int) -> Reduction:
-    """(15) and (14) with xi~ = 0, for the first p coordinates actuated."""
+    """(15) and (14) with xi~ = 0, for the first p coordinates actuated; p = 0 is a passive robot."""
+    if p == 0:
+        a_N = -solve(D, Omega, "D_s")
+        none = np.zeros((0, 0))
+        return Reduction(D, Omega, none, np.zeros(0), none, np.zeros((D.shape[0], 0)), a_N)
     D12 = D[:p, p:]
     if D.shape[0] == p + 1:
         A_N = D[p:, :p] / -D[p, p]

@@ -27,6 +27,10 @@ class BodyParameters:
     inertia: float
 
 
+GRAVITY = 9.81
+"""[m/s^2], where a record does not say otherwise."""
+
+
 @dataclass(frozen=True)
 class Preset:
     """A parameter set: bodies by class (torso, thigh, ...), armature [kg m^2] per actuated joint."""
@@ -44,14 +48,23 @@ class RobotDescription:
     name: str
     urdf: Path
     actuated: tuple[str, ...]
+    passive: tuple[str, ...]
+    """Relative joints without a motor."""
     unactuated: str
+    """The absolute pitch of the link that the base carries."""
     base: tuple[str, str]
     stance_foot: str
     swing_foot: str
     hip: str
+    """Frame of the hip."""
+    trunk: str
+    """Link that the floating base carries; the hip's own if the record names no other."""
     phase: tuple[float, ...]
+    offset: tuple[float, ...]
+    """What relabelling adds to q [rad]; not zero for spokes."""
     peak_torque: float
     friction_coefficient: float
+    gravity: float
     viscous: Mapping[str, float]
     static: Mapping[str, float]
     links: Mapping[str, tuple[str, ...]]
@@ -60,8 +73,8 @@ class RobotDescription:
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Names of q1..qN: the actuated joints, then the unactuated pitch."""
-        return (*self.actuated, self.unactuated)
+        """Names of q1..qN: the actuated joints, joints without a motor, the pitch."""
+        return (*self.actuated, *self.passive, self.unactuated)
 
     def preset(self, name: str | None = None) -> Preset:
         """The preset `name`, or the default one. Raises ModelError with the names there are."""
@@ -136,14 +149,18 @@ def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
         name=data["name"],
         urdf=path.parent / data["urdf"],
         actuated=tuple(data["actuated"]),
+        passive=tuple(data.get("passive", ())),
         unactuated=data["unactuated"],
         base=(data["base"][0], data["base"][1]),
         stance_foot=data["stance_foot"],
         swing_foot=data["swing_foot"],
         hip=data["hip"],
-        phase=_phase(data),
+        trunk=data.get("trunk", data["hip"]),
+        phase=_numbers(data, "phase", data["phase"]),
+        offset=_numbers(data, "offset", data.get("offset", [0.0] * _count(data))),
         peak_torque=_positive(data["peak_torque"], "peak_torque"),
         friction_coefficient=_positive(data["friction_coefficient"], "friction_coefficient"),
+        gravity=_positive(data.get("gravity", GRAVITY), "gravity"),
         viscous=dict(friction.get("viscous", {})),
         static=dict(friction.get("static", {})),
         links={body: tuple(names) for body, names in data["links"].items()},
@@ -152,12 +169,17 @@ def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
     )
 
 
-def _phase(data: Mapping[str, Any]) -> tuple[float, ...]:
-    phase = tuple(float(c) for c in data["phase"])
-    expected = len(data["actuated"]) + 1
-    if len(phase) != expected:
-        raise ValueError(f"phase has {len(phase)} numbers, expected {expected}")
-    return phase
+def _count(data: Mapping[str, Any]) -> int:
+    """Number of coordinates."""
+    return len(data["actuated"]) + len(data.get("passive", ())) + 1
+
+
+def _numbers(data: Mapping[str, Any], key: str, values: Any) -> tuple[float, ...]:
+    """One number per coordinate."""
+    found = tuple(float(c) for c in values)
+    if len(found) != _count(data):
+        raise ValueError(f"{key} has {len(found)} numbers, expected {_count(data)}")
+    return found
 
 
 def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Preset:

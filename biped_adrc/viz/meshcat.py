@@ -12,7 +12,7 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
-from biped_adrc.model.biped import GRAVITY, Biped
+from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 from biped_adrc.viz import meshcat_scene as draw
 from biped_adrc.viz.frames import Frames
@@ -184,7 +184,7 @@ def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) ->
         ],
         "ground": -depth,
         "head": draw.HEAD,
-        "metres_per_newton": WEIGHT_LENGTH / (biped.mass * GRAVITY),
+        "metres_per_newton": WEIGHT_LENGTH / biped.weight,
         "metres_per_newton_metre": METRES_PER_NEWTON_METRE,
     }
 
@@ -215,7 +215,7 @@ def captions(scenes: Mapping[str, Scene]) -> list[tuple[str, str]]:
     """(colour, text) of the legend; the colour is empty for plain text."""
     solid, *ghosts = scenes
     biped = scenes[solid].biped
-    newtons = 0.1 * biped.mass * GRAVITY / WEIGHT_LENGTH
+    newtons = 0.1 * biped.weight / WEIGHT_LENGTH
     entries = [
         (_css(draw.STANCE), "stance leg"),
         (_css(draw.SWING), "swing leg"),

@@ -12,6 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
+from biped_adrc.errors import InputError
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.urdf import Joint, Tree
@@ -55,7 +56,7 @@ def joint_values(biped: Biped, q: Array, step: int = 1, foothold: float = 0.0) -
     """
     d = biped.description
     odd = step % 2 == 1
-    drawn = q if odd else q[biped.relabelling]
+    drawn = q if odd else biped.relabel(q)
     values = dict(zip(d.joints, map(float, drawn), strict=True))
     foot = d.stance_foot if odd else d.swing_foot
     M = np.eye(4)
@@ -85,7 +86,14 @@ class Scene:
 
     @classmethod
     def of(cls, walk: Recorded) -> Scene:
-        """The first stance foot stands at x = 0; each impact moves it by p_2 of x-."""
+        """The first stance foot stands at x = 0; each impact moves it by p_2 of x-.
+
+        Raises InputError for a walk on a slope, which cannot be drawn yet.
+        """
+        if walk.walker.slope != 0.0:
+            raise InputError(
+                f"walks on a slope cannot be drawn yet, this one is on {walk.walker.slope:.4g} rad"
+            )
         x, footholds, plant = 0.0, [], walk.walker.plant
         for arc in walk.trajectory.arcs:
             footholds.append(x)

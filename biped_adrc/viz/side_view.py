@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from biped_adrc.model.biped import GRAVITY, Biped
+from biped_adrc.model.biped import Biped
 from biped_adrc.model.urdf import Visual
 from biped_adrc.types import Array
 from biped_adrc.viz.placement import Scene, link_placements
@@ -121,4 +121,4 @@ class SideView:
     @cached_property
     def metres_per_newton(self) -> float:
         """Scale of the arrow of the ground reaction."""
-        return WEIGHT_LENGTH / (self.scene.biped.mass * GRAVITY)
+        return WEIGHT_LENGTH / self.scene.biped.weight

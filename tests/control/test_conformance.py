@@ -29,6 +29,7 @@ OBSERVERS = [
 CONTROLLERS = {
     ba.NPDController: lambda c: ba.NPDController(c),
     ba.ADRCController: lambda c: ba.ADRCController(c),
+    ba.Passive: lambda c: ba.Passive(),
 }
 
 

@@ -105,7 +105,7 @@ def test_unknown_names_are_answered_with_the_known_ones(biped):
         biped.with_errors(mass={"arm": 2.0})
     with pytest.raises(ModelError, match=r"factor of 'torso' is -1"):
         biped.with_errors(mass={"torso": -1})
-    assert robot_names() == ("rabbit",)
+    assert robot_names() == ("compass", "rabbit", "rimless_wheel", "simplest", "three_link")
 
 
 def test_states_that_are_no_states(biped):

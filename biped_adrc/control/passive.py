@@ -1,0 +1,18 @@
+"""No torque at all: u = 0, for passive walkers and for seeing what a robot does by itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.types import Array
+
+
+@dataclass(frozen=True)
+class Passive(Controller):
+    """u = 0 (p,) [N m]."""
+
+    def output(self, s: Array, m: Measurement) -> Array:
+        return np.zeros(m.terms.kappa.shape[0])
