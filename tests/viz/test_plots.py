@@ -77,6 +77,8 @@ def test_multiplier_and_return_map_figures() -> None:
     assert circle.get_aspect() == 1.0
     before = np.linspace(-1.3, -1.2, 5)
     axes = return_map_figure(before, -1.25 + 0.7 * (before + 1.25)).axes[0]
+    text = plots.magnitudes(axes_of_my_own(), {"A": [0.5, 0.0, 0.0]}).get_legend().get_texts()
+    assert [t.get_text() for t in text] == ["unit circle", "A, 2 more are 0"]
     diagonal, drawn, first, second, settled = axes.get_lines()
     np.testing.assert_array_equal(diagonal.get_xdata(), diagonal.get_ydata())
     np.testing.assert_array_equal(drawn.get_xdata(), before)

@@ -39,6 +39,9 @@ def magnitudes(
     axes.axhline(1.0, color="black", lw=1.0, label="unit circle")
     for i, (name, values) in enumerate(found.items()):
         size = np.sort(np.abs(np.atleast_1d(np.asarray(values, dtype=complex))))[::-1]
+        zeros = int(np.sum(size == 0.0))  # a logarithmic scale has no place for them
+        size = size[size > 0.0]
+        name = f"{name}, {zeros} more are 0" if zeros else name
         axes.plot(1 + np.arange(len(size)), size, mfc="none", ms=6, **_mark(i, name))
     if published is not None:
         size = np.sort(np.abs(np.asarray(published)))[::-1]
