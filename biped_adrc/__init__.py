@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from biped_adrc.disturbances.step import TorqueStep
     from biped_adrc.errors import BipedError
     from biped_adrc.gait.constraint import VirtualConstraint
+    from biped_adrc.gait.conventions import convention
+    from biped_adrc.gait.exchange.importing import export_gait, import_gait
+    from biped_adrc.gait.exchange.record import GaitRecord
     from biped_adrc.gait.gait import Gait, load_gait
     from biped_adrc.gait.reference import Reference, TimeReference
     from biped_adrc.gait.zero_dynamics import ZeroDynamics
@@ -50,6 +53,7 @@ _HOMES = {
     "GPIObserver": "observers.gpi",
     "Gains": "control.tracking",
     "Gait": "gait.gait",
+    "GaitRecord": "gait.exchange.record",
     "Measurement": "control.base",
     "Mode": "walker",
     "NPDController": "control.npd",
@@ -73,6 +77,9 @@ _HOMES = {
     "Walk": "studies.walk",
     "Walker": "walker",
     "ZeroDynamics": "gait.zero_dynamics",
+    "convention": "gait.conventions",
+    "export_gait": "gait.exchange.importing",
+    "import_gait": "gait.exchange.importing",
     "load_gait": "gait.gait",
     "load_walk": "studies.runs",
     "simulate": "hybrid.simulator",
@@ -91,6 +98,7 @@ __all__ = [  # noqa: RUF022 -- in the order of _HOMES
     "GPIObserver",
     "Gains",
     "Gait",
+    "GaitRecord",
     "Measurement",
     "Mode",
     "NPDController",
@@ -114,6 +122,9 @@ __all__ = [  # noqa: RUF022 -- in the order of _HOMES
     "Walk",
     "Walker",
     "ZeroDynamics",
+    "convention",
+    "export_gait",
+    "import_gait",
     "load_gait",
     "load_walk",
     "simulate",

@@ -60,3 +60,42 @@ def _save(gait: Any, out: Path | None) -> None:
     path = out or Path(f"{gait.name}-{gait.preset}.json")
     gait.save(path)
     console.print(f"period {gait.period:.6f} s; written to {path}")
+
+
+@gait_app.command("export")
+def gait_export(
+    gait: Annotated[str, typer.Argument(help="published, recipe, or a .json file.")],
+    out: Annotated[Path, typer.Option("--out", "-o", help="Where to write it (.mat or .json).")],
+    preset: Preset = "identified",
+    convention: Annotated[
+        str, typer.Option(help="Angle convention: paper, tac2003, frost or optimtraj.")
+    ] = "paper",
+) -> None:
+    """Write a gait for MATLAB or as JSON, in any angle convention."""
+    from biped_adrc.gait.exchange.importing import export_gait
+    from biped_adrc.gait.gait import load_gait
+    from biped_adrc.model.biped import Biped
+
+    export_gait(load_gait(gait, Biped.load("rabbit", preset)), out, convention)
+    console.print(f"written to {out}")
+
+
+@gait_app.command("import")
+def gait_import(
+    file: Annotated[Path, typer.Argument(help="A gait as .mat or .json.")],
+    preset: Preset = "identified",
+    convention: Annotated[
+        str | None, typer.Option(help="Angle convention, of a file that does not say its own.")
+    ] = None,
+    slopes: Annotated[
+        bool, typer.Option(help="Ask that the slopes close through the impact.")
+    ] = True,
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", help="Where to write it (.json).")
+    ] = None,
+) -> None:
+    """Bring along a gait: check that it closes, store it in this paper's convention."""
+    from biped_adrc.gait.exchange.importing import import_gait
+    from biped_adrc.model.biped import Biped
+
+    _save(import_gait(file, Biped.load("rabbit", preset), convention, slopes=slopes), out)

@@ -79,14 +79,10 @@ def acceleration_derivatives(
     pinned, T = biped.pinned, biped.pinned.T
     if biped.friction:
         force = force + biped.friction_torque(v)
-    tau = np.linalg.solve(T.T, force)
-    pin.computeABADerivatives(pinned.model, pinned.data, T @ q, T @ v, tau)
-    data, shape = pinned.data, T.shape
-    dq, dv, dtau = (
-        np.linalg.solve(T, np.reshape(part, shape))
-        for part in (data.ddq_dq, data.ddq_dv, data.Minv)
-    )
-    dforce = np.linalg.solve(T, dtau.T).T
+    inverse, data = np.linalg.inv(T), pinned.data
+    pin.computeABADerivatives(pinned.model, data, T @ q, T @ v, inverse.T @ force)
+    dq, dv, dtau = (inverse @ np.reshape(d, T.shape) for d in (data.ddq_dq, data.ddq_dv, data.Minv))
+    dforce = dtau @ inverse.T
     return AccelerationDerivatives(dq @ T, dv @ T + dforce @ friction_derivative(biped, v), dforce)
 
 

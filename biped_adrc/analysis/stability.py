@@ -1,0 +1,298 @@
+"""The multipliers of one walking cycle by every method beside each other, and which of them to trust.
+
+    variational             eigenvalues of dP/ds by the variational equation, no differences
+    central differences     eigenvalues of dP/ds by differences of the return map
+    delta^2                 (sigma+ / sigma-)^2 of the zero dynamics: one of the multipliers, in closed form,
+                            where the constraint is hybrid invariant and tracked exactly
+    regression              (26), (27) of the paper, on samples of a walk
+
+Two sets of multipliers are compared one to one, in the pairing that makes the sum of their distances, in units
+of the tolerance, least.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from biped_adrc.analysis.regression import Regression
+from biped_adrc.analysis.return_map import ReturnMap
+from biped_adrc.analysis.variational import StepDerivative, sorted_eigenvalues
+from biped_adrc.control.npd import NPDController
+from biped_adrc.errors import InputError
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.model.biped import Biped
+from biped_adrc.types import Array, ComplexArray
+from biped_adrc.walker import Walker
+
+
+class Method(Enum):
+    """How multipliers were found; the values are the names in the table."""
+
+    VARIATIONAL = "variational equation"
+    CENTRAL = "central differences"
+    ZERO_DYNAMICS = "delta^2 of the zero dynamics"
+    REGRESSION = "regression (27)"
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """Two multipliers agree within `relative` of the larger one or within `absolute`.
+
+    flow: the largest StepDerivative.flow_residual with which the variational equation is trusted.
+    invariance: the largest gap of `invariance_gap` with which a constraint counts as hybrid invariant
+    [rad, rad/s].
+    """
+
+    relative: float = 1e-6
+    absolute: float = 1e-7
+    flow: float = 1e-5
+    invariance: float = 1e-6
+
+    def __post_init__(self) -> None:
+        for name in ("relative", "absolute", "flow", "invariance"):
+            value = getattr(self, name)
+            if not (np.isfinite(value) and value > 0):
+                raise InputError(f"tolerance '{name}' is {value}, expected a positive number")
+
+    def distance(self, one: ComplexArray, other: ComplexArray) -> Array:
+        """|one_i - other_j| in units of what is allowed (len(one), len(other)); at most 1 where they agree."""
+        a, b = one[:, np.newaxis], other[np.newaxis]
+        allowed = np.maximum(self.absolute, self.relative * np.maximum(np.abs(a), np.abs(b)))
+        ratio: Array = np.abs(a - b) / allowed
+        return ratio
+
+
+@dataclass(frozen=True)
+class Row:
+    """Multipliers by one method, the largest magnitude first.
+
+    uncertainty: how far the method itself says that each may be off (central differences: what half the
+    step changes), 0 where it says nothing. doubt: why the method is not to be trusted; empty when it is.
+    """
+
+    method: Method
+    multipliers: ComplexArray
+    uncertainty: float = 0.0
+    doubt: str = ""
+
+    @property
+    def magnitudes(self) -> Array:
+        """|lambda|, the largest first."""
+        return np.abs(self.multipliers)
+
+
+@dataclass(frozen=True)
+class StabilityTable:
+    """Rows by method; `verdict` says whether they agree within `tolerances` and which to trust."""
+
+    rows: tuple[Row, ...]
+    tolerances: Tolerances
+
+    def __post_init__(self) -> None:
+        methods = [row.method for row in self.rows]
+        if not methods or len(set(methods)) != len(methods):
+            found = [method.value for method in methods]
+            raise InputError(f"found rows {found}, expected at least one, and one per method")
+        for row in self.rows:
+            if not (len(row.multipliers) and np.all(np.isfinite(row.multipliers))):
+                raise InputError(
+                    f"{row.method.value}: found multipliers {row.multipliers}, expected finite numbers"
+                )
+
+    @property
+    def trusted(self) -> Row:
+        """The variational equation, or central differences where that is in doubt.
+
+        delta^2 is one multiplier of all, and the regression none of them for certain. Raises InputError
+        when no row is left.
+        """
+        for method in (Method.VARIATIONAL, Method.CENTRAL):
+            for row in self.rows:
+                if row.method is method and not row.doubt:
+                    return row
+        doubts = "; ".join(
+            f"{r.method.value}: {r.doubt or 'not all multipliers'}" for r in self.rows
+        )
+        raise InputError(
+            f"no method of this table gives all multipliers without a doubt ({doubts}); add the "
+            "variational equation, or central differences"
+        )
+
+    @property
+    def stable(self) -> bool:
+        """Whether all trusted multipliers are inside the unit circle."""
+        return bool(self.trusted.magnitudes[0] < 1.0)
+
+    @property
+    def agree(self) -> bool:
+        """Whether every other method without a doubt agrees with the trusted one."""
+        trusted = self.trusted
+        others = (row for row in self.rows if row is not trusted and not row.doubt)
+        return all(self.gap(row) <= 1.0 for row in others)
+
+    def gap(self, row: Row) -> float:
+        """Largest distance of a row to the trusted one in units of the tolerance; at most 1 when they agree.
+
+        delta^2 is compared with the multiplier next to it. Infinite for a row of another number of
+        multipliers.
+        """
+        ratio = self.tolerances.distance(row.multipliers, self.trusted.multipliers)
+        if row.method is Method.ZERO_DYNAMICS:
+            return float(np.min(ratio))
+        if ratio.shape[0] != ratio.shape[1]:
+            return float("inf")
+        return float(np.max(ratio[_pairing(ratio)]))
+
+    @property
+    def verdict(self) -> str:
+        """One sentence per row besides the trusted one, then what to trust. Raises InputError as trusted."""
+        trusted = self.trusted
+        said = [self._sentence(row) for row in self.rows if row is not trusted]
+        name, end = trusted.method.value, "stable" if self.stable else "not stable"
+        largest = trusted.magnitudes[0]
+        said.append(f"Trust the {name}: the cycle is {end}, the largest |lambda| is {largest:.6f}.")
+        return " ".join(said)
+
+    def _sentence(self, row: Row) -> str:
+        name = row.method.value[:1].upper() + row.method.value[1:]
+        if row.doubt:
+            return f"{name}: not to be trusted, {row.doubt}."
+        gap, t = self.gap(row), self.tolerances
+        within = f"{t.relative:g} relative or {t.absolute:g} absolute"
+        if gap <= 1.0:
+            return f"{name}: agrees within {within}."
+        if not np.isfinite(gap):
+            return (
+                f"{name}: has {len(row.multipliers)} multipliers, the {self.trusted.method.value} "
+                f"{len(self.trusted.multipliers)}; they are not of the same map."
+            )
+        why = self._limit(row)
+        return f"{name}: disagrees, {gap:.3g} times beyond {within}{why}."
+
+    def _limit(self, row: Row) -> str:
+        """What a disagreement comes from, as far as the rows say."""
+        if row.method is Method.ZERO_DYNAMICS:
+            return "; the closed loop does not keep to the zero dynamics, or the step is too long"
+        if row.method is not Method.CENTRAL or row.uncertainty == 0.0:
+            return ""
+        pairs = np.abs(row.multipliers[:, np.newaxis] - self.trusted.multipliers)
+        distance = float(np.max(pairs[_pairing(pairs)]))
+        if distance <= 2.0 * row.uncertainty:
+            return (
+                f"; they differ by {distance:.1e}, and half the difference changes them by "
+                f"{row.uncertainty:.1e}: the differences are the limit"
+            )
+        return (
+            f"; they differ by {distance:.1e}, which is more than the {row.uncertainty:.1e} that half the "
+            "difference changes: one of the two is wrong, or the step of the method is too long"
+        )
+
+    def text(self, count: int = 9) -> str:
+        """The table as lines of text, the `count` largest |lambda| of each row, and the verdict."""
+        lines = [
+            f"{row.method.value:29s}" + " ".join(f"{m:.6e}" for m in row.magnitudes[:count])
+            for row in self.rows
+        ]
+        return "\n".join([*lines, self.verdict])
+
+
+def _pairing(cost: Array) -> tuple[Array, Array]:
+    """Rows and columns of the pairing of least total cost."""
+    pairs: tuple[Array, Array] = linear_sum_assignment(cost)
+    return pairs
+
+
+# -- rows ------------------------------------------------------------------------------------------
+def variational_row(step: StepDerivative, tolerances: Tolerances) -> Row:
+    """Doubted when Phi does not carry the flow along, see StepDerivative.flow_residual."""
+    doubt = ""
+    if not step.flow_residual <= tolerances.flow:
+        doubt = (
+            f"its Phi carries the flow along to {step.flow_residual:.1e} only, expected "
+            f"{tolerances.flow:g}: take a shorter step, or look whether the flow depends on time"
+        )
+    return Row(Method.VARIATIONAL, step.multipliers, doubt=doubt)
+
+
+def central_row(P: ReturnMap, s: Array, jacobian: Array | None = None) -> Row:
+    """Central differences at s with P.difference (or their result), and with half of it for the uncertainty."""
+    half = ReturnMap(P.walker, P.method, P.controller_states, 0.5 * P.difference, P.pitch)
+    one, other = (
+        sorted_eigenvalues(J)
+        for J in (P.jacobian(s) if jacobian is None else jacobian, half.jacobian(s))
+    )
+    pairs = np.abs(one[:, np.newaxis] - other)
+    return Row(Method.CENTRAL, one, float(np.max(pairs[_pairing(pairs)])))
+
+
+def regression_row(regression: Regression) -> Row:
+    """Doubted when the data do not determine Phi, see Regression.warning."""
+    values = sorted_eigenvalues(regression.Phi)
+    return Row(Method.REGRESSION, values, doubt=regression.warning)
+
+
+def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> Row | None:
+    """delta^2, or None where it is no multiplier of the closed loop.
+
+    It is one under NPD with the loop through Theta'' solved, in continuous time on level ground, without torque
+    limit, friction or model error, on a constraint that the impact does not leave.
+    """
+    law = walker.controller
+    if not (isinstance(law, NPDController) and law.solve_theta and not walker.sampled):
+        return None
+    if walker.torque_limit is not None or walker.plant.friction or walker.slope != 0.0:
+        return None
+    h = law.reference
+    if not isinstance(h, VirtualConstraint) or walker.nominal != walker.plant:
+        return None
+    if invariance_gap(walker.plant, h) > tolerances.invariance:
+        return None
+    delta = ZeroDynamics.of(walker.plant, h).delta
+    return Row(Method.ZERO_DYNAMICS, np.array([delta**2], dtype=complex))
+
+
+def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
+    """How far the impact at the end of the constraint leaves it: the larger of max |q_b+ - h(Theta+)| [rad]
+    and max |q_b'+ - h' Theta'+| [rad/s] at |Theta'-| = 1 rad/s. Zero for a hybrid invariant one."""
+    zero = ZeroDynamics.of(biped, constraint)
+    q, v = zero.end_state(1.0)
+    c, p = constraint.phase, biped.p
+    after = biped.impact(q, v / abs(float(c @ v)))
+    h, slope, _ = constraint.h(float(c @ after.q))
+    position = np.max(np.abs(after.q[:p] - h))
+    velocity = np.max(np.abs(after.v[:p] - slope * float(c @ after.v)))
+    return float(max(position, velocity))
+
+
+def stability_table(
+    P: ReturnMap,
+    step: StepDerivative,
+    regression: Regression | None = None,
+    tolerances: Tolerances | None = None,
+    differences: bool = True,
+) -> StabilityTable:
+    """The table at the fixed point of `step`, as `variational.periodic_orbit` finds it.
+
+    differences: also take central differences of P, which cost 4 returns per coordinate. Raises
+    InputError when P(s) - s of the step is not small against P.difference: its eigenvalues are then no
+    multipliers.
+    """
+    t = Tolerances() if tolerances is None else tolerances
+    gap = float(np.max(np.abs(step.image - step.s)))
+    if gap > P.difference:
+        raise InputError(
+            f"P(s) - s is {gap:.3g} at this step, expected a fixed point within {P.difference:g}; find it "
+            "with variational.periodic_orbit"
+        )
+    rows = [variational_row(step, t)]
+    if differences:
+        rows.append(central_row(P, step.s))
+    zero = zero_dynamics_row(P.walker, t)
+    rows += [] if zero is None else [zero]
+    rows += [] if regression is None else [regression_row(regression)]
+    return StabilityTable(tuple(rows), t)

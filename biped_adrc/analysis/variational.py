@@ -1,0 +1,334 @@
+"""Multipliers of a walking cycle by the variational equation and the saltation matrix of foot strike.
+
+    x' = f(x),            Phi' = A(x) Phi,   A = df/dx         in single support
+    x+ = Delta(x-),       Phi+ = Xi Phi-                       at foot strike, h(x-) = 0
+    Xi = D Delta + (f+ - D Delta f-) dh / (dh f-)
+
+x = (q, q'), h the height of the swing foot over the ground, dh its row of derivatives, f- and f+ the flow
+before and after impact (Aizerman, Gantmacher, 1958; Leine, Nijmeijer, 2004). The return map (24) is not
+differenced: A comes from the derivatives of ABA, D Delta from those of the impact map.
+
+On the section, with E the matrix that drops q_N and L = ds -> dx the tangent that keeps h = 0,
+
+    dP/ds = E Pi Phi D Delta L,   Pi = 1 - f- dh / (dh f-),
+
+since Xi L = D Delta L. Xi Phi has the same multipliers and the 1 of a flow that does not depend on time.
+
+The derivative of the torque is found by differentiating the law of NPD on a virtual constraint; for any other
+controller without states it is a difference quotient of fourth order of the torque alone (`DIFFERENCE`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from biped_adrc.analysis.return_map import PeriodicOrbit, ReturnMap
+from biped_adrc.control.npd import NPDController
+from biped_adrc.control.passive import Passive
+from biped_adrc.control.tracking import Gains
+from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.hybrid.system import Guard, HybridSystem
+from biped_adrc.hybrid.trajectory import Event
+from biped_adrc.linear import solve
+from biped_adrc.model.derivatives import (
+    acceleration_derivatives,
+    impact_derivatives,
+    torque_derivatives,
+)
+from biped_adrc.types import Array, ComplexArray
+from biped_adrc.walker import FOOT_STRIKE, Instant, Mode, Walker
+
+DIFFERENCE = 2e-4
+"""[rad, rad/s]: where the quotient of NPD's torque is within 1e-10 of its derivative, relative to it."""
+
+
+# -- the torque ------------------------------------------------------------------------------------
+def torque_derivative(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
+    """du/dx (p, 2 n) of the torque applied; the rows of saturated motors are zero."""
+    return _torque_derivative(walker, walker.instant(t, x, mode))
+
+
+def _torque_derivative(walker: Walker, i: Instant) -> Array:
+    law = walker.law
+    if isinstance(law, Passive):
+        return np.zeros((walker.plant.p, 2 * walker.plant.n))
+    if isinstance(law, NPDController) and isinstance(law.reference, VirtualConstraint):
+        du = npd_derivative(walker, law, law.reference, i)
+    else:
+        du = differenced_torque(walker, i)
+    if walker.torque_limit is not None:
+        du[np.abs(i.u) >= walker.torque_limit] = 0.0
+    return du
+
+
+def npd_derivative(walker: Walker, law: NPDController, h: VirtualConstraint, i: Instant) -> Array:
+    """du/dx (p, 2 n) of (28), from the two equations that hold for the torque u and the acceleration a
+    it asks of the nominal model:
+
+        D a + Omega - B u = 0,   a_b - H a - drift - f = 0
+
+    (H a is absent where h' Theta'' is dropped, as printed). Both are differentiated at fixed (a, u).
+    """
+    m, n, p = i.measurement, walker.plant.n, walker.plant.p
+    B, H = walker.nominal.B, law.reference(m.t, m.q, m.v).H
+    u = i.u if walker.torque_limit is None else law.output(i.s, m)
+    a = solve(m.terms.D, B @ u - m.terms.Omega, "D_s")
+    model = torque_derivatives(walker.nominal, m.q, m.v, a)
+    loop = 1.0 if law.solve_theta else 0.0
+    wanted = _wanted_derivative(h, law.gains, m.q, m.v, loop * float(h.phase @ a))
+    K = np.block([[m.terms.D, -B], [B.T - loop * H, np.zeros((p, p))]])
+    rhs = np.vstack((-np.hstack((model.dq, model.dv)), wanted))
+    return solve(K, rhs, "the matrix of (28)")[n:]
+
+
+def _wanted_derivative(
+    h: VirtualConstraint, gains: Gains, q: Array, v: Array, rate2: float
+) -> Array:
+    """d/dx (p, 2 n) of h' Theta'' + drift + f at fixed Theta'' = rate2 [rad/s^2]."""
+    c, p = h.phase, h.curve.coefficients.shape[0]
+    theta, rate = float(c @ q), float(c @ v)
+    _, h1, h2 = h.h(theta)
+    h3 = third_derivative(h, theta)
+    K_p, K_d = (np.broadcast_to(k, p)[:, np.newaxis] for k in (gains.K_p, gains.K_d))
+    S = np.eye(p, len(c))
+    tangent = S - np.outer(h1, c)
+    by_q = np.outer(h3 * rate**2 + h2 * rate2, c) + K_d * np.outer(h2 * rate, c) - K_p * tangent
+    by_v = 2.0 * np.outer(h2 * rate, c) - K_d * tangent
+    return np.hstack((by_q, by_v))
+
+
+def third_derivative(h: VirtualConstraint, theta: float) -> Array:
+    """d3h/dTheta3 (p,) at theta [rad]."""
+    k = h.parameters
+    s = k.rate * (theta - k.theta_plus)
+    second = k.curve.stacked[-(k.curve.stacked.shape[0] // 3) :, 1:]
+    power = k.curve.powers[1:]
+    value: Array = k.rate**3 * (second * power) @ s ** (power - 1.0)
+    return value
+
+
+def differenced_torque(walker: Walker, i: Instant, difference: float = DIFFERENCE) -> Array:
+    """du/dx (p, 2 n) of any law without states, by differences of fourth order before saturation."""
+    m, n, d = i.measurement, walker.plant.n, difference
+    mode = Mode(m.step, m.t - m.t_step)
+
+    def u(dx: Array) -> Array:
+        return walker.law.output(i.s, walker.measure(m.t, m.q + dx[:n], m.v + dx[n:], mode))
+
+    columns = [
+        (8.0 * (u(d * e) - u(-d * e)) - (u(2 * d * e) - u(-2 * d * e))) / (12.0 * d)
+        for e in np.eye(2 * n)
+    ]
+    return np.array(columns).reshape(2 * n, -1).T
+
+
+# -- the flow and the impact -----------------------------------------------------------------------
+def flow_derivative(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
+    """A = df/dx (2 n, 2 n) of single support."""
+    return _flow_derivative(walker, walker.instant(t, x, mode))
+
+
+def _flow_derivative(walker: Walker, i: Instant) -> Array:
+    n, m = walker.plant.n, i.measurement
+    plant = acceleration_derivatives(walker.plant, m.q, m.v, i.force)
+    A = np.zeros((2 * n, 2 * n))
+    A[:n, n:] = np.eye(n)
+    A[n:, :n], A[n:, n:] = plant.dq, plant.dv
+    A[n:] += plant.dforce @ (walker.plant.B @ _torque_derivative(walker, i))
+    return A
+
+
+def height_derivative(walker: Walker, x: Array) -> Array:
+    """dh/dx (2 n,) of the height of the swing foot over the ground."""
+    n = walker.plant.n
+    d_x, d_z = walker.plant.swing_foot_jacobian(x[:n])
+    return np.concatenate((d_z + math.tan(walker.slope) * d_x, np.zeros(n)))
+
+
+def saltation(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
+    """Xi (2 n, 2 n) of foot strike at x-. Raises SimulationError when it is no transversal impact."""
+    struck = walker.strike(t, x, mode)
+    if struck is None:
+        raise SimulationError("the swing foot is behind the stance foot: not an impact")
+    n = walker.plant.n
+    D = impact_derivatives(walker.plant, x[:n], x[n:]).matrix
+    before, after = walker.flow(t, x, mode), walker.flow(t, *struck)
+    dh = height_derivative(walker, x)
+    return D + np.outer(after - D @ before, dh) / _descent(dh, before)
+
+
+def _descent(dh: Array, f: Array) -> float:
+    """dh f [m/s]. Raises SimulationError unless the foot comes down on the ground."""
+    rate = float(dh @ f)
+    if not rate < 0.0:
+        raise SimulationError(
+            f"the swing foot meets the ground at {rate:.3g} m/s, expected downwards: where it only grazes, "
+            "the return map has no derivative"
+        )
+    return rate
+
+
+def split_matrix(y: Array) -> tuple[Array, Array]:
+    """x (k,) and Phi (k, k) of y = (x, Phi) (k + k^2,)."""
+    k = math.isqrt(len(y))
+    return y[:k], y[k:].reshape(k, k)
+
+
+@dataclass(frozen=True)
+class VariationalSystem(HybridSystem):
+    """Walker and fundamental matrix together: state y = (x, Phi), Phi (2 n, 2 n) row by row.
+
+    Raises InputError for a walker with states besides (q, q'), held torques or disturbances.
+    """
+
+    walker: Walker
+
+    def __post_init__(self) -> None:
+        w = self.walker
+        if w.sampled:
+            raise InputError(
+                "the walker holds its torque between ticks, the variational equation needs continuous time: "
+                "use ContinuousTime(), or ReturnMap.jacobian"
+            )
+        if w.disturbance is not None:
+            raise InputError(
+                "the walker is disturbed, so that its walk is no cycle: leave the disturbance out"
+            )
+
+    def start(self, x: Array) -> Array:
+        """y of x with Phi = 1. Raises InputError for a controller with states."""
+        size = 2 * self.walker.plant.n
+        if len(x) != size:
+            raise InputError(
+                f"{type(self.walker.controller).__name__} has {len(x) - size} states of its own, the "
+                "variational equation is written for controllers without: use ReturnMap.jacobian"
+            )
+        return np.concatenate((x, np.eye(size).ravel()))
+
+    def flow(self, t: float, y: Array, mode: Mode) -> Array:
+        x, Phi = split_matrix(y)
+        i = self.walker.instant(t, x, mode)
+        A = _flow_derivative(self.walker, i)
+        return np.concatenate((i.measurement.v, i.a, (A @ Phi).ravel()))
+
+    def guards(self, mode: Mode) -> tuple[Guard, ...]:
+        return tuple(self._lifted(guard, mode) for guard in self.walker.guards(mode))
+
+    def _lifted(self, guard: Guard, mode: Mode) -> Guard:
+        def reset(t: float, y: Array) -> tuple[Array, Mode] | None:
+            x, Phi = split_matrix(y)
+            struck = self.walker.strike(t, x, mode)
+            if struck is None:
+                return None
+            Xi = saltation(self.walker, t, x, mode)
+            return np.concatenate((struck[0], (Xi @ Phi).ravel())), struck[1]
+
+        return replace(
+            guard,
+            witness=lambda t, y: guard.witness(t, split_matrix(y)[0]),
+            reset=None if guard.reset is None else reset,
+        )
+
+
+# -- one step --------------------------------------------------------------------------------------
+@dataclass(frozen=True)
+class StepDerivative:
+    """The return map and its derivative at one point; 2 n states, 2 n - 1 section coordinates."""
+
+    s: Array
+    """The point."""
+    image: Array
+    """P(s)."""
+    jacobian: Array
+    """dP/ds."""
+    monodromy: Array
+    """Xi Phi (2 n, 2 n), from the state after one impact to the state after the next."""
+    duration: float
+    """[s]."""
+    flow_residual: float
+    """max |Phi f(0) - f-| / max |f-|: zero for the exact Phi of a flow that does not depend on time, so it
+    shows a wrong A, a reference in time, and the error of the method."""
+
+    @property
+    def multipliers(self) -> ComplexArray:
+        """Eigenvalues of dP/ds, the largest magnitude first; those of the cycle when P(s) = s."""
+        return sorted_eigenvalues(self.jacobian)
+
+
+def sorted_eigenvalues(matrix: Array) -> ComplexArray:
+    """Eigenvalues, the largest magnitude first."""
+    values = np.linalg.eigvals(matrix).astype(complex)
+    return values[np.argsort(-np.abs(values))]
+
+
+def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
+    """P(s) and dP/ds along one single support, with the walker and the method of P.
+
+    Raises SimulationError, with the status, when the walker does not come back; InputError as
+    VariationalSystem does.
+    """
+    walker, k, x = P.walker, P.walker.plant.n - 1, P.lift(s)
+    (x0, mode), end = _single_support(P, x)
+    assert end.x_plus is not None
+    x_end, Phi = split_matrix(end.x_minus)
+    f0, f_end = walker.flow(0.0, x0, mode), walker.flow(end.t, x_end, mode)
+    dh = height_derivative(walker, x_end)
+    D = impact_derivatives(walker.plant, *np.split(x, 2)).matrix
+    through = Phi @ D @ section_tangent(walker, x)
+    through -= np.outer(f_end, dh @ through) / _descent(dh, f_end)
+    residual = float(np.max(np.abs(Phi @ f0 - f_end)) / np.max(np.abs(f_end)))
+    monodromy = split_matrix(end.x_plus)[1]
+    return StepDerivative(
+        s, P.project(x_end), np.delete(through, k, axis=0), monodromy, end.t, residual
+    )
+
+
+def _single_support(P: ReturnMap, x: Array) -> tuple[tuple[Array, Mode], Event]:
+    """Impact at x, and the single support after it with its fundamental matrix: x+ and its mode, the strike."""
+    system = VariationalSystem(P.walker)
+    y0 = system.start(x)
+    struck = P.walker.strike(0.0, x, Mode())
+    if struck is None:
+        raise SimulationError("the swing foot is behind the stance foot: not an impact")
+    y0[: len(x)] = struck[0]
+    limit = 2.0 * P.walker.max_step_time
+    run = simulate(system, y0, struck[1], P.method, t_end=limit, stop_after=(FOOT_STRIKE, 1))
+    if not run.status.ok:
+        raise SimulationError(
+            f"no return to the section: {run.status.name}, {run.status.value} {run.detail}"
+        )
+    return struck, run.events(FOOT_STRIKE)[-1]
+
+
+def section_tangent(walker: Walker, x: Array) -> Array:
+    """L (2 n, 2 n - 1): dx of a change of the section coordinates, which drop q_N and keep h = 0."""
+    k, dh = walker.plant.n - 1, height_derivative(walker, x)
+    L = np.delete(np.eye(len(x)), k, axis=1)
+    L[k] = np.delete(dh, k) / -dh[k]
+    return L
+
+
+def periodic_orbit(
+    P: ReturnMap, guess: Array, tolerance: float = 1e-11, max_iterations: int = 12
+) -> tuple[PeriodicOrbit, StepDerivative]:
+    """Newton on P(s) - s from a pre-impact state `guess`, with dP/ds by the variational equation.
+
+    Raises SimulationError when it does not converge or the walker does not come back.
+    """
+    s = P.project(np.asarray(guess, dtype=float))
+    for iteration in range(1, max_iterations + 1):
+        step = differentiate_step(P, s)
+        gap = step.image - s
+        residual = float(np.max(np.abs(gap)))
+        if residual < tolerance:
+            return PeriodicOrbit(P.lift(s), step.multipliers, residual, iteration), step
+        s = s + np.linalg.solve(np.eye(len(s)) - step.jacobian, gap)
+    raise SimulationError(
+        f"Newton on the return map did not converge in {max_iterations} iterations: "
+        f"residual {residual:.3g}, expected below {tolerance:g}; start nearer to the orbit"
+    )

@@ -1,0 +1,220 @@
+"""Angle conventions of a planar biped with a torso and two legs, as affine maps to this paper's.
+
+    q = A q' + b,   v = A v',   tau' = A^T tau
+
+q' are the coordinates of another convention, in its own order, and q = (stance hip, swing hip, stance knee,
+swing knee, torso) those of `docs/notation.md`: absolute angles counter-clockwise positive with x to the right
+and z up, a link of absolute angle a pointing along (-sin a, cos a) away from the hip. Power is the same in
+both: tau' v' = tau v. A walker without knees has the conventions of one with knees, without the shins.
+
+Where a convention follows the legs by side (FROST), its right leg is the stance leg here; in left stance
+exchange the two first.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+
+_KNEES = (2, 3)  # of the paper's coordinates
+_PHASE = (1.0, 0.0, 0.5, 0.0, 1.0)  # Theta = q5 + q1 + q3 / 2
+_RELABELLING = (1, 0, 3, 2, 4)
+
+
+@dataclass(frozen=True)
+class AngleMap:
+    """q = A q' + b with A (n, n) invertible and b (n,) [rad]. `f @ g` is g first, then f."""
+
+    A: Array
+    b: Array
+
+    def __post_init__(self) -> None:
+        A, b = np.array(self.A, dtype=float), np.array(self.b, dtype=float)
+        n = len(b) if b.ndim == 1 else -1
+        if A.shape != (n, n) or not (np.all(np.isfinite(A)) and np.all(np.isfinite(b))):
+            raise InputError(
+                f"an angle map has A of shape {A.shape} and b of shape {b.shape}; expected finite (n, n) "
+                "and (n,)"
+            )
+        if np.linalg.matrix_rank(A) < n:
+            raise InputError(
+                f"an angle map has a singular A of rank {np.linalg.matrix_rank(A)}, expected {n}; each "
+                "coordinate must be independent of the others"
+            )
+        for name, value in (("A", A), ("b", b)):
+            value.setflags(write=False)
+            object.__setattr__(self, name, value)
+
+    def angles(self, q: Array) -> Array:
+        """A q + b [rad] of angles (n,), or of rows (K, n). Raises InputError for another length."""
+        return self.rates(q) + self.b
+
+    def rates(self, v: Array) -> Array:
+        """A v of rates or accelerations (n,), or of rows (K, n). Raises InputError for another length."""
+        v = np.asarray(v, dtype=float)
+        if v.ndim not in (1, 2) or v.shape[-1] != len(self.b):
+            raise InputError(
+                f"angles or rates have shape {v.shape}, expected ({len(self.b)},) or rows of that"
+            )
+        mapped: Array = v @ self.A.T
+        return mapped
+
+    @cached_property
+    def inverse(self) -> AngleMap:
+        """q' = A^-1 (q - b)."""
+        inverse: Array = np.asarray(np.linalg.inv(self.A), dtype=np.float64)
+        return AngleMap(inverse, -inverse @ self.b)
+
+    def __matmul__(self, first: AngleMap) -> AngleMap:
+        return AngleMap(self.A @ first.A, self.A @ first.b + self.b)
+
+
+@dataclass(frozen=True)
+class Convention:
+    """Coordinates of one convention, in its order; n coordinates."""
+
+    name: str
+    coordinates: tuple[str, ...]
+    to_paper: AngleMap
+    """q of the paper from q' of this convention."""
+    outputs: Array
+    """H0 (rows, n): the rows of a gait are H0 q', unless the gait says otherwise."""
+    sense: float
+    """+1 if its phase falls while the robot walks to +x, as the paper's Theta, -1 if it grows."""
+    paper_phase: Array
+    """(n,), Theta = paper_phase q."""
+    relabelling: AngleMap
+    """The legs change over at impact: q'+ = R q'- + r in this convention's coordinates."""
+    source: str
+
+    @property
+    def n(self) -> int:
+        """Number of coordinates."""
+        return len(self.coordinates)
+
+    @cached_property
+    def phase(self) -> Array:
+        """c' (n,): this convention's own phase c' q' = sense (Theta - paper_phase b)."""
+        return self.sense * self.paper_phase @ self.to_paper.A + 0.0
+
+
+def between(source: Convention, target: Convention) -> AngleMap:
+    """The map from the coordinates of `source` to those of `target`. Raises InputError."""
+    if source.n != target.n:
+        raise InputError(
+            f"convention '{source.name}' has {source.n} coordinates and '{target.name}' {target.n}; ask "
+            "for both with knees or both without"
+        )
+    return target.to_paper.inverse @ source.to_paper
+
+
+def convention(name: str, knees: bool = True) -> Convention:
+    """A convention by name, for a walker with knees or without. Raises InputError with the names there are."""
+    if name not in _DEFINITIONS:
+        raise InputError(
+            f"there is no angle convention '{name}'; choose one of {list(CONVENTIONS)}"
+        )
+    d = _DEFINITIONS[name]
+    paper = [i for i in range(5) if knees or i not in _KNEES]
+    own = [i for i in range(5) if knees or i not in d.knees]
+    rows = [r for r in d.outputs if r in own]
+    to_paper = AngleMap(np.array(d.A)[np.ix_(paper, own)], np.pi * np.array(d.half_turns)[paper])
+    R = np.eye(5)[list(_RELABELLING)][np.ix_(paper, paper)]
+    swap = to_paper.inverse @ AngleMap(R, np.zeros(len(R))) @ to_paper
+    return Convention(
+        name,
+        tuple(d.coordinates[i] for i in own),
+        to_paper,
+        np.eye(5)[np.ix_(rows, own)],
+        d.sense,
+        np.array(_PHASE)[paper],
+        swap,
+        d.source,
+    )
+
+
+@dataclass(frozen=True)
+class _Definition:
+    """A (5, 5) and b [half turns] of q = A q' + b; `knees`, `outputs`: indices of q'."""
+
+    coordinates: tuple[str, ...]
+    A: tuple[tuple[int, ...], ...]
+    half_turns: tuple[int, ...]
+    knees: tuple[int, int]
+    outputs: tuple[int, ...]
+    sense: float
+    source: str
+
+
+_IDENTITY = ((1, 0, 0, 0, 0), (0, 1, 0, 0, 0), (0, 0, 1, 0, 0), (0, 0, 0, 1, 0), (0, 0, 0, 0, 1))
+
+_DEFINITIONS = {
+    "paper": _Definition(
+        ("q1", "q2", "q3", "q4", "q5"),
+        _IDENTITY,
+        (0, 0, 0, 0, 0),
+        knees=(2, 3),
+        outputs=(0, 1, 2, 3),
+        sense=1.0,
+        source="Arcos-Legarda, Cortes-Romero, Tovar; decoded from its printed fixed point x*.",
+    ),
+    # The angles are the paper's; only the phase, -q31 - q41 / 2 - q1, has the other sign.
+    "tac2003": _Definition(
+        ("q31", "q32", "q41", "q42", "q1"),
+        _IDENTITY,
+        (0, 0, 0, 0, 0),
+        knees=(2, 3),
+        outputs=(0, 1, 2, 3),
+        sense=-1.0,
+        source="Westervelt, Grizzle, Koditschek, IEEE TAC 48(1), 2003, with q = (q31, q32, q41, q42, q1), "
+        "H0 = [I 0] and c = (-1, 0, -1/2, 0, -1). Zeros and signs of the angles are those of the model "
+        "script of Westervelt and Grizzle, 2001 (hips from the torso, knees from the thigh, absolute angles "
+        "in the trigonometric sense from the vertical, links at zero point up); they were not read off the "
+        "figure of the article, whose arrows may be drawn otherwise.",
+    ),
+    # phi right-handed about +y is -a; hips near pi rather than -pi: a whole turn.
+    "frost": _Definition(
+        ("BaseRotY", "q1_right", "q2_right", "q1_left", "q2_left"),
+        (
+            (0, -1, 0, 0, 0),
+            (0, 0, 0, -1, 0),
+            (0, 0, -1, 0, 0),
+            (0, 0, 0, 0, -1),
+            (-1, 0, 0, 0, 0),
+        ),
+        (2, 2, 0, 0, 0),
+        knees=(2, 4),
+        outputs=(1, 2, 3, 4),
+        sense=-1.0,
+        source="FROST (Hereid, Ames, IROS 2017), its RABBIT example: every axis 0 1 0, links along +z, x = "
+        "(BasePosX, BasePosZ, BaseRotY, q1_right, q2_right, q1_left, q2_left) without the base's position; "
+        "hips near pi, knees positive. That example runs its Bezier curves over time; the phase here is the "
+        "virtual leg, which grows while the robot walks.",
+    ),
+    # A leg is measured from the foot up to the hip: half a turn from the paper's.
+    "optimtraj": _Definition(
+        ("q1", "q2", "q3", "q4", "q5"),
+        (
+            (0, 1, -1, 0, 0),
+            (0, 0, -1, 1, 0),
+            (1, -1, 0, 0, 0),
+            (0, 0, 0, -1, 1),
+            (0, 0, 1, 0, 0),
+        ),
+        (1, 1, 0, 0, 0),
+        knees=(0, 4),
+        outputs=(0, 1, 2, 3, 4),
+        sense=1.0,
+        source="Kelly, SIAM Review 59(4), 2017, and the five-link biped of OptimTraj: absolute angles of "
+        "stance tibia, stance femur, torso, swing femur, swing tibia, counter-clockwise, all zero when the "
+        "robot stands upright.",
+    ),
+}
+
+CONVENTIONS: tuple[str, ...] = tuple(_DEFINITIONS)
+"""Names for `convention`."""

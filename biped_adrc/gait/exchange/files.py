@@ -1,0 +1,148 @@
+"""Records of gaits on disk: JSON, and MATLAB files with a `units` struct.
+
+The names are those of `docs/notation.md` and of the stored gaits; a stored gait of this package is such a
+record in this paper's convention.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.errors import GaitError, InputError
+from biped_adrc.files import write_text
+from biped_adrc.gait.exchange.matfile import read_mat, write_mat
+from biped_adrc.gait.exchange.record import GaitRecord
+from biped_adrc.gait.gait import FORMAT as STORED
+
+FORMAT = "biped_adrc exchanged gait 1"
+UNITS = {
+    "coefficients": "rad",
+    "theta_plus": "rad",
+    "theta_minus": "rad",
+    "phase": "1",
+    "outputs": "1",
+    "reverse": "1",
+    "q_minus": "rad",
+    "v_minus": "rad/s",
+    "period": "s",
+}
+_KEYS = tuple(f.name for f in fields(GaitRecord))
+_REQUIRED = ("coefficients", "theta_plus", "theta_minus")
+_TEXT = ("convention", "curve", "name", "robot", "preset")
+
+
+def write_record(record: GaitRecord, path: Path | str) -> None:
+    """Write a record as .json or .mat. Raises InputError for another suffix, and OutputError."""
+    path = Path(path)
+    entries = {key: getattr(record, key) for key in _KEYS if getattr(record, key) is not None}
+    entries["provenance"] = json.dumps(dict(record.provenance))
+    if path.suffix == ".mat":
+        entries["reverse"] = float(record.reverse)
+        for key in ("phase", "q_minus", "v_minus"):
+            if key in entries:
+                entries[key] = entries[key][np.newaxis, :]  # a row
+        units = {key: unit for key, unit in UNITS.items() if key in entries}
+        write_mat(path, {"format": FORMAT, **entries}, units)
+    elif path.suffix == ".json":
+        plain = {k: v.tolist() if isinstance(v, np.ndarray) else v for k, v in entries.items()}
+        plain["provenance"] = dict(record.provenance)
+        text = json.dumps({"format": FORMAT, **plain, "units": UNITS}, indent=1)
+        write_text(path, text + "\n")
+    else:
+        raise InputError(f"'{path}' ends in '{path.suffix}', expected .json or .mat")
+
+
+def read_record(
+    path: Path | str, convention: str | None = None, names: Mapping[str, str] | None = None
+) -> GaitRecord:
+    """The record in a .json or .mat file.
+
+    convention: where the file does not say its own. names: the file's names of its entries where they are not
+    ours, such as {"coefficients": "alpha"}. Raises InputError and GaitError that name the file.
+    """
+    path = Path(path)
+    if path.suffix == ".mat":
+        found = read_mat(path)
+    elif path.suffix == ".json":
+        found = _read_json(path)
+    else:
+        raise InputError(f"gait file '{path}' ends in '{path.suffix}', expected .json or .mat")
+    if found.get("format") == FORMAT and "units" not in found:
+        raise InputError(f"gait file '{path}' ends before its units: it is cut off; copy it again")
+    try:
+        return _record(_ours(found, names or {}), convention)
+    except GaitError as error:
+        raise GaitError(f"gait file '{path}': {error}") from error
+
+
+def _read_json(path: Path) -> dict[str, Any]:
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise InputError(f"gait file '{path}' not found") from None
+    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"gait file '{path}' is not valid JSON: {error}") from error
+    if not isinstance(found, dict):
+        raise InputError(f"gait file '{path}' holds a {type(found).__name__}, expected an object")
+    return found
+
+
+def _ours(found: Mapping[str, Any], names: Mapping[str, str]) -> dict[str, Any]:
+    """The entries under our names. Raises GaitError for names that are not there."""
+    unknown = [ours for ours in names if ours not in _KEYS]
+    if unknown:
+        raise GaitError(f"names gives {unknown}, expected names of {list(_KEYS)}")
+    absent = [theirs for theirs in names.values() if theirs not in found]
+    if absent:
+        raise GaitError(f"there are no entries {absent}; the file has {sorted(found)}")
+    return {**found, **{ours: found[theirs] for ours, theirs in names.items()}}
+
+
+def _record(found: Mapping[str, Any], convention: str | None) -> GaitRecord:
+    missing = [key for key in _REQUIRED if key not in found]
+    if missing:
+        raise GaitError(
+            f"the entries {missing} are missing; the file has {sorted(found)}. Say what they are called "
+            'there with names={"coefficients": "..."}'
+        )
+    own = "paper" if found.get("format") == STORED else found.get("convention")
+    if own is None and convention is None:
+        raise GaitError(
+            "the file does not say its angle convention; add an entry 'convention' or give convention=..."
+        )
+    if own is not None and convention is not None and str(own) != convention:
+        raise GaitError(
+            f"convention is '{convention}', but the file says '{own}'; leave one of them out"
+        )
+    given: dict[str, Any] = {key: found[key] for key in _KEYS if key in found}
+    for key in _TEXT:
+        if not isinstance(given.get(key, ""), str):
+            raise GaitError(f"{key} is {given[key]!r}, expected text")
+    given["convention"] = str(own) if own is not None else convention
+    reverse = given.get("reverse", False)
+    if reverse not in (0, 1):
+        raise GaitError(f"reverse is {reverse!r}, expected true or false, or 1 or 0")
+    given["reverse"] = bool(reverse)
+    given["provenance"] = _provenance(given.get("provenance", {}))
+    for key in ("coefficients", "outputs"):
+        if isinstance(given.get(key), np.ndarray):
+            given[key] = np.atleast_2d(given[key])  # one row, squeezed by loadmat
+    return GaitRecord(**given)
+
+
+def _provenance(value: Any) -> dict[str, Any]:
+    """Text of JSON (in .mat files) or a mapping."""
+    if isinstance(value, str):
+        try:
+            value = json.loads(value)
+        except json.JSONDecodeError:
+            value = {"source": value}
+    if not isinstance(value, Mapping):
+        raise GaitError(f"provenance is a {type(value).__name__}, expected text or a mapping")
+    return dict(value)

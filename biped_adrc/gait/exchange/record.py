@@ -1,0 +1,184 @@
+"""A gait in the words of one angle convention: plain arrays, as they come from elsewhere.
+
+    y(s) = H0 q'(s),   s = (theta - theta+) / (theta- - theta+),   theta = c' q'
+
+The rows of `coefficients` are y: by default the outputs of the convention, or all of its coordinates.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.errors import GaitError
+from biped_adrc.gait.conventions import CONVENTIONS, Convention, convention
+from biped_adrc.gait.curves import CURVES, Curve
+from biped_adrc.types import Array
+
+_COORDINATES = {5: True, 3: False}  # with knees, without
+
+
+@dataclass(frozen=True)
+class GaitRecord:
+    """Coefficients (rows, M + 1) [rad] and the phase, in convention `convention`; n coordinates.
+
+    Raises GaitError that names the entry, what was found, what was expected and what to try.
+    """
+
+    convention: str
+    coefficients: Array
+    theta_plus: float
+    """[rad] just after impact."""
+    theta_minus: float
+    """[rad] just before the next impact."""
+    phase: Array | None = None
+    """c' (n,); the convention's own row when None."""
+    outputs: Array | None = None
+    """H0 (rows, n); the convention's own outputs, or all coordinates, when None."""
+    curve: str = "bezier"
+    reverse: bool = False
+    """True if the first coefficients belong to the end of the step (s runs from 1 to 0)."""
+    q_minus: Array | None = None
+    """(n,) just before impact [rad], in this convention; from the zero dynamics when None."""
+    v_minus: Array | None = None
+    """(n,) [rad/s]."""
+    period: float | None = None
+    """[s]."""
+    name: str = "imported"
+    robot: str = ""
+    preset: str = ""
+    provenance: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.curve not in CURVES:
+            raise self.error(f"curve is '{self.curve}', expected one of {sorted(CURVES)}")
+        a = self._array("coefficients", self.coefficients, 2)
+        object.__setattr__(self, "coefficients", a)
+        for key in ("phase", "q_minus", "v_minus"):
+            if getattr(self, key) is not None:
+                object.__setattr__(self, key, self._array(key, getattr(self, key), 1))
+        if self.outputs is not None:
+            object.__setattr__(self, "outputs", self._array("outputs", self.outputs, 2))
+        self._check_phase_range()
+        layout = self.layout
+        for key in ("phase", "q_minus", "v_minus"):
+            value = getattr(self, key)
+            if value is not None and value.shape != (layout.n,):
+                raise self.error(
+                    f"{key} has {len(value)} numbers, expected {layout.n}: {', '.join(layout.coordinates)}"
+                )
+        if (self.q_minus is None) != (self.v_minus is None):
+            raise self.error("only one of q_minus and v_minus is given; give both or neither")
+
+    @property
+    def layout(self) -> Convention:
+        """The convention, with knees or without, as the number of rows tells. Raises GaitError."""
+        rows = self.coefficients.shape[0]
+        if self.outputs is not None:
+            n = self.outputs.shape[1]
+            if n not in _COORDINATES or self.outputs.shape[0] != rows:
+                raise self.error(
+                    f"outputs have shape {self.outputs.shape} for {rows} rows of coefficients; expected "
+                    f"({rows}, 5), or ({rows}, 3) without knees"
+                )
+            return self._known(_COORDINATES[n])
+        fitting = [knees for knees in (True, False) if rows in _row_counts(self._known(knees))]
+        if not fitting:
+            raise self._wrong_rows(rows)
+        return self._known(fitting[0])
+
+    @property
+    def of_all_coordinates(self) -> bool:
+        """Whether the rows are the coordinates themselves."""
+        return self.outputs is None and self.coefficients.shape[0] == self.layout.n
+
+    @property
+    def curve_of_rows(self) -> Curve:
+        """y(s)."""
+        return CURVES[self.curve](self.coefficients)
+
+    def error(self, text: str) -> GaitError:
+        """An error that names the gait and its convention."""
+        return GaitError(f"gait '{self.name}' in convention '{self.convention}': {text}")
+
+    def _known(self, knees: bool) -> Convention:
+        if self.convention not in CONVENTIONS:
+            raise GaitError(
+                f"gait '{self.name}': there is no angle convention '{self.convention}'; choose one of "
+                f"{list(CONVENTIONS)}"
+            )
+        return convention(self.convention, knees)
+
+    def _wrong_rows(self, rows: int) -> GaitError:
+        takes = _counts_of(self.convention)
+        others = [name for name in CONVENTIONS if rows in _counts_of(name)]
+        columns = self.coefficients.shape[1]
+        if others:
+            cause = (
+                f"the conventions {others} take {rows}: try one of them, or give all coordinates"
+            )
+        elif columns in takes:
+            cause = f"it has {columns} columns, so it may be transposed: rows are joints, columns k = 0..M"
+        else:
+            cause = "give one row per joint, or the matrix `outputs` that makes the rows from the coordinates"
+        expected = " or ".join(str(count) for count in takes)
+        return self.error(f"coefficients have {rows} joints (rows), expected {expected}; {cause}")
+
+    def _array(self, key: str, value: object, dimensions: int) -> Array:
+        try:
+            a = np.array(value)
+            if np.iscomplexobj(a):
+                raise TypeError("its numbers are complex")
+            a = a.astype(float)
+        except (TypeError, ValueError) as error:
+            raise self.error(f"{key} is not an array of real numbers: {error}") from error
+        if a.ndim != dimensions or a.size == 0 or (key == "coefficients" and a.shape[1] < 2):
+            shape = "(joints, degree + 1) with degree >= 1" if dimensions == 2 else "one row"
+            raise self.error(f"{key} has shape {a.shape}, expected {shape}")
+        if not np.all(np.isfinite(a)):
+            where = tuple(int(i) for i in np.argwhere(~np.isfinite(a))[0])
+            what = (
+                f"joint {where[0] + 1}, column {where[1] + 1}"
+                if a.ndim == 2
+                else f"entry {where[0] + 1}"
+            )
+            raise self.error(
+                f"{key}: {what} (counted from 1) is {a[where]}, expected finite numbers; was the file "
+                "written by an optimisation that did not converge?"
+            )
+        a.setflags(write=False)
+        return a
+
+    def _check_phase_range(self) -> None:
+        for key in ("theta_plus", "theta_minus", "period"):
+            value = getattr(self, key)
+            if key == "period" and value is None:
+                continue
+            try:
+                number = float(value)
+            except (TypeError, ValueError):
+                number = math.nan
+            if not math.isfinite(number):
+                raise self.error(f"{key} is {value}, expected one finite number")
+            object.__setattr__(self, key, number)
+        if self.theta_plus == self.theta_minus:
+            raise self.error(
+                f"theta_plus and theta_minus are both {self.theta_plus} rad, expected two different ends; a "
+                "normalised s in [0, 1] needs the phase at s = 0 and at s = 1"
+            )
+        if self.period is not None and self.period <= 0:
+            raise self.error(f"period is {self.period} s, expected a positive number")
+
+
+def _counts_of(name: str) -> tuple[int, ...]:
+    """Numbers of rows in a convention, with knees and without."""
+    return tuple(k for knees in (True, False) for k in _row_counts(convention(name, knees)))
+
+
+def _row_counts(c: Convention) -> tuple[int, ...]:
+    """Numbers of rows a gait may have without `outputs`."""
+    return tuple(sorted({c.outputs.shape[0], c.n}))

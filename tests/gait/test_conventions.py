@@ -1,0 +1,227 @@
+"""Angle conventions against positions and energies computed from each convention's own definition."""
+
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.errors import InputError
+from biped_adrc.gait.conventions import CONVENTIONS, AngleMap, between, convention
+
+RNG = np.random.default_rng(7)
+L = 0.4  # [m], thigh and shin of RABBIT
+PAIRS = [(a, b) for a in CONVENTIONS for b in CONVENTIONS]
+
+
+class Pose(NamedTuple):
+    """Points (x, z) from the stance foot, and the directions of the links away from the hip."""
+
+    stance_knee: np.ndarray
+    hip: np.ndarray
+    swing_knee: np.ndarray
+    swing_foot: np.ndarray
+    torso: np.ndarray
+
+
+def vector(x, z):
+    return np.array([x, z])
+
+
+def paper(q, length=L):
+    """Links along (-sin a, cos a) from the hip outwards; hips from the torso, knees from the thigh."""
+    q1, q2, q3, q4, q5 = q
+
+    def along(a):
+        return length * vector(-np.sin(a), np.cos(a))
+
+    stance_knee = -along(q5 + q1 + q3)
+    hip = stance_knee - along(q5 + q1)
+    swing_knee = hip + along(q5 + q2)
+    torso = vector(-np.sin(q5), np.cos(q5))
+    return Pose(stance_knee, hip, swing_knee, swing_knee + along(q5 + q2 + q4), torso)
+
+
+def tac2003(q, length=L):
+    """femur = q31 + q1, tibia = femur + q41, from the vertical in the trigonometric sense."""
+    q31, q32, q41, q42, q1 = q
+    femur1, femur2 = q31 + q1, q32 + q1
+    tibia1, tibia2 = femur1 + q41, femur2 + q42
+    hip = length * vector(np.sin(femur1), -np.cos(femur1))
+    hip = hip + length * vector(np.sin(tibia1), -np.cos(tibia1))
+    knee1 = hip + length * vector(-np.sin(femur1), np.cos(femur1))
+    knee2 = hip + length * vector(-np.sin(femur2), np.cos(femur2))
+    foot2 = knee2 + length * vector(-np.sin(tibia2), np.cos(tibia2))
+    return Pose(knee1, hip, knee2, foot2, vector(-np.sin(q1), np.cos(q1)))
+
+
+def frost(q, length=L):
+    """Right-handed rotations about +y, links along +z of their frames; the right leg stands."""
+    base, hip_right, knee_right, hip_left, knee_left = q
+
+    def z_axis(phi):  # third column of R_y(phi), without y
+        return vector(np.sin(phi), np.cos(phi))
+
+    right = length * z_axis(base + hip_right)
+    right_toe = right + length * z_axis(base + hip_right + knee_right)
+    left = length * z_axis(base + hip_left)
+    left_toe = left + length * z_axis(base + hip_left + knee_left)
+    return Pose(right - right_toe, -right_toe, left - right_toe, left_toe - right_toe, z_axis(base))
+
+
+def optimtraj(q, length=L):
+    """e = cos(q) j - sin(q) i upwards along stance leg and torso, downwards along the swing leg."""
+    i, j = vector(1.0, 0.0), vector(0.0, 1.0)
+    e = [np.cos(angle) * j - np.sin(angle) * i for angle in q]
+    P1 = length * e[0]
+    P2 = P1 + length * e[1]
+    P4 = P2 - length * e[3]
+    return Pose(P1, P2, P4, P4 - length * e[4], e[2])
+
+
+POSES = {"paper": paper, "tac2003": tac2003, "frost": frost, "optimtraj": optimtraj}
+
+
+def with_straight_knees(name, q):
+    """The five-link coordinates of a walker without knees, from each definition."""
+    if name == "frost":  # base, right hip, left hip
+        return np.array([q[0], q[1], 0.0, q[2], 0.0])
+    if name == "optimtraj":  # stance leg, torso, swing leg
+        return np.array([q[0], q[0], q[1], q[2], q[2]])
+    return np.array([q[0], q[1], 0.0, 0.0, q[2]])
+
+
+def random_states(n, count=20):
+    return RNG.uniform(-np.pi, np.pi, (count, n)), RNG.normal(size=(count, n))
+
+
+@pytest.mark.parametrize("knees", [True, False])
+@pytest.mark.parametrize(("a", "b"), PAIRS)
+def test_round_trip_at_random_states(a, b, knees):
+    source, target = convention(a, knees), convention(b, knees)
+    there, back = between(source, target), between(target, source)
+    for q, v in zip(*random_states(source.n), strict=True):
+        assert back.angles(there.angles(q)) == pytest.approx(q, abs=1e-14)
+        assert there.inverse.angles(there.angles(q)) == pytest.approx(q, abs=1e-14)
+        assert back.rates(there.rates(v)) == pytest.approx(v, abs=1e-14)
+
+
+def test_maps_compose_and_take_rows():
+    one, two, three = (convention(name) for name in ("frost", "optimtraj", "tac2003"))
+    chain = between(two, three) @ between(one, two)
+    direct = between(one, three)
+    Q, V = random_states(5)
+    assert chain.angles(Q) == pytest.approx(direct.angles(Q), abs=1e-14)
+    assert chain.rates(V) == pytest.approx(direct.rates(V), abs=1e-14)
+    assert direct.angles(Q)[3] == pytest.approx(direct.angles(Q[3]), abs=1e-15)
+
+
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_rates_are_the_derivative_of_the_angles(name):
+    to_paper, h = convention(name).to_paper, 1e-4
+    for q, v in zip(*random_states(5, 3), strict=True):
+        slope = (to_paper.angles(q + h * v) - to_paper.angles(q - h * v)) / (2 * h)
+        assert to_paper.rates(v) == pytest.approx(slope, abs=1e-10)
+
+
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_knees_hip_and_foot_are_where_the_definition_says(name, biped):
+    model, position = biped.pinned.model, biped.pinned.position
+    knees = [model.getFrameId(frame) for frame in ("left_knee", "right_knee")]
+    assert max(knees) < model.nframes
+    for q_own, _ in zip(*random_states(5), strict=True):
+        pose, q = POSES[name](q_own), convention(name).to_paper.angles(q_own)
+        assert position(q, knees[0]) == pytest.approx(pose.stance_knee, abs=1e-13)
+        assert position(q, knees[1]) == pytest.approx(pose.swing_knee, abs=1e-13)
+        assert biped.hip(q) == pytest.approx(pose.hip, abs=1e-13)
+        assert biped.swing_foot(q) == pytest.approx(pose.swing_foot, abs=1e-13)
+
+
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_walker_without_knees(name):
+    biped = ba.Biped.load("three_link")
+    c = convention(name, knees=False)
+    for q_own, _ in zip(*random_states(3), strict=True):
+        pose, q = POSES[name](with_straight_knees(name, q_own), 0.5), c.to_paper.angles(q_own)
+        assert biped.hip(q) == pytest.approx(pose.hip, abs=1e-13)
+        assert biped.swing_foot(q) == pytest.approx(pose.swing_foot, abs=1e-13)
+    assert c.paper_phase == pytest.approx(biped.phase)
+    assert c.relabelling.angles(q_own) == pytest.approx(
+        c.to_paper.inverse.angles(biped.relabel(c.to_paper.angles(q_own))), abs=1e-14
+    )
+
+
+def energies(pose_of, q, v, bodies):
+    """Kinetic and potential energy [J] of five links, rates by complex steps."""
+
+    def links(angles):
+        p = pose_of(angles)
+        return [
+            ("torso", p.hip, p.torso),
+            ("thigh", p.hip, (p.stance_knee - p.hip) / L),
+            ("thigh", p.hip, (p.swing_knee - p.hip) / L),
+            ("shin", p.stance_knee, -p.stance_knee / L),
+            ("shin", p.swing_knee, (p.swing_foot - p.swing_knee) / L),
+        ]
+
+    h = 1e-30
+    kinetic = potential = 0.0
+    moving = links(q + 1j * h * v)
+    for (body, joint, direction), (_, joint_h, direction_h) in zip(links(q), moving, strict=True):
+        b = bodies[body]
+        velocity = np.imag(joint_h + b.com * direction_h) / h
+        turning = np.imag(direction_h) / h  # its length is the rate of the link
+        kinetic += 0.5 * b.mass * velocity @ velocity + 0.5 * b.inertia * turning @ turning
+        potential += b.mass * 9.81 * (joint + b.com * direction)[1]
+    return kinetic, potential
+
+
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_energy_is_the_same(name):
+    biped = ba.Biped.load("rabbit", "identified-bare")  # no rotors
+    bodies = biped.description.preset("identified-bare").bodies
+    to_paper = convention(name).to_paper
+    for q_own, v_own in zip(*random_states(5), strict=True):
+        q, v = to_paper.angles(q_own), to_paper.rates(v_own)
+        kinetic, potential = energies(POSES[name], q_own, v_own, bodies)
+        assert biped.kinetic_energy(q, v) == pytest.approx(kinetic, rel=1e-12)
+        assert biped.potential_energy(q) == pytest.approx(potential, abs=1e-11)
+        M = to_paper.A.T @ biped.inertia(q) @ to_paper.A  # the inertia matrix in these coordinates
+        assert 0.5 * v_own @ M @ v_own == pytest.approx(kinetic, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_phase_and_relabelling(name, biped):
+    c = convention(name)
+    assert c.paper_phase == pytest.approx(biped.phase)
+    constant = c.paper_phase @ c.to_paper.b
+    for q_own, _ in zip(*random_states(5, 5), strict=True):
+        q = c.to_paper.angles(q_own)
+        assert c.phase @ q_own == pytest.approx(c.sense * (biped.phase @ q - constant), abs=1e-13)
+        swapped = c.to_paper.angles(c.relabelling.angles(q_own))
+        assert swapped == pytest.approx(biped.relabel(q), abs=1e-13)
+
+
+def test_what_the_sources_print():
+    """Rows c and order of coordinates where the sources state them."""
+    assert convention("tac2003").phase.tolist() == [-1.0, 0.0, -0.5, 0.0, -1.0]
+    assert convention("tac2003").coordinates == ("q31", "q32", "q41", "q42", "q1")
+    assert convention("frost").phase.tolist() == [1.0, 1.0, 0.5, 0.0, 0.0]
+    assert convention("optimtraj").phase.tolist() == [0.5, 0.5, 0.0, 0.0, 0.0]
+    upright = convention("optimtraj").to_paper.angles(np.zeros(5))
+    assert upright == pytest.approx([np.pi, np.pi, 0, 0, 0], abs=1e-15)
+    standing = convention("frost").to_paper.angles(np.array([0, np.pi, 0, np.pi, 0]))
+    assert standing == pytest.approx([np.pi, np.pi, 0, 0, 0], abs=1e-15)
+
+
+def test_bad_conventions_and_maps():
+    with pytest.raises(InputError, match=r"no angle convention 'kelly'; choose one of \['paper'"):
+        convention("kelly")
+    with pytest.raises(InputError, match="5 coordinates and 'frost' 3"):
+        between(convention("paper"), convention("frost", knees=False))
+    with pytest.raises(InputError, match=r"shape \(4,\), expected \(5,\)"):
+        convention("frost").to_paper.angles(np.zeros(4))
+    with pytest.raises(InputError, match="singular A of rank 1, expected 2"):
+        AngleMap(np.ones((2, 2)), np.zeros(2))
+    with pytest.raises(InputError, match=r"\(2, 3\) and b of shape \(2,\)"):
+        AngleMap(np.ones((2, 3)), np.zeros(2))

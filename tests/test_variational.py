@@ -1,0 +1,535 @@
+"""Derivatives of the dynamics, the variational equation with saltation, and the table of methods."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.regression import Regression, regress_multipliers
+from biped_adrc.analysis.stability import (
+    Method,
+    Row,
+    StabilityTable,
+    Tolerances,
+    invariance_gap,
+    regression_row,
+    stability_table,
+    variational_row,
+    zero_dynamics_row,
+)
+from biped_adrc.analysis.variational import (
+    VariationalSystem,
+    differenced_torque,
+    differentiate_step,
+    flow_derivative,
+    height_derivative,
+    periodic_orbit,
+    saltation,
+    sorted_eigenvalues,
+    split_matrix,
+    third_derivative,
+    torque_derivative,
+)
+from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.model.derivatives import (
+    acceleration_derivatives,
+    foot_derivatives,
+    impact_derivatives,
+    torque_derivatives,
+)
+
+EXACT = ba.Adaptive(1e-10, 1e-10)
+FIRST = ba.Mode()
+
+
+def difference(f, x, d=1e-4):
+    """df/dx (k, len(x)) by differences of fourth order."""
+    columns = [
+        (8 * (f(x + d * e) - f(x - d * e)) - (f(x + 2 * d * e) - f(x - 2 * d * e))) / (12 * d)
+        for e in np.eye(len(x))
+    ]
+    return np.array(columns).T
+
+
+def close(found, expected, rel=1e-6):
+    assert found.shape == expected.shape
+    assert np.max(np.abs(found - expected)) <= rel * np.max(np.abs(expected))
+
+
+def states(biped, count=4, size=0.3):
+    """Random states about the gait's own, and forces [N m]."""
+    rng = np.random.default_rng(5)
+    gait = ba.load_gait("published", biped)
+    for _ in range(count):
+        q, v = gait.q_minus + size * rng.normal(size=5), 2.0 * rng.normal(size=5)
+        yield q, v, 50.0 * rng.normal(size=5)
+
+
+def npd(biped, **changes):
+    gait = ba.load_gait("published", biped)
+    return replace(ba.Walker(biped, ba.NPDController(gait.constraint)), **changes)
+
+
+def pre_impact(biped):
+    gait = ba.load_gait("published", biped)
+    return np.concatenate((gait.q_minus, gait.v_minus))
+
+
+# -- derivatives of the model ------------------------------------------------------------------------
+@pytest.mark.parametrize("friction", [False, True])
+def test_derivatives_of_the_acceleration(any_biped, friction):
+    biped = replace(any_biped, friction=friction)
+
+    def check(q, v, force):
+        found = acceleration_derivatives(biped, q, v, force)
+        close(found.dq, difference(lambda x: biped.acceleration(x, v, force), q))
+        close(found.dv, difference(lambda x: biped.acceleration(q, x, force), v))
+        close(found.dforce, np.linalg.inv(biped.inertia(q)))
+
+    for state in states(biped):
+        check(*state)
+
+
+def test_derivatives_of_the_torque(any_biped):
+    def check(q, v, a):
+        found = torque_derivatives(any_biped, q, v, a)
+        close(found.dq, difference(lambda x: any_biped.inertia(x) @ a + any_biped.bias(x, v), q))
+        close(found.dv, difference(lambda x: any_biped.bias(q, x), v))
+
+    for state in states(any_biped):
+        check(*state)
+
+
+def test_second_derivative_of_the_feet(any_biped):
+    floating = any_biped.floating
+
+    def check(x, foot):
+        J, H = foot_derivatives(floating, x, foot)
+        one = difference(lambda y: foot_derivatives(floating, y, foot)[0].ravel(), x)
+        close(H, one.reshape(2, 7, 7))
+        np.testing.assert_array_equal(H, np.swapaxes(H, 1, 2))
+        assert J.shape == (2, 7)
+
+    for q, _, _ in states(any_biped):
+        for foot in (floating.stance, floating.swing):
+            check(floating.configuration(q), foot)
+
+
+@pytest.mark.parametrize("name", ["rabbit", "three_link", "compass", "simplest", "rimless_wheel"])
+def test_derivative_of_the_impact_map(name):
+    """D Delta, also where relabelling is no permutation, and where there is one coordinate only."""
+    for preset in ba.Biped.load(name).description.presets if name == "rabbit" else [None]:
+        biped = ba.Biped.load(name, preset)
+        rng = np.random.default_rng(7)
+        n = biped.n
+
+        def strike(x, biped=biped, n=n):
+            impact = biped.impact(x[:n], x[n:])
+            return np.concatenate((impact.q, impact.v))
+
+        for _ in range(4):
+            x = rng.normal(size=2 * n)
+            found = impact_derivatives(biped, x[:n], x[n:])
+            close(found.matrix, difference(strike, x, 5e-3))  # wide: feet of 1e-7 of the hip's mass
+            np.testing.assert_allclose(found.dv @ x[n:], strike(x)[n:], rtol=0.0, atol=1e-8)
+
+
+# -- derivatives of the closed loop ------------------------------------------------------------------
+class PD(ba.Controller):
+    """A law the package does not know."""
+
+    def __init__(self, constraint):
+        self.constraint = constraint
+
+    def output(self, s, m):
+        r = self.constraint(m.t, m.q, m.v)
+        return 2500 * (r.q_d - m.q_b) + 120 * (r.dq_d - m.v_b) + m.terms.Omega[:4]
+
+
+def loops(biped):
+    c = ba.load_gait("published", biped).constraint
+    per_joint = ba.Gains(np.array([4e3, 5e3, 6e3, 7e3]), np.array([40.0, 50.0, 60.0, 70.0]))
+    heavy = biped.with_errors(mass={"torso": 1.2}, friction=True)
+    return {
+        "NPD": npd(biped),
+        "NPD as printed": npd(biped, controller=ba.NPDController(c, solve_theta=False)),
+        "NPD, gains per joint": npd(biped, controller=ba.NPDController(c, per_joint)),
+        "NPD, heavier plant with friction": npd(heavy, model=biped),
+        "NPD, limited": npd(biped, torque_limit=500.0),
+        "PD": npd(biped, controller=PD(c)),
+        "passive": npd(biped, controller=ba.Passive()),
+    }
+
+
+def test_derivative_of_the_flow(any_biped):
+    """A against differences of the whole closed loop, for every kind of law."""
+    saturated = 0
+    for name, walker in loops(any_biped).items():
+        for q, v, _ in states(any_biped, 3, size=0.1):
+            x = np.concatenate((q, v))
+            A = flow_derivative(walker, 0.0, x, FIRST)
+            close(A, difference(lambda y, w=walker: w.flow(0.0, y, FIRST), x, 2e-4), 1e-7)
+            if name == "NPD, limited":
+                du = torque_derivative(walker, 0.0, x, FIRST)
+                cut = np.abs(walker.instant(0.0, x, FIRST).u) >= 500.0
+                saturated += int(np.sum(cut))
+                assert np.all(du[cut] == 0.0)
+                assert np.all(np.any(du[~cut] != 0.0, axis=1))
+    assert saturated > 0
+
+
+def test_differences_of_a_law_are_of_order_four_and_end_at_round_off(any_biped):
+    """The quotient for laws that are not known, against the derivative of NPD: 1e-10 at DIFFERENCE."""
+    walker = npd(any_biped)
+    q, v, _ = next(states(any_biped, size=0.1))
+    i = walker.instant(0.0, np.concatenate((q, v)), FIRST)
+    exact = torque_derivative(walker, 0.0, np.concatenate((q, v)), FIRST)
+    size = np.max(np.abs(exact))
+
+    def error(*width):
+        return np.max(np.abs(differenced_torque(walker, i, *width) - exact)) / size
+
+    assert error() < 1e-10
+    assert error(4e-3) / error(2e-3) == pytest.approx(16.0, rel=0.1)
+    assert error(1e-7) > 10.0 * error()
+
+
+def test_third_derivative_of_a_constraint(gait):
+    h = gait.constraint
+    for theta in (h.theta_plus, 0.5 * (h.theta_plus + h.theta_minus), h.theta_minus):
+        expected = difference(lambda x: h.h(float(x[0]))[2], np.array([theta]))[:, 0]
+        close(third_derivative(h, theta), expected, 1e-8)
+
+
+# -- saltation ---------------------------------------------------------------------------------------
+def test_saltation_carries_the_flow_across_the_impact(any_biped):
+    walker, x = npd(any_biped), pre_impact(any_biped)
+    Xi = saltation(walker, 0.0, x, FIRST)
+    before, after = walker.flow(0.0, x, FIRST), walker.flow(0.0, *walker.strike(0.0, x, FIRST))
+    close(Xi @ before, after, 1e-12)
+    dh = height_derivative(walker, x)
+    close(dh, difference(lambda y: np.array([walker.clearance(y[:5])]), x)[0], 1e-10)
+    D = impact_derivatives(any_biped, x[:5], x[5:]).matrix
+    along = np.linalg.svd(dh[np.newaxis])[2][1:].T  # the section, where Xi is D Delta itself
+    close(Xi @ along, D @ along, 1e-12)
+
+
+def test_fundamental_matrix_across_an_impact(any_biped):
+    """From 20 ms before foot strike to 20 ms after it, at fixed times: differences of plain simulations.
+
+    Perturbed walks strike earlier or later; without saltation the matrix would miss that by far.
+    """
+    walker, method = npd(any_biped), ba.RK4(5e-4)
+    start = walker.strike(0.0, pre_impact(any_biped), FIRST)
+    whole = ba.simulate(walker, *start, method, t_end=2.0, stop_after=("foot_strike", 1))
+    t0, t1 = whole.t_end - 0.02, whole.t_end + 0.02
+    x0 = whole(t0)
+
+    def run(system, y):
+        found = ba.simulate(system, y, start[1], method, t0=t0, t_end=t1)
+        assert len(found.events("foot_strike")) == 1
+        return found.final_state
+
+    system = VariationalSystem(walker)
+    x1, Phi = split_matrix(run(system, system.start(x0)))
+    np.testing.assert_allclose(x1, run(walker, x0), rtol=0.0, atol=1e-11)
+    close(Phi, difference(lambda y: run(walker, y), x0, 1e-4), 1e-6)
+
+
+# -- multipliers -------------------------------------------------------------------------------------
+def test_multipliers_of_the_published_gait(any_biped):
+    """Against one quadrature and against differences of the return map, which share no derivative with it."""
+    walker, x = npd(any_biped), pre_impact(any_biped)
+    delta2 = ZeroDynamics.of(any_biped, walker.controller.reference).delta ** 2
+    P = ba.ReturnMap(walker, EXACT)
+    orbit, step = periodic_orbit(P, x)
+    assert orbit.x_minus == pytest.approx(x, abs=1e-8)
+    assert orbit.residual < 1e-11
+    assert orbit.multipliers[0].real == pytest.approx(delta2, rel=1e-7)
+    assert step.flow_residual < 1e-8
+
+    coarse = ba.ReturnMap(walker, ba.RK4(1e-3))
+    step = differentiate_step(coarse, coarse.project(x))
+    np.testing.assert_allclose(step.image, coarse(coarse.project(x)), rtol=0.0, atol=1e-11)
+    one, other = step.multipliers, sorted_eigenvalues(coarse.jacobian(step.s))
+    assert other[0].real == pytest.approx(one[0].real, rel=1e-6)
+    np.testing.assert_allclose(np.abs(other[1:]), np.abs(one[1:]), rtol=0.0, atol=1e-7)
+
+
+def test_monodromy_has_the_multipliers_and_one(any_biped):
+    """Xi Phi and dP/ds are made by different projections; the flow itself returns with multiplier 1."""
+    P = ba.ReturnMap(npd(any_biped), EXACT)
+    step = periodic_orbit(P, pre_impact(any_biped))[1]
+    whole = sorted_eigenvalues(step.monodromy)
+    assert whole[0] == pytest.approx(1.0, abs=1e-7)
+    np.testing.assert_allclose(np.abs(whole[1:]), np.abs(step.multipliers), rtol=0.0, atol=1e-8)
+
+
+def test_order_of_convergence(any_biped):
+    """With RK4 the largest multiplier converges to delta^2, and dP/ds to its limit, with order 4."""
+    walker, x = npd(any_biped), pre_impact(any_biped)
+    delta2 = ZeroDynamics.of(any_biped, walker.controller.reference).delta ** 2
+    exact = ba.ReturnMap(walker, ba.Adaptive(1e-12, 1e-12))
+    limit = differentiate_step(exact, exact.project(x)).jacobian
+    by_value, by_matrix = [], []
+    for h in (4e-3, 2e-3, 1e-3):
+        P = ba.ReturnMap(walker, ba.RK4(h))
+        step = differentiate_step(P, P.project(x))
+        by_value.append(abs(step.multipliers[0] - delta2))
+        by_matrix.append(np.max(np.abs(step.jacobian - limit)))
+    for errors in (by_value, by_matrix):
+        orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+        assert np.all((orders > 3.6) & (orders < 4.6)), orders
+
+
+def test_differences_of_the_return_map_are_the_limit(biped):
+    """Along one direction: error d^2 for wide differences, round-off / d for narrow ones."""
+    P = ba.ReturnMap(npd(biped), ba.Adaptive(1e-12, 1e-12))
+    s = P.project(pre_impact(biped))
+    w = np.random.default_rng(3).normal(size=9)
+    exact = differentiate_step(P, s).jacobian @ w
+
+    def error(d):
+        return np.max(np.abs(directional(P, s, w, d) - exact)) / np.max(np.abs(exact))
+
+    wide, best, narrow = error(5e-4), error(1e-5), error(1e-8)
+    assert wide / error(2.5e-4) == pytest.approx(4.0, rel=0.1)
+    assert best < 1e-8
+    assert wide > 100.0 * best
+    assert narrow > 10.0 * best
+
+
+def directional(P, s, w, d):
+    return (P(s + d * w) - P(s - d * w)) / (2.0 * d)
+
+
+def test_torque_limit(biped):
+    """Saturated for a part of the step; the flow stays continuous there, so that no saltation is due.
+
+    Differences have to be narrow here: wide ones move the corner over the stages of the method.
+    """
+    walker = npd(biped, torque_limit=95.0)
+    P = ba.ReturnMap(walker, ba.RK4(5e-4))
+    s = P.project(pre_impact(biped))
+    w = np.random.default_rng(3).normal(size=9)
+    expected = directional(P, s, w, 1e-7)
+    limited = differentiate_step(P, s).jacobian @ w
+    close(limited, expected, 5e-6)
+    free = differentiate_step(replace(P, walker=npd(biped)), s).jacobian @ w
+    assert np.max(np.abs(free - expected)) > 1e-4 * np.max(np.abs(expected))
+
+
+def test_rolling_wheel_in_closed_form():
+    """McGeer 1990: cos^2 2 alpha; one coordinate, no motor, a slope."""
+    wheel, alpha, slope = ba.Biped.load("rimless_wheel"), math.pi / 8, 0.12
+    walker = ba.Walker(wheel, ba.Passive(), slope=slope, max_step_time=10.0)
+    rate = math.sqrt(4.0 * 9.81 * math.sin(alpha) * math.sin(slope)) / math.tan(2.0 * alpha)
+    guess = np.array([math.pi - slope - alpha, -1.05 * rate / math.cos(2.0 * alpha)])
+    orbit, _ = periodic_orbit(ba.ReturnMap(walker, EXACT, pitch=math.pi), guess)
+    assert orbit.multipliers[0].real == pytest.approx(math.cos(2.0 * alpha) ** 2, rel=1e-9)
+
+
+def test_compass_gait_of_the_literature():
+    """Goswami et al. 1998, 3 degrees: all three multipliers."""
+    biped, slope = ba.Biped.load("compass"), math.radians(3.0)
+    walker = ba.Walker(biped, ba.Passive(), slope=slope)
+    q = np.array([-2.0 * slope - 2.0 * 0.2186688, math.pi + 0.2186688])
+    v = np.array([1.0923836 - 0.3773740, -1.0923836])
+    run = ba.simulate(
+        walker, walker.initial_state(q, v), FIRST, EXACT, t_end=60.0, stop_after=("foot_strike", 3)
+    )
+    P = ba.ReturnMap(walker, EXACT, pitch=math.pi)
+    found = periodic_orbit(P, run.events("foot_strike")[-1].x_minus)[0].multipliers
+    np.testing.assert_allclose(found[:2].real, -0.1997261, atol=1e-6)
+    np.testing.assert_allclose(np.abs(found[:2].imag), 0.5444761, atol=1e-6)
+    assert found[2] == pytest.approx(0.1315726, abs=1e-6)
+
+
+# -- what is refused ---------------------------------------------------------------------------------
+def test_walkers_that_the_equation_is_not_written_for(biped, gait):
+    x = pre_impact(biped)
+    adrc = ba.ReturnMap(npd(biped, controller=ba.ADRCController(gait.constraint)), ba.RK4())
+    start = adrc.walker.initial_state(x[:5], x[5:])
+    with pytest.raises(InputError, match=r"ADRCController has 36 states.*ReturnMap\.jacobian"):
+        differentiate_step(adrc, adrc.project(start))
+    with pytest.raises(InputError, match="continuous time"):
+        VariationalSystem(npd(biped, timing=ba.SampledTime(1e-3)))
+    push = ba.TorquePulse([30, 0, 0, 0, 0], step=2, start=0.1, stop=0.2)
+    with pytest.raises(InputError, match="no cycle"):
+        VariationalSystem(npd(biped, disturbance=push))
+
+
+def test_steps_that_are_no_returns(biped):
+    P = ba.ReturnMap(npd(biped), ba.RK4(1e-3))
+    x = pre_impact(biped)
+    slow = np.concatenate((x[:5], 0.05 * x[5:]))
+    with pytest.raises(SimulationError, match=r"no return to the section: (FELL|STALLED|SINGULAR)"):
+        differentiate_step(P, P.project(slow))
+    behind = np.concatenate((biped.relabel(x[:5]), x[5:]))
+    with pytest.raises(SimulationError, match="behind"):
+        differentiate_step(P, P.project(behind))
+    with pytest.raises(SimulationError, match="behind"):
+        saltation(P.walker, 0.0, behind, FIRST)
+    with pytest.raises(SimulationError, match="grazes"):
+        saltation(P.walker, 0.0, np.concatenate((x[:5], -x[5:])), FIRST)
+    with pytest.raises(SimulationError, match="did not converge in 1 iterations"):
+        periodic_orbit(P, 1.01 * x, max_iterations=1)
+
+
+# -- the table of methods ----------------------------------------------------------------------------
+@pytest.fixture(scope="module")
+def published(biped):
+    """Return map, step and central differences of the published gait."""
+    P = ba.ReturnMap(npd(biped), ba.RK4(1e-3))
+    return P, periodic_orbit(P, pre_impact(biped))[1]
+
+
+def test_table_of_the_published_gait(published, biped, gait):
+    P, step = published
+    push = ba.TorquePulse([30, 30, 30, 30, 0], step=3, start=0.1, stop=0.3)
+    pushed = ba.walk(npd(biped, disturbance=push), gait, impacts=14).trajectory.before(
+        "foot_strike"
+    )
+    table = stability_table(P, step, regress_multipliers(pushed, pre_impact(biped)))
+    assert [row.method for row in table.rows] == list(Method)
+    assert table.trusted.method is Method.VARIATIONAL
+    assert table.agree
+    assert table.stable
+    assert table.verdict.count("agrees within") == 2
+    assert "Regression (27): not to be trusted, the 14 sampled states" in table.verdict
+    assert table.verdict.endswith("the cycle is stable, the largest |lambda| is 0.694390.")
+    assert table.rows[1].uncertainty < 1e-6
+    assert table.rows[3].magnitudes[0] != pytest.approx(table.rows[0].magnitudes[0], abs=1e-3)
+    lines = table.text(3).splitlines()
+    assert len(lines) == 5
+    assert lines[0].split()[2] == f"{step.multipliers[0].real:.6e}"
+
+
+def rows_of(*sizes, method=Method.CENTRAL, **more):
+    return Row(method, np.array(sizes, dtype=complex), **more)
+
+
+EQUATION = rows_of(0.7, 1e-3, method=Method.VARIATIONAL)
+
+
+def table_of(*rows, **tolerances):
+    return StabilityTable(rows, Tolerances(**tolerances))
+
+
+def test_verdict_on_differences():
+    same = table_of(EQUATION, rows_of(0.7 + 6e-7, 1e-3 - 9e-8))
+    assert same.agree
+    assert same.verdict.startswith(
+        "Central differences: agrees within 1e-06 relative or 1e-07 absolute."
+    )
+    assert not table_of(EQUATION, rows_of(0.7 + 6e-7, 1e-3), relative=1e-7).agree
+    assert not table_of(EQUATION, rows_of(0.7, 1e-3 + 2e-7)).agree
+
+    limit = table_of(EQUATION, rows_of(0.7 + 1e-5, 1e-3, uncertainty=8e-6))
+    assert not limit.agree
+    assert "disagrees, 14.3 times" in limit.verdict
+    assert "the differences are the limit" in limit.verdict
+
+    wrong = table_of(EQUATION, rows_of(0.7 + 1e-3, 1e-3, uncertainty=8e-6))
+    assert "one of the two is wrong" in wrong.verdict
+    assert "the largest |lambda| is 0.700000" in wrong.verdict
+
+    alone = table_of(EQUATION, rows_of(0.7, 1e-3, 1e-4))
+    assert not alone.agree
+    assert (
+        "3 multipliers, the variational equation 2; they are not of the same map" in alone.verdict
+    )
+
+
+def test_complex_pairs_are_compared_as_pairs_in_any_order():
+    pair = Row(Method.VARIATIONAL, np.array([0.5 + 0.1j, 0.5 - 0.1j]))
+    assert table_of(
+        pair, replace(pair, method=Method.CENTRAL, multipliers=pair.multipliers[::-1])
+    ).agree
+    turned = Row(Method.CENTRAL, abs(pair.multipliers[0]) * np.array([1.0, 1.0], dtype=complex))
+    assert turned.magnitudes == pytest.approx(pair.magnitudes)
+    assert not table_of(pair, turned).agree
+
+
+def test_verdict_on_the_zero_dynamics_and_the_regression():
+    """delta^2 is one of the multipliers, whichever it is."""
+    near = table_of(EQUATION, rows_of(1e-3, method=Method.ZERO_DYNAMICS))
+    assert near.agree
+    far = table_of(EQUATION, rows_of(0.71, method=Method.ZERO_DYNAMICS))
+    assert not far.agree
+    assert "does not keep to the zero dynamics" in far.verdict
+    Phi = np.diag([0.7, 1e-3])
+    good = regression_row(Regression(Phi, np.array([0.7, 1e-3]), 2, 10.0, 9))
+    assert table_of(EQUATION, good).agree
+    poor = regression_row(Regression(5.0 * Phi, np.array([3.5, 5e-3]), 1, 1e12, 9))
+    doubted = table_of(EQUATION, poor)
+    assert doubted.agree
+    assert doubted.stable
+    assert "Regression (27): not to be trusted, the 9 sampled states span 1 of 2" in doubted.verdict
+    assert not table_of(EQUATION, replace(poor, doubt="")).agree
+
+
+def test_a_wrong_equation_hands_the_trust_over(published):
+    _, step = published
+    row = variational_row(replace(step, flow_residual=1e-2), Tolerances())
+    assert "carries the flow along to 1.0e-02 only, expected 1e-05" in row.doubt
+    assert "expected" in variational_row(replace(step, flow_residual=math.nan), Tolerances()).doubt
+    assert variational_row(step, Tolerances()).doubt == ""
+    table = table_of(row, rows_of(1.2, 1e-3))
+    assert table.trusted.method is Method.CENTRAL
+    assert "Trust the central differences: the cycle is not stable" in table.verdict
+    with pytest.raises(InputError, match="no method of this table"):
+        _ = table_of(row, rows_of(0.7, method=Method.ZERO_DYNAMICS)).verdict
+
+
+def test_tables_that_cannot_be(published):
+    P, step = published
+    with pytest.raises(InputError, match="one per method"):
+        table_of(EQUATION, EQUATION)
+    with pytest.raises(InputError, match="finite"):
+        table_of(rows_of(math.nan))
+    with pytest.raises(InputError, match="'relative' is 0"):
+        Tolerances(relative=0.0)
+    with pytest.raises(InputError, match=r"periodic_orbit"):
+        stability_table(P, replace(step, image=step.image + 1e-3))
+
+
+def test_delta_squared_only_where_it_is_a_multiplier(biped, gait):
+    t = Tolerances()
+    assert zero_dynamics_row(npd(biped), t) is not None
+    assert invariance_gap(biped, gait.constraint) < 1e-9
+    recipe = ba.load_gait("recipe", biped).constraint
+    assert invariance_gap(biped, recipe) > 0.1
+    for changes in (
+        {"controller": ba.NPDController(recipe)},
+        {"controller": ba.NPDController(gait.constraint, solve_theta=False)},
+        {"controller": ba.ADRCController(gait.constraint)},
+        {"controller": ba.NPDController(ba.TimeReference(lambda t: (np.zeros(4),) * 3))},
+        {"torque_limit": 150.0},
+        {"timing": ba.SampledTime(1e-3)},
+        {"slope": 0.01},
+        {"model": biped.with_errors(mass={"torso": 1.2})},
+        {"plant": replace(biped, friction=True)},
+    ):
+        assert zero_dynamics_row(npd(biped, **changes), t) is None, changes
+
+
+def test_recipe_gait_without_invariance(biped):
+    """The impact leaves its constraint: no delta^2, and a largest multiplier that P itself shows."""
+    gait = ba.load_gait("recipe", biped)
+    walker = npd(biped, controller=ba.NPDController(gait.constraint))
+    P = ba.ReturnMap(walker, ba.RK4(1e-3))
+    orbit, step = periodic_orbit(P, np.concatenate((gait.q_minus, gait.v_minus)))
+    table = stability_table(P, step, differences=False)
+    assert [row.method for row in table.rows] == [Method.VARIATIONAL]
+    assert table.stable
+    assert orbit.stable
+    values, vectors = np.linalg.eig(step.jacobian)
+    first = np.argmax(np.abs(values))
+    w = vectors[:, first].real
+    close(directional(P, step.s, w, 1e-5), values[first].real * w, 1e-5)
+    delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
+    assert abs(delta2 - values[first].real) > 10.0 * Tolerances().relative
