@@ -172,7 +172,7 @@ class StabilityTable:
                 f"{len(self.trusted.multipliers)}; they are not of the same map."
             )
         why = self._limit(row)
-        return f"{name}: disagrees, {gap:.3g} times beyond {within}{why}."
+        return f"{name}: disagrees, {gap:.3g} times the tolerance of {within}{why}."
 
     def _limit(self, row: Row) -> str:
         """What a disagreement comes from, as far as the rows say."""
