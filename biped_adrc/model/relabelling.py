@@ -2,9 +2,10 @@
 
     q+ = R q- + r,   v+ = R v-
 
-Links of one leg have twins in the other; the trunk is its own. With A the absolute angles of the links,
-a = A q, and P the exchange of twins, R solves A R = P A. So R is a permutation for hips that count from a
-torso, and a combination for a hip that counts from the other leg. r is not zero for robots with spokes.
+Links of one leg have twins in the other; the trunk, and what else turns, is its own. With A the absolute
+angles of the links, a = A q, and P the exchange of twins, R solves A R = P A. So R is a permutation for hips
+that count from a torso, and a combination for a hip that counts from the other leg. r is not zero for robots
+with spokes.
 """
 
 from __future__ import annotations
@@ -44,7 +45,9 @@ def absolute_angles(tree: Tree, joints: tuple[str, ...], links: list[str]) -> Ar
 def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> Array:
     """R (n, n). Raises ModelError when no linear relabelling exchanges the legs."""
     pairs = twins(tree, feet)
-    links = list(dict.fromkeys(j.child for foot in feet for j in tree.path_to_root(foot)))
+    chains = (joint.child for foot in feet for joint in tree.path_to_root(foot))
+    turned = (joint.child for joint in tree.joints if joint.name in joints)
+    links = list(dict.fromkeys((*chains, *turned)))
     A = absolute_angles(tree, joints, links)
     PA = absolute_angles(tree, joints, [pairs.get(link, link) for link in links])
     R = np.asarray(np.linalg.lstsq(A, PA, rcond=None)[0], dtype=np.float64)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +33,10 @@ GRAVITY = 9.81
 
 @dataclass(frozen=True)
 class Preset:
-    """A parameter set: bodies by class (torso, thigh, ...), armature [kg m^2] per actuated joint."""
+    """A parameter set: bodies by class (torso, thigh, ...), armature [kg m^2] per actuated joint.
+
+    Without bodies the URDF's own <inertial> elements hold.
+    """
 
     name: str
     source: str
@@ -70,6 +73,8 @@ class RobotDescription:
     links: Mapping[str, tuple[str, ...]]
     default_preset: str
     presets: Mapping[str, Preset]
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """[rad] by joint, where gaits are designed; joints that are not here turn freely."""
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -134,9 +139,15 @@ def load_description(robot: str | Path) -> RobotDescription:
         raise ModelError(f"robot record '{path}' not found")
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
-        return _description(data, path)
-    except tomllib.TOMLDecodeError as error:
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ModelError(f"robot record '{path}' is not valid TOML: {error}") from error
+    return description_of(data, path)
+
+
+def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
+    """The record `data`, whose URDF lies beside `path`. Raises ModelError that names the key."""
+    try:
+        return _description(data, path)
     except KeyError as error:
         raise ModelError(f"robot record '{path}': the key {error} is missing") from error
     except (TypeError, ValueError, AttributeError) as error:
@@ -166,6 +177,7 @@ def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
         links={body: tuple(names) for body, names in data["links"].items()},
         default_preset=data["default_preset"],
         presets={name: _preset(name, record, data) for name, record in data["presets"].items()},
+        ranges={joint: _range(joint, ends) for joint, ends in data.get("ranges", {}).items()},
     )
 
 
@@ -182,9 +194,19 @@ def _numbers(data: Mapping[str, Any], key: str, values: Any) -> tuple[float, ...
     return found
 
 
+def _range(joint: str, ends: Any) -> tuple[float, float]:
+    low, high = (float(end) for end in ends)
+    if not low < high:
+        raise ValueError(
+            f"ranges.{joint} is [{low}, {high}], expected two angles, the lower one first"
+        )
+    return low, high
+
+
 def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Preset:
     bodies = {}
-    for body in data["links"]:
+    own = not any(body in record for body in data["links"])
+    for body in () if own else data["links"]:
         p = record[body]
         where = f"presets.{name}.{body}"
         bodies[body] = BodyParameters(

@@ -12,6 +12,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from xml.sax.saxutils import quoteattr
 
 from biped_adrc.errors import ModelError
 
@@ -102,6 +103,11 @@ def load_tree(path: Path | str) -> Tree:
 
     Raises ModelError that names the file, the element, what was found and what was expected.
     """
+    return tree_of(parse(path), str(path))
+
+
+def parse(path: Path | str) -> ET.Element:
+    """The element <robot> of a URDF file, as it stands. Raises ModelError."""
     path = Path(path)
     if not path.is_file():
         raise ModelError(f"URDF '{path}' not found; give the path of an existing .urdf file")
@@ -109,34 +115,43 @@ def load_tree(path: Path | str) -> Tree:
         root = ET.fromstring(path.read_bytes())
     except ET.ParseError as error:
         raise ModelError(f"URDF '{path}' is not well-formed XML: {error}") from error
+    except OSError as error:
+        raise ModelError(f"URDF '{path}' cannot be read: {error.strerror}") from error
     if root.tag != "robot":
         raise ModelError(f"URDF '{path}': root element is <{root.tag}>, expected <robot>")
+    return root
+
+
+def tree_of(root: ET.Element, source: str) -> Tree:
+    """The tree that <robot> describes; `source` is the file that messages name. Raises ModelError."""
     links: dict[str, Link] = {}
     for element in root.findall("link"):
-        link = _read_link(element, str(path))
+        link = _read_link(element, source)
         if link.name in links:
-            raise ModelError(f"URDF '{path}': two links are named '{link.name}'; names must differ")
+            raise ModelError(
+                f"URDF '{source}': two links are named '{link.name}'; names must differ"
+            )
         links[link.name] = link
-    joints = tuple(_read_joint(element, str(path)) for element in root.findall("joint"))
-    return _validated(Tree(root.get("name", path.stem), links, joints, str(path)))
+    joints = tuple(_read_joint(element, source) for element in root.findall("joint"))
+    return _validated(Tree(root.get("name", Path(source).stem), links, joints, source))
 
 
 def to_xml(tree: Tree) -> str:
     """URDF text of `tree`; `load_tree` of it gives the tree back."""
-    out = ['<?xml version="1.0"?>', f'<robot name="{tree.name}">']
+    out = ['<?xml version="1.0"?>', f"<robot name={quoteattr(tree.name)}>"]
     for link in tree.links.values():
         body = _inertial_xml(link.inertial) + [
             line for visual in link.visuals for line in _visual_xml(visual, link.name)
         ]
         if body:
-            out += [f'  <link name="{link.name}">', *body, "  </link>"]
+            out += [f"  <link name={quoteattr(link.name)}>", *body, "  </link>"]
         else:
-            out.append(f'  <link name="{link.name}"/>')
+            out.append(f"  <link name={quoteattr(link.name)}/>")
     for joint in tree.joints:
         out += [
-            f'  <joint name="{joint.name}" type="{joint.type}">',
-            f'    <parent link="{joint.parent}"/>',
-            f'    <child link="{joint.child}"/>',
+            f'  <joint name={quoteattr(joint.name)} type="{joint.type}">',
+            f"    <parent link={quoteattr(joint.parent)}/>",
+            f"    <child link={quoteattr(joint.child)}/>",
             f'    <origin xyz="{_text(joint.origin)}"/>',
         ]
         if joint.type != "fixed":
@@ -177,12 +192,13 @@ def _visual_xml(visual: Visual, link: str) -> list[str]:
         "    <visual>",
         f'      <origin xyz="{_text(visual.origin)}"/>',
         f"      <geometry>{shape}</geometry>",
-        f'      <material name="{link}"><color rgba="{_text(visual.rgba)}"/></material>',
+        f'      <material name={quoteattr(link)}><color rgba="{_text(visual.rgba)}"/></material>',
         "    </visual>",
     ]
 
 
-def _numbers(element: ET.Element | None, key: str, default: str, count: int, where: str) -> Vector:
+def numbers(element: ET.Element | None, key: str, default: str, count: int, where: str) -> Vector:
+    """`count` finite numbers of an attribute. Raises ModelError that quotes it after `where`."""
     text = default if element is None else element.get(key, default)
     try:
         values = tuple(float(word) for word in text.split())
@@ -195,12 +211,12 @@ def _numbers(element: ET.Element | None, key: str, default: str, count: int, whe
 
 def _origin(element: ET.Element, where: str) -> Vector:
     origin = element.find("origin")
-    if any(_numbers(origin, "rpy", "0 0 0", 3, f"{where} <origin>")):
+    if any(numbers(origin, "rpy", "0 0 0", 3, f"{where} <origin>")):
         raise ModelError(
             f"{where}: <origin> has a rotation (rpy); expected parallel frames at zero angles. "
             "Turn the geometry and the inertia into the parent's axes instead"
         )
-    return _numbers(origin, "xyz", "0 0 0", 3, f"{where} <origin>")
+    return numbers(origin, "xyz", "0 0 0", 3, f"{where} <origin>")
 
 
 def _required(element: ET.Element, tag: str, where: str) -> ET.Element:
@@ -226,11 +242,11 @@ def _read_link(element: ET.Element, source: str) -> Link:
 
 
 def _read_inertial(element: ET.Element, where: str) -> Inertial:
-    mass = _numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
+    mass = numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
     moments = _required(element, "inertia", where)
     names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
     values = [
-        _numbers(moments, n, "" if n in ("ixx", "iyy", "izz") else "0", 1, f"{where} <inertia>")[0]
+        numbers(moments, n, "" if n in ("ixx", "iyy", "izz") else "0", 1, f"{where} <inertia>")[0]
         for n in names
     ]
     return Inertial(mass, _origin(element, f"{where} <inertial>"), tuple(values))  # type: ignore[arg-type]
@@ -243,14 +259,14 @@ def _read_visual(element: ET.Element, where: str) -> Visual:
         found = ", ".join(f"<{g.tag}>" for g in geometry) or "nothing"
         raise ModelError(f"{where} <visual>: found {found}, expected one of {list(GEOMETRY_SIZES)}")
     if shape.tag == "box":
-        size: tuple[float, ...] = _numbers(shape, "size", "", 3, f"{where} <box>")
+        size: tuple[float, ...] = numbers(shape, "size", "", 3, f"{where} <box>")
     else:
         keys = GEOMETRY_SIZES[shape.tag]
-        size = tuple(_numbers(shape, k, "", 1, f"{where} <{shape.tag}>")[0] for k in keys)
+        size = tuple(numbers(shape, k, "", 1, f"{where} <{shape.tag}>")[0] for k in keys)
     if min(size) <= 0:
         raise ModelError(f"{where} <{shape.tag}>: sizes {size}, expected positive numbers")
     colour = element.find("material/color")
-    rgba = _numbers(colour, "rgba", "0.5 0.5 0.5 1", 4, f"{where} <color>")
+    rgba = numbers(colour, "rgba", "0.5 0.5 0.5 1", 4, f"{where} <color>")
     return Visual(shape.tag, size, _origin(element, f"{where} <visual>"), rgba)  # type: ignore[arg-type]
 
 
@@ -261,7 +277,7 @@ def _read_joint(element: ET.Element, source: str) -> Joint:
     if kind not in JOINT_TYPES:
         hint = "; give a 'continuous' joint as 'revolute' with wide limits"
         raise ModelError(f"{where}: type '{kind}', expected one of {list(JOINT_TYPES)}{hint}")
-    axis = _numbers(element.find("axis"), "xyz", "1 0 0", 3, f"{where} <axis>")
+    axis = numbers(element.find("axis"), "xyz", "1 0 0", 3, f"{where} <axis>")
     if abs(math.hypot(*axis) - 1.0) > _ALMOST_ONE:
         raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
     return Joint(
@@ -294,15 +310,33 @@ def _validated(tree: Tree) -> Tree:
     roots = [link for link in tree.links if link not in children]
     if len(roots) != 1:
         raise ModelError(f"{where}: found root links {roots}, expected exactly one")
+    loose = set(tree.links) - _below(tree, roots[0])
+    if loose:
+        raise ModelError(
+            f"{where}: links {sorted(loose)} hang on each other in a circle, not on '{roots[0]}'; closed "
+            "chains are not supported"
+        )
     for body in tree.links.values():
         if body.inertial is not None:
             _check_inertial(body.inertial, f"{where}, link '{body.name}'")
     return tree
 
 
+def _below(tree: Tree, root: str) -> set[str]:
+    """`root` and every link that hangs on it; each has one parent, so no link is met twice."""
+    found, edge = {root}, [root]
+    while edge:
+        edge = [joint.child for link in edge for joint in tree.joints_below(link)]
+        found.update(edge)
+    return found
+
+
 def _check_inertial(inertial: Inertial, where: str) -> None:
     if not inertial.mass > 0:
-        raise ModelError(f"{where}: mass {inertial.mass:g} kg, expected a positive number")
+        raise ModelError(
+            f"{where}: mass {inertial.mass:g} kg, expected a positive number; a frame without mass has no "
+            "<inertial>"
+        )
     ixx, ixy, ixz, iyy, iyz, izz = inertial.inertia
     minors = (
         ixx,

@@ -1,0 +1,197 @@
+"""`biped-adrc robot`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, console
+from biped_adrc.errors import InputError, ModelError
+
+if TYPE_CHECKING:
+    from biped_adrc.model.biped import Biped
+    from biped_adrc.model.own import Derived
+    from biped_adrc.model.record import Hints
+
+robot_app = typer.Typer(
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    help="Show the robots there are, or bring one's own from a URDF.",
+)
+app.add_typer(robot_app, name="robot")
+
+File = Annotated[Path, typer.Argument(help="URDF of a planar biped with point feet.")]
+Feet = Annotated[
+    str | None, typer.Option(help="Links of the feet, stance foot first: STANCE,SWING.")
+]
+Actuated = Annotated[
+    str | None, typer.Option(help="Joints with a motor, q1,q2,... in order; the others are free.")
+]
+Hip = Annotated[str | None, typer.Option(help="Link whose origin is the hip.")]
+Torque = Annotated[float | None, typer.Option(help="Torque limit of every motor [N m].")]
+Friction = Annotated[
+    float | None, typer.Option("--friction", help="Dry friction coefficient of the feet.")
+]
+Armature = Annotated[
+    float, typer.Option(help="Rotor inertia per motor, reflected to the joint [kg m^2].")
+]
+Tip = Annotated[
+    str | None,
+    typer.Option(help="Place x,y,z of the feet in the frames of the links --feet [m]; 0,0,0.4."),
+]
+
+
+@robot_app.command("check")
+def robot_check(
+    file: File,
+    feet: Feet = None,
+    actuated: Actuated = None,
+    hip: Hip = None,
+    torque: Torque = None,
+    friction: Friction = None,
+    armature: Armature = 0.0,
+    tip: Tip = None,
+) -> None:
+    """Read a URDF as a biped: say what was guessed, and check it against the laws of mechanics.
+
+    Exit code 0 when every law holds, 1 when one does not or the URDF is refused.
+    """
+    from biped_adrc.model.own import derive
+
+    try:
+        derived = derive(file, _hints(feet, actuated, hip, torque, friction, armature, tip))
+    except InputError as error:
+        _complain(f"error: {error}")
+        raise typer.Exit(EXIT_CHECK_FAILED) from error
+    _explain(derived)
+    if derived.broken:
+        for check in derived.broken:
+            _complain(f"error: {check}")
+        raise typer.Exit(EXIT_CHECK_FAILED)
+
+
+@robot_app.command("new")
+def robot_new(
+    file: File,
+    out: Annotated[Path, typer.Option("--out", "-o", help="Folder to write, new or empty.")],
+    feet: Feet = None,
+    actuated: Actuated = None,
+    hip: Hip = None,
+    torque: Torque = None,
+    friction: Friction = None,
+    armature: Armature = 0.0,
+    tip: Tip = None,
+) -> None:
+    """Write floating.urdf and robot.toml of a URDF, for Biped.load("FOLDER/robot.toml")."""
+    from biped_adrc.model.own import derive
+
+    derived = derive(file, _hints(feet, actuated, hip, torque, friction, armature, tip))
+    if derived.broken:
+        raise ModelError(f"URDF '{file}': {'; '.join(map(str, derived.broken))}")
+    record = derived.write(out)
+    _explain(derived)
+    _say(f"written to {record}")
+
+
+@robot_app.command("list")
+def robot_list() -> None:
+    """The robots that come with the package: presets, coordinates n, motors p, sources."""
+    from biped_adrc.model.robots import load_description, robot_names
+
+    table = Table("robot", "preset", "n", "p", "source")
+    for name in robot_names():
+        d = load_description(name)
+        for preset in d.presets.values():
+            default = " (default)" if preset.name == d.default_preset else ""
+            n, p = str(len(d.joints)), str(len(d.actuated))
+            table.add_row(name, preset.name + default, n, p, preset.source)
+    console.print(table)
+
+
+@robot_app.command("show")
+def robot_show(
+    robot: Annotated[str, typer.Argument(help="A robot's name, or the path of a robot.toml.")],
+    preset: Annotated[
+        str | None, typer.Option(help="Parameters; the default ones if none.")
+    ] = None,
+) -> None:
+    """Print what the record of a robot says, and its masses."""
+    from biped_adrc.model.biped import Biped
+
+    biped = Biped.load(robot, preset)
+    d = biped.description
+    _say(f"{d.name}, preset {biped.preset}: {d.preset(biped.preset).source}")
+    _describe(biped)
+
+
+# -- parts -----------------------------------------------------------------------------------------
+def _hints(
+    feet: str | None,
+    actuated: str | None,
+    hip: str | None,
+    torque: float | None,
+    friction: float | None,
+    armature: float,
+    tip: str | None,
+) -> Hints:
+    from biped_adrc.model.record import Hints
+
+    place = None if tip is None else _place(tip)
+    return Hints(
+        _names(feet), _names(actuated), hip, torque, friction, armature=armature, tip=place
+    )
+
+
+def _place(text: str) -> tuple[float, float, float]:
+    """Three numbers between commas. Raises InputError."""
+    try:
+        x, y, z = (float(word) for word in text.split(","))
+    except ValueError as error:
+        raise InputError(f"--tip {text}: expected three numbers x,y,z [m], as 0,0,0.4") from error
+    return x, y, z
+
+
+def _names(text: str | None) -> tuple[str, ...] | None:
+    """Names between commas; an empty text is no name."""
+    if text is None:
+        return None
+    return tuple(name.strip() for name in text.split(",") if name.strip())
+
+
+def _say(text: str) -> None:
+    console.print(text, markup=False, highlight=False, soft_wrap=True)
+
+
+def _complain(text: str) -> None:
+    Console(stderr=True).print(text, markup=False, highlight=False, soft_wrap=True)
+
+
+def _explain(derived: Derived) -> None:
+    _describe(derived.biped)
+    for sentence in derived.said:
+        _say(f"guessed  {sentence}")
+    for check in derived.checks:
+        _say(f"{'holds' if check.ok else 'BROKEN':<8} {check}")
+
+
+def _describe(biped: Biped) -> None:
+    d = biped.description
+    _say(f"n = {biped.n} coordinates, p = {biped.p} motors, {biped.mass:.6g} kg")
+    for i, joint in enumerate(d.joints):
+        role = (
+            "motor" if joint in d.actuated else "free" if joint in d.passive else "absolute pitch"
+        )
+        _say(f"  q{i + 1} = {joint} ({role})")
+    terms = " ".join(f"{c:+.6g} q{i + 1}" for i, c in enumerate(d.phase) if c != 0.0)
+    _say(f"Theta = {terms}")
+    _say(f"stance foot {d.stance_foot}, swing foot {d.swing_foot}, hip {d.hip}, trunk {d.trunk}")
+    limit = f"torque limit {d.peak_torque:g} N m, " if biped.p else ""
+    _say(f"{limit}friction {d.friction_coefficient:g}, gravity {d.gravity:g} m/s^2")
+    for name, link in biped.tree.links.items():
+        if link.inertial is not None:
+            mass, (x, _, z), iyy = link.inertial.mass, link.inertial.com, link.inertial.inertia[3]
+            _say(f"  {name}: {mass:.6g} kg, COM ({x:.6g}, {z:.6g}) m, iyy {iyy:.6g} kg m^2")

@@ -1,0 +1,126 @@
+"""Laws a derived biped must keep, each with the number it was measured at.
+
+At random states, against the floating model, with H_c the angular momentum about a point c taken from
+masses, COM velocities and spins of the bodies:
+
+    D_s, Omega = Z' M Z, Z' (nle + M Z')      pinned = floating, constrained at the foot
+    E_2 q_e+' = 0,  H_c+ = H_c-,  T+ <= T-    the plastic impact at c = p_2
+    R R = 1,  p_2(R q) = -p_2(q)              the legs change over
+    Theta' = -1                               while the robot topples forwards at 1 rad/s
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio as pin
+
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.pinned import frame_index
+from biped_adrc.types import Array
+
+STATES, SEED = 20, 0
+LIMIT = 1e-9
+"""Largest relative gap; double precision leaves about 1e-12."""
+ACCURACY = 1e-6
+"""Largest relative round-off in q''; feet of 1e-7 of the hip's mass leave 1e-8."""
+DEFINITE = "D_s is positive definite; round-off left in q'' by its condition"
+
+
+@dataclass(frozen=True)
+class Check:
+    """A law, and the largest gap found; it holds when gap <= limit. Both are relative."""
+
+    law: str
+    gap: float
+    limit: float = LIMIT
+
+    @property
+    def ok(self) -> bool:
+        """Whether the law holds; a gap that is not a number does not."""
+        return bool(self.gap <= self.limit)
+
+    def __str__(self) -> str:
+        return f"{self.law}: {self.gap:.1e} {'<=' if self.ok else 'is not <='} {self.limit:.0e}"
+
+
+def checks(biped: Biped) -> tuple[Check, ...]:
+    """The laws at `STATES` random states drawn with `SEED`: angles in +-pi, rates of 3 rad/s."""
+    random = np.random.default_rng(SEED)
+    laws: dict[str, float] = {}
+    for _ in range(STATES):
+        q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)
+        for law, gap in (
+            *_single_support(biped, q, v),
+            *_impact(biped, q, v),
+            *_exchange(biped, q),
+        ):
+            # np.maximum keeps a nan
+            laws[law] = float(np.maximum(laws.get(law, 0.0), gap))
+    limits = {DEFINITE: ACCURACY}
+    return tuple(Check(law, gap, limits.get(law, LIMIT)) for law, gap in laws.items())
+
+
+def angular_momentum(biped: Biped, q: Array, v_e: Array, point: Array) -> float:
+    """H_c [kg m^2/s] of the bodies about `point` (x, z) from the stance foot, at q_e' = v_e (n + 2,)."""
+    f = biped.floating
+    pin.computeCentroidalMomentum(f.model, f.data, f.configuration(q), f.velocity_map(q) @ v_e)
+    arm = f.data.com[0] - np.array([point[0], 0.0, point[1]])
+    return float(f.data.hg.angular[1] + np.cross(arm, f.data.hg.linear)[1])
+
+
+def _gap(found: Array, expected: Array) -> float:
+    return float(np.max(np.abs(found - expected)) / np.max(np.abs(expected)))
+
+
+def _places(b: Biped, q: Array, frames: tuple[str, str]) -> Array:
+    """(x, z) of both frames of the floating model from its stance foot (4,) [m]."""
+    f = b.floating
+    pin.framesForwardKinematics(f.model, f.data, f.configuration(q))
+    return np.concatenate(
+        [f.data.oMf[frame_index(f.model, name)].translation[[0, 2]] for name in frames]
+    )
+
+
+def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
+    D, Omega = b.floating.projected(q, v)
+    yield "D_s of the pinned model is the floating one's, constrained", _gap(b.inertia(q), D)
+    yield "Omega of the pinned model is the floating one's, constrained", _gap(b.bias(q, v), Omega)
+    least, *_, most = np.linalg.eigvalsh(D)
+    yield DEFINITE, np.finfo(float).eps * most / least if least > 0 else np.inf
+    places = np.concatenate((b.hip(q), b.swing_foot(q)))
+    frames = (b.description.hip, b.description.swing_foot)
+    yield (
+        "hip and swing foot are where the floating model has them",
+        _gap(places, _places(b, q, frames)),
+    )
+    topple = np.zeros(b.n)
+    topple[-1] = 1.0
+    x, z = b.hip(q)
+    forwards = np.sign(b.hip_velocity(q, topple) @ np.array([z, -x]))
+    yield "Theta falls as the robot topples forwards", abs(float(forwards * b.phase[-1]) + 1.0)
+
+
+def _impact(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
+    hit, contact = b.impact(q, v), b.swing_foot(q)
+    before, after = b.kinetic_energy(q, v), b.kinetic_energy(hit.q, hit.v)
+    foot = b.E_2(q) @ hit.v_e
+    yield "impact: the new stance foot is at rest", float(np.max(np.abs(foot)) / np.linalg.norm(v))
+    yield "impact: kinetic energy does not grow", max(0.0, after / before - 1.0)
+    H_before = angular_momentum(b, q, np.append(v, [0.0, 0.0]), contact)
+    H_after = angular_momentum(b, q, hit.v_e, contact)
+    scale = np.sqrt(2.0 * before * b.mass) * max(np.linalg.norm(contact), np.linalg.norm(b.hip(q)))
+    law = "impact: angular momentum about the new foot is kept"
+    yield law, float(abs(H_after - H_before) / scale)
+
+
+def _exchange(b: Biped, q: Array) -> Iterator[tuple[str, float]]:
+    new = b.relabel(q)
+    length = np.linalg.norm(b.hip(np.zeros(b.n)))
+    yield "legs: exchanging them twice changes nothing", _gap(b.relabel(new), q)
+    gap = np.linalg.norm(b.swing_foot(new) + b.swing_foot(q)) / length
+    yield "legs: exchanging them exchanges the feet", float(gap)
+    swapped, here = (b.floating.inertia_on_fixed_base(x) for x in (new, q))
+    yield "legs: they are alike in mass", _gap(b.R.T @ swapped @ b.R, here)

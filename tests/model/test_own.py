@@ -1,0 +1,419 @@
+"""A robot from one URDF: the same physics in all frames and senses, guesses said, refusals that help."""
+
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.cli import app
+from biped_adrc.errors import InputError, ModelError, OutputError
+from biped_adrc.gait.conventions import AngleMap
+from biped_adrc.model.own import biped_from_urdf, derive
+from biped_adrc.model.own_checks import checks
+from biped_adrc.model.record import Hints
+from biped_adrc.model.robots import load_description
+from biped_adrc.resources import data_folder
+
+BODIES = load_description("rabbit").preset("identified-bare").bodies
+FROST = ba.convention("frost").to_paper
+FROM_FROST = np.eye(5)[
+    [4, 0, 2, 1, 3]
+]  # (pitch, hip, knee, hip, knee) = this @ q of the derived robot
+LIMIT = '<limit effort="150"/>'
+HANGING = np.array([math.pi, math.pi, 0.0, 0.0, 0.0])
+
+
+# -- URDFs of RABBIT, written from its parameters --------------------------------------------------
+def body(name, kind, along="z", lateral="y"):
+    p = BODIES[kind]
+    moments = {"x": 0.9, "y": 0.8, "z": 0.7} | {lateral: 1.0}
+    inertia = " ".join(f'i{a}{a}="{p.inertia * moments[a]!r}"' for a in "xyz")
+    return (
+        f'<link name="{name}"><inertial><origin xyz="0 0 {p.com}"/><mass value="{p.mass}"/>'
+        f'<inertia {inertia} ixy="0" ixz="0" iyz="0"/></inertial></link>\n'
+    )
+
+
+def joint(name, kind, parent, child, axis=None, xyz="0 0 0", rpy="0 0 0"):
+    axis = "" if axis is None else f'<axis xyz="{axis}"/>'
+    return (
+        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+        f'<origin xyz="{xyz}" rpy="{rpy}"/>{axis}{LIMIT}</joint>\n'
+    )
+
+
+def rabbit(axis="0 1 0", rpy="0 0 0", leg_axis=None, lateral="y", base=True, thigh=0.4, shin=0.4):
+    """FROST's RABBIT: positive about +y, right leg first; hips turned by rpy, legs about `leg_axis`."""
+    text = body("torso", "torso")
+    if base:
+        text += '<link name="world"/><link name="cart"/><link name="lift"/>\n'
+        text += joint("BasePosX", "prismatic", "world", "cart", "1 0 0")
+        text += joint("BasePosZ", "prismatic", "cart", "lift", "0 0 1")
+        text += joint("BaseRotY", "continuous", "lift", "torso", axis)
+    leg_axis = axis if leg_axis is None else leg_axis
+    for side in ("right", "left"):
+        text += body(f"{side}_thigh", "thigh", lateral=lateral)
+        text += body(f"{side}_shin", "shin", lateral=lateral) + f'<link name="{side}_toe"/>\n'
+        text += joint(f"q1_{side}", "continuous", "torso", f"{side}_thigh", leg_axis, rpy=rpy)
+        text += joint(
+            f"q2_{side}", "revolute", f"{side}_thigh", f"{side}_shin", leg_axis, f"0 0 {thigh}"
+        )
+        text += joint(f"{side}_end", "fixed", f"{side}_shin", f"{side}_toe", xyz=f"0 0 {shin}")
+    return f'<?xml version="1.0"?>\n<robot name="frost_rabbit">\n{text}</robot>\n'
+
+
+@pytest.fixture
+def urdf(tmp_path):
+    def write(text, name="own.urdf"):
+        path = tmp_path / name
+        path.write_text(text)
+        return path
+
+    return write
+
+
+def states(n, count=20, seed=4):
+    random = np.random.default_rng(seed)
+    for _ in range(count):
+        yield random.uniform(-math.pi, math.pi, n), random.normal(0.0, 3.0, n)
+
+
+def close(found, expected, scale=0.0):
+    expected = np.asarray(expected)
+    size = max(float(np.max(np.abs(expected))), scale)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-10 * size)
+
+
+# -- the same physics in other frames --------------------------------------------------------------
+TURNED = AngleMap(FROST.A @ FROM_FROST, FROST.b)
+HUNG = AngleMap(TURNED.A, TURNED.b + TURNED.A @ HANGING)
+COUNTER = AngleMap(-TURNED.A, TURNED.b * 0.0)
+SIDEWAYS = f"0 0 {math.pi / 2!r}"
+
+
+@pytest.mark.parametrize(
+    ("text", "to_paper"),
+    [
+        (rabbit(), TURNED),
+        (rabbit(rpy=f"0 {math.pi!r} 0"), HUNG),
+        (rabbit(rpy=f"{math.pi!r} 0 {math.pi!r}"), HUNG),
+        (rabbit(rpy=f"{math.pi!r} 0 0", leg_axis="0 -1 0"), HUNG),
+        (rabbit(rpy=SIDEWAYS, leg_axis="1 0 0", lateral="x"), TURNED),
+        (rabbit(base=False), TURNED),
+        (rabbit(axis="0 -1 0", base=False), COUNTER),
+    ],
+    ids=["frost", "hanging", "hanging-2", "upside-down", "sideways", "no-base", "paper"],
+)
+def test_physics_is_that_of_rabbit(urdf, text, to_paper):
+    """D, Omega, energies, feet and impact in any frames and senses, at random states, to 1e-10."""
+    own, paper = biped_from_urdf(urdf(text)), ba.Biped.load("rabbit", "identified-bare")
+    A = to_paper.A
+    np.testing.assert_array_equal(own.phase, paper.phase @ A)
+    for q, v in states(5):
+        Q, V = to_paper.angles(q), to_paper.rates(v)
+        close(own.inertia(q), A.T @ paper.inertia(Q) @ A)
+        close(own.bias(q, v), A.T @ paper.bias(Q, V))
+        close(own.kinetic_energy(q, v), paper.kinetic_energy(Q, V))
+        close(own.potential_energy(q), paper.potential_energy(Q), scale=paper.weight)
+        close(own.swing_foot(q), paper.swing_foot(Q))
+        close(own.swing_foot_velocity(q, v), paper.swing_foot_velocity(Q, V))
+        close(own.hip(q), paper.hip(Q))
+        hit, expected = own.impact(q, v), paper.impact(Q, V)
+        close(to_paper.rates(hit.v), expected.v)
+        close(hit.impulse, expected.impulse)
+        turns = (to_paper.angles(hit.q) - expected.q) / (2.0 * math.pi)
+        close(turns, np.round(turns), scale=1.0)
+
+
+@pytest.mark.parametrize("name", ["compass", "three_link", "simplest"])
+def test_classic_walkers_are_found_again(name):
+    """From the URDF alone, against the hand-written record."""
+    record = ba.Biped.load(name)
+    gravity = record.description.gravity
+    actuated = record.description.actuated
+    hints = Hints(actuated=actuated, torque=100.0, gravity=gravity)
+    own = derive(data_folder("urdf") / name / "floating.urdf", hints).biped
+    assert own.description.joints == record.description.joints
+    np.testing.assert_array_equal(own.R, record.R)
+    np.testing.assert_array_equal(own.phase, record.phase)
+    for q, v in states(record.n, 5):
+        close(own.inertia(q), record.inertia(q))
+        close(own.bias(q, v), record.bias(q, v))
+        close(own.hip(q), record.hip(q))
+        close(own.impact(q, v).v, record.impact(q, v).v)
+
+
+def test_phase_is_the_slope_of_the_virtual_leg(urdf):
+    """Thigh and shin unequal: c is d(angle of hip to foot)/dq at the straight leg, and l_k / L."""
+    own = biped_from_urdf(urdf(rabbit(thigh=0.5, shin=0.3)))
+    assert own.phase == pytest.approx([-1.0, 0.0, -0.375, 0.0, -1.0], abs=1e-15)
+    straight, h = np.array([3.3, 2.9, 0.0, 0.4, -0.1]), 1e-6
+
+    def angle(q):
+        x, z = -own.hip(q)
+        return math.atan2(-x, z) % (2.0 * math.pi)
+
+    slope = [(angle(straight + h * e) - angle(straight - h * e)) / (2 * h) for e in np.eye(5)]
+    np.testing.assert_allclose(own.phase, slope, atol=1e-8)
+
+
+def test_a_stiff_robot_that_leans_forwards_falls_forwards(urdf):
+    """Joints locked, D_NN q_N'' = -G_N: gravity takes the hip to +x, and Theta falls."""
+    own = biped_from_urdf(urdf(rabbit()))
+    q = np.array([math.pi, math.pi - 0.1, 0.0, 0.0, 0.2])  # leans by 0.2 rad
+    assert own.hip(q)[0] > 0
+    a = np.zeros(5)
+    a[-1] = -own.gravity(q)[-1] / own.inertia(q)[-1, -1]
+    assert own.hip_velocity(q, a)[0] > 0
+    assert own.phase @ a < 0
+
+
+def test_published_gait_walks_in_other_senses(urdf):
+    """The gait of RABBIT in the angles of FROST: q_b' = A_b^-1 (q_b - b_b), Theta' = Theta - c b."""
+    paper = ba.Biped.load("rabbit", "identified-bare")
+    own, known = biped_from_urdf(urdf(rabbit())), ba.load_gait("published", paper)
+    constraint, shift = known.constraint, float(paper.phase @ TURNED.b)
+    rows = np.linalg.solve(
+        TURNED.A[:4, :4], constraint.curve.coefficients - TURNED.b[:4, np.newaxis]
+    )
+    mapped = ba.VirtualConstraint(
+        type(constraint.curve)(rows),
+        own.phase,
+        constraint.theta_plus - shift,
+        constraint.theta_minus - shift,
+    )
+    zero = ba.ZeroDynamics.of(own, mapped)
+    orbit = zero.orbit(zero.sigma_minus * zero.delta)
+    assert orbit.period == pytest.approx(known.period, rel=1e-9)
+    before = zero.end_state(zero.sigma_minus)
+    gait = ba.Gait("mapped", "own", own.preset, mapped, *before, orbit.period, {}).check(own)
+    walk = ba.walk(ba.Walker(own, ba.NPDController(mapped)), gait, impacts=2)
+    assert walk.trajectory.status is ba.Status.COMPLETED
+    for step in walk.certificates:
+        assert step.duration == pytest.approx(known.period, abs=1e-6)
+        assert step.violations() == ()
+
+
+def test_a_file_as_frost_writes_it(urdf):
+    """No base, no limits, no feet, inertia about y alone, a zero axis on what is fixed."""
+    text = rabbit(base=False).replace(LIMIT, "")
+    text = re.sub(r'ixx="[^"]*" iyy="([^"]*)" izz="[^"]*"', r'ixx="0" iyy="\1" izz="0"', text)
+    text = text.replace("_toe", "_ankle").replace(
+        'type="fixed">', 'type="fixed"><axis xyz="0 0 0"/>'
+    )
+    hints = Hints(feet=("right_shin", "left_shin"), tip=(0.0, 0.0, 0.4), torque=150.0)
+    derived, full = derive(urdf(text), hints), biped_from_urdf(urdf(rabbit(), "full.urdf"))
+    assert derived.broken == ()
+    assert derived.biped.description.swing_foot == "left_shin_tip"
+    assert any("slender" in sentence for sentence in derived.said)
+    for q, v in states(5, 5):
+        close(derived.biped.inertia(q), full.inertia(q))
+        close(derived.biped.bias(q, v), full.bias(q, v))
+        close(derived.biped.swing_foot(q), full.swing_foot(q))
+
+
+def test_links_and_joints_may_share_a_name(urdf):
+    """A foot called as a knee joint is the link, not the joint's frame."""
+    own, other = (
+        biped_from_urdf(urdf(text))
+        for text in (rabbit(), rabbit().replace("left_toe", "q2_left").replace("torso", "q1_left"))
+    )
+    for q, _ in states(5, 3):
+        close(other.swing_foot(q), own.swing_foot(q))
+        close(other.hip(q), own.hip(q))
+
+
+# -- what is said ----------------------------------------------------------------------------------
+def test_guesses_are_said_and_laws_hold(urdf):
+    derived = derive(urdf(rabbit(base=False)))
+    d = derived.biped.description
+    assert (d.stance_foot, d.swing_foot, d.hip, d.trunk) == (
+        "right_toe",
+        "left_toe",
+        "torso",
+        "torso",
+    )
+    assert d.joints == ("q1_right", "q1_left", "q2_right", "q2_left", "base_pitch")
+    assert d.peak_torque == 150.0
+    assert derived.broken == ()
+    said = "\n".join(derived.said)
+    for part in (
+        "base_x",
+        "right_toe",
+        "'torso'",
+        "Theta = -1 q1_right",
+        "q2 = 'q1_left'",
+        "150 N m",
+    ):
+        assert part in said
+    assert derived.biped.mass == pytest.approx(32.0)
+    assert "sticks" in said
+    (stick, ball) = derived.biped.tree.links["left_thigh"].visuals
+    assert (stick.size[1], stick.origin) == (0.4, (0.0, 0.0, 0.2))
+    assert 7800 * 4 / 3 * math.pi * ball.size[0] ** 3 == pytest.approx(6.8)
+
+
+@pytest.mark.parametrize(
+    ("change", "law"),
+    [
+        (lambda b: replace(b, description=replace(b.description, offset=(0.1,) * 5)), "exchang"),
+        (lambda b: replace(b, description=replace(b.description, phase=(1.0,) * 5)), "Theta falls"),
+        (lambda b: b.with_errors(mass={"left_shin": 1.1}), "alike in mass"),
+        (lambda b: replace(b, description=replace(b.description, hip="right_thigh")), "hip"),
+    ],
+    ids=["offset", "phase", "mass", "hip"],
+)
+def test_a_broken_law_is_found(urdf, change, law):
+    """Each check can fail. The stance thigh's origin moves in re-rooting, so it is no hip."""
+    biped = biped_from_urdf(urdf(rabbit()))
+    broken = [check.law for check in checks(change(biped)) if not check.ok]
+    assert any(law in name for name in broken)
+    assert all(check.ok for check in checks(biped))
+
+
+def test_written_record_is_loaded_again(urdf, tmp_path):
+    derived = derive(urdf(rabbit(rpy=f"0 {math.pi!r} 0")), Hints(armature=0.1))
+    record = derived.write(tmp_path / "mine")
+    own, again = derived.biped, ba.Biped.load(record)
+    assert replace(again.description, urdf=own.description.urdf) == own.description
+    for q, v in states(5, 3):
+        np.testing.assert_array_equal(again.inertia(q), own.inertia(q))
+        np.testing.assert_array_equal(again.bias(q, v), own.bias(q, v))
+    with pytest.raises(OutputError, match=r"floating\.urdf' exists already"):
+        derived.write(tmp_path / "mine")
+
+
+# -- refusals --------------------------------------------------------------------------------------
+MASS = f'<mass value="{BODIES["thigh"].mass}"/>'
+KNEE = '<joint name="q2_left" type="revolute"><parent link="left_thigh"/><child link="left_shin"/>'
+KNEE_AXIS = 'xyz="0 0 0.4" rpy="0 0 0"/><axis xyz="0 1 0"/>'
+KNEE_PLACE = '<child link="left_shin"/><origin xyz="0 0 0.4"'
+TOE = joint("left_end", "fixed", "left_shin", "left_toe", xyz="0 0 0.4")
+PLACE = '<origin xyz="0 0 0" rpy="0 0 0"/>'
+HIP_AXIS = '<axis xyz="0 1 0"/>' + LIMIT
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            KNEE_AXIS,
+            KNEE_AXIS.replace("0 1 0", "1 0 0"),
+            r"'q2_right'.*axis is \(1, 0, 0\).*along y.*'fixed'",
+        ),
+        (KNEE_PLACE, KNEE_PLACE.replace("0 0 0.4", "0 0.1 0.4"), "'q2_left'.*0.1 m beside.*y = 0"),
+        ('<origin xyz="0 0 0.11"/>', '<origin xyz="0 0.02 0.11"/>', "'right_thigh'.*COM.*y = 0"),
+        (MASS, '<mass value="0"/>', "'right_thigh': mass 0 kg"),
+        (MASS, '<mass value="-1"/>', "'right_thigh': mass -1 kg"),
+        (MASS, '<mass value="nan"/>', "'right_thigh'.*nan"),
+        (MASS, '<mass value="1.5kg"/>', "'right_thigh'.*1.5kg"),
+        (MASS, '<mass value="6.9"/>', "mass.*6.9 of 'right_thigh'.*6.8 of 'left_thigh'"),
+        (KNEE_PLACE, KNEE_PLACE.replace("0.4", "0.5"), r"\(0, 0.4\) of 'q2_right'.*\(0, 0.5\)"),
+        (KNEE, KNEE.replace('"left_thigh"', '"left_shin"'), "in a circle"),
+        (TOE, TOE + joint("loop", "fixed", "right_toe", "left_toe"), "two parent joints"),
+        (TOE, '<link name="orphan"/>', "root links"),
+        ('type="revolute"', 'type="floating"', "'floating'.*base is added"),
+        (KNEE, KNEE + '<mimic joint="q2_right"/>', "'q2_left'.*mimics"),
+        (PLACE + HIP_AXIS, PLACE + HIP_AXIS.replace("150", "-1"), "effort is -1"),
+        ("</robot>", "", "not well-formed"),
+        ('<link name="cart"/>', body("cart", "shin"), "'cart'.*have mass.*trunk"),
+        ('"BasePosZ" type="prismatic"', '"BasePosZ" type="fixed"', "slides by.*remove it"),
+        ('name="q2_left"', 'name="stance_pin"', "'stance_pin'.*rename"),
+    ],
+)
+def test_refusals_name_the_thing_and_the_way_out(urdf, old, new, message):
+    text = rabbit()
+    assert old in text
+    with pytest.raises(ModelError, match=message) as caught:
+        derive(urdf(text.replace(old, new, 1)))
+    assert "own.urdf" in str(caught.value)
+
+
+WITHOUT_TOES = rabbit().replace(TOE, "").replace('<link name="left_toe"/>', "")
+RIGID = rabbit(base=False).replace("continuous", "fixed").replace("revolute", "fixed")
+SENSOR = joint("mount", "fixed", "left_shin", "sensor", xyz="0 0 0.1") + '<link name="sensor"/>'
+
+
+@pytest.mark.parametrize(
+    ("text", "hints", "message"),
+    [
+        (WITHOUT_TOES, Hints(), "'left_shin' lies on the axis.*'q2_left'.*--feet"),
+        (rabbit(), Hints(feet=("toe", "left_toe")), r"no link 'toe'.*right_toe.*left_toe"),
+        (rabbit(), Hints(feet=("left_toe",)), "expected two different links"),
+        (rabbit(), Hints(feet=("left_toe", "left_shin")), "different legs"),
+        (rabbit(), Hints(feet=("left_toe", "world")), "'world' does not hang on the trunk"),
+        (rabbit().replace("_toe", "_end"), None, "sensor.*not certain.*--feet"),
+        (rabbit(), Hints(tip=(0.0, 0.0, 0.4)), "links by feet="),
+        (rabbit(), Hints(("toe", "left_shin"), tip=(0.0, 0.0, 0.4)), "no link 'toe'"),
+        (rabbit(), Hints(hip="pelvis"), "no link 'pelvis'.*torso"),
+        (rabbit(), Hints(hip="right_thigh"), "'right_thigh' carries the stance foot.*swing leg"),
+        (rabbit(), Hints(actuated=("q1_left", "elbow")), "elbow.*at most once and from.*q2_left"),
+        (rabbit(), Hints(actuated=("q1_left",)), "only one has a motor.*--actuated"),
+        (rabbit(), Hints(torque=-5.0), "peak_torque is -5"),
+        (rabbit(), Hints(armature=math.nan), "armature is nan"),
+        (rabbit().replace(' effort="150"', ""), Hints(), "no torque limit.*--torque"),
+        (RIGID, Hints(), "no revolute joint below the trunk 'torso'"),
+        ("this is no XML", Hints(), "not well-formed XML"),
+        ("<sdf/>", Hints(), "<sdf>, expected <robot>"),
+        ('<robot name="x"><xacro:leg side="left"/></robot>', Hints(), "xacro.*robot.urdf"),
+    ],
+)
+def test_what_cannot_be_guessed_is_asked_for(urdf, text, hints, message):
+    if hints is None:
+        text, hints = text.replace("</robot>", SENSOR + "</robot>"), Hints()
+    with pytest.raises(ModelError, match=message):
+        derive(urdf(text), hints)
+
+
+def test_feet_are_known_by_name_where_the_chains_do_not_tell(urdf):
+    derived = derive(urdf(rabbit().replace("</robot>", SENSOR + "</robot>")))
+    assert derived.biped.description.swing_foot == "left_toe"
+    assert "called feet" in derived.said[1]
+
+
+def test_files_that_are_none(tmp_path):
+    with pytest.raises(ModelError, match="not found; give the path"):
+        derive(tmp_path / "nowhere.urdf")
+    with pytest.raises(ModelError, match="not found"):
+        derive(tmp_path)
+    macros = tmp_path / "robot.xacro"
+    macros.write_text(rabbit())
+    with pytest.raises(InputError, match="xacro"):
+        derive(macros)
+
+
+# -- the command -----------------------------------------------------------------------------------
+def robot(*arguments):
+    return CliRunner().invoke(app, ["robot", *map(str, arguments)])
+
+
+def test_check_explains_and_exits_with_0_or_1(urdf, tmp_path):
+    good = robot("check", urdf(rabbit()), "--feet", "left_toe,right_toe", "--armature", "0.1")
+    assert good.exit_code == 0
+    for part in ("q1 = q1_left (motor)", "Theta = -1 q1 -0.5 q3 -1 q5", "holds", "32 kg"):
+        assert part in good.stdout
+    bad = robot("check", tmp_path / "nowhere.urdf")
+    assert bad.exit_code == 1
+    assert "not found" in bad.stderr
+    worse = robot("check", urdf(rabbit()), "--feet", "left_shin,right_shin", "--tip", "0,0")
+    assert worse.exit_code == 1
+    assert "three numbers x,y,z" in worse.stderr
+
+
+def test_new_robot_is_listed_shown_and_not_overwritten(urdf, tmp_path):
+    path, folder = urdf(rabbit()), tmp_path / "folder"
+    done = robot("new", path, "--out", folder, "--torque", 80)
+    assert done.exit_code == 0
+    shown = robot("show", folder / "robot.toml")
+    assert shown.exit_code == 0
+    assert "torque limit 80 N m" in shown.stdout
+    assert "right_thigh: 6.8 kg" in shown.stdout
+    assert isinstance(robot("new", path, "--out", folder).exception, OutputError)
+    listed = robot("list")
+    assert listed.exit_code == 0
+    for name in ("rabbit", "tac2003", "compass"):
+        assert name in listed.stdout
