@@ -40,11 +40,11 @@ def velocity_index(model: pin.Model, joint: str) -> int:
 
 
 def frame_index(model: pin.Model, frame: str) -> int:
-    """Index of a frame; Pinocchio itself returns nframes for a name it does not know."""
-    if not model.existFrame(frame):
-        names = [f.name for f in model.frames]
+    """Index of a link's frame, also where a joint has its name; Pinocchio answers nframes if unknown."""
+    if not model.existBodyName(frame):
+        names = [f.name for f in model.frames if f.type == pin.FrameType.BODY]
         raise ModelError(f"model '{model.name}' has no frame '{frame}'; it has {names}")
-    return int(model.getFrameId(frame))
+    return int(model.getBodyId(frame))
 
 
 class PinnedDynamics:
@@ -150,6 +150,31 @@ class PinnedDynamics:
         pin.centerOfMass(self.model, self.data, self.T @ q, self.T @ v, self.T @ a)
         d = self.data
         return d.com[0][_XZ].copy(), d.vcom[0][_XZ].copy(), d.acom[0][_XZ].copy()
+
+    def bodies(self) -> tuple[Array, Array, Array]:
+        """Of the bodies in Pinocchio's order: mass (n,), inertia about the COM (n,), and the rows A (n, n) of
+        their absolute angles a = A q_s, counter-clockwise with x to the right and z up."""
+        inertias = self.model.inertias[1:]
+        mass = np.array([body.mass for body in inertias])
+        about_y = np.array([body.inertia[1, 1] for body in inertias])
+        q = np.zeros(self.model.nq)
+        rows = [
+            -pin.computeJointJacobian(self.model, self.data, q, joint).reshape(6, -1)[4] @ self.T
+            for joint in range(1, self.model.njoints)
+        ]
+        return mass, about_y, np.array(rows)
+
+    def points(self, q: Array) -> Array:
+        """(x, z) of the COM of every body, of the swing foot and of the hip, from the stance foot
+        (n + 2, 2) [m]."""
+        pin.forwardKinematics(self.model, self.data, self.T @ q)
+        places, inertias = list(self.data.oMi)[1:], list(self.model.inertias)[1:]
+        coms = [oMi.act(body.lever) for oMi, body in zip(places, inertias, strict=True)]
+        frames = [
+            pin.updateFramePlacement(self.model, self.data, frame).translation
+            for frame in (self.swing, self.hip)
+        ]
+        return np.array([*coms, *frames])[:, _XZ]
 
     @property
     def mass(self) -> float:
