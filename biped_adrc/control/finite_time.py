@@ -1,0 +1,62 @@
+"""Outputs brought to zero in finite time by a continuous feedback of a double integrator.
+
+    y_i'' = psi(y_i, eps y_i') / eps^2
+    psi(x1, x2) = -sign(x2) |x2|^alpha - sign(phi) |phi|^(alpha / (2 - alpha))
+    phi(x1, x2) = x1 + sign(x2) |x2|^(2 - alpha) / (2 - alpha),   0 < alpha < 1
+
+Bhat, Bernstein, IEEE TAC 43(5), 1998; for walking Grizzle, Abba, Plestan, IEEE TAC 46(1), 2001, with
+alpha = 0.9, eps = 0.1. On phi = 0 an output comes to rest after eps |eps y'|^(1 - alpha) / (1 - alpha) s. For
+alpha = 1 the law would be linear, with a double pole at -1 / eps. It is continuous but not smooth at rest:
+adaptive methods take small steps there, the smaller alpha the more.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.output_npd import linearising_torque
+from biped_adrc.errors import InputError
+from biped_adrc.gait.outputs import Outputs
+from biped_adrc.types import Array
+
+
+def psi(x1: Array, x2: Array, alpha: float) -> Array:
+    """psi of the module's equation, elementwise."""
+    phi = x1 + _power(x2, 2.0 - alpha) / (2.0 - alpha)
+    return -_power(x2, alpha) - _power(phi, alpha / (2.0 - alpha))
+
+
+def _power(x: Array, exponent: float) -> Array:
+    """sign(x) |x|^exponent."""
+    power: Array = np.sign(x) * np.abs(x) ** exponent
+    return power
+
+
+@dataclass(frozen=True)
+class FiniteTimeController(Controller):
+    """alpha (0 < alpha < 1) sets how abruptly, eps [s] how fast the outputs come to rest.
+
+    Raises InputError outside these ranges, SingularError where J D^-1 B is singular.
+    """
+
+    outputs: Outputs
+    alpha: float
+    eps: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.alpha < 1.0:
+            raise InputError(
+                f"alpha is {self.alpha}, expected between 0 and 1; for a linear law use "
+                "OutputNPDController"
+            )
+        if not (math.isfinite(self.eps) and self.eps > 0.0):
+            raise InputError(f"eps is {self.eps} s, expected a positive number such as 0.1")
+
+    def output(self, s: Array, m: Measurement) -> Array:
+        o = self.outputs(m.t, m.q, m.v)
+        w = psi(o.y, self.eps * o.dy, self.alpha) / self.eps**2
+        return linearising_torque(o, m.terms, w)

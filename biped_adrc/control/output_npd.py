@@ -1,0 +1,78 @@
+"""Input-output linearisation with proportional-derivative action, for outputs of any kind.
+
+    y'' = J q'' + drift = w,   w = -K_p y - K_d y'
+    u   = (J D^-1 B)^-1 (w - drift + J D^-1 Omega)
+
+Isidori, Nonlinear Control Systems, 1995, 5.1, for outputs of relative degree two. With the split (12), (13),
+q_b'' = a = kappa u + xi and q_N'' = A_N a + a_N, the same u is
+
+    (J_b + J_N A_N) a = w - drift - J_N a_N,   u = kappa^-1 (a - xi)
+
+since J D^-1 B = (J_b + J_N A_N) kappa. For y = q_b - h(Theta) this is NPD (28) with its loop through Theta''
+solved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg.lapack import dgecon, dgetrf, dgetrs
+
+from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.errors import InputError, SingularError
+from biped_adrc.gait.outputs import OutputPoint, Outputs
+from biped_adrc.model.reduction import Reduction
+from biped_adrc.types import Array
+
+_SINGULAR = 1e-9
+"""Reciprocal condition number; a Jacobian by differences has errors of 1e-11, which must not hide a singular
+one."""
+
+
+@dataclass(frozen=True)
+class OutputNPDController(Controller):
+    """y'' = -K_p y - K_d y' for the nominal model; as many outputs as motors.
+
+    Raises InputError for another number of outputs, SingularError where J D^-1 B is singular.
+    """
+
+    outputs: Outputs
+    gains: Gains = TABLE_II
+
+    def output(self, s: Array, m: Measurement) -> Array:
+        o = self.outputs(m.t, m.q, m.v)
+        return linearising_torque(o, m.terms, -self.gains.K_p * o.y - self.gains.K_d * o.dy)
+
+
+def linearising_torque(o: OutputPoint, terms: Reduction, w: Array) -> Array:
+    """u (p,) [N m] of the module's equation, for y'' = w (p,).
+
+    Raises InputError when J is not (p, n), SingularError where J D^-1 B is singular.
+    """
+    p, n = terms.kappa.shape[0], terms.D.shape[0]
+    if o.J.shape != (p, n):
+        raise InputError(
+            f"the outputs have a Jacobian of shape {o.J.shape}, expected {(p, n)}: one output per motor, "
+            "one column per coordinate"
+        )
+    J_b, J_N = o.J[:, :p], o.J[:, p:]
+    a = _solve(J_b + J_N @ terms.A_N, w - o.drift - J_N @ terms.a_N)
+    return terms.kappa_inverse @ (a - terms.xi)
+
+
+def _solve(M: Array, b: Array) -> Array:
+    """M^-1 b. Raises SingularError when M is singular, or as good as that."""
+    if len(M) == 0:
+        return np.zeros_like(b)
+    factors, pivots, _ = dgetrf(M)
+    condition, _ = dgecon(factors, float(np.max(np.sum(np.abs(M), axis=0))))
+    if not condition > _SINGULAR:
+        raise SingularError(
+            "the decoupling matrix J D^-1 B of the outputs is singular at this state: its reciprocal "
+            f"condition number is {condition:.1e}, expected above {_SINGULAR:g}; choose outputs that the "
+            "motors can move independently here"
+        )
+    solution: Array = dgetrs(factors, pivots, b)[0]
+    return solution

@@ -1,0 +1,170 @@
+"""Outputs other than q_b: what y'' = J q'' + drift promises, on RABBIT."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+import biped_adrc as ba
+from biped_adrc.control.output_npd import OutputNPDController
+from biped_adrc.errors import GaitError, InputError, NotFiniteError, SingularError
+from biped_adrc.gait.outputs import FunctionOutputs, LinearOutputs
+
+# stance shank, swing thigh, swing shank, torso: all from the vertical
+ABSOLUTE = np.array([[1, 0, 1, 0, 1], [0, 1, 0, 0, 1], [0, 1, 0, 1, 1], [0, 0, 0, 0, 1.0]])
+K_P, K_D = 400.0, 30.0
+GAINS = ba.Gains(K_P, K_D)
+
+
+@pytest.fixture
+def state(gait, biped):
+    """Off the orbit."""
+    random = np.random.default_rng(2)
+    q, v = gait.start(biped)
+    return q + random.normal(0, 0.02, biped.n), v + random.normal(0, 0.3, biped.n)
+
+
+def absolute_outputs(constraint):
+    """The gait's own constraint, said in absolute angles: c q = Theta makes q5 a row of the curve."""
+    a = constraint.curve.coefficients
+    theta = np.linspace(constraint.theta_plus, constraint.theta_minus, a.shape[1])
+    q = np.vstack((a, (theta - constraint.phase[:4] @ a) / constraint.phase[4]))
+    curve = replace(constraint.curve, coefficients=ABSOLUTE @ q)
+    return LinearOutputs(ABSOLUTE, replace(constraint, curve=curve))
+
+
+def foot_and_hip(biped):
+    """Hip height, swing foot from the hip (x, z) [m], torso [rad]; zero near the start of a step."""
+
+    def y(q):
+        hip = biped.hip(q)
+        foot = biped.swing_foot(q) - hip
+        return np.array([hip[1] - 0.75, foot[0] + 0.2, foot[1] + 0.7, q[4] + 0.01])
+
+    return FunctionOutputs(y)
+
+
+def errors(walker, outputs, q, v, times):
+    """y and y' at `times`, simulated, and by y'' + K_d y' + K_p y = 0 in closed form."""
+    run = ba.simulate(
+        walker, walker.initial_state(q, v), ba.Mode(), ba.Adaptive(1e-10, 1e-10), t_end=times[-1]
+    )
+    assert run.status is ba.Status.COMPLETED
+    first = outputs(0.0, q, v)
+    A = np.array([[0.0, 1.0], [-K_P, -K_D]])
+    for t in times:
+        x = run(t)
+        o = outputs(t, x[:5], x[5:])
+        yield np.array([o.y, o.dy]), expm(A * t) @ np.array([first.y, first.dy])
+
+
+@pytest.mark.parametrize("kind", ["absolute", "foot_and_hip"])
+def test_outputs_decay_as_the_linear_equation_says(biped, gait, state, kind):
+    made = {"absolute": absolute_outputs(gait.constraint), "foot_and_hip": foot_and_hip(biped)}[
+        kind
+    ]
+    walker = ba.Walker(biped, OutputNPDController(made, GAINS))
+    for found, expected in errors(walker, made, *state, (0.02, 0.05, 0.1)):
+        assert np.max(np.abs(expected)) > 1e-2
+        assert found == pytest.approx(expected, abs=1e-7)
+
+
+def torques(biped, controllers, q, v):
+    m = ba.Walker(biped, ba.Passive()).measure(0.0, q, v, ba.Mode())
+    return [c.output(np.zeros(0), m) for c in controllers]
+
+
+def test_joint_outputs_are_npd(biped, gait, state):
+    gains = ba.Gains([5000.0, 4000.0, 3000.0, 2000.0], [50.0, 60.0, 70.0, 80.0])
+    joints = LinearOutputs(np.eye(4, 5), gait.constraint)
+    pair = (OutputNPDController(joints, gains), ba.NPDController(gait.constraint, gains))
+    u, npd = torques(biped, pair, *state)
+    assert np.max(np.abs(npd)) > 10.0
+    assert u == pytest.approx(npd, rel=1e-9)
+
+
+def test_with_one_gain_for_all_the_choice_of_linear_outputs_does_not_matter(biped, gait, state):
+    """Outputs of the same constraint are T (q_b - h) with T constant: T drops out, unless the gains differ."""
+    y = absolute_outputs(gait.constraint)
+    u, npd = torques(biped, (OutputNPDController(y), ba.NPDController(gait.constraint)), *state)
+    assert u == pytest.approx(npd, rel=1e-9)
+    uneven = ba.Gains([5000.0, 4000.0, 3000.0, 2000.0], 50.0)
+    pair = (OutputNPDController(y, uneven), ba.NPDController(gait.constraint, uneven))
+    u, npd = torques(biped, pair, *state)
+    assert np.max(np.abs(u - npd)) > 1.0
+
+
+def test_absolute_angles_give_back_the_joint_constraint(gait):
+    found = absolute_outputs(gait.constraint).as_virtual_constraint()
+    assert type(found.curve) is type(gait.constraint.curve)
+    assert found.curve.coefficients == pytest.approx(gait.constraint.curve.coefficients, abs=1e-12)
+    assert np.array_equal(found.phase, gait.constraint.phase)
+    assert (found.theta_plus, found.theta_minus) == (
+        gait.constraint.theta_plus,
+        gait.constraint.theta_minus,
+    )
+
+
+def hip_height(biped, q, v):
+    """-(l cos(thigh) + l cos(shank)), its row of J and its drift, by hand."""
+    rows = np.array([[1, 0, 0, 0, 1], [1, 0, 1, 0, 1.0]])
+    angle, rate = rows @ q, rows @ v
+    return -0.4 * np.sum(np.cos(angle)), 0.4 * np.sin(angle) @ rows, 0.4 * np.cos(angle) @ rate**2
+
+
+@pytest.mark.parametrize("given", ["nothing", "jacobian", "both"])
+def test_derivatives_of_a_function_of_ones_own(biped, state, given):
+    q, v = state
+    y, J, drift = hip_height(biped, q, v)
+    made = FunctionOutputs(
+        lambda q: biped.hip(q)[1:],
+        None if given == "nothing" else lambda q: hip_height(biped, q, v)[1][np.newaxis],
+        None if given != "both" else lambda q, v: [hip_height(biped, q, v)[2]],
+    )
+    o = made(0.0, q, v)
+    assert o.y[0] == pytest.approx(y, abs=1e-14)
+    assert o.J[0] == pytest.approx(J, abs=1e-11)
+    assert o.dy[0] == pytest.approx(J @ v, abs=1e-10)
+    assert o.drift[0] == pytest.approx(drift, abs=1e-10 * (v @ v))
+    assert made(0.0, q, np.zeros(5)).drift[0] == 0.0
+
+
+def test_outputs_that_the_motors_cannot_move_apart(biped, gait, state):
+    """A straight swing leg cannot push its foot along itself; one output twice; one that nothing moves."""
+    q, v = state
+    straight = q * [1, 1, 1, 0, 1]
+    same = LinearOutputs(np.eye(4, 5)[[0, 1, 2, 2]], gait.constraint)
+    flat = replace(
+        gait.constraint, curve=replace(gait.constraint.curve, coefficients=np.zeros((4, 7)))
+    )
+    rows = np.vstack((np.eye(3, 5), np.zeros(5)))
+    stuck = FunctionOutputs(lambda q: np.append(q[:3], 1.0))
+    for y, at in (
+        (foot_and_hip(biped), straight),
+        (replace(same, desired=flat), q),
+        (LinearOutputs(rows, flat), q),
+        (stuck, q),
+    ):
+        with pytest.raises(SingularError, match=r"decoupling matrix J D\^-1 B"):
+            torques(biped, [OutputNPDController(y)], at, v)
+
+
+def test_outputs_that_do_not_fit(biped, gait, state):
+    q, v = state
+    with pytest.raises(GaitError, match=r"H0 has shape \(3, 5\), expected \(4, 5\)"):
+        LinearOutputs(np.eye(3, 5), gait.constraint)
+    phase_itself = np.vstack((np.eye(3, 5), gait.constraint.phase))
+    with pytest.raises(GaitError, match="rank 4"):
+        LinearOutputs(phase_itself, gait.constraint).as_virtual_constraint()
+    with pytest.raises(InputError, match="difference is 0"):
+        FunctionOutputs(lambda q: q, difference=0.0)
+    for function, error, message in (
+        (lambda q: q[0], InputError, r"shape \(\), expected \(p,\)"),
+        (lambda q: q * np.nan, NotFiniteError, "the function of the outputs returned"),
+        (lambda q: q[:3], InputError, r"Jacobian of shape \(3, 5\), expected \(4, 5\)"),
+    ):
+        with pytest.raises(error, match=message):
+            torques(biped, [OutputNPDController(FunctionOutputs(function))], q, v)
+    with pytest.raises(InputError, match=r"jacobian .* shape \(5, 5\), expected \(4, 5\)"):
+        FunctionOutputs(lambda q: q[:4], lambda q: np.eye(5))(0.0, q, v)
