@@ -19,6 +19,7 @@ import numpy as np
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.ground import StepDown
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, Guard, HybridSystem, Split
 from biped_adrc.linear import solve
@@ -26,6 +27,8 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 
 FOOT_STRIKE = "foot_strike"
+LEAST_STEP = 1e-3
+"""[m]: legs without knees cross with the swing foot at the ground; what is nearer than this is no step."""
 
 
 class Mode(NamedTuple):
@@ -74,7 +77,7 @@ class Instant(NamedTuple):
 class Walker(HybridSystem):
     """torque_limit [N m] saturates every motor; the observer is fed the torque applied.
 
-    slope [rad]: of the ground, positive downhill.
+    slope [rad]: of the ground, positive downhill. steps_down: where it falls off by steps.
     fall_height: the run ends as a fall when the hip is below this fraction of its height at start.
     max_step_time [s]: a longer single support ends as stalled.
     """
@@ -88,6 +91,7 @@ class Walker(HybridSystem):
     fall_height: float = 0.35
     max_step_time: float = 2.0
     slope: float = 0.0
+    steps_down: tuple[StepDown, ...] = ()
 
     def __post_init__(self) -> None:
         if not abs(self.slope) < 0.5 * math.pi:
@@ -173,6 +177,14 @@ class Walker(HybridSystem):
         force = self._force(u, zeta)
         return Instant(m, s, u, zeta, force, self._acceleration(m, force))
 
+    def ground_reaction(self, i: Instant, mode: Mode) -> Array:
+        """Force of the ground on the stance foot (F_T, F_N) [N], forces from outside taken off."""
+        m = i.measurement
+        F = self.plant.ground_reaction(m.q, m.v, i.a)
+        if self.disturbance is None:
+            return F
+        return F - self.disturbance.resultant(m.t, mode.step, mode.start)
+
     def _acceleration(self, m: Measurement, force: Array) -> Array:
         """q'' of the plant; where it is the nominal model, D_s and Omega are at hand already."""
         if self.model is None and not self.plant.friction:
@@ -211,7 +223,7 @@ class Walker(HybridSystem):
     def strike(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode] | None:
         """x+ after impact and relabelling; None unless the swing foot is ahead of the stance foot."""
         q, v, s = self.split_state(x)
-        if self.plant.swing_foot(q)[0] <= 0.0:
+        if self.plant.swing_foot(q)[0] <= LEAST_STEP:
             return None
         impact = self.plant.impact(q, v)
         mode = Mode(mode.step + 1, t)
@@ -227,10 +239,18 @@ class Walker(HybridSystem):
             return np.zeros(0, dtype=int)
         return self.plant.relabelling[: self.plant.p]
 
-    def clearance(self, q: Array) -> float:
-        """Height of the swing foot above the ground [m], measured along the vertical."""
+    def drop(self, step: int) -> float:
+        """How far the steps down of single support `step` lower the ground it ends on [m]."""
+        return sum((d.height for d in self.steps_down if d.step == step), 0.0)
+
+    def clearance(self, q: Array, step: int | None = None) -> float:
+        """Height of the swing foot above the ground [m], measured along the vertical.
+
+        With `step`, above the ground on which that single support ends; without, where no step down is.
+        """
         x, z = self.plant.swing_foot(q)
-        return float(z + math.tan(self.slope) * x)
+        drop = 0.0 if step is None else self.drop(step)
+        return float(z + math.tan(self.slope) * x) + drop
 
     @cached_property
     def _lowest_hip(self) -> float:
@@ -242,7 +262,7 @@ class Walker(HybridSystem):
         return (
             Guard(
                 FOOT_STRIKE,
-                lambda t, x: self.clearance(x[:n]),
+                lambda t, x: self.clearance(x[:n], mode.step),
                 lambda t, x: self.strike(t, x, mode),
             ),
             Guard(
@@ -259,28 +279,34 @@ class Walker(HybridSystem):
 
     # -- exponential method ----------------------------------------------------------------------
     def split(self, mode: Mode) -> Split | None:
-        """Error coordinates of the observer: e' = A e + b (q_b'' - kappa u), independent of u itself."""
+        """Error coordinates of the observer: e' = A e + b (q_b'' - kappa u), independent of u itself.
+
+        The observer's states are the first of s; what follows them is taken with (q, q').
+        """
         error = None if self.sampled else self.law.error_system()
         if error is None:
             return None
         n, p, k, scale = self.plant.n, self.plant.p, error.A.shape[0], error.velocity_scale
+        end = (2 * n, 2 * n + k * p)
 
         def to(x: Array) -> tuple[Array, Array]:
-            E = -x[2 * n :].reshape(k, p)
+            E = -x[end[0] : end[1]].reshape(k, p)
             E[0] += x[:p]
             E[1] += scale * x[n : n + p]
-            return x[: 2 * n], E
+            return np.concatenate((x[: end[0]], x[end[1] :])), E
 
         def back(w: Array, E: Array) -> Array:
             Z = -E
             Z[0] += w[:p]
             Z[1] += scale * w[n : n + p]
-            return np.concatenate((w, Z.ravel()))
+            return np.concatenate((w[: end[0]], Z.ravel(), w[end[0] :]))
 
         def remainder(t: float, w: Array, E: Array) -> tuple[Array, Array]:
             i = self.instant(t, back(w, E), mode)
             N = np.zeros((k, p))
             N[1] = scale * (i.a[:p] - i.measurement.terms.kappa @ i.u)
-            return np.concatenate((w[n:], i.a)), N
+            rest = len(w) > 2 * n
+            ds = self.law.flow(i.s, i.measurement, i.u)[k * p :] if rest else np.zeros(0)
+            return np.concatenate((w[n : 2 * n], i.a, ds)), N
 
         return Split(to, back, error.A, remainder)

@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.reduction import disturbance_parts
@@ -78,7 +79,10 @@ class Signals:
 
 
 def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Signals:
-    """Compute the signals of a walk; `reference` gives q_d (the controller's own, usually)."""
+    """Compute the signals of a walk; `reference` gives q_d (the controller's own, usually).
+
+    Where outer loops correct the reference, q_d is the corrected one.
+    """
     rows: list[tuple[object, ...]] = []
     foothold = 0.0
     for arc in trajectory.arcs:
@@ -100,6 +104,8 @@ def _row(
     i = walker.instant(t, x, mode)
     m, b = i.measurement, walker.plant
     q, v, a, p = m.q, m.v, i.a, walker.plant.p
+    if isinstance(walker.law, OuterLoop):
+        reference = reference_in_force(walker.law, i.s)
     r = reference(t, q, v)
     estimate = walker.law.estimate(i.s, m)
     xi_estimate = np.full(p, np.nan) if estimate is None else estimate.disturbance
@@ -123,7 +129,7 @@ def _row(
         matched,
         m.terms.xi,
         m.terms.kappa_inverse @ (xi_estimate - m.terms.xi),
-        b.ground_reaction(q, v, a),
+        walker.ground_reaction(i, mode),
         b.kinetic_energy(q, v),
         b.potential_energy(q),
         b.swing_foot(q),

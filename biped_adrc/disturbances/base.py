@@ -23,6 +23,11 @@ class Disturbance(ABC):
         """Times [s] at which the torque is not smooth in this step."""
         return ()
 
+    def resultant(self, t: float, step: int, t_start: float) -> Array:
+        """Force (F_x, F_z) [N] from outside on the robot as a whole, zero for torques; what the ground does not
+        carry."""
+        return np.zeros(2)
+
     def __add__(self, other: Disturbance) -> Disturbance:
         return Sum((*terms(self), *terms(other)))
 
@@ -37,6 +42,12 @@ class Sum(Disturbance):
         total = np.zeros(len(q))
         for part in self.parts:
             total += part.torque(t, step, t_start, q, v)
+        return total
+
+    def resultant(self, t: float, step: int, t_start: float) -> Array:
+        total = np.zeros(2)
+        for part in self.parts:
+            total += part.resultant(t, step, t_start)
         return total
 
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:

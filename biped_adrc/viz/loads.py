@@ -27,5 +27,4 @@ def loads(scene: Scene, t: float) -> Loads:
     arc = scene.trajectory.arcs[scene.arc_at(t)]
     k = min(max(int(np.searchsorted(arc.t, t, side="right")) - 1, 0), len(arc.t) - 1)
     i = scene.walker.instant(float(arc.t[k]), arc.x[k], arc.mode)
-    m, biped = i.measurement, scene.biped
-    return Loads(biped.ground_reaction(m.q, m.v, i.a), i.zeta)
+    return Loads(scene.walker.ground_reaction(i, arc.mode), i.zeta)

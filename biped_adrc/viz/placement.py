@@ -88,8 +88,10 @@ class Scene:
     def of(cls, walk: Recorded) -> Scene:
         """The first stance foot stands at x = 0; each impact moves it by p_2 of x-.
 
-        Raises InputError for a walk on a slope, which cannot be drawn yet.
+        Raises InputError for a walk on a slope or over steps, which cannot be drawn yet.
         """
+        if walk.walker.steps_down:
+            raise InputError("walks over steps down cannot be drawn yet")
         if walk.walker.slope != 0.0:
             raise InputError(
                 f"walks on a slope cannot be drawn yet, this one is on {walk.walker.slope:.4g} rad"

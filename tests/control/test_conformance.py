@@ -9,7 +9,13 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.base import Controller
+from biped_adrc.control.finite_time import FiniteTimeController
+from biped_adrc.control.output_npd import OutputNPDController
+from biped_adrc.control.reference_reset import ReferenceReset
+from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI
 from biped_adrc.disturbances.base import Disturbance, Sum
+from biped_adrc.disturbances.hip_force import HipForce
+from biped_adrc.gait.outputs import LinearOutputs
 from biped_adrc.observers.base import Observer
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.gpi_sampled import SampledGPIObserver
@@ -20,6 +26,7 @@ DISTURBANCES = [
     ba.TorqueStep([1.0] * 5, step=2, start=0.1),
     ba.TorqueSine([1.0] * 5, start=0.1, stop=0.5, frequency=3.0),
     PULSE + ba.TorqueSine([1.0] * 5, frequency=2.0),
+    HipForce(ba.Biped.load("rabbit"), (-3.0, 1.0), steps=(2, 3)),
 ]
 OBSERVERS = [
     GPIObserver.from_poles(),
@@ -30,6 +37,12 @@ CONTROLLERS = {
     ba.NPDController: lambda c: ba.NPDController(c),
     ba.ADRCController: lambda c: ba.ADRCController(c),
     ba.Passive: lambda c: ba.Passive(),
+    ReferenceReset: lambda c: ReferenceReset(ba.ADRCController(c)),
+    StridePI: lambda c: StridePI(
+        ba.NPDController(c), 0.7, 0.3, TORSO_LEAN, StrideGains(-1.0, -0.4)
+    ),
+    OutputNPDController: lambda c: OutputNPDController(LinearOutputs(np.eye(4, 5), c)),
+    FiniteTimeController: lambda c: FiniteTimeController(LinearOutputs(np.eye(4, 5), c), 0.9, 0.02),
 }
 
 

@@ -1,0 +1,114 @@
+"""Gains of the stride's PI from the zero dynamics.
+
+With exact tracking, z_k = sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k of
+
+    z_(k+1) = a z_k + b beta_k,   v_k = c z_k + d beta_k,
+    a = delta^2,  b = 2 dW/dbeta,  c = dv/dz,  d = dv/dbeta
+
+are deviations from the cycle; W, delta and T are the quadratures of the zero dynamics, differenced in beta
+and z. With the PI of `control.stride` the poles of the loop are the roots of
+
+    lambda (lambda - 1) (lambda - a) + (K_P (lambda - 1) + K_I lambda) (d (lambda - a) + c b) = 0.
+
+At lambda = -mu, mu = (c b - d a) / d, the gains drop out, so a triple pole r, the quickest there is, has
+
+    (r + mu)^3 = mu (mu + 1) (mu + a),   K_P = r^3 / (d mu),   K_P + K_I = (1 + a - 3 r) / d.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from biped_adrc.control.stride import TORSO_LEAN, StrideGains
+from biped_adrc.errors import GaitError, InputError
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.curves import Polynomial
+from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.model.biped import Biped
+from biped_adrc.types import Array, ComplexArray
+
+BUMP = 64.0 * np.array([0.0, 0.0, 0.0, 1.0, -3.0, 3.0, -1.0])
+"""Coefficients of b(s) = 64 s^3 (1 - s)^3 in powers of s."""
+DIFFERENCE = 1e-3
+"""Half width of the central differences: in beta [rad], and relative in z."""
+
+
+@dataclass(frozen=True)
+class StrideResponse:
+    """The linear map from step to step."""
+
+    a: float
+    """Multiplier of the walking cycle."""
+    b: float
+    """[kg^2 m^4/s^2 per rad]."""
+    c: float
+    """[m/s per kg^2 m^4/s^2]."""
+    d: float
+    """[m/s per rad]."""
+
+    @property
+    def static_gain(self) -> float:
+        """dv/dbeta [m/s per rad] once the walk has settled."""
+        return self.d + self.c * self.b / (1.0 - self.a)
+
+    def poles(self, gains: StrideGains) -> ComplexArray:
+        """The poles of the loop, the largest magnitude first."""
+        walk, plant = [1.0, -self.a], [self.d, self.c * self.b - self.d * self.a]
+        law = [gains.K_P + gains.K_I, -gains.K_P]
+        equation = np.polyadd(np.polymul([1.0, -1.0, 0.0], walk), np.polymul(law, plant))
+        roots = np.roots(equation).astype(complex)
+        return roots[np.argsort(-np.abs(roots))]
+
+    def gains(self, limit: float = 0.3) -> StrideGains:
+        """K_P and K_I of the triple pole. Raises InputError where it is not inside the unit circle."""
+        zero = self.c * self.b - self.d * self.a
+        mu = zero / self.d if self.d else math.inf
+        r = float(np.cbrt(mu * (mu + 1.0) * (mu + self.a))) - mu
+        if not abs(r) < 1.0 or zero == 0.0:
+            raise InputError(
+                f"the stride's loop would have a triple pole at {r:.3g}, expected one inside the unit circle; "
+                "choose another direction of the correction"
+            )
+        K_P = r**3 / zero
+        return StrideGains(K_P, (1.0 + self.a - 3.0 * r) / self.d - K_P, limit)
+
+
+def bumped(h: VirtualConstraint, shift: Array) -> VirtualConstraint:
+    """h + shift b(s) as one polynomial constraint; shift = beta d (p,) [rad]."""
+    a = h.curve.power_coefficients
+    wide = np.zeros((a.shape[0], max(a.shape[1], len(BUMP))))
+    wide[:, : a.shape[1]] = a
+    wide[:, : len(BUMP)] += np.outer(shift, BUMP)
+    return VirtualConstraint(Polynomial(wide), h.phase, h.theta_plus, h.theta_minus)
+
+
+def stride_response(
+    gait: Gait, biped: Biped, direction: tuple[float, ...] = TORSO_LEAN
+) -> StrideResponse:
+    """The response of a gait whose constraint is hybrid invariant, or made so by ReferenceReset.
+
+    Raises InputError for a direction of the wrong length, GaitError where the zero dynamics have no cycle.
+    """
+    h, shift = gait.constraint, DIFFERENCE * np.array(direction, dtype=float)
+    if len(shift) != biped.p:
+        raise InputError(f"the direction is {direction}, expected {biped.p} numbers, one per motor")
+    L = float(biped.swing_foot(gait.q_minus)[0])
+    zero, more, less = (ZeroDynamics.of(biped, bumped(h, k * shift)) for k in (0.0, 1.0, -1.0))
+    delta, sigma = zero.delta, zero.sigma_minus
+
+    def speed(zd: ZeroDynamics, scale: float = 1.0) -> float:
+        return L / zd.orbit(delta * sigma * math.sqrt(scale)).period
+
+    if not delta**2 < 1.0:
+        raise GaitError(f"delta^2 is {delta**2:.4g}: the walk does not settle, expected below 1")
+    w = 2.0 * DIFFERENCE
+    return StrideResponse(
+        a=delta**2,
+        b=2.0 * (more.work - less.work) / w,
+        c=(speed(zero, 1.0 + DIFFERENCE) - speed(zero, 1.0 - DIFFERENCE)) / (w * sigma**2),
+        d=(speed(more) - speed(less)) / w,
+    )

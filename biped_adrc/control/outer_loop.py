@@ -1,0 +1,139 @@
+"""Outer loops: around a controller that tracks a virtual constraint, a state that corrects the constraint.
+
+    h_in_force(Theta) = h(Theta) + c(Theta; w),   s = (s_inner, w)
+
+w is the loop's own state; it changes at impact, and between impacts only as `own_flow` says. The inner
+controller, whichever it is, tracks the sum. Outer loops go around outer loops: their corrections add up.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.errors import InputError
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.corrected import CorrectedConstraint, Correction
+from biped_adrc.observers.base import ErrorSystem, Estimate
+from biped_adrc.types import Array
+
+Constraint = VirtualConstraint | CorrectedConstraint
+
+
+@dataclass(frozen=True)
+class OuterLoop(Controller):
+    """Base of all outer loops. Raises InputError when `inner` has no virtual constraint as `reference`."""
+
+    inner: Controller
+
+    def __post_init__(self) -> None:
+        tracked_constraint(self.inner)
+
+    @property
+    @abstractmethod
+    def own_size(self) -> int:
+        """Length of w."""
+
+    @abstractmethod
+    def own_start(self, h: Constraint, m: Measurement) -> Array:
+        """w at the start of a run; h is what the inner controller tracks."""
+
+    @abstractmethod
+    def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
+        """w after impact."""
+
+    @abstractmethod
+    def correction(self, w: Array) -> Correction:
+        """c(Theta; w)."""
+
+    def own_flow(self, w: Array) -> Array:
+        """w' in continuous time."""
+        return np.zeros(self.own_size)
+
+    def own_correct(self, w: Array, m: Measurement) -> Array:
+        """w at a tick, in sampled time."""
+        return w
+
+    def parts(self, s: Array) -> tuple[Array, Array]:
+        """s_inner and w."""
+        end = len(s) - self.own_size
+        return s[:end], s[end:]
+
+    def _acting(self, w: Array) -> Controller:
+        return with_correction(self.inner, self.correction(w))
+
+    # -- what a controller does ------------------------------------------------------------------
+    def output(self, s: Array, m: Measurement) -> Array:
+        z, w = self.parts(s)
+        return self._acting(w).output(z, m)
+
+    def initial_state(self, m: Measurement) -> Array:
+        z = self.inner.initial_state(m)
+        return np.concatenate((z, self.own_start(reference_in_force(self.inner, z), m)))
+
+    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
+        z, w = self.parts(s)
+        dz = self._acting(w).flow(z, m, u) if len(z) else z
+        return np.concatenate((dz, self.own_flow(w)))
+
+    def correct(self, s: Array, m: Measurement) -> Array:
+        z, w = self.parts(s)
+        return np.concatenate((self._acting(w).correct(z, m), self.own_correct(w, m)))
+
+    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+        z, w = self.parts(s)
+        return np.concatenate((self._acting(w).predict(z, m, u), w))
+
+    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+        z, w = self.parts(s)
+        z = self.inner.jump(z, after, swap)
+        return np.concatenate((z, self.own_jump(w, reference_in_force(self.inner, z), after)))
+
+    def sampled(self, period: float) -> OuterLoop:
+        return replace(self, inner=self.inner.sampled(period))
+
+    def error_system(self) -> ErrorSystem | None:
+        return self.inner.error_system()
+
+    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
+        return self.inner.estimate(self.parts(s)[0], m)
+
+
+def tracked_constraint(controller: Controller) -> VirtualConstraint:
+    """h of the controller inside all outer loops. Raises InputError when it tracks none."""
+    if isinstance(controller, OuterLoop):
+        return tracked_constraint(controller.inner)
+    h = getattr(controller, "reference", None)
+    if isinstance(h, CorrectedConstraint):
+        return h.constraint
+    if not isinstance(h, VirtualConstraint):
+        found = "no reference" if h is None else f"a reference of type {type(h).__name__}"
+        raise InputError(
+            f"an outer loop corrects the virtual constraint of its inner controller, but "
+            f"{type(controller).__name__} has {found}; expected a field `reference` that holds a "
+            "VirtualConstraint, as in NPDController(gait.constraint)"
+        )
+    return h
+
+
+def reference_in_force(controller: Controller, s: Array) -> Constraint:
+    """What a controller with state s tracks, all corrections included. Raises as `tracked_constraint`."""
+    if isinstance(controller, OuterLoop):
+        z, w = controller.parts(s)
+        return CorrectedConstraint(
+            reference_in_force(controller.inner, z), controller.correction(w)
+        )
+    h: Constraint = getattr(controller, "reference", None) or tracked_constraint(controller)
+    return h
+
+
+def with_correction(controller: Controller, correction: Correction) -> Controller:
+    """The controller with its constraint corrected, whatever outer loops it is in."""
+    if isinstance(controller, OuterLoop):
+        return replace(controller, inner=with_correction(controller.inner, correction))
+    h = getattr(controller, "reference", None) or tracked_constraint(controller)
+    corrected: Controller = replace(controller, reference=CorrectedConstraint(h, correction))  # type: ignore[type-var]
+    return corrected

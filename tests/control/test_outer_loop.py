@@ -1,0 +1,289 @@
+"""Outer loops: the reference bent to the state after impact, the speed controlled from step to step."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.stride_gain import BUMP, StrideResponse, stride_response
+from biped_adrc.control.outer_loop import reference_in_force
+from biped_adrc.control.reference_reset import (
+    ReferenceReset,
+    ResetRange,
+    reset_coefficients,
+    reset_polynomial,
+)
+from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI, bump
+from biped_adrc.disturbances.hip_force import HipForce
+from biped_adrc.errors import InputError
+
+RK4 = ba.RK4(2e-3)
+LAWS = {"NPD": ba.NPDController, "ADRC": ba.ADRCController}
+
+
+@pytest.fixture(scope="module")
+def bare():
+    return ba.Biped.load("rabbit", "identified-bare")
+
+
+@pytest.fixture(scope="module")
+def published(bare):
+    return ba.load_gait("published", bare)
+
+
+@pytest.fixture(scope="module")
+def recipe(bare):
+    return ba.load_gait("recipe", bare)
+
+
+def gap(walker, x, t=0.0):
+    """q_b - q_d and q_b' - q_d' of the reference in force, (2, p)."""
+    q, v, s = walker.split_state(x)
+    r = reference_in_force(walker.law, s)(t, q, v)
+    return np.array((q[:4] - r.q_d, v[:4] - r.dq_d))
+
+
+def largest_error(walk):
+    nodes = [(t, x) for arc in walk.trajectory.arcs for t, x in zip(arc.t, arc.x, strict=True)]
+    return max(np.max(np.abs(gap(walk.walker, x, t)[0])) for t, x in nodes)
+
+
+def speeds(walk):
+    run, plant = walk.trajectory, walk.walker.plant
+    lengths = [plant.swing_foot(arc.event.x_minus[:5])[0] for arc in run.arcs]
+    return np.array(lengths) / [arc.t[-1] - arc.t[0] for arc in run.arcs]
+
+
+def stride(law, gait, biped, **options):
+    gains = stride_response(gait, biped).gains()
+    return StridePI.on_gait(law(gait.constraint), gait, biped, gains, **options)
+
+
+# -- reference reset -------------------------------------------------------------------------------
+def test_the_correction_starts_at_the_error_and_ends_with_two_derivatives():
+    k, e, slope = ResetRange(3.1, 5.0), np.array([0.02, -0.01]), np.array([-0.3, 2.0])
+    a = reset_coefficients(k, 3.31, e, slope)
+    at_start, d = reset_polynomial(k, a, 3.31), 1e-6
+    np.testing.assert_allclose(at_start[0], e, rtol=1e-12)
+    np.testing.assert_allclose(at_start[1], slope, rtol=1e-12)
+    up, down = reset_polynomial(k, a, 3.25 + d), reset_polynomial(k, a, 3.25 - d)
+    for i in (0, 1):
+        slope = (up[i] - down[i]) / (2 * d)
+        np.testing.assert_allclose(reset_polynomial(k, a, 3.25)[i + 1], slope, rtol=1e-6)
+    for theta in (3.1, 3.0):
+        assert not np.any(reset_polynomial(k, a, theta))
+    assert np.max(np.abs(reset_polynomial(k, a, 3.1 + 1e-9))) < 1e-5
+
+
+@pytest.mark.parametrize("law", list(LAWS))
+def test_a_constraint_that_the_impact_leaves_is_tracked_all_the_same(bare, recipe, law):
+    """Without the reset the impact leaves an error of 4e-2 rad; with it, that of the method."""
+    method = ba.RK4(1e-3) if law == "NPD" else ba.Exponential(5e-4)
+    inner = LAWS[law](recipe.constraint)
+    plain = ba.walk(ba.Walker(bare, inner), recipe, 1, method)
+    reset = ba.walk(ba.Walker(bare, ReferenceReset(inner)), recipe, 1, method)
+    assert plain.trajectory.status.ok
+    assert reset.trajectory.status.ok
+    assert largest_error(plain) > 3e-2
+    assert largest_error(reset) < 1e-5
+    assert np.max(np.abs(reset.signals.u)) < 0.6 * np.max(np.abs(plain.signals.u))
+    for event in reset.trajectory.events("foot_strike"):
+        assert np.max(np.abs(gap(reset.walker, event.x_plus))) < 1e-12
+        h = recipe.constraint(event.t, event.x_plus[:5], event.x_plus[5:10])
+        assert np.max(np.abs(event.x_plus[:4] - h.q_d)) < 1e-3, "the pose closes"
+        assert np.max(np.abs(event.x_plus[5:9] - h.dq_d)) > 0.5, "the rates do not [rad/s]"
+
+
+def test_on_a_hybrid_invariant_constraint_there_is_nothing_to_correct(bare, published):
+    law = ReferenceReset(ba.NPDController(published.constraint))
+    run = ba.walk(ba.Walker(bare, law), published, 2, ba.RK4(5e-4)).trajectory
+    for arc in run.arcs:
+        c = law.correction(arc.x[0][10:])
+        phases = np.linspace(published.constraint.theta_plus, law.range.end, 9)
+        assert max(np.max(np.abs(c(theta)[0])) for theta in phases) < 1e-8
+
+
+def test_the_correction_does_not_depend_on_the_speed(bare, recipe):
+    """The impact is linear in the rates, so h + c is one constraint, invariant at every speed."""
+    zero = ba.ZeroDynamics.of(bare, recipe.constraint)
+    walker = ba.Walker(bare, ReferenceReset(ba.NPDController(recipe.constraint)))
+    found = []
+    for share in (1.0, 0.6):
+        x = np.concatenate((*zero.end_state(share * zero.sigma_minus), np.zeros(8)))
+        found.append(walker.strike(0.0, x, ba.Mode())[0][10:])
+    np.testing.assert_allclose(found[0], found[1], atol=1e-10)
+    assert np.max(np.abs(found[0])) > 0.1
+
+
+def test_where_no_phase_is_left_nothing_is_corrected(bare, published):
+    walker = ba.Walker(bare, ReferenceReset(ba.NPDController(published.constraint)))
+    q, v = published.q_minus + 0.01, published.v_minus
+    assert not np.any(walker.initial_state(q, v)[10:]), "at the end of the step"
+    q, v = published.start(bare)
+    assert not np.any(walker.initial_state(q + 0.01, -v)[10:]), "Theta running backwards"
+    assert np.any(walker.initial_state(q + 0.01, v)[10:])
+
+
+# -- stride ----------------------------------------------------------------------------------------
+def test_the_bump_vanishes_with_two_derivatives_at_both_ends():
+    assert bump(0.5) == pytest.approx((1.0, 0.0, -24.0))
+    for s in (-0.1, 0.0, 1.0, 1.2):
+        assert not np.any(bump(s))
+    for s in (0.2, 0.7):
+        for k in (0, 1, 2):
+            derivative = np.polynomial.Polynomial(BUMP).deriv(k)(s)
+            assert bump(s)[k] == pytest.approx(derivative, rel=1e-12)
+
+
+def test_a_lean_moves_the_torso_and_leaves_the_legs(bare, published):
+    q = published.q_minus
+    leaned = q + 0.1 * np.array([*TORSO_LEAN, 0.0])
+    leaned[4] -= 0.1  # Theta as it was
+    assert bare.phase @ leaned == pytest.approx(bare.phase @ q)
+    np.testing.assert_allclose(bare.swing_foot(leaned), bare.swing_foot(q), atol=1e-12)
+    ahead = bare.pinned.centre_of_mass(leaned)[0] - bare.pinned.centre_of_mass(q)[0]
+    assert ahead[0] > 5e-3, "forwards"
+
+
+def test_at_the_speed_of_the_gait_the_stride_is_left_alone(bare, published):
+    run = ba.walk(ba.Walker(bare, stride(ba.NPDController, published, bare)), published, 3, RK4)
+    tau, integral, beta = np.array([arc.x[-1][10:] for arc in run.trajectory.arcs]).T
+    np.testing.assert_allclose(tau, published.period, atol=1e-5)
+    assert np.max(np.abs((integral, beta))) < 1e-5
+
+
+def test_multipliers_of_the_loop_are_the_poles_predicted_from_the_zero_dynamics(bare, published):
+    gains = StrideGains(-0.9, -0.2)
+    law = StridePI.on_gait(ba.NPDController(published.constraint), published, bare, gains)
+    poles = stride_response(published, bare).poles(gains)
+    P = ba.ReturnMap(ba.Walker(bare, law), RK4)
+    own = (published.period, 0.0, 0.0)
+    s = P.project(np.concatenate((published.q_minus, published.v_minus, own)))
+    found = np.linalg.eigvals(P.jacobian(s))
+    found = found[np.argsort(-np.abs(found))]
+    np.testing.assert_allclose(found[:3], poles, atol=2e-4)
+    assert np.max(np.abs(found[3:])) < 1e-3
+
+
+def test_the_gains_give_three_equal_poles_and_no_others_are_quicker(bare, published):
+    response = stride_response(published, bare)
+    best = response.gains()
+    poles = response.poles(best)
+    np.testing.assert_allclose(np.poly(poles), np.poly([np.mean(poles).real] * 3), atol=1e-9)
+    for K_P in (0.9, 1.0, 1.1):
+        for K_I in (0.9, 1.0, 1.1):
+            other = StrideGains(K_P * best.K_P, K_I * best.K_I)
+            assert abs(response.poles(other)[0]) > abs(np.mean(poles)) - 1e-6
+
+
+def test_another_speed_is_reached(bare, published):
+    law = stride(ba.NPDController, published, bare, speed=0.75)
+    found = speeds(ba.walk(ba.Walker(bare, law), published, 9, RK4))
+    assert found[0] == pytest.approx(law.step_length / published.period, abs=1e-5)
+    assert abs(0.75 - found[-1]) < 0.05 * (0.75 - found[0])
+
+
+def test_a_force_on_the_hip_slows_the_walk_unless_the_stride_is_controlled(bare, published):
+    """The setting of Westervelt et al. 2003: tracking cannot reject it, a loop around the steps does."""
+    force, inner = HipForce(bare, (-3.0, 0.0)), ba.NPDController(published.constraint)
+    slow = speeds(ba.walk(ba.Walker(bare, inner, force), published, 3, RK4))
+    kept = stride(ba.NPDController, published, bare)
+    held = speeds(ba.walk(ba.Walker(bare, kept, force), published, 10, RK4))
+    assert np.all(np.diff(slow) < -0.01)
+    assert slow[-1] < 0.9 * kept.speed
+    assert held[-1] == pytest.approx(kept.speed, rel=0.01)
+    assert np.argmin(held) < 4
+    adrc = ba.Walker(bare, stride(ba.ADRCController, published, bare), force)
+    same = speeds(ba.walk(adrc, published, 2, ba.Exponential(2e-3)))
+    np.testing.assert_allclose(same, held[:2], atol=1e-3)
+
+
+def test_a_force_that_stops_the_walk_does_not_with_the_stride_controlled(bare, published):
+    force = HipForce(bare, (-10.0, 0.0))
+    inner = ba.NPDController(published.constraint)
+    alone = ba.walk(ba.Walker(bare, inner, force, max_step_time=0.9), published, 8, RK4)
+    assert alone.trajectory.status in (ba.Status.FELL, ba.Status.STALLED)
+    law = stride(ba.NPDController, published, bare)
+    held = ba.walk(ba.Walker(bare, law, force), published, 5, RK4)
+    assert held.trajectory.status.ok
+    own = held.trajectory.final_state[10:]
+    assert own[2] == -law.gains.limit, "beta at its bound"
+    assert law.gains.K_I * own[1] == pytest.approx(-law.gains.limit), "and the integral at its own"
+
+
+# -- both, in every setting ------------------------------------------------------------------------
+def test_corrections_of_nested_loops_add_up(bare, published):
+    one, two = (
+        ReferenceReset(stride(ba.NPDController, published, bare)),
+        StridePI.on_gait(
+            ReferenceReset(ba.NPDController(published.constraint)),
+            published,
+            bare,
+            StrideGains(-1.0, -0.4),
+        ),
+    )
+    a, w = np.linspace(-0.1, 0.1, 8), np.array([0.2, 0.0, 0.15])
+    q = 0.3 * published.q_minus + 0.7 * published.start(bare)[0]
+    v = published.v_minus
+    first = reference_in_force(one, np.concatenate((w, a)))(0.0, q, v)
+    second = reference_in_force(two, np.concatenate((a, w)))(0.0, q, v)
+    h = published.constraint(0.0, q, v)
+    for x, y, z in zip(first, second, h, strict=True):
+        np.testing.assert_allclose(x, y, atol=1e-12)
+        assert np.max(np.abs(x - z)) > 1e-4
+
+
+def test_the_exponential_method_carries_the_loops_states_along(bare, recipe):
+    inner = ba.ADRCController(recipe.constraint, ba.GPIObserver.from_bandwidth(200.0, 1))
+    law = ReferenceReset(StridePI.on_gait(inner, recipe, bare, StrideGains(-0.5, -0.2)))
+    walker = ba.Walker(bare, law)
+    ends = [
+        ba.walk(walker, recipe, 1, method).trajectory.events("foot_strike")[0].x_plus
+        for method in (ba.Exponential(1e-3), ba.RK4(1e-3))
+    ]
+    assert ends[0].shape == (10 + 12 + 3 + 8,)
+    np.testing.assert_allclose(ends[0][:10], ends[1][:10], atol=2e-4)
+    np.testing.assert_allclose(ends[0][22:], ends[1][22:], atol=2e-4)
+    assert np.any(ends[0][25:])
+
+
+def test_sampled(bare, recipe):
+    inner = ba.ADRCController(recipe.constraint)
+    law = ReferenceReset(StridePI.on_gait(inner, recipe, bare, StrideGains(-0.5, -0.2)))
+    walker = ba.Walker(bare, law, timing=ba.SampledTime(1e-3))
+    run = ba.walk(walker, recipe, 2).trajectory
+    assert run.status.ok
+    for arc in run.arcs:
+        tau = walker.split_state(arc.x[-1])[2][36]
+        assert 0.0 <= arc.t[-1] - arc.t[0] - tau <= 1e-3
+
+
+def test_what_cannot_be_corrected_is_refused(published):
+    inner = ba.NPDController(published.constraint)
+    in_time = ba.TimeReference(lambda t: (np.zeros(4), np.zeros(4), np.zeros(4)))
+    with pytest.raises(InputError, match="Passive has no reference"):
+        ReferenceReset(ba.Passive())
+    with pytest.raises(InputError, match="NPDController has a reference of type TimeReference"):
+        ReferenceReset(ba.NPDController(in_time))
+    for share in (0.0, 1.5, np.nan):
+        with pytest.raises(InputError, match="expected a share"):
+            ReferenceReset(inner, share)
+    gains = StrideGains(-1.0, -0.4)
+    with pytest.raises(InputError, match="expected 4 finite numbers"):
+        StridePI(inner, 0.7, 0.3, (1.0, 1.0), gains)
+    with pytest.raises(InputError, match="speed is -1"):
+        StridePI(inner, -1.0, 0.3, TORSO_LEAN, gains)
+    with pytest.raises(InputError, match="bound on beta is 0"):
+        StrideGains(-1.0, -0.4, 0.0)
+    with pytest.raises(InputError, match="K_I = nan"):
+        StrideGains(-1.0, np.nan)
+
+
+def test_a_pole_outside_is_refused(bare, published):
+    with pytest.raises(InputError, match="triple pole"):
+        StrideResponse(a=0.7, b=-0.2, c=1.0, d=1.0).gains()
+    with pytest.raises(InputError, match="triple pole at nan"):
+        StrideResponse(a=0.7, b=0.0, c=1.0, d=0.0).gains()
+    with pytest.raises(InputError, match="expected 4 numbers"):
+        stride_response(published, bare, (1.0,))

@@ -1,0 +1,129 @@
+"""A force on the hip and a step down: power, energy, and the way back to the cycle."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.reference_reset import ReferenceReset
+from biped_adrc.disturbances.hip_force import HipForce
+from biped_adrc.errors import InputError
+from biped_adrc.gait.corrected import continued
+from biped_adrc.ground import StepDown
+
+METHOD = ba.RK4(2e-3)
+HEIGHT = 0.015  # [m]
+
+
+@pytest.fixture(scope="module")
+def bare():
+    return ba.Biped.load("rabbit", "identified-bare")
+
+
+@pytest.fixture(scope="module")
+def published(bare):
+    return ba.load_gait("published", bare)
+
+
+@pytest.fixture(scope="module")
+def down(bare, published):
+    """A step down at the end of the second single support."""
+    law = ReferenceReset(ba.NPDController(continued(published.constraint)))
+    walker = ba.Walker(bare, law, steps_down=(StepDown(2, HEIGHT),))
+    return ba.walk(walker, published, 10, METHOD)
+
+
+def energy(biped, x):
+    return biped.kinetic_energy(x[:5], x[5:10]) + biped.potential_energy(x[:5])
+
+
+# -- force on the hip ------------------------------------------------------------------------------
+def test_the_power_of_the_force_is_force_times_the_velocity_of_the_hip(bare):
+    random, d = np.random.default_rng(3), 1e-6
+    for _ in range(5):
+        q, v = random.uniform(-3, 3, 5), random.uniform(-1, 1, 5)
+        hip_velocity = (bare.hip(q + d * v) - bare.hip(q - d * v)) / (2 * d)
+        F = random.uniform(-50, 50, 2)
+        zeta = HipForce(bare, tuple(F)).torque(0.0, 1, 0.0, q, v)
+        assert zeta @ v == pytest.approx(F @ hip_velocity, rel=1e-7)
+
+
+def test_the_work_of_the_force_and_of_the_joints_is_the_energy_gained(bare, published):
+    F = np.array([-20.0, 10.0])
+    walker = ba.Walker(bare, ba.NPDController(published.constraint), HipForce(bare, tuple(F)))
+    made = ba.walk(walker, published, 1, ba.RK4(1e-3))
+    x, y = made.trajectory.arcs[0].x[0], made.trajectory.arcs[0].x[-1]
+    work = made.certificates[0].joint_work + F @ (bare.hip(y[:5]) - bare.hip(x[:5]))
+    assert energy(bare, y) - energy(bare, x) == pytest.approx(work, abs=1e-4)
+
+
+def test_the_force_acts_in_its_steps_only(bare):
+    force, q = HipForce(bare, (-5.0, 0.0), steps=(2, 3)), np.full(5, 0.3)
+    acts = [bool(np.any(force.torque(0.0, step, 0.0, q, q))) for step in (1, 2, 3, 4)]
+    assert acts == [False, True, True, False]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (((np.nan, 0.0),), "two finite numbers"),
+        (((1.0, 2.0, 3.0),), "two finite numbers"),
+        (((1.0, 0.0), (3, 2)), "1 <= first <= last"),
+    ],
+)
+def test_bad_forces(bare, arguments, message):
+    with pytest.raises(InputError, match=message):
+        HipForce(bare, *arguments)
+
+
+# -- step down -------------------------------------------------------------------------------------
+def test_the_foot_comes_down_on_the_ground_and_ahead(bare, down):
+    assert down.trajectory.status.ok
+    feet = [bare.swing_foot(e.x_minus[:5]) for e in down.trajectory.events("foot_strike")]
+    expected = np.zeros(10)
+    expected[1] = -HEIGHT
+    np.testing.assert_allclose([z for _, z in feet], expected, atol=1e-12)
+    assert min(x for x, _ in feet) > 0.25
+
+
+def test_the_height_lost_appears_as_work_the_joints_need_not_do(bare, down):
+    """Joint work = energy gained + energy lost at impacts, potential energy in the world's own height."""
+    arcs, done = down.trajectory.arcs, down.certificates
+    start, end = arcs[0].x[0], arcs[-1].x[-1]
+    gained = energy(bare, end) - bare.weight * HEIGHT - energy(bare, start)
+    lost = sum(c.energy_lost for c in done[:-1])
+    assert sum(c.joint_work for c in done) == pytest.approx(gained + lost, abs=2e-3)
+    assert bare.weight * HEIGHT > 4.0, "[J]"
+
+
+def test_the_walk_returns_to_its_cycle_at_the_rate_of_the_zero_dynamics(bare, published, down):
+    T = np.array([arc.t[-1] - arc.t[0] for arc in down.trajectory.arcs])
+    assert T[1] > 1.05 * published.period
+    left = T[3:] - published.period
+    delta2 = ba.ZeroDynamics.of(bare, published.constraint).delta ** 2
+    np.testing.assert_allclose(left[1:] / left[:-1], delta2, atol=0.03)
+
+
+def test_past_its_end_a_constraint_goes_on_smoothly(published):
+    h, d = published.constraint, 1e-9
+    c = continued(h)
+    q = published.q_minus
+    for end, outwards in ((h.theta_minus, -1.0), (h.theta_plus, 1.0)):
+        points = []
+        for side in (-d, d):
+            at = q.copy()
+            at[4] += end + outwards * side - h.phase @ q
+            points.append(c(0.0, at, np.array([0.1, 0.2, -0.1, 0.3, -1.0])))
+        for inside, outside in zip(*points, strict=True):
+            np.testing.assert_allclose(outside, inside, atol=1e-3)
+    far = q.copy()
+    far[4] -= 0.1
+    assert np.max(np.abs(c(0.0, far, far).q_d - q[:4])) < 0.3
+    assert np.max(np.abs(h(0.0, far, far).q_d - q[:4])) > 1.0
+
+
+@pytest.mark.parametrize(("step", "height"), [(0, 0.01), (1, 0.0), (1, -0.01), (1, np.nan)])
+def test_bad_steps(step, height):
+    with pytest.raises(InputError, match="step down"):
+        StepDown(step, height)
