@@ -152,7 +152,7 @@ class ZeroDynamics:
         rate = sigma / self.inertia
         v = self.dq * rate[:, np.newaxis]
         a, u, reaction, height = zip(
-            *(self._dynamics(k, rate[k]) for k in range(len(rate))), strict=True
+            *(self.dynamics(k, rate[k]) for k in range(len(rate))), strict=True
         )
         time = self.weights / rate
         return ZeroDynamicsOrbit(
@@ -167,7 +167,7 @@ class ZeroDynamics:
             float(np.sum(time)),
         )
 
-    def _dynamics(self, k: int, rate: float) -> tuple[Array, Array, Array, float]:
+    def dynamics(self, k: int, rate: float) -> tuple[Array, Array, Array, float]:
         """q'', u, ground reaction and swing height at node k: Theta'' from the unactuated row."""
         q, dq, ddq, b = self.q[k], self.dq[k], self.ddq[k], self.biped
         v = dq * rate

@@ -1,0 +1,189 @@
+"""What the zero dynamics say of a gait before any simulation: does it walk, from where, how fast.
+
+Numbers of `biped_adrc.gait.zero_orbits` and `biped_adrc.gait.zero_limits` with their units. They hold for the
+closed loop as far as it keeps to the constraint: exactly for a constraint that the impact does not leave
+(hybrid invariant), tracked without error.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from biped_adrc.analysis.stability import Tolerances, invariance_gap
+from biped_adrc.errors import GaitError
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.gait import CLOSES
+from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration
+from biped_adrc.gait.zero_limits import UNLIMITED, Bound, Domain, Limits, domain
+from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
+from biped_adrc.model.biped import Biped
+
+CLOSENESS = 1e-3
+"""Share of zeta* within which a walk counts as settled."""
+UNIT = "kg^2 m^4/s^2"
+
+
+@dataclass(frozen=True)
+class ZeroDynamicsReport:
+    """The orbit, its domain and the margins; `text()` is all of it with units."""
+
+    orbits: ZeroOrbits
+    limits: Limits
+    domain: Domain
+    zeta_star: float
+    """sigma-^2 / 2 of the periodic orbit [kg^2 m^4/s^2]."""
+    impulse_ratio: float
+    """|F_T| / F_N of the impact, the same at every speed."""
+    invariance: float
+    """How far the impact leaves the constraint [rad, rad/s at |Theta'-| = 1 rad/s]."""
+
+    @property
+    def walkable(self) -> bool:
+        """Whether the periodic orbit itself keeps the limits."""
+        return self.domain.holds(self.zeta_star)
+
+    @property
+    def speeds(self) -> tuple[float, float]:
+        """Average speed [m/s] of a step at either end of the domain; inf where it has none."""
+        return self._at_ends(self.orbits.speed)
+
+    @property
+    def energies(self) -> tuple[float, float]:
+        """Kinetic energy [J] before impact at either end of the domain; inf where it has none."""
+        return self._at_ends(self.orbits.kinetic_energy)
+
+    def _at_ends(self, f: Callable[[float], float]) -> tuple[float, float]:
+        low, high = (f(b.zeta) if math.isfinite(b.zeta) else math.inf for b in self.domain)
+        return low, high
+
+    def text(self) -> str:
+        """The report as lines of text."""
+        return "\n".join([*self._robot(), *self._numbers(), *self._range(), *self._doubts()])
+
+    def _robot(self) -> list[str]:
+        b, c = self.orbits.zero.biped, self.orbits.zero.constraint
+        return [
+            f"robot {b.description.name}, parameters {b.preset}; slope {self.limits.slope:g} rad",
+            _line("Theta", f"{c.theta_plus:.6f} to {c.theta_minus:.6f} rad"),
+        ]
+
+    def _numbers(self) -> list[str]:
+        o, z = self.orbits, self.zeta_star
+        inertia = o.inertia(grid(o.zero))
+        return [
+            _line("I(Theta)", f"{np.min(inertia):.4f} to {np.max(inertia):.4f} kg m^2"),
+            _line("delta^2", f"{o.delta**2:.6f}, the multiplier of the cycle: stable"),
+            _line("V_zero(Theta-)", f"{o.v_end:.4f} {UNIT}"),
+            _line("V_max", f"{o.v_max:.4f} {UNIT} at Theta = {o.theta_max:.4f} rad"),
+            _line("existence", f"{o.existence:.4f} {UNIT} < 0: a periodic orbit exists"),
+            _line("zeta*", f"{z:.4f} {UNIT}, sigma- = {o.sigma(z):.5f} kg m^2/s"),
+            _line("orbit", f"period {o.period(z):.6f} s, speed {o.speed(z):.4f} m/s"),
+            _line("", f"{o.kinetic_energy(z):.3f} J before impact, step {o.step_length:.4f} m"),
+            _line("impact", f"asks for |F_T| / F_N = {self.impulse_ratio:.3f}, at any speed"),
+        ]
+
+    def _range(self) -> list[str]:
+        if self.domain.empty:
+            return [
+                _line("domain", f"empty: no speed keeps {_show(self.limits)} all along the step")
+            ]
+        (v_0, v_1), (E_0, E_1) = self.speeds, self.energies
+        found = [
+            _line("domain", f"{self._ends()}"),
+            _line("speeds in it", f"{v_0:.4f} to {v_1:.4f} m/s, of the first step"),
+            _line("energies in it", f"{E_0:.3f} to {E_1:.3f} J before impact"),
+        ]
+        if self.walkable:
+            low, high = self.domain
+            inside = low.zeta + 1e-9 * self.zeta_star  # rho itself excludes the end
+            steps = [self._steps(zeta) for zeta in (inside, high.zeta)]
+            text = f"{steps[0]} steps from the lower end, {steps[1]} from the upper"
+            found.append(_line("settled", f"to {CLOSENESS:.1%} of zeta* after {text}"))
+        return found
+
+    def _steps(self, zeta: float) -> str:
+        return (
+            str(self.orbits.steps_to(zeta, CLOSENESS)) if math.isfinite(zeta) else "any number of"
+        )
+
+    def _ends(self) -> str:
+        low, high = self.domain
+        return (
+            f"{low.zeta:.4f} ({_because(low)}) < zeta < {high.zeta:.4f} ({_because(high)}) {UNIT}"
+        )
+
+    def _doubts(self) -> list[str]:
+        found = []
+        if not self.walkable:
+            found.append(
+                f"the periodic orbit does not keep {_show(self.limits)}: zeta* is outside of the domain"
+            )
+        if self.invariance > Tolerances().invariance:
+            found.append(
+                f"the impact leaves the constraint by {self.invariance:.2g} rad or rad/s at |Theta'-| = "
+                "1 rad/s: the closed loop comes back to it in the course of a step only, and these numbers "
+                "are those of the zero dynamics"
+            )
+        return found
+
+
+def zero_report(
+    biped: Biped, constraint: VirtualConstraint, limits: Limits | None = None
+) -> ZeroDynamicsReport:
+    """The report of a constraint; limits: by default the friction of the robot's record, on level ground.
+
+    Raises GaitError when Theta is no phase, when no periodic orbit exists or it is not stable, and when the
+    curve does not end on the ground or the next step does not begin where it begins.
+    """
+    limits = Limits(biped.description.friction_coefficient) if limits is None else limits
+    orbits = ZeroOrbits.of(ZeroDynamics.of(biped, constraint))
+    _check_ends(biped, constraint, limits.slope)
+    zeta = orbits.zeta_star
+    slope = limits.slope
+    impulse = biped.impact(*orbits.zero.end_state(orbits.sigma(zeta))).impulse
+    along = impulse @ [math.cos(slope), -math.sin(slope)]
+    across = impulse @ [math.sin(slope), math.cos(slope)]
+    gap = invariance_gap(biped, constraint) if biped.p else 0.0
+    return ZeroDynamicsReport(
+        orbits, limits, domain(orbits, limits), zeta, float(abs(along) / across), gap
+    )
+
+
+def _check_ends(biped: Biped, constraint: VirtualConstraint, slope: float) -> None:
+    q = configuration(constraint, constraint.theta_minus)[0]
+    x, z = biped.swing_foot(q)
+    height = float(z + math.tan(slope) * x)
+    if not abs(height) < CLOSES:
+        raise GaitError(
+            f"the swing foot is {height:.3g} m above the ground of slope {slope:g} rad where the curve ends, "
+            f"expected 0 within {CLOSES:g} m; give the slope the curve was made for"
+        )
+    begin = float(constraint.phase @ biped.relabel(q))
+    if not abs(begin - constraint.theta_plus) < CLOSES:
+        raise GaitError(
+            f"the step after the impact begins at Theta = {begin:.6g} rad, the curve at Theta+ = "
+            f"{constraint.theta_plus:.6g} rad; expected the same within {CLOSES:g} rad"
+        )
+
+
+def _line(name: str, text: str) -> str:
+    return f"{name:16s}{text}"
+
+
+def _because(bound: Bound) -> str:
+    if bound.cause == UNLIMITED:
+        return UNLIMITED
+    return f"{bound.cause} at Theta = {bound.theta:.4f} rad"
+
+
+def _show(limits: Limits) -> str:
+    found = ["F_N > 0"]
+    if limits.friction is not None:
+        found.append(f"friction {limits.friction:g}")
+    if limits.torque is not None:
+        found.append(f"torque {limits.torque:g} N m")
+    return ", ".join(found)

@@ -1,0 +1,257 @@
+"""All steps of the zero dynamics at once, in closed form up to one quadrature.
+
+With zeta1 = Theta and zeta2 = sigma, the angular momentum about the stance foot (counter-clockwise positive, so
+negative in a walk towards +x),
+
+    zeta1' = zeta2 / I(zeta1),   zeta2' = -G_N(zeta1)
+    V_zero(Theta) = int_{Theta+}^{Theta} G_N I dTheta,   zeta2^2 / 2 + V_zero = const in single support
+
+so one number is a step: zeta = sigma-^2 / 2 before impact. With delta = sigma+ / sigma-, which does not depend
+on the speed, the step after it begins with delta^2 zeta and is finished if that exceeds V_max = max V_zero:
+
+    rho(zeta) = delta^2 zeta - V_zero(Theta-)   for   zeta > V_max / delta^2
+    zeta* = -V_zero(Theta-) / (1 - delta^2)     exists if  delta^2 / (1 - delta^2) V_zero(Theta-) + V_max < 0
+                                                and is stable if  0 < delta^2 < 1
+
+(Westervelt, Grizzle, Koditschek, IEEE TAC 48(1), 2003). rho is affine, so zeta_k - zeta* = delta^(2k)
+(zeta_0 - zeta*) from anywhere in the domain. Nothing depends on the sense of Theta: the integrals run from
+Theta+ to Theta-, whichever is larger. A slope changes neither gravity nor these formulas: it decides where
+the swing foot meets the ground, and so where the curve ends.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.polynomial import Legendre, legendre
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from biped_adrc.errors import GaitError
+from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
+from biped_adrc.types import Array
+
+_GRID = 401  # points among which signs and extremes are looked for; zeros are then solved for
+_DURATION = 1e-6  # largest error of a duration over itself
+_SADDLE = 1e-6  # |dV_zero/dTheta| at V_max over its largest, below which V_max is an equilibrium
+
+
+def series(zero: ZeroDynamics, values: Array) -> Legendre:
+    """The polynomial in Theta through values (K,) at the Gauss nodes of `zero`."""
+    s, w, _ = gauss_nodes(len(values))
+    x, c = 2.0 * s - 1.0, zero.constraint
+    coefficients = (legendre.legvander(x, len(x) - 1).T @ (2.0 * w * values)) * (
+        np.arange(len(x)) + 0.5
+    )
+    return Legendre(coefficients, domain=[c.theta_plus, c.theta_minus])
+
+
+def grid(zero: ZeroDynamics) -> Array:
+    """Theta from Theta+ to Theta-, both included."""
+    return np.linspace(zero.constraint.theta_plus, zero.constraint.theta_minus, _GRID)
+
+
+@dataclass(frozen=True)
+class ZeroOrbits:
+    """The restricted return map rho of one constraint, its fixed point and its domain. Make it with `of`.
+
+    zeta is always sigma-^2 / 2 before an impact [kg^2 m^4/s^2].
+    """
+
+    zero: ZeroDynamics
+    inertia: Legendre
+    """I(Theta) [kg m^2]."""
+    potential: Legendre
+    """V_zero(Theta) [kg^2 m^4/s^2]."""
+    delta: float
+    """sigma+ / sigma- across the impact."""
+    theta_max: float
+    """Where V_zero is largest [rad]."""
+
+    @classmethod
+    def of(cls, zero: ZeroDynamics) -> ZeroOrbits:
+        """Raises GaitError when I changes its sign, or the impact turns the motion round."""
+        b, c = zero.biped, zero.constraint
+        if b.n != b.p + 1:
+            raise GaitError(
+                f"robot '{b.description.name}' has {b.n} coordinates and {b.p} motors; its zero dynamics have "
+                "one degree of freedom only when one coordinate is unactuated"
+            )
+        inertia = series(zero, zero.inertia)
+        _check_phase(inertia, grid(zero))
+        delta = zero.delta
+        if not delta > 0:
+            raise GaitError(
+                f"the impact at the end of the curve maps sigma- to {delta:.4g} sigma-: the step after it runs "
+                "backwards; expected a positive factor, take shorter steps"
+            )
+        potential = series(zero, zero.gravity * zero.inertia).integ(lbnd=c.theta_plus)
+        return cls(zero, inertia, potential, delta, _highest(potential, grid(zero)))
+
+    # -- the numbers of the literature -------------------------------------------------------------
+    @property
+    def v_end(self) -> float:
+        """V_zero(Theta-); negative when gravity speeds the step up."""
+        return float(self.potential(self.zero.constraint.theta_minus))
+
+    @cached_property
+    def v_max(self) -> float:
+        """V_max = max V_zero >= 0, what sigma+^2 / 2 must exceed."""
+        return max(0.0, float(self.potential(self.theta_max)))
+
+    @property
+    def existence(self) -> float:
+        """delta^2 / (1 - delta^2) V_zero(Theta-) + V_max, negative if there is an orbit; inf for delta = 1."""
+        d2 = self.delta**2
+        return d2 / (1.0 - d2) * self.v_end + self.v_max if d2 != 1.0 else math.inf
+
+    @property
+    def lowest(self) -> float:
+        """V_max / delta^2: from above it, the next step is finished."""
+        return self.v_max / self.delta**2
+
+    @property
+    def zeta_star(self) -> float:
+        """The fixed point of rho. Raises GaitError that says which condition fails, and by how much."""
+        d2, V, top = self.delta**2, self.v_end, self.v_max
+        if not d2 < 1.0:
+            raise GaitError(
+                f"the zero dynamics have no stable orbit: delta^2 = {d2:.6g}, expected below 1 (the impact "
+                "has to take angular momentum); take longer steps or a faster retraction of the swing leg"
+            )
+        if not V < 0.0:
+            raise GaitError(
+                f"the zero dynamics have no periodic orbit: V_zero(Theta-) = {V:.6g} kg^2 m^4/s^2, expected "
+                "below 0: gravity takes from a step more than it gives; move the hip forward over the step"
+            )
+        if not self.existence < 0.0:
+            begin = -d2 * V / (1.0 - d2)
+            raise GaitError(
+                f"the zero dynamics have no periodic orbit: a step would begin with zeta = {begin:.6g} "
+                f"kg^2 m^4/s^2, {top - begin:.3g} short of the V_max = {top:.6g} that it has to pass at "
+                f"Theta = {self.theta_max:.4g} rad; shorten the first half of the step or lower the hip in it"
+            )
+        return -V / (1.0 - d2)
+
+    def sigma(self, zeta: float) -> float:
+        """sigma- [kg m^2/s] of zeta, in the direction of the walk."""
+        c = self.zero.constraint
+        forward = (c.theta_minus - c.theta_plus) * float(self.inertia(c.theta_minus))
+        return math.copysign(math.sqrt(2.0 * zeta), forward)
+
+    # -- the return map ----------------------------------------------------------------------------
+    def rho(self, zeta: float) -> float:
+        """zeta one step later. Raises GaitError for a step that is not finished."""
+        begin = self.delta**2 * self._checked(zeta)
+        if not begin > self.v_max:
+            raise GaitError(
+                f"the step after zeta = {zeta:.6g} begins with {begin:.6g} and stops before V_max = "
+                f"{self.v_max:.6g} kg^2 m^4/s^2; expected zeta above {self.lowest:.6g}"
+            )
+        return begin - self.v_end
+
+    def iterate(self, zeta: float, steps: int) -> Array:
+        """zeta, rho(zeta), rho(rho(zeta)), ... (steps + 1,). Raises GaitError as rho."""
+        found = [self._checked(zeta)]
+        for _ in range(steps):
+            found.append(self.rho(found[-1]))
+        return np.array(found)
+
+    def steps_to(self, zeta: float, closeness: float) -> int:
+        """Steps until |zeta_k - zeta*| <= closeness * zeta*. Raises GaitError when it never comes there."""
+        if not (math.isfinite(closeness) and closeness > 0):
+            raise GaitError(f"closeness is {closeness}, expected a positive number")
+        self.rho(zeta)
+        ratio = abs(zeta / self.zeta_star - 1.0) / closeness
+        if ratio <= 1.0:
+            return 0
+        return math.ceil(-math.log(ratio) / math.log(self.delta**2))
+
+    # -- what a step looks like --------------------------------------------------------------------
+    def sigma_squared(self, theta: Array, zeta: float) -> Array:
+        """sigma^2 at theta in the step after zeta; negative where the step does not come."""
+        square: Array = 2.0 * (self.delta**2 * zeta - self.potential(theta))
+        return square
+
+    def period(self, zeta: float) -> float:
+        """Duration [s] of the step after zeta, int |I / sigma| dTheta.
+
+        Raises GaitError as rho, and for a step that comes too near to rest.
+        """
+        self.rho(zeta)
+        return self._duration(zeta)
+
+    def _duration(self, zeta: float) -> float:
+        c, low = self.zero.constraint, self.lowest
+
+        def slowness(theta: float) -> float:
+            rise = max(0.0, self.v_max - float(self.potential(theta)))
+            square = 2.0 * (self.delta**2 * (zeta - low) + rise)  # no difference of large numbers
+            return abs(float(self.inertia(theta))) / math.sqrt(square)
+
+        ends = sorted((c.theta_plus, c.theta_minus))
+        peak = [self.theta_max] if ends[0] < self.theta_max < ends[1] else None
+        time, error, *_ = quad(
+            slowness, *ends, points=peak, limit=400, epsabs=1e-12, epsrel=1e-10, full_output=1
+        )
+        if not error <= _DURATION * time:
+            raise GaitError(
+                f"the duration of the step after zeta = {zeta:.17g} is {time:.4g} s, known to {error:.1g} s "
+                f"only, expected {_DURATION:g} of it: it nearly comes to rest at V_max; start further from "
+                f"{low:.17g} kg^2 m^4/s^2"
+            )
+        return float(time)
+
+    @cached_property
+    def step_length(self) -> float:
+        """Distance of the feet at impact [m]; along the ground, on a slope."""
+        q = configuration(self.zero.constraint, self.zero.constraint.theta_minus)[0]
+        return float(np.linalg.norm(self.zero.biped.swing_foot(q)))
+
+    def speed(self, zeta: float) -> float:
+        """Average speed [m/s] of the step after zeta; its limit at the lower end of the domain."""
+        if zeta != self.lowest:
+            return self.step_length / self.period(zeta)
+        return 0.0 if self._slows_down_for_ever else self.step_length / self._duration(zeta)
+
+    @cached_property
+    def _slows_down_for_ever(self) -> bool:
+        """Whether V_max is an equilibrium, on which a step at the lower end would come to rest."""
+        slope = self.potential.deriv()
+        largest = float(np.max(np.abs(slope(grid(self.zero)))))
+        return abs(float(slope(self.theta_max))) < _SADDLE * largest
+
+    def kinetic_energy(self, zeta: float) -> float:
+        """Kinetic energy [J] before an impact with zeta."""
+        return self.zero.biped.kinetic_energy(*self.zero.end_state(self.sigma(zeta)))
+
+    def _checked(self, zeta: float) -> float:
+        if not (math.isfinite(zeta) and zeta >= 0):
+            raise GaitError(f"zeta = {zeta} kg^2 m^4/s^2, expected a finite number >= 0")
+        return zeta
+
+
+def _check_phase(inertia: Legendre, theta: Array) -> None:
+    values = inertia(theta)
+    turns = np.flatnonzero(values[1:] * values[:-1] <= 0)
+    if len(turns):
+        k = int(turns[0])
+        where = brentq(inertia, theta[k], theta[k + 1])
+        raise GaitError(
+            f"I(Theta) changes its sign at Theta = {where:.4g} rad (it runs from {np.min(values):.4g} to "
+            f"{np.max(values):.4g} kg m^2): there sigma does not move Theta, so Theta cannot be the phase "
+            "of this constraint; expected one sign from Theta+ to Theta-, swing the free links less"
+        )
+
+
+def _highest(potential: Legendre, theta: Array) -> float:
+    """Where V_zero is largest: an end, or a zero of its slope."""
+    k = int(np.argmax(potential(theta)))
+    slope = potential.deriv()
+    for one, other in ((theta[max(k - 1, 0)], theta[k]), (theta[k], theta[min(k + 1, _GRID - 1)])):
+        if slope(one) * slope(other) < 0:
+            return float(brentq(slope, one, other, xtol=1e-14))
+    return float(theta[k])

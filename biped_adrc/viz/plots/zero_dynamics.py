@@ -1,0 +1,153 @@
+"""The zero dynamics of a gait: I(Theta), V_zero(Theta), the phase portrait with its domain, and rho(zeta).
+
+Single support conserves sigma^2 / 2 + V_zero(Theta), so the portrait is made of level curves, and every step
+of the return map is a pair of corners between rho and the diagonal.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from biped_adrc.analysis.zero_report import ZeroDynamicsReport
+from biped_adrc.gait.zero_limits import PASSING
+from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
+from biped_adrc.types import Array
+from biped_adrc.viz.style import DASHES, GREY, PALETTE, label, new_figure, style
+
+WIDE = 2.0  # where the domain has no upper end it is drawn to this many zeta*
+STAIRS = 8
+"""Steps drawn from either end of the domain."""
+DOMAIN = "#DDEBF4"
+
+
+def zero_inertia(axes: Axes, orbits: ZeroOrbits) -> Axes:
+    """I(Theta) [kg m^2], which must not change its sign."""
+    theta = grid(orbits.zero)
+    axes.plot(theta, orbits.inertia(theta), color=PALETTE[0])
+    axes.axhline(0.0, color="black", lw=0.8)
+    label(axes, r"$\Theta$ [rad]", r"$I$ [kg m$^2$]", "inertia")
+    return _walking_order(axes, theta)
+
+
+def zero_potential(axes: Axes, report: ZeroDynamicsReport) -> Axes:
+    """V_zero(Theta), its largest value, and sigma+^2 / 2 of the orbit, which has to be above it."""
+    o = report.orbits
+    theta = grid(o.zero)
+    axes.plot(theta, o.potential(theta), color=PALETTE[0], label=r"$V_{zero}$")
+    axes.axhline(
+        o.delta**2 * report.zeta_star,
+        color=PALETTE[1],
+        ls=DASHES[1],
+        label=r"$\sigma_+^2/2$ of the orbit",
+    )
+    axes.plot(o.theta_max, o.v_max, "o", color="black", ms=4, label=r"$V_{max}$")
+    label(axes, r"$\Theta$ [rad]", r"$V_{zero}$ [kg$^2$m$^4$/s$^2$]", "potential")
+    axes.legend(loc="best")
+    return _walking_order(axes, theta)
+
+
+def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
+    """(Theta, sigma) with level curves, the domain shaded, and the orbit with its impact dotted."""
+    o, theta = report.orbits, grid(report.orbits.zero)
+    low, high = _shown(report)
+    orbit, fastest = _sigma(o, theta, report.zeta_star), _sigma(o, theta, max(low, high))
+    if not report.domain.empty:
+        slowest = _sigma(o, theta, low)
+        axes.fill_between(theta, slowest, fastest, color=DOMAIN, lw=0, label="domain")
+    axes.plot(theta, orbit, color=PALETTE[1], lw=2.0, label="orbit")
+    ends = [theta[-1], theta[0]], [orbit[-1], orbit[0]]
+    axes.plot(*ends, color=PALETTE[1], ls=":", label="impact")
+    far = max((fastest[-1], orbit[-1]), key=abs)
+    axes.set_ylim(min(1.1 * far, -0.4 * far), max(1.1 * far, -0.4 * far))
+    _level_curves(axes, report)
+    label(axes, r"$\Theta$ [rad]", r"$\sigma$ [kg m$^2$/s]", "phase portrait")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.16), ncols=2)
+    return _walking_order(axes, theta)
+
+
+def restricted_map(axes: Axes, report: ZeroDynamicsReport, steps: int = STAIRS) -> Axes:
+    """rho(zeta), the diagonal, zeta*, the domain shaded, and the stairs from either end of it."""
+    o = report.orbits
+    low, high = _shown(report)
+    right = 1.05 * max(high, report.zeta_star)
+    zeta = np.array([o.lowest, right])
+    if not report.domain.empty:
+        axes.axvspan(low, high, color=DOMAIN, lw=0, zorder=0, label="domain")
+    axes.plot([0.0, right], [0.0, right], color=GREY, ls="--", label="the same speed")
+    axes.plot(zeta, o.delta**2 * zeta - o.v_end, color=PALETTE[0], label=r"$\rho(\zeta)$")
+    for k, end in enumerate(() if report.domain.empty else (low, high)):
+        inside = end + 1e-6 * (high - low) * (1.0 if k == 0 else -1.0)
+        name = "step by step" if k == 0 else "_"
+        axes.plot(*_stairs(o, inside, steps).T, color=PALETTE[1], lw=0.9, label=name)
+    name = r"$\zeta^*$"
+    axes.plot(report.zeta_star, report.zeta_star, "s", color="black", mfc="none", label=name)
+    unit = "[kg$^2$m$^4$/s$^2$]"
+    label(axes, rf"$\zeta_k$ {unit}", rf"$\zeta_{{k+1}}$ {unit}", "return map")
+    axes.set_xlim(0.0, right)
+    axes.set_ylim(0.0, None)
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.16), ncols=3)
+    return axes
+
+
+def zero_dynamics_figure(report: ZeroDynamicsReport) -> Figure:
+    """All four, with what bounds the domain as a title."""
+    with style():
+        figure = new_figure(9.0, 6.6)
+        (inertia, potential), (portrait, returns) = figure.subplots(2, 2)
+        zero_inertia(inertia, report.orbits)
+        zero_potential(potential, report)
+        zero_portrait(portrait, report)
+        restricted_map(returns, report)
+        figure.suptitle(_title(report), fontsize=10.0)
+        return figure
+
+
+def _level_curves(axes: Axes, report: ZeroDynamicsReport) -> None:
+    """Steps that are not the orbit, in what the axes show; below V_max they turn round."""
+    o = report.orbits
+    theta, sigma = np.meshgrid(grid(o.zero)[::2], np.linspace(*axes.get_ylim(), 201))
+    above = o.delta**2 * report.zeta_star - o.v_max
+    levels = o.v_max + above * np.array([-1.0, -0.5, 0.0, 0.5, 2.0, 4.0])
+    constant = 0.5 * sigma**2 + o.potential(theta)
+    axes.contour(theta, sigma, constant, levels, colors=GREY, linewidths=0.6, linestyles="-")
+    axes.plot([], [], color=GREY, lw=0.6, label="other steps")
+
+
+def _shown(report: ZeroDynamicsReport) -> tuple[float, float]:
+    """The ends of the domain, or what to show in their place."""
+    low, high = report.domain
+    if report.domain.empty:
+        return report.orbits.lowest, report.zeta_star
+    return low.zeta, high.zeta if math.isfinite(high.zeta) else WIDE * report.zeta_star
+
+
+def _sigma(orbits: ZeroOrbits, theta: Array, zeta: float) -> Array:
+    """sigma along the step after zeta, NaN where the step does not come."""
+    square = orbits.sigma_squared(theta, zeta)
+    size = np.sqrt(np.where(square >= 0.0, square, np.nan))
+    return math.copysign(1.0, orbits.sigma(1.0)) * size
+
+
+def _stairs(orbits: ZeroOrbits, zeta: float, steps: int) -> Array:
+    """Corners (2 steps + 1, 2): to the map, across to the diagonal."""
+    way = orbits.iterate(zeta, steps)
+    return np.column_stack((np.repeat(way, 2)[:-1], np.append(way[0], np.repeat(way[1:], 2))))
+
+
+def _title(report: ZeroDynamicsReport) -> str:
+    low, high = report.domain
+    if report.domain.empty:
+        return "no speed keeps the limits"
+    below = "to pass $V_{max}$" if low.cause == PASSING else low.cause
+    top = f"{high.zeta:.4g}" if math.isfinite(high.zeta) else r"\infty"
+    return rf"domain ${low.zeta:.4g} < \zeta < {top}$; bounds: {below}, {high.cause}"
+
+
+def _walking_order(axes: Axes, theta: Array) -> Axes:
+    """Theta+ at the left, so that a step runs to the right."""
+    axes.set_xlim(theta[0], theta[-1])
+    return axes

@@ -1,0 +1,320 @@
+"""Zero dynamics in closed form against simulations that know nothing of them, and against the rimless wheel."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from scipy.special import ellipkinc
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.analysis.zero_report import zero_report
+from biped_adrc.cli import app
+from biped_adrc.errors import GaitError, InputError
+from biped_adrc.gait.curves import Polynomial
+from biped_adrc.gait.zero_limits import Limits, domain
+from biped_adrc.gait.zero_orbits import ZeroOrbits
+from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
+
+ALPHA, GRAVITY = math.pi / 8, 9.81
+METHOD = ba.RK4(1e-3)
+
+
+def orbits_of(biped, constraint):
+    return ZeroOrbits.of(ba.ZeroDynamics.of(biped, constraint))
+
+
+@pytest.fixture(scope="module")
+def bare():
+    return ba.Biped.load("rabbit", "identified-bare")
+
+
+@pytest.fixture(scope="module")
+def published(bare):
+    return ba.load_gait("published", bare)
+
+
+@pytest.fixture(scope="module")
+def orbits(bare, published):
+    return orbits_of(bare, published.constraint)
+
+
+def walk_from(orbits, gait, zeta, impacts, method=METHOD, **options):
+    """The full model under NPD, from the impact with zeta on."""
+    b = orbits.zero.biped
+    after = b.impact(*orbits.zero.end_state(orbits.sigma(zeta)))
+    walker = ba.Walker(b, ba.NPDController(gait.constraint), **options)
+    return ba.walk(walker, gait, impacts, method, start=(after.q, after.v))
+
+
+# -- the full model --------------------------------------------------------------------------------
+@pytest.fixture(scope="module")
+def fast_walk(orbits, published):
+    return walk_from(orbits, published, 1.8 * orbits.zeta_star, 5)
+
+
+def test_the_map_is_the_walk(orbits, bare, fast_walk):
+    """zeta, the duration and the energy of each step of the simulated five-link robot."""
+    zeta = orbits.iterate(1.8 * orbits.zeta_star, 5)
+    x = fast_walk.trajectory.before("foot_strike")
+    sigma = np.array([bare.angular_momentum(x_k[:5], x_k[5:10]) for x_k in x])
+    np.testing.assert_allclose(0.5 * sigma**2, zeta[1:], rtol=1e-6)
+    assert np.all(sigma * orbits.sigma(1.0) > 0)
+    for before, after, x_k, certificate in zip(
+        zeta[:-1], zeta[1:], x, fast_walk.certificates, strict=True
+    ):
+        assert certificate.duration == pytest.approx(orbits.period(before), rel=1e-6)
+        energy = bare.kinetic_energy(x_k[:5], x_k[5:10])
+        assert energy == pytest.approx(orbits.kinetic_energy(after), rel=1e-6)
+
+
+def test_single_support_conserves_zeta_and_potential(orbits, bare, published, fast_walk):
+    arc = fast_walk.trajectory.arcs[0]
+    theta = arc.x[:, :5] @ published.constraint.phase
+    sigma = np.array([bare.angular_momentum(x[:5], x[5:10]) for x in arc.x])
+    constant = 0.5 * sigma**2 + orbits.potential(theta)
+    np.testing.assert_allclose(constant, constant[0], rtol=1e-8)
+    assert np.ptp(0.5 * sigma**2) > 0.2 * constant[0]
+
+
+def test_walks_from_inside_the_domain_and_stalls_outside(orbits, published):
+    for share, walks in ((1.002, True), (0.998, False)):
+        zeta = share * orbits.lowest
+        run = walk_from(orbits, published, zeta, 1, ba.RK4(2e-3), max_step_time=6.0)
+        assert run.trajectory.status.ok is walks
+        if walks:
+            assert run.certificates[0].duration == pytest.approx(orbits.period(zeta), rel=1e-5)
+
+
+@pytest.mark.parametrize("limits", [Limits(friction=0.5), Limits(torque=90.0)])
+def test_the_upper_end_is_where_the_simulated_step_needs_the_limit(orbits, published, limits):
+    upper = domain(orbits, limits).upper
+    assert upper.cause == ("friction" if limits.friction else "torque")
+    for share, keeps in ((0.995, True), (1.005, False)):
+        run = walk_from(orbits, published, share * upper.zeta, 1)
+        found = run.certificates[0].violations(limits.friction or 99.0, limits.torque or 1e3)
+        assert (found == ()) is keeps, found
+
+
+@pytest.mark.parametrize("share", [0.45, 1.0, 1.8, 2.1])
+def test_friction_of_a_step_decides_whether_it_is_in_the_domain(any_biped, share):
+    """Ratios of one step's own forces; of both signs, fast steps of two presets brake most."""
+    constraint = ba.load_gait("published", any_biped).constraint
+    orbits = orbits_of(any_biped, constraint)
+    zeta = share * orbits.zeta_star
+    dense = ba.ZeroDynamics.of(any_biped, constraint, nodes=160)
+    step = dense.orbit(orbits.delta * orbits.sigma(zeta))
+    F_T, F_N = step.ground_reaction.T
+    needed = float(np.max(np.abs(F_T) / F_N))
+    assert domain(orbits, Limits(friction=1.02 * needed)).holds(zeta)
+    assert not domain(orbits, Limits(friction=0.98 * needed)).holds(zeta)
+
+
+def test_feet_leave_the_ground_beyond_the_upper_end(orbits, published):
+    upper = domain(orbits).upper
+    assert upper.cause == "lift-off"
+    forces = [
+        walk_from(orbits, published, share * upper.zeta, 1).certificates[0].least_normal_force
+        for share in (0.995, 1.005)
+    ]
+    assert forces[0] > 0.0 > forces[1]
+
+
+def test_the_fixed_point_is_the_published_state(any_biped):
+    """zeta* = -V_zero(Theta-) / (1 - delta^2), while x- of the gait was given before there was a curve."""
+    gait = ba.load_gait("published", any_biped)
+    orbits = orbits_of(any_biped, gait.constraint)
+    sigma = any_biped.angular_momentum(gait.q_minus, gait.v_minus)
+    assert orbits.sigma(orbits.zeta_star) == pytest.approx(sigma, rel=1e-9)
+    assert orbits.rho(0.5 * sigma**2) == pytest.approx(0.5 * sigma**2, rel=1e-9)
+    assert orbits.speed(orbits.zeta_star) == pytest.approx(
+        any_biped.swing_foot(gait.q_minus)[0] / gait.period, rel=1e-9
+    )
+
+
+def test_the_sense_of_theta_is_a_matter_of_taste(orbits, bare, published):
+    c = published.constraint
+    turned = orbits_of(bare, ba.VirtualConstraint(c.curve, -c.phase, -c.theta_plus, -c.theta_minus))
+    for name in ("delta", "v_end", "v_max", "existence", "lowest", "zeta_star"):
+        assert getattr(turned, name) == pytest.approx(getattr(orbits, name), rel=1e-10)
+    zeta = 1.2 * orbits.zeta_star
+    assert turned.sigma(zeta) == pytest.approx(orbits.sigma(zeta), rel=1e-12)
+    assert turned.period(zeta) == pytest.approx(orbits.period(zeta), rel=1e-10)
+    one, other = (domain(o, Limits(0.6)).upper for o in (turned, orbits))
+    assert one.zeta == pytest.approx(other.zeta, rel=1e-9)
+    assert one.theta == pytest.approx(-other.theta, abs=1e-6)
+
+
+@pytest.mark.parametrize("start", [0.4, 1.0005, 3.0])
+def test_steps_to_settle(orbits, start):
+    zeta = start * orbits.zeta_star
+    count = orbits.steps_to(zeta, 1e-3)
+    away = np.abs(orbits.iterate(zeta, count + 1) / orbits.zeta_star - 1.0)
+    assert away[count] <= 1e-3
+    assert np.all(away[:count] > 1e-3)
+
+
+# -- the rimless wheel: everything in closed form ----------------------------------------------------
+def wheel(slope):
+    curve = Polynomial(np.zeros((0, 2)))
+    middle = math.pi - slope
+    biped = ba.Biped.load("rimless_wheel")
+    return biped, ba.VirtualConstraint(curve, biped.phase, middle + ALPHA, middle - ALPHA)
+
+
+@pytest.mark.parametrize("slope", [0.08, 0.2])
+def test_rimless_wheel(slope):
+    """McGeer 1990, unit mass and spokes: an inverted pendulum between impacts that take 1 - cos^2 2 alpha."""
+    orbits = orbits_of(*wheel(slope))
+    d2 = math.cos(2 * ALPHA) ** 2
+    fall = 2.0 * GRAVITY * math.sin(ALPHA) * math.sin(slope)
+    rise = GRAVITY * (1.0 - math.cos(ALPHA - slope))
+    assert orbits.delta**2 == pytest.approx(d2, rel=1e-10)
+    assert orbits.v_end == pytest.approx(-fall, rel=1e-10)
+    assert orbits.v_max == pytest.approx(rise, rel=1e-10)
+    assert orbits.theta_max == pytest.approx(math.pi, abs=1e-10)
+    assert orbits.zeta_star == pytest.approx(fall / (1.0 - d2), rel=1e-10)
+    assert orbits.lowest == pytest.approx(rise / d2, rel=1e-10)
+    assert orbits.step_length == pytest.approx(2.0 * math.sin(ALPHA), rel=1e-10)
+    for zeta in (1.01 * orbits.lowest, orbits.zeta_star):
+        # rate^2 = 2 (top + g (1 - cos x)), x from the vertical
+        top = d2 * zeta - rise
+        m = -2.0 * GRAVITY / top
+        time = sum(ellipkinc(0.5 * x, m) for x in (ALPHA - slope, ALPHA + slope))
+        assert orbits.period(zeta) == pytest.approx(time * math.sqrt(2.0 / top), rel=1e-8)
+    assert orbits.speed(orbits.lowest) == 0.0
+
+
+def test_the_lower_end_of_a_curve_that_only_falls_is_a_start_from_rest():
+    """Released beyond the vertical: no V_max to pass, and a finite duration, that of the simulation."""
+    biped, constraint = wheel(0.2)
+    constraint = dataclasses.replace(constraint, theta_plus=math.pi - 0.1)
+    orbits = orbits_of(biped, constraint)
+    assert orbits.lowest == 0.0
+    walker = ba.Walker(biped, ba.Passive(), slope=0.2, max_step_time=10.0)
+    x = walker.initial_state(np.array([constraint.theta_plus]), np.zeros(1))
+    once = ("foot_strike", 1)
+    run = ba.simulate(walker, x, ba.Mode(), ba.RK4(1e-3), t_end=10.0, stop_after=once)
+    assert orbits.step_length / orbits.speed(0.0) == pytest.approx(run.t_end, rel=1e-7)
+
+
+def test_a_spoke_pushes_along_itself():
+    """The hub flies off when rate^2 > g cos x, first at the end; friction asked for is tan(alpha), always."""
+    slope = 0.2
+    orbits = orbits_of(*wheel(slope))
+    upper = domain(orbits, Limits(slope=slope)).upper
+    assert upper.cause == "lift-off"
+    assert upper.theta == pytest.approx(math.pi - slope - ALPHA)
+    assert orbits.rho(upper.zeta) == pytest.approx(
+        0.5 * GRAVITY * math.cos(slope + ALPHA), rel=1e-8
+    )
+    rough = domain(orbits, Limits(friction=0.42, slope=slope))  # tan(alpha) = 0.4142
+    assert not rough.empty
+    assert rough.upper.zeta == pytest.approx(upper.zeta, rel=1e-8)
+    assert domain(orbits, Limits(friction=0.41, slope=slope)).empty
+
+
+def test_multiplier_of_the_wheel_is_delta_squared():
+    biped, constraint = wheel(0.12)
+    orbits = orbits_of(biped, constraint)
+    walker = ba.Walker(biped, ba.Passive(), slope=0.12, max_step_time=10.0)
+    q, v = orbits.zero.end_state(orbits.sigma(orbits.zeta_star))
+    found = ba.ReturnMap(walker, ba.Adaptive(), pitch=math.pi).fixed_point(np.append(q, 1.02 * v))
+    assert found.multipliers[0].real == pytest.approx(orbits.delta**2, rel=1e-6)
+    assert found.x_minus == pytest.approx(np.append(q, v), rel=1e-8)
+
+
+# -- when there is no orbit ----------------------------------------------------------------------------
+def test_what_fails_is_named(bare, published, orbits):
+    with pytest.raises(GaitError, match=r"0\.195 short of the V_max = 0\.570"):
+        _ = orbits_of(*wheel(0.05)).zeta_star
+    with pytest.raises(GaitError, match=r"V_zero\(Theta-\) = .* expected below 0"):
+        _ = orbits_of(*wheel(-0.05)).zeta_star
+    with pytest.raises(GaitError, match=r"delta\^2 = 1\.21, expected below 1"):
+        _ = dataclasses.replace(orbits, delta=1.1).zeta_star
+    assert dataclasses.replace(orbits, delta=1.0).existence == math.inf
+    c = published.constraint
+    steep = np.zeros((4, 2))
+    steep[:, 0], steep[1] = c.h(c.theta_plus)[0], [3.0, 4.0]
+    bent = ba.VirtualConstraint(Polynomial(steep), c.phase, c.theta_plus, c.theta_minus)
+    with pytest.raises(GaitError, match=r"I\(Theta\) changes its sign at Theta = .*phase"):
+        orbits_of(bare, bent)
+    compass = ba.Biped.load("compass")
+    with pytest.raises(GaitError, match="one coordinate is unactuated"):
+        ZeroOrbits.of(dataclasses.replace(orbits.zero, biped=compass))
+
+
+def test_an_impact_that_turns_the_motion_round():
+    biped = ba.Biped.load("three_link")
+    split = np.array([[math.pi + 1.2, 0.0], [math.pi - 1.2, 0.0]])
+    constraint = ba.VirtualConstraint(Polynomial(split), biped.phase, math.pi + 1.2, math.pi - 1.2)
+    with pytest.raises(GaitError, match="runs backwards"):
+        orbits_of(biped, constraint)
+
+
+def test_zeta_outside_of_the_domain(orbits):
+    with pytest.raises(GaitError, match=r"stops before V_max = .*expected zeta above"):
+        orbits.iterate(0.9 * orbits.lowest, 3)
+    for bad in (float("nan"), float("inf"), -1.0):
+        with pytest.raises(GaitError, match="finite number >= 0"):
+            orbits.period(bad)
+    with pytest.raises(GaitError, match="nearly comes to rest"):
+        orbits.period(orbits.lowest * (1.0 + 1e-15))
+    with pytest.raises(GaitError, match="closeness is 0"):
+        orbits.steps_to(orbits.zeta_star, 0.0)
+    with pytest.raises(InputError, match="friction is -1"):
+        Limits(friction=-1.0)
+    with pytest.raises(InputError, match="right angle"):
+        Limits(slope=1.6)
+
+
+# -- report, picture, command ----------------------------------------------------------------------------
+def test_report_says_what_does_not_hold(bare, published):
+    good = zero_report(bare, published.constraint, Limits(0.6, 150.0))
+    assert good.walkable
+    assert good.speeds[0] == 0.0
+    assert "leaves the constraint" not in good.text()
+    assert (
+        "the periodic orbit does not keep"
+        in zero_report(bare, published.constraint, Limits(torque=60.0)).text()
+    )
+    recipe = ba.load_gait("recipe", bare)
+    assert "the impact leaves the constraint" in zero_report(bare, recipe.constraint).text()
+    with pytest.raises(GaitError, match=r"above the ground of slope 0\.1 rad"):
+        zero_report(bare, published.constraint, Limits(slope=0.1))
+    c = published.constraint
+    shifted = ba.VirtualConstraint(c.curve, c.phase, c.theta_plus + 0.01, c.theta_minus)
+    with pytest.raises(GaitError, match="begins at Theta = "):
+        zero_report(bare, shifted)
+
+
+def test_the_picture_shows_the_orbit(bare, published):
+    report = zero_report(bare, published.constraint)
+    _, _, portrait, returns = zero_dynamics_figure(report).axes
+    lines = {line.get_label(): line.get_data() for line in portrait.get_lines()}
+    theta, sigma = lines["orbit"]
+    assert (theta[0], theta[-1]) == (
+        published.constraint.theta_plus,
+        published.constraint.theta_minus,
+    )
+    sigma_star = report.orbits.sigma(report.zeta_star)
+    assert sigma[-1] == pytest.approx(sigma_star, rel=1e-9)
+    assert sigma[0] == pytest.approx(report.orbits.delta * sigma_star, rel=1e-9)
+    data = {line.get_label(): np.array(line.get_data()) for line in returns.get_lines()}
+    x, y = data["step by step"]
+    np.testing.assert_allclose(y[1::2], [report.orbits.rho(zeta) for zeta in x[1::2]], rtol=1e-12)
+    np.testing.assert_array_equal(x[2::2], y[2::2])
+    np.testing.assert_array_equal(x[:-1:2], x[1::2])
+
+
+def test_command(tmp_path):
+    out = tmp_path / "zero.svg"
+    words = ["gait", "zero", "published", "--preset", "tac2003", "--torque", "150"]
+    done = CliRunner().invoke(app, [*words, "--plot", str(out)])
+    assert done.exit_code == 0, done.output
+    assert "delta^2         0.706694" in done.output
+    assert "(torque at Theta" in done.output
+    assert out.read_text().startswith("<?xml")
