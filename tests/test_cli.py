@@ -69,6 +69,10 @@ def test_walk_store_and_animate(tmp_path):
         (["animate", "nowhere.npz"], 3, "not found"),
         (["simulate", "--colour", "red"], 2, "No such option"),
         (["reproduce", "--preset", "foo"], 3, "no preset 'foo'"),
+        (["poincare", "--controller", "pid"], 3, "controller 'pid' does not fit"),
+        (["poincare", "--robot", "compass", "--controller", "adrc"], 3, "with 0 motors"),
+        (["poincare", "--robot", "compass", "--samples", "2"], 3, "expected 0 or at least 3"),
+        (["poincare", "--robot", "compass", "--slope", "0.6"], 4, "no return to the section"),
     ],
 )
 def test_exit_codes(arguments, code, message):
@@ -76,6 +80,17 @@ def test_exit_codes(arguments, code, message):
     assert done.returncode == code, (done.stdout, done.stderr)
     assert message in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_multipliers_of_a_robot_without_motors():
+    done = command("poincare", "--robot", "compass", "--samples", "5")
+    assert done.returncode == 0, done.stderr
+    table = {line[:29].strip(): line[29:].split() for line in done.stdout.splitlines()}
+    assert table["variational equation"] == table["central differences"]
+    assert [float(x) for x in table["variational equation"]] == pytest.approx(
+        [0.5799523, 0.5799523, 0.1315726], abs=1e-7
+    )
+    assert "Trust the variational equation: the cycle is stable" in done.stdout
 
 
 def test_a_folder_that_cannot_be_written_is_refused_before_the_first_run(tmp_path):

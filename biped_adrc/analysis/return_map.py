@@ -19,6 +19,9 @@ import numpy as np
 from biped_adrc.errors import SimulationError
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.hybrid.system import HybridSystem
+from biped_adrc.hybrid.trajectory import Event
+from biped_adrc.linear import solve
 from biped_adrc.types import Array, ComplexArray
 from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
@@ -88,22 +91,21 @@ class ReturnMap:
 
     def __call__(self, s: Array) -> Array:
         """P(s). Raises SimulationError, with the status, when the walker does not come back."""
-        after = self.walker.strike(0.0, self.lift(s), Mode())
-        if after is None:
-            raise SimulationError("the swing foot is behind the stance foot: not an impact")
-        run = simulate(
-            self.walker,
-            after[0],
-            after[1],
-            self.method,
-            t_end=2.0 * self.walker.max_step_time,
-            stop_after=(FOOT_STRIKE, 1),
-        )
+        start = after_impact(self.walker, 0.0, self.lift(s), Mode())
+        return self.project(self.next_strike(self.walker, *start).x_minus)
+
+    def next_strike(self, system: HybridSystem, x: Array, mode: Mode) -> Event:
+        """The next foot strike of the walker, or of a system that carries it along, from x after impact.
+
+        Raises SimulationError, with the status, when there is none.
+        """
+        limit = 2.0 * self.walker.max_step_time
+        run = simulate(system, x, mode, self.method, t_end=limit, stop_after=(FOOT_STRIKE, 1))
         if not run.status.ok:
             raise SimulationError(
                 f"no return to the section: {run.status.name}, {run.status.value} {run.detail}"
             )
-        return self.project(run.events(FOOT_STRIKE)[-1].x_minus)
+        return run.events(FOOT_STRIKE)[-1]
 
     def jacobian(self, s: Array, mapper: Mapper = map) -> Array:
         """dP/ds by central differences."""
@@ -121,7 +123,8 @@ class ReturnMap:
     ) -> PeriodicOrbit:
         """Newton on P(s) - s from a pre-impact state `guess`; dP/ds is kept while it serves.
 
-        Raises SimulationError when it does not converge or the walker does not come back.
+        Raises SimulationError when it does not converge or the walker does not come back, SingularError
+        when a multiplier is 1.
         """
         s = self.project(np.asarray(guess, dtype=float))
         J, s_J, previous = self.jacobian(s, mapper), s, np.inf
@@ -133,11 +136,33 @@ class ReturnMap:
             if stale and (done or residual > _CHORD * previous):
                 J, s_J = self.jacobian(s, mapper), s
             if done:
-                multipliers = np.linalg.eigvals(J).astype(complex)
-                order = np.argsort(-np.abs(multipliers))
-                return PeriodicOrbit(self.lift(s), multipliers[order], residual, iteration)
-            s, previous = s + np.linalg.solve(np.eye(len(s)) - J, gap), residual
-        raise SimulationError(
-            f"Newton on the return map did not converge in {max_iterations} iterations: "
-            f"residual {residual:.3g}, expected below {tolerance:g}; start nearer to the orbit"
-        )
+                return PeriodicOrbit(self.lift(s), sorted_eigenvalues(J), residual, iteration)
+            s, previous = s + newton_step(J, gap), residual
+        raise not_converged(max_iterations, residual, tolerance)
+
+
+def after_impact(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array, Mode]:
+    """x+ and its mode after the impact at x-. Raises SimulationError where it is none."""
+    struck = walker.strike(t, x, mode)
+    if struck is None:
+        raise SimulationError("the swing foot is behind the stance foot: not an impact")
+    return struck
+
+
+def newton_step(J: Array, gap: Array) -> Array:
+    """ds with (1 - J) ds = P(s) - s. Raises SingularError when 1 is a multiplier."""
+    return solve(np.eye(len(gap)) - J, gap, "1 - dP/ds, by which Newton looks for the cycle,")
+
+
+def sorted_eigenvalues(matrix: Array) -> ComplexArray:
+    """Eigenvalues, the largest magnitude first."""
+    values = np.linalg.eigvals(matrix).astype(complex)
+    return values[np.argsort(-np.abs(values))]
+
+
+def not_converged(iterations: int, residual: float, tolerance: float) -> SimulationError:
+    """What Newton says when it gives up."""
+    return SimulationError(
+        f"Newton on the return map did not converge in {iterations} iterations: "
+        f"residual {residual:.3g}, expected below {tolerance:g}; start nearer to the orbit"
+    )

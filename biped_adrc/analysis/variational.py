@@ -25,13 +25,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from biped_adrc.analysis.return_map import PeriodicOrbit, ReturnMap
+from biped_adrc.analysis.return_map import (
+    PeriodicOrbit,
+    ReturnMap,
+    after_impact,
+    newton_step,
+    not_converged,
+    sorted_eigenvalues,
+)
 from biped_adrc.control.npd import NPDController
 from biped_adrc.control.passive import Passive
 from biped_adrc.control.tracking import Gains
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.linear import solve
@@ -41,7 +47,7 @@ from biped_adrc.model.derivatives import (
     torque_derivatives,
 )
 from biped_adrc.types import Array, ComplexArray
-from biped_adrc.walker import FOOT_STRIKE, Instant, Mode, Walker
+from biped_adrc.walker import Instant, Mode, Walker
 
 DIFFERENCE = 2e-4
 """[rad, rad/s]: where the quotient of NPD's torque is within 1e-10 of its derivative, relative to it."""
@@ -55,9 +61,10 @@ def torque_derivative(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
 
 def _torque_derivative(walker: Walker, i: Instant) -> Array:
     law = walker.law
-    if isinstance(law, Passive):
+    if type(law) is Passive:
         return np.zeros((walker.plant.p, 2 * walker.plant.n))
-    if isinstance(law, NPDController) and isinstance(law.reference, VirtualConstraint):
+    # a subclass may have an output of its own, which is not (28)
+    if type(law) is NPDController and type(law.reference) is VirtualConstraint:
         du = npd_derivative(walker, law, law.reference, i)
     else:
         du = differenced_torque(walker, i)
@@ -152,9 +159,7 @@ def height_derivative(walker: Walker, x: Array) -> Array:
 
 def saltation(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
     """Xi (2 n, 2 n) of foot strike at x-. Raises SimulationError when it is no transversal impact."""
-    struck = walker.strike(t, x, mode)
-    if struck is None:
-        raise SimulationError("the swing foot is behind the stance foot: not an impact")
+    struck = after_impact(walker, t, x, mode)
     n = walker.plant.n
     D = impact_derivatives(walker.plant, x[:n], x[n:]).matrix
     before, after = walker.flow(t, x, mode), walker.flow(t, *struck)
@@ -260,12 +265,6 @@ class StepDerivative:
         return sorted_eigenvalues(self.jacobian)
 
 
-def sorted_eigenvalues(matrix: Array) -> ComplexArray:
-    """Eigenvalues, the largest magnitude first."""
-    values = np.linalg.eigvals(matrix).astype(complex)
-    return values[np.argsort(-np.abs(values))]
-
-
 def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
     """P(s) and dP/ds along one single support, with the walker and the method of P.
 
@@ -292,17 +291,9 @@ def _single_support(P: ReturnMap, x: Array) -> tuple[tuple[Array, Mode], Event]:
     """Impact at x, and the single support after it with its fundamental matrix: x+ and its mode, the strike."""
     system = VariationalSystem(P.walker)
     y0 = system.start(x)
-    struck = P.walker.strike(0.0, x, Mode())
-    if struck is None:
-        raise SimulationError("the swing foot is behind the stance foot: not an impact")
+    struck = after_impact(P.walker, 0.0, x, Mode())
     y0[: len(x)] = struck[0]
-    limit = 2.0 * P.walker.max_step_time
-    run = simulate(system, y0, struck[1], P.method, t_end=limit, stop_after=(FOOT_STRIKE, 1))
-    if not run.status.ok:
-        raise SimulationError(
-            f"no return to the section: {run.status.name}, {run.status.value} {run.detail}"
-        )
-    return struck, run.events(FOOT_STRIKE)[-1]
+    return struck, P.next_strike(system, y0, struck[1])
 
 
 def section_tangent(walker: Walker, x: Array) -> Array:
@@ -318,7 +309,8 @@ def periodic_orbit(
 ) -> tuple[PeriodicOrbit, StepDerivative]:
     """Newton on P(s) - s from a pre-impact state `guess`, with dP/ds by the variational equation.
 
-    Raises SimulationError when it does not converge or the walker does not come back.
+    Raises SimulationError when it does not converge or the walker does not come back, SingularError when a
+    multiplier is 1.
     """
     s = P.project(np.asarray(guess, dtype=float))
     for iteration in range(1, max_iterations + 1):
@@ -327,8 +319,5 @@ def periodic_orbit(
         residual = float(np.max(np.abs(gap)))
         if residual < tolerance:
             return PeriodicOrbit(P.lift(s), step.multipliers, residual, iteration), step
-        s = s + np.linalg.solve(np.eye(len(s)) - step.jacobian, gap)
-    raise SimulationError(
-        f"Newton on the return map did not converge in {max_iterations} iterations: "
-        f"residual {residual:.3g}, expected below {tolerance:g}; start nearer to the orbit"
-    )
+        s = s + newton_step(step.jacobian, gap)
+    raise not_converged(max_iterations, residual, tolerance)

@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.table import Table
 
-from biped_adrc.cli.app import EXIT_FELL, Preset, Pushes, app, bar, console, parse_pushes
+from biped_adrc.cli.app import (
+    EXIT_FELL,
+    Pushes,
+    Robot,
+    RobotPreset,
+    app,
+    bar,
+    console,
+    parse_pushes,
+)
 from biped_adrc.errors import InputError
 
 if TYPE_CHECKING:
@@ -19,9 +28,13 @@ if TYPE_CHECKING:
 def simulate(
     controller: Annotated[str, typer.Option(help="ADRC or NPD.")] = "ADRC",
     gait: Annotated[
-        str, typer.Option(help="published (through x*), recipe (section IV), or a .json file.")
+        str,
+        typer.Option(
+            help="published (through x*), recipe (section IV), v0.4 to v1.1 (by speed), or a .json file."
+        ),
     ] = "published",
-    preset: Preset = "identified",
+    robot: Robot = "rabbit",
+    preset: RobotPreset = None,
     push: Pushes = None,
     impacts: Annotated[
         int, typer.Option(help="Impacts to walk (12.5 steps of the paper are 25).")
@@ -48,16 +61,18 @@ def simulate(
         bool, typer.Option("--as-printed", help="Drop h' Theta'' from (20) and (28), as printed.")
     ] = False,
     friction: Annotated[
-        bool, typer.Option("--friction", help="Add RABBIT's joint friction.")
+        bool, typer.Option("--friction", help="Add the robot's joint friction.")
     ] = False,
     method: Annotated[str | None, typer.Option(help="rk4, exponential, adaptive or stiff.")] = None,
     step: Annotated[float | None, typer.Option(help="Step of rk4 and exponential [s].")] = None,
     out: Annotated[
-        Path | None, typer.Option("--out", "-o", help="Write the run (.npz, .json).")
+        Path | None,
+        typer.Option("--out", "-o", help="Write the run (.npz), or its signals (.mat)."),
     ] = None,
 ) -> None:
     """Walk, and print what each step needed."""
     from biped_adrc.hybrid.storage import save
+    from biped_adrc.model.robots import load_description
     from biped_adrc.studies.runs import Run, execute_fully
     from biped_adrc.studies.versions import versions
 
@@ -66,7 +81,8 @@ def simulate(
         extra["poles"] = _numbers(poles, "--poles")
     run = Run(
         controller.upper(),
-        preset=preset,
+        robot,
+        load_description(robot).preset(preset).name,
         gait=gait,
         pushes=parse_pushes(push),
         period=period,
@@ -86,7 +102,10 @@ def simulate(
         full = execute_fully(run, lambda t, n: shown.update(task, completed=n))
     o = full.outcome
     _print_steps(o)
-    if out is not None:
+    if out is not None and out.suffix == ".mat":
+        full.export(out)
+        console.print(f"written to {out}")
+    elif out is not None:
         save(full.trajectory, out, {"run": run.record(), "versions": versions()})
         console.print(f"written to {out.with_suffix('.npz')}")
     if not o.walked:
@@ -121,24 +140,38 @@ def _numbers(text: str, what: str) -> tuple[float, ...]:
 
 @app.command()
 def poincare(
-    controller: Annotated[str, typer.Option(help="ADRC or NPD.")] = "NPD",
-    gait: Annotated[str, typer.Option(help="published, recipe, or a .json file.")] = "published",
-    preset: Preset = "identified",
+    robot: Robot = "rabbit",
+    preset: RobotPreset = None,
+    gait: Annotated[
+        str, typer.Option(help="A stored gait by name, or a .json file.")
+    ] = "published",
+    controller: Annotated[
+        str | None, typer.Option(help="NPD (default) or ADRC; passive for robots without motors.")
+    ] = None,
+    slope: Annotated[
+        float | None, typer.Option(help="Of the ground [rad], positive downhill.")
+    ] = None,
     observer_states: Annotated[
         bool, typer.Option(help="Count the observer's states among the coordinates.")
     ] = True,
+    samples: Annotated[
+        int, typer.Option(help="Impacts of the walk for the paper's regression; 0 leaves it out.")
+    ] = 25,
 ) -> None:
-    """Fixed point of the return map and its multipliers, by central differences."""
-    from biped_adrc.studies.poincare import poincare as find
-    from biped_adrc.studies.runs import Run
+    """Fixed point of the return map, and its multipliers by every method beside each other."""
+    from biped_adrc.studies.cycle_stability import PASSIVE, cycle_stability, find_cycle
 
-    run = Run(controller.upper(), preset=preset, gait=gait)
+    known = {"npd": "NPD", "adrc": "ADRC", PASSIVE: PASSIVE}
+    name = None if controller is None else known.get(controller.lower(), controller)
+    cycle = find_cycle(robot, preset, gait, name, observer_states, slope)
     with console.status("Newton on the return map"):
-        found = find(run, observer_states)
-    o = found.orbit
-    console.print("x- =", " ".join(f"{value:.6f}" for value in o.x_minus[:10]))
-    console.print("|lambda| =", " ".join(f"{abs(value):.4g}" for value in o.multipliers))
-    console.print(
-        f"delta^2 of the zero dynamics {found.delta_squared:.6f}, residual {o.residual:.1e}, "
-        f"{'stable' if o.stable else 'unstable'}"
+        found = cycle_stability(cycle, samples)
+    walker, o = cycle.P.walker, found.orbit
+    law = type(walker.controller).__name__.removesuffix("Controller")
+    lines = (
+        f"{robot}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}",
+        "x- = " + " ".join(f"{value:.6f}" for value in o.x_minus[: 2 * walker.plant.n]),
+        f"residual {o.residual:.1e}; |lambda| by every method:",
+        found.table.text(),
     )
+    console.print("\n".join(lines), markup=False, highlight=False, soft_wrap=True)

@@ -1,0 +1,169 @@
+"""The stability of one walking cycle by every method that applies to it, section V.
+
+A robot with motors walks a stored gait under NPD or ADRC, one without walks its known cycle down a slope. The
+cycle is found by Newton on the return map. The regression (26), (27) is fed as the paper's: with the states
+before the impacts of a walk that starts beside the cycle.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from biped_adrc.analysis.regression import Regression, regress_multipliers
+from biped_adrc.analysis.return_map import PeriodicOrbit, ReturnMap, after_impact
+from biped_adrc.analysis.stability import (
+    Method,
+    Row,
+    StabilityTable,
+    Tolerances,
+    regression_row,
+    stability_table,
+)
+from biped_adrc.analysis.variational import periodic_orbit
+from biped_adrc.control.passive import Passive
+from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.gait.gait import load_gait
+from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4, Adaptive
+from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.model.biped import Biped
+from biped_adrc.studies.runs import Run
+from biped_adrc.types import Array
+from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
+
+PASSIVE = "passive"
+DIFFERENCE = 1e-4  # [rad, rad/s], of differences that are extrapolated
+LIGHT_FEET = 5e-4  # [rad, rad/s], the same where round-off of 1e-10 in P asks for wider ones
+BESIDE = 1e-3  # how much faster than on the cycle the regression's walk starts, dimensionless
+_SETTLES = 1e-9  # [rad, rad/s], residual of Newton: feet of 1e-7 of the hip's mass leave a round-off of 1e-10
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """A return map and a pre-impact state from which Newton finds its fixed point."""
+
+    P: ReturnMap
+    guess: Array
+
+
+@dataclass(frozen=True)
+class CycleStability:
+    """The fixed point and its multipliers by every method."""
+
+    cycle: Cycle
+    orbit: PeriodicOrbit
+    table: StabilityTable
+
+
+def gait_cycle(run: Run, observer_states: bool = True, slope: float | None = None) -> Cycle:
+    """A stored gait under the controller of `run`, its pushes left out, on its own or another slope [rad].
+
+    RK4 at 0.5 ms is within 2e-7 of delta^2 on the published gaits; ADRC takes the exponential method at 1 ms.
+    """
+    biped = run.biped()
+    gait = load_gait(run.gait, biped)
+    walker = replace(run, pushes=()).build(biped, gait)
+    if slope is not None:
+        walker = replace(walker, slope=slope)
+    has_states = walker.split(Mode()) is not None
+    method = Exponential(1e-3) if has_states else RK4(5e-4)
+    P = ReturnMap(walker, method, observer_states, 1e-5 if has_states else DIFFERENCE)
+    return Cycle(P, walker.initial_state(gait.q_minus, gait.v_minus))
+
+
+def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
+    """The stored cycle of a robot without motors, on its own slope or another one [rad] nearby.
+
+    Raises GaitError when none is stored, SimulationError when the robot does not come to a first impact.
+    """
+    known = passive_cycle(biped)
+    angle = known.slope if slope is None else slope
+    walker = Walker(biped, Passive(), slope=angle, max_step_time=known.max_step_time)
+    P = ReturnMap(walker, Adaptive(1e-12, 1e-12), difference=LIGHT_FEET, pitch=math.pi)
+    start = walker.initial_state(known.q_plus, known.v_plus)
+    return Cycle(P, P.next_strike(walker, start, Mode()).x_minus)
+
+
+def find_cycle(
+    robot: str,
+    preset: str | None = None,
+    gait: str = "published",
+    controller: str | None = None,
+    observer_states: bool = True,
+    slope: float | None = None,
+) -> Cycle:
+    """The cycle of a robot by name: of a stored gait under NPD (or ADRC), or passive without motors.
+
+    Raises InputError for a controller that does not fit the robot, and as Biped.load, load_gait, known_cycle.
+    """
+    biped = Biped.load(robot, preset)
+    fitting = ("NPD", "ADRC") if biped.p else (PASSIVE,)
+    name = fitting[0] if controller is None else controller
+    if name not in fitting:
+        raise InputError(
+            f"controller '{name}' does not fit robot '{robot}' with {biped.p} motors; choose one of "
+            f"{list(fitting)}"
+        )
+    if name == PASSIVE:
+        return known_cycle(biped, slope)
+    run = Run(name, robot, biped.preset, gait)
+    return gait_cycle(run, observer_states, slope)
+
+
+def cycle_stability(
+    cycle: Cycle, samples: int = 25, tolerances: Tolerances | None = None
+) -> CycleStability:
+    """The table at the fixed point; `samples` impacts for the regression, 0 leaves it out.
+
+    With a controller that has states there are central differences alone, since the variational equation is
+    written without. Raises InputError for a number of samples that is no walk, SimulationError when no fixed
+    point is found.
+    """
+    if samples != 0 and samples < 3:
+        raise InputError(f"{samples} samples for the regression, expected 0 or at least 3")
+    P, t = cycle.P, Tolerances() if tolerances is None else tolerances
+    if len(cycle.guess) > 2 * P.walker.plant.n:
+        guess = cycle.guess if P.controller_states else cycle.guess[: 2 * P.walker.plant.n]
+        orbit = P.fixed_point(guess)
+        regression = _regression(P, orbit, samples)
+        rows = [Row(Method.CENTRAL, orbit.multipliers)]
+        rows += [] if regression is None else [regression_row(regression)]
+        return CycleStability(cycle, orbit, StabilityTable(tuple(rows), t))
+    orbit, step = periodic_orbit(P, cycle.guess, _SETTLES)
+    table = stability_table(P, step, _regression(P, orbit, samples), t)
+    return CycleStability(cycle, orbit, table)
+
+
+def _regression(P: ReturnMap, orbit: PeriodicOrbit, samples: int) -> Regression | None:
+    """The regression on a walk beside the cycle; None when no samples are asked for."""
+    if samples == 0:
+        return None
+    n = 2 * P.walker.plant.n
+    return regress_multipliers(walk_beside(P, orbit.x_minus, samples), orbit.x_minus[:n])
+
+
+def walk_beside(P: ReturnMap, x_star: Array, impacts: int) -> Array:
+    """States (impacts, 2 n) before the impacts of a walk that starts `BESIDE` faster than the cycle at x_star.
+
+    Raises SimulationError when the walker does not walk that far.
+    """
+    walker, n = P.walker, P.walker.plant.n
+    x = np.array(x_star)
+    x[n : 2 * n] *= 1.0 + BESIDE
+    run = simulate(
+        walker,
+        *after_impact(walker, 0.0, x, Mode()),
+        P.method,
+        t_end=impacts * walker.max_step_time,
+        stop_after=(FOOT_STRIKE, impacts),
+    )
+    if not run.status.ok:
+        raise SimulationError(
+            f"the walk of {impacts} impacts for the regression ended before: {run.status.name}, "
+            f"{run.status.value}; ask for fewer"
+        )
+    return np.array([event.x_minus[: 2 * n] for event in run.events(FOOT_STRIKE)])
