@@ -6,6 +6,7 @@ Stored as a small readable JSON file in `gaits/<robot>/<name>-<preset>.json`.
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -38,6 +39,8 @@ class Gait:
     v_minus: Array
     period: float
     provenance: Mapping[str, Any]
+    slope: float = 0.0
+    """Of the ground it walks on [rad], positive downhill."""
 
     def start(self, biped: Biped) -> tuple[Array, Array]:
         """(q+, q'+) after the impact of the periodic orbit on this robot, each (n,)."""
@@ -53,25 +56,31 @@ class Gait:
                 f"gait '{self.name}' has {p} joints and a phase row of {n}, robot "
                 f"'{biped.description.name}' has {biped.p} motors and {biped.n} coordinates"
             )
-        height = float(biped.swing_foot(self.q_minus)[1])
+        x, z = biped.swing_foot(self.q_minus)
+        height = float(z + math.tan(self.slope) * x)
         if abs(height) > CLOSES:
             raise GaitError(
                 f"gait '{self.name}': the swing foot is {height:.3g} m above the ground before impact, "
                 f"expected 0 within {CLOSES:g} m"
             )
-        R = biped.relabelling[: biped.p]
+        after = biped.relabel(self.q_minus)
+        begins, ends = float(c.phase @ after), float(c.phase @ self.q_minus)
+        if max(abs(begins - c.theta_plus), abs(ends - c.theta_minus)) > CLOSES:
+            raise GaitError(
+                f"gait '{self.name}': the curve covers Theta from {c.theta_plus:.5g} to {c.theta_minus:.5g} rad, "
+                f"the step runs from {begins:.5g} to {ends:.5g} rad; theta_plus has to be c q+ after the "
+                "relabelled impact, theta_minus c q- before it"
+            )
         end, begin = c.h(c.theta_minus)[0], c.h(c.theta_plus)[0]
-        theta_after = float(c.phase @ self.q_minus[biped.relabelling])
         gap = max(
-            float(np.max(np.abs(begin - end[R]))),
+            float(np.max(np.abs(begin - after[: biped.p]))),
             float(np.max(np.abs(end - self.q_minus[: biped.p]))),
-            abs(theta_after - c.theta_plus),
         )
         if gap > CLOSES:
             raise GaitError(
                 f"gait '{self.name}' does not close: the end of the step, relabelled, misses its start "
-                f"by {gap:.3g} rad, expected at most {CLOSES:g} rad; check the phase range and the "
-                "order and sign of the joints"
+                f"by {gap:.3g} rad, expected at most {CLOSES:g} rad; check the order and sign of "
+                "the joints"
             )
         return self
 
@@ -86,6 +95,7 @@ class Gait:
             "units": "rad, rad/s, s",
             "provenance": dict(self.provenance),
             "period": self.period,
+            "slope": self.slope,
             "q_minus": self.q_minus.tolist(),
             "v_minus": self.v_minus.tolist(),
             "phase": c.phase.tolist(),
@@ -131,9 +141,11 @@ def load_gait(gait: str | Path, biped: Biped) -> Gait:
         robot, preset = biped.description.name, biped.preset
         path = data_folder("gaits") / robot / f"{gait}-{preset}.json"
         if not path.is_file():
+            known = list(gait_names(robot, preset))
+            choose = f"choose one of {known}" if known else "none is stored: design one"
             raise GaitError(
-                f"there is no gait '{gait}' for robot '{robot}', preset '{preset}'; choose one of "
-                f"{list(gait_names(robot, preset))}, or give the path of a .json file"
+                f"there is no gait '{gait}' for robot '{robot}', preset '{preset}'; {choose}, or give the path "
+                "of a .json file"
             )
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
@@ -170,6 +182,7 @@ def _from_record(record: Mapping[str, Any]) -> Gait:
         v,
         float(record["period"]),
         record["provenance"],
+        float(record.get("slope", 0.0)),
     )
 
 

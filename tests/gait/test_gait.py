@@ -148,7 +148,7 @@ def spoil(path, gait, **changes):
         ({"format": "other"}, "format is 'other'"),
         ({"curve": "spline"}, "curve is 'spline'"),
         ({"coefficients": [[0.0, 1.0], [float("nan"), 1.0]]}, "curve coefficients"),
-        ({"theta_plus": 3.0}, "does not close"),
+        ({"theta_plus": 3.0}, "covers Theta from 3 to"),
         ({"theta_plus": "much"}, "much"),
         ({"coefficients": [[0.0, 1.0]] * 3}, "3 joints"),
     ],

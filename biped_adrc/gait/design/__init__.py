@@ -1,0 +1,1 @@
+"""Gaits by optimisation on the zero dynamics."""

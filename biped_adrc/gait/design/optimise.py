@@ -1,0 +1,176 @@
+"""Solving the programme with IPOPT from a cold start, and making its result exact.
+
+IPOPT meets the equations to about 1e-9. The Gait handed back is built anew from q-, the slopes and the free
+coefficients alone: impact and zero dynamics are Pinocchio's, so that the constraint is hybrid-invariant
+and the orbit periodic to round-off.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from biped_adrc.errors import GaitError
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.curves import Bezier
+from biped_adrc.gait.design.audit import missed_limits
+from biped_adrc.gait.design.ipopt import Progress, relaxed, solve
+from biped_adrc.gait.design.programme import Programme, transcribe
+from biped_adrc.gait.design.request import GaitRequest, Limits
+from biped_adrc.gait.design.start import cold_start, onto_ground
+from biped_adrc.gait.design.step import Unknowns
+from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.model.biped import Biped
+from biped_adrc.types import Array
+
+SLOWEST, FASTEST = 0.02, 60.0  # [rad/s], |Theta'|
+WINDING = 1.5  # [rad], how far a coefficient may be from the first guess
+
+
+@dataclass(frozen=True)
+class Optimum:
+    """The gait and how it was found."""
+
+    gait: Gait
+    objective: float
+    """In the units of Objective."""
+    iterations: int
+    seconds: float
+    """Wall time."""
+
+
+def optimise(biped: Biped, request: GaitRequest, progress: Progress | None = None) -> Optimum:
+    """The gait of least objective from a cold start.
+
+    Least torque on level ground comes first; from there to the slope and to the objective asked for.
+    Raises GaitError naming the limits that would have to give, or the robot that has no such gait.
+    """
+    begin, limits, spent = perf_counter(), request.limits.of(biped), 0
+    if biped.p != biped.n - 1 or biped.p == 0:
+        raise GaitError(
+            f"robot '{biped.description.name}' has {biped.n} coordinates and {biped.p} motors; gaits are "
+            "designed for robots with one coordinate without a motor and at least one motor"
+        )
+    for nodes in (request.nodes, 2 * request.nodes):
+        gait, value, iterations = _staged(biped, replace(request, nodes=nodes), limits, progress)
+        spent += iterations
+        missed = missed_limits(biped, gait, limits)
+        if not missed:
+            return Optimum(gait, value, spent, perf_counter() - begin)
+    raise GaitError(
+        f"the gait found with {request.in_words()} keeps its limits at {2 * request.nodes} nodes and misses "
+        f"them in between: {'; '.join(missed)}; give more nodes, or more reserve"
+    )
+
+
+def _staged(
+    biped: Biped, request: GaitRequest, limits: Limits, progress: Progress | None
+) -> tuple[Gait, float, int]:
+    """Gait, objective and iterations, by the stages of the request."""
+    stages, iterations = request.stages(), 0
+    direction, guess = cold_start(biped, stages[0], limits)
+    for stage in stages:
+        found = _solve(biped, stage, limits, direction, guess, progress, stage is stages[-1])
+        iterations += found.iterations
+        if found.solved:
+            guess = found.unknowns._asdict()
+    gait = exact_gait(biped, request, found.unknowns, found.objective)
+    return gait, found.objective, iterations
+
+
+class _Solution(NamedTuple):
+    """A solution, or where the search for one ended."""
+
+    solved: bool
+    unknowns: Unknowns
+    objective: float
+    iterations: int
+
+
+def _solve(
+    biped: Biped,
+    request: GaitRequest,
+    limits: Limits,
+    direction: float,
+    guess: dict[str, Any],
+    progress: Progress | None,
+    diagnose: bool,
+) -> _Solution:
+    """From a guess; `diagnose` asks for a GaitError that says why there is no solution."""
+    programme = transcribe(biped, request, limits, direction)
+    x0 = np.concatenate([np.ravel(guess[name], order="F") for name in Unknowns._fields])
+    bounds = _bounds(programme, guess, request, limits)
+    found = solve(programme, x0, bounds, progress)
+    iterations = found.iterations
+    if not found.solved:
+        found = solve(programme, x0, bounds, progress, "monotone")
+        iterations += found.iterations
+    if not found.solved and diagnose:
+        point = relaxed(programme, request.in_words(), x0, bounds, found.status)
+        found = solve(programme, point, bounds, progress)
+        iterations += found.iterations
+        if not found.solved:
+            raise GaitError(
+                f"no gait with {request.in_words()} was found: IPOPT stopped with {found.status}, though its "
+                "limits can be met; try another degree or number of nodes"
+            )
+    x = programme.unknowns.parts(found.x)
+    return _Solution(found.solved, x, found.objective, iterations)
+
+
+def _bounds(
+    programme: Programme, guess: dict[str, Any], request: GaitRequest, limits: Limits
+) -> tuple[Array, Array]:
+    """Bounds of the unknowns: rates are positive, the peak is the limit unless it is made least."""
+    low, high = {}, {}
+    for name, part in zip(Unknowns._fields, programme.unknowns, strict=True):
+        low[name] = np.full(part.numel(), -np.inf)
+        high[name] = np.full(part.numel(), np.inf)
+    for name in ("rate", "rates"):
+        low[name][:], high[name][:] = SLOWEST, FASTEST
+    line = np.ravel(guess["alpha"], order="F")
+    low["alpha"][:], high["alpha"][:] = line - WINDING, line + WINDING
+    high["peak"][:] = 1.0 - limits.reserve
+    low["peak"][:] = 0.0 if request.objective.value == "peak" else high["peak"]
+    if request.through is not None:
+        for name in ("q", "slope", "rate"):
+            low[name][:] = high[name][:] = np.ravel(guess[name])
+    join = [np.concatenate([side[name] for name in Unknowns._fields]) for side in (low, high)]
+    return join[0], join[1]
+
+
+# -- the exact gait --------------------------------------------------------------------------------
+def exact_gait(biped: Biped, request: GaitRequest, x: Unknowns, objective: float) -> Gait:
+    """The gait of q-, the slopes and the inner coefficients, by Pinocchio's impact and zero dynamics."""
+    p, M, c = biped.p, request.degree, biped.phase
+    q = onto_ground(biped, x.q.ravel(), request.slope)
+    slope = x.slope.ravel()
+    dq = np.append(slope, (1.0 - c[:p] @ slope) / c[p])
+    impact = biped.impact(q, dq)
+    theta_plus, theta_minus = float(c @ impact.q), float(c @ q)
+    span = theta_minus - theta_plus
+    alpha = x.alpha.copy()
+    alpha[:, 0], alpha[:, M] = impact.q[:p], q[:p]
+    alpha[:, 1] = alpha[:, 0] + impact.v[:p] / float(c @ impact.v) * span / M
+    alpha[:, M - 1] = alpha[:, M] - slope * span / M
+    constraint = VirtualConstraint(Bezier(alpha), c, theta_plus, theta_minus)
+    zero = ZeroDynamics.of(biped, constraint)
+    sigma = zero.sigma_minus
+    q, v = zero.end_state(sigma)
+    period = zero.orbit(sigma * zero.delta).period
+    step = float(np.hypot(*biped.swing_foot(q)))
+    provenance = {
+        "method": "direct optimisation on the zero dynamics, hybrid-invariant Bezier curves, IPOPT",
+        "asked": request.in_words(),
+        "objective": f"{request.objective.value} {objective:.6g}",
+        "speed [m/s]": f"{step / period:.6f}",
+        "step length [m]": f"{step:.6f}",
+        "command": request.command(biped),
+    }
+    d = biped.description
+    name = request.name()
+    return Gait(name, d.name, biped.preset, constraint, q, v, period, provenance, request.slope)

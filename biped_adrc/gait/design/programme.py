@@ -1,0 +1,161 @@
+"""The step as a nonlinear programme on the zero dynamics.
+
+Unknowns: the pre-impact configuration q-, the slopes of the constraint before impact, the Bezier coefficients
+alpha, the phases Theta+ and Theta-, the state and impulse after an impact at Theta'- = 1, and the rates
+|Theta'| before impact and at K Gauss nodes. With sigma = I Theta' (Westervelt, Grizzle, Koditschek, IEEE TAC
+48(1), 2003),
+
+    sigma_k^2 = sigma+^2 + 2 int -G_N I dTheta        at the nodes
+    sigma-^2 - sigma+^2 = 2 W                         the step closes
+    alpha_0, alpha_1 from the impact of alpha_M, alpha_(M-1)   the impact keeps to the constraint
+
+Everything else is an explicit function of the unknowns, so that CasADi's derivatives are exact and nothing is
+integrated in time.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import casadi as ca
+import numpy as np
+
+from biped_adrc.gait.design.request import GaitRequest, Limits, Objective
+from biped_adrc.gait.design.start import LONGEST
+from biped_adrc.gait.design.step import Step, Unknowns
+from biped_adrc.model.biped import Biped
+
+SHORTEST = 0.05
+"""Step, share of the leg."""
+PASSED = 0.5
+"""Share of the step from which legs without knees have to hold their foot above the ground too."""
+SMOOTH = 1e-2
+"""Width of the smoothed |power| of the cost of transport, share of peak torque times 1 rad/s."""
+CALM = 1e-2
+"""Weight of torque squared beside the other objectives, so that what they leave open stays calm."""
+
+
+class Row(NamedTuple):
+    """low <= value <= high, all dimensionless; `name` is what a message calls it."""
+
+    name: str
+    value: Any
+    low: float
+    high: float
+    unit: str = ""
+    """What the value is a share of, for messages."""
+
+
+@dataclass(frozen=True)
+class Programme:
+    """Unknowns, what is made least, and the rows to keep."""
+
+    unknowns: Unknowns
+    objective: Any
+    rows: tuple[Row, ...]
+    value: Any
+    """The objective in the units of Objective."""
+
+
+def transcribe(biped: Biped, request: GaitRequest, limits: Limits, direction: float) -> Programme:
+    """The programme; `direction` is the sign of Theta'."""
+    step = Step(biped, request, limits, direction)
+    rows = (*_equalities(step), *_limits(step))
+    least, value = _objective(step)
+    return Programme(step.x, least, rows, value)
+
+
+def _equalities(k: Step) -> tuple[Row, ...]:
+    x, p, c, M = k.x, k.p, k.biped.phase, k.request.degree
+    sigma_minus = k.sigma(x.q, k.dq) * x.rate
+    sigma_plus = k.sigma(k.q_plus, k.v_plus) * x.rate
+    sigma2 = (k.node.inertia * x.rates / k.sigma_scale) ** 2
+    c_row = c[np.newaxis]
+    begin, end = x.alpha[:, 1] - x.alpha[:, 0], x.alpha[:, M] - x.alpha[:, M - 1]
+    zero: list[tuple[str, Any] | tuple[str, Any, str]] = [
+        ("the swing foot on the ground", k.out @ k.foot / k.leg),
+        ("the constraint before impact", x.alpha[:, M] - x.q[:p]),
+        ("the slope before impact", M * end - k.span * x.slope),
+        ("the constraint after impact", x.alpha[:, 0] - k.q_plus[:p]),
+        ("the slope after impact", M * begin * (c_row @ k.v_plus) - k.span * k.v_plus[:p]),
+        ("the phase", x.theta - ca.vertcat(c_row @ k.q_plus, c_row @ x.q)),
+        ("the impact", k.impact()),
+        ("the zero dynamics", sigma2 - sigma_plus**2 - 2.0 * k.until / k.sigma_scale**2),
+        ("periodicity", sigma_minus**2 - sigma_plus**2 - 2.0 * k.work / k.sigma_scale**2),
+    ]
+    if k.request.step is not None:
+        zero.append(("the step length", (k.length - k.request.step) / k.leg, "of the leg"))
+    if k.request.speed is not None:
+        zero.append(("the speed", k.length / k.duration / k.request.speed - 1.0, "of itself"))
+    return tuple(Row(name, ca.vec(value), 0.0, 0.0, *unit) for name, value, *unit in zero)
+
+
+def _limits(k: Step) -> tuple[Row, ...]:
+    x, limits, infinite = k.x, k.limits, np.inf
+    weight, kept = k.biped.weight, 1.0 - limits.reserve
+    speed = np.sqrt(k.tree.gravity * k.leg)
+    node, s = k.everywhere, k.places
+    F_T, F_N = k.along @ node.force / weight, k.out @ node.force / weight
+    # the impulse at Theta'- = 1 has the sign of Theta'
+    P_T, P_N = (
+        k.direction * x.rate * (row @ x.impulse) / (k.tree.total_mass * speed)
+        for row in (k.along, k.out)
+    )
+    J_x, J_z = k.tree.jacobian(ca, k.tree.foot, x.q)
+    before = k.direction * x.rate * (k.out @ ca.vertcat(J_x.T @ k.dq, J_z.T @ k.dq))
+    after = k.direction * x.rate * (k.out @ x.after[k.n :])
+    torque = node.u / limits.torque
+    lift = limits.lift_off / speed
+    mu, mu_i = kept * limits.friction, kept * limits.impulse_friction
+    weights, legs, speeds = "of the weight", "of the leg", "of sqrt(g leg)"
+    ratio = (k.sigma(k.q_plus, k.v_plus) / k.sigma(x.q, k.dq)) ** 2
+    rows = [
+        Row("the normal force", F_N, limits.normal_force, infinite, weights),
+        Row("friction", mu * F_N - F_T, 0.0, infinite, weights),
+        Row("friction", mu * F_N + F_T, 0.0, infinite, weights),
+        Row("the impulse", P_N, 0.0, infinite),
+        Row("the torque limit", torque - x.peak, -infinite, 0.0, "of the limit"),
+        Row("the torque limit", torque + x.peak, 0.0, infinite, "of the limit"),
+        Row("the swing foot coming down", before / speed, -infinite, -lift, speeds),
+        Row("the old foot lifting off", after / speed, lift, infinite, speeds),
+        Row("one way of Theta", k.direction * k.span, 0.05, infinite, "rad"),
+        Row("one way of Theta after impact", k.biped.phase[np.newaxis] @ k.v_plus, 0.02, infinite),
+        Row("stability, delta^2 below 1", ratio, -infinite, limits.multiplier),
+        Row("the range of steps", k.length / k.leg, SHORTEST, LONGEST, legs),
+    ]
+    if np.isfinite(mu_i):
+        rows += [
+            Row("the impulse cone", mu_i * P_N - P_T, 0.0, infinite, "of m sqrt(g leg)"),
+            Row("the impulse cone", mu_i * P_N + P_T, 0.0, infinite, "of m sqrt(g leg)"),
+        ]
+    above = [i for i, x in enumerate(s) if x > (0.0 if limits.clearance else PASSED) and x < 1.0]
+    hump = (limits.clearance or 0.0) * 16.0 * (s * (1.0 - s))[above] ** 2
+    height = (k.out @ node.foot)[:, above] / k.leg - hump[np.newaxis]
+    rows.append(Row("foot clearance", height, 0.0, infinite, legs))
+    for joint, (low, high) in limits.ranges.items():
+        j = k.biped.description.joint_index(joint)
+        kept_back = limits.reserve * min(0.25, 0.5 * (high - low))
+        ends = low + kept_back, high - kept_back
+        rows.append(Row(f"the range of {joint}", node.q[j, :], *ends, "rad"))
+    return tuple(row._replace(value=ca.vec(row.value)) for row in rows)
+
+
+def _objective(k: Step) -> tuple[Any, Any]:
+    """What is made least, and the objective in its units, without smoothing."""
+    u = k.node.u
+    squares = ca.sum2(ca.sum1(u**2) * k.dt) / k.length
+    calm = squares * np.sqrt(k.leg * k.tree.gravity) / k.limits.torque**2
+    match k.request.objective:
+        case Objective.TORQUE:
+            return calm, squares
+        case Objective.TRANSPORT:
+            power, width = u * k.node.v_b, SMOOTH * k.limits.torque
+            smooth = ca.sqrt(power**2 + width**2) - width
+            least, value = (
+                ca.sum2(ca.sum1(p) * k.dt) / (k.biped.weight * k.length)
+                for p in (smooth, ca.fabs(power))
+            )
+            return least + CALM * calm, value
+        case Objective.PEAK:
+            return k.x.peak + CALM * calm, k.x.peak * k.limits.torque

@@ -1,0 +1,167 @@
+"""What is asked of a gait: speed, step, slope, objective, and the limits the step must keep."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from enum import Enum
+from typing import NamedTuple
+
+from biped_adrc.errors import GaitError
+from biped_adrc.model.biped import Biped
+
+
+class Objective(Enum):
+    """What is made least; values are the names of the command line."""
+
+    TORQUE = "torque"
+    """int u'u dt / L [N^2 m s], Westervelt, Grizzle, Koditschek 2003."""
+    TRANSPORT = "transport"
+    """int sum |u_i q_i'| dt / (m g L), the cost of transport."""
+    PEAK = "peak"
+    """max |u_i| [N m]."""
+
+
+class Limits(NamedTuple):
+    """StepLimits of one robot, nothing left open."""
+
+    friction: float
+    impulse_friction: float
+    torque: float
+    normal_force: float
+    clearance: float | None
+    lift_off: float
+    ranges: Mapping[str, tuple[float, float]]
+    multiplier: float
+    reserve: float
+
+
+@dataclass(frozen=True)
+class StepLimits:
+    """Limits of one step; None takes the robot's own from its record."""
+
+    friction: float | None = None
+    """|F_T| / F_N in single support."""
+    impulse_friction: float | None = None
+    """|F_T| / F_N of the impulse; infinite when it does not matter."""
+    torque: float | None = None
+    """[N m]."""
+    normal_force: float = 0.1
+    """Least F_N, share of the weight."""
+    clearance: float | None = 0.02
+    """Height of the swing foot in the middle of the step, share of the leg; None lets it scuff in the
+    first half of the step, as it must where legs have no knees."""
+    lift_off: float = 0.02
+    """Least vertical speed of the old foot after impact, and of the swing foot before it [m/s]."""
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """[rad] by name of the coordinate, besides those of the record."""
+    multiplier: float = 0.95
+    """Largest delta^2 of the zero dynamics."""
+    reserve: float = 0.02
+    """Share of friction and torque, and of a quarter of a radian at the ends of ranges, kept back for what
+    happens between the nodes."""
+
+    def of(self, biped: Biped) -> Limits:
+        """With the record of the robot in place of None. Raises GaitError."""
+        d = biped.description
+        unknown = set(self.ranges) - set(d.joints)
+        if unknown:
+            raise GaitError(
+                f"ranges are given for {sorted(unknown)}, robot '{d.name}' has the joints {list(d.joints)}"
+            )
+        friction = d.friction_coefficient if self.friction is None else self.friction
+        return Limits(
+            friction,
+            friction if self.impulse_friction is None else self.impulse_friction,
+            d.peak_torque if self.torque is None else self.torque,
+            self.normal_force,
+            self.clearance,
+            self.lift_off,
+            {**d.ranges, **self.ranges},
+            self.multiplier,
+            self.reserve,
+        )
+
+    def __post_init__(self) -> None:
+        for name in (f.name for f in fields(self) if f.name != "ranges"):
+            value = getattr(self, name)
+            if value is not None and not value >= 0.0:
+                raise GaitError(f"limit '{name}' is {value}, expected a number >= 0 or None")
+        for joint, (low, high) in self.ranges.items():
+            if not low < high:
+                raise GaitError(
+                    f"the range of '{joint}' is [{low}, {high}] rad, expected low < high"
+                )
+
+
+@dataclass(frozen=True)
+class GaitRequest:
+    """At least one of speed and step has to be given; the other is then free."""
+
+    speed: float | None = None
+    """Average, along the ground [m/s]."""
+    step: float | None = None
+    """Distance between the feet [m]."""
+    slope: float = 0.0
+    """[rad], positive downhill."""
+    objective: Objective = Objective.TORQUE
+    degree: int = 6
+    """Of the Bezier curves."""
+    nodes: int = 24
+    """Gauss nodes at which the limits are kept; twice as many are taken where that does not do."""
+    limits: StepLimits = StepLimits()
+    through: tuple[float, ...] | None = None
+    """Pre-impact state (q-, q'-) (2 n,) through which the orbit has to pass, in place of speed and step."""
+
+    def __post_init__(self) -> None:
+        given = [x for x in (self.speed, self.step) if x is not None]
+        if self.through is not None and given:
+            raise GaitError(
+                "a gait through a given state has its own speed and step; leave them out"
+            )
+        if self.through is None and not given:
+            raise GaitError("neither speed nor step length is given; give one of them, or both")
+        if self.through is not None and not all(map(math.isfinite, self.through)):
+            raise GaitError(f"the state to pass through is {self.through}, expected finite numbers")
+        for name, value in (("speed", self.speed), ("step length", self.step)):
+            if value is not None and not (math.isfinite(value) and value > 0.0):
+                raise GaitError(f"the {name} is {value}, expected a positive number")
+        if not abs(self.slope) < 0.5:
+            raise GaitError(f"the slope is {self.slope} rad, expected less than 0.5 rad either way")
+        if not 4 <= self.degree <= 12:
+            raise GaitError(f"the degree is {self.degree}, expected 4 to 12")
+        if not 8 <= self.nodes <= 400:
+            raise GaitError(f"found {self.nodes} nodes, expected 8 to 400")
+
+    def stages(self) -> tuple[GaitRequest, ...]:
+        """Requests that lead from an easy one to this one."""
+        if self.through is not None:
+            return (self,)
+        sloped = replace(self, objective=Objective.TORQUE)
+        before = [] if self.slope == 0.0 else [replace(sloped, slope=0.0)]
+        return (*before, *([] if sloped == self else [sloped]), self)
+
+    def in_words(self) -> str:
+        """What is asked, for messages."""
+        parts = ["the given pre-impact state"] if self.through is not None else []
+        parts += [f"{self.speed:g} m/s"] if self.speed is not None else []
+        parts += [f"a step of {self.step:g} m"] if self.step is not None else []
+        parts += [f"a slope of {self.slope:g} rad"] if self.slope else []
+        return ", ".join(parts)
+
+    def name(self) -> str:
+        """Name of the gait."""
+        if self.through is not None:
+            return "through"
+        parts = [f"v{self.speed:g}"] if self.speed is not None else []
+        parts += [f"s{self.step:g}"] if self.step is not None else []
+        parts += [f"slope{self.slope:g}"] if self.slope else []
+        return "-".join(parts)
+
+    def command(self, biped: Biped) -> str:
+        """The command that designs it."""
+        robot = f"biped-adrc gait design --robot {biped.description.name} --preset {biped.preset}"
+        values = {"speed": self.speed, "step": self.step, "slope": self.slope or None}
+        asked = "".join(f" --{key} {value:g}" for key, value in values.items() if value is not None)
+        return f"{robot}{asked} --minimise {self.objective.value} --degree {self.degree}"

@@ -1,0 +1,124 @@
+"""A first guess for any planar biped: standing, the legs apart, joints inside their ranges.
+
+Standing stretches the stance leg upwards, hangs the swing leg down and puts every other link up; then the feet
+are moved apart by the step with the hip between them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from biped_adrc.errors import GaitError
+from biped_adrc.gait.design.request import GaitRequest, Limits
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.planar import PlanarTree
+from biped_adrc.types import Array
+
+LONGEST = 1.2  # step, share of the leg
+STEP = 0.5  # of the leg, where no step is asked for; and the Froude number of the guess
+BEND = 0.2  # share of its range, or at most this angle [rad], by which a joint starts off its end
+
+
+def standing(tree: PlanarTree) -> Array:
+    """q (n,) with legs stretched downwards, the rest upwards [rad]."""
+    leg = tree.foot - tree.hip
+    vector = np.where(np.abs(tree.hip) > 0, tree.hip, np.where(np.abs(leg) > 0, -leg, tree.w))
+    a = np.pi / 2 - np.angle(vector)
+    a = np.pi - np.mod(np.pi - a, 2.0 * np.pi)
+    a = np.where(np.abs(a + np.pi) < 1e-9, np.pi, a)
+    return np.asarray(np.linalg.solve(tree.A, a), dtype=np.float64)
+
+
+def inside(q: Array, biped: Biped, ranges: Mapping[str, tuple[float, float]]) -> Array:
+    """q moved off the ends of the ranges."""
+    q = q.copy()
+    for joint, (low, high) in ranges.items():
+        k = biped.description.joint_index(joint)
+        off = min(BEND, 0.25 * (high - low))
+        q[k] = np.clip(q[k], low + off, high - off)
+    return q
+
+
+def apart(
+    biped: Biped, step: float, slope: float, ranges: Mapping[str, tuple[float, float]]
+) -> Array:
+    """Pre-impact configuration (n,) with the swing foot `step` [m] ahead on the ground and the hip between."""
+    tree = PlanarTree.of(biped)
+    near = inside(standing(tree), biped, ranges)
+    target = step * np.array([np.cos(slope), -np.sin(slope)])
+    bounds = np.full((2, biped.n), np.inf) * [[-1.0], [1.0]]
+    for joint, ends in ranges.items():
+        bounds[:, biped.description.joint_index(joint)] = ends
+
+    def miss(q: Array) -> Array:
+        foot, hip = np.array(tree.point(np, tree.foot, q)), tree.point(np, tree.hip, q)
+        return np.concatenate(
+            (10.0 * (foot - target), [3.0 * (hip[0] - 0.5 * step)], 0.1 * (q - near))
+        )
+
+    found: Array = least_squares(miss, near, bounds=bounds).x
+    return found
+
+
+def onto_ground(biped: Biped, q: Array, slope: float = 0.0) -> Array:
+    """The configuration nearest to q in q_b whose swing foot is on the ground, q_N kept. Raises GaitError."""
+    q = np.array(q, dtype=float)
+    normal = np.array([math.sin(slope), math.cos(slope)])
+    for _ in range(30):
+        height = float(normal @ biped.swing_foot(q))
+        if abs(height) < 1e-15:
+            break
+        row = (normal @ biped.swing_foot_jacobian(q))[:-1]
+        q[:-1] -= row * height / (row @ row)
+    if not abs(height) < 1e-12:
+        raise GaitError(
+            f"the swing foot stays {height:.3g} m off the ground: no configuration near this one reaches it"
+        )
+    return q
+
+
+def cold_start(biped: Biped, request: GaitRequest, limits: Limits) -> tuple[float, dict[str, Any]]:
+    """Sign of Theta' and a first guess of the unknowns, by name."""
+    n, p, c, M = biped.n, biped.p, biped.phase, request.degree
+    if request.through is None:
+        leg = float(np.abs(PlanarTree.of(biped).hip).sum())
+        step = request.step or STEP * leg
+        if step > LONGEST * leg:
+            raise GaitError(
+                f"a step of {step:g} m is asked for, the legs are {leg:g} m long: ask for at most "
+                f"{LONGEST * leg:.3g} m"
+            )
+        q = apart(biped, step, request.slope, limits.ranges)
+        q_plus = biped.relabel(q)
+        dq = (q - q_plus) / float(c @ (q - q_plus))
+        duration = step / (request.speed or STEP * math.sqrt(biped.description.gravity * leg))
+        rate = abs(float(c @ (q - q_plus))) / duration
+    else:
+        q = onto_ground(biped, np.array(request.through[:n]), request.slope)
+        v, q_plus = np.array(request.through[n:]), biped.relabel(q)
+        dq, rate = v / float(c @ v), abs(float(c @ v))
+    impact = biped.impact(q, dq)
+    theta = np.array([c @ q_plus, c @ q])
+    begin, end = impact.v[:p] / float(c @ impact.v), dq[:p]
+    inner = np.linspace(0.0, 1.0, M - 1)
+    span = theta[1] - theta[0]
+    first, last = q_plus[:p] + begin * span / M, q[:p] - end * span / M
+    between = first[:, np.newaxis] * (1.0 - inner) + last[:, np.newaxis] * inner
+    alpha = np.column_stack((q_plus[:p], between, q[:p]))
+    guess = {
+        "q": q,
+        "slope": dq[:p],
+        "alpha": alpha,
+        "theta": theta,
+        "after": impact.v_e,
+        "impulse": impact.impulse,
+        "rate": rate,
+        "rates": np.full(request.nodes, rate),
+        "peak": 0.5,
+    }
+    return float(np.sign(theta[1] - theta[0])), guess

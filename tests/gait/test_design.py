@@ -1,0 +1,225 @@
+"""Designed gaits, held against laws that their design does not use."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from biped_adrc.errors import GaitError
+from biped_adrc.gait.design.audit import missed_limits
+from biped_adrc.gait.design.optimise import optimise
+from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
+from biped_adrc.gait.design.start import apart, standing
+from biped_adrc.gait.gait import load_gait
+from biped_adrc.gait.published import X_STAR
+from biped_adrc.gait.through_state import onto_section
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.planar import PlanarTree
+from biped_adrc.model.robots import robot_names
+from biped_adrc.studies.gait_design import DesignedGait, design_gait
+from biped_adrc.studies.gait_library import GaitLibrary, speed_of, speeds_named
+
+SPEEDS = tuple(round(0.4 + 0.1 * k, 1) for k in range(8))
+
+
+@pytest.fixture(scope="module")
+def level() -> DesignedGait:
+    return design_gait("rabbit", 0.8, 0.4, preset="tac2003")
+
+
+@pytest.fixture(scope="module")
+def downhill() -> DesignedGait:
+    return design_gait("rabbit", 0.7, preset="identified-bare", slope=0.06)
+
+
+def work(designed: DesignedGait, biped: Biped) -> float:
+    """int u' q_b' dt over the periodic step [J]."""
+    zero = ZeroDynamics.of(biped, designed.gait.constraint, 80)
+    o = zero.orbit(zero.sigma_minus * zero.delta)
+    return float(np.sum(o.u * o.v[:, : biped.p], axis=1) @ o.time_weights)
+
+
+# -- the planar tree -------------------------------------------------------------------------------
+@pytest.mark.parametrize("robot", robot_names())
+def test_planar_tree_has_pinocchio_s_mass_com_acceleration_and_hip(robot: str) -> None:
+    biped = Biped.load(robot)
+    tree = PlanarTree.of(biped)
+    rng = np.random.default_rng(5)
+    q, v, a = rng.normal(size=(3, biped.n))
+    assert tree.total_mass == pytest.approx(biped.mass, rel=1e-12)
+    acceleration = tree.acceleration(np, tree.w / tree.total_mass, q, v, a)
+    force = tree.total_mass * np.add(acceleration, (0.0, tree.gravity))
+    np.testing.assert_allclose(force, biped.ground_reaction(q, v, a), rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(tree.point(np, tree.hip, q), biped.hip(q), atol=1e-12)
+
+
+@pytest.mark.parametrize(("robot", "knees"), [("rabbit", True), ("three_link", False)])
+def test_standing_is_upright_and_feet_go_apart(robot: str, knees: bool) -> None:
+    biped = Biped.load(robot)
+    leg = float(np.linalg.norm(biped.hip(np.zeros(biped.n))))
+    q = standing(PlanarTree.of(biped))
+    np.testing.assert_allclose(biped.hip(q), [0.0, leg], atol=1e-12)
+    np.testing.assert_allclose(biped.swing_foot(q), 0.0, atol=1e-12)
+    q = apart(biped, 0.5 * leg, 0.05, biped.description.ranges)
+    reached = biped.swing_foot(q) / leg
+    np.testing.assert_allclose(reached, [0.5 * np.cos(0.05), -0.5 * np.sin(0.05)], atol=2e-2)
+    if knees:
+        assert np.all(q[2:4] < 0.0)
+
+
+# -- a gait on level ground ------------------------------------------------------------------------
+def test_speed_and_step_are_those_asked_for(level: DesignedGait) -> None:
+    biped = Biped.load("rabbit", "tac2003")
+    assert speed_of(level.gait, biped) == pytest.approx(0.8, abs=1e-6)
+    assert biped.swing_foot(level.gait.q_minus) == pytest.approx([0.4, 0.0], abs=1e-9)
+    assert 0.0 < level.multiplier < 0.95
+
+
+def test_joint_work_is_the_energy_lost_at_impact(level: DesignedGait) -> None:
+    biped = Biped.load("rabbit", "tac2003")
+    gait = level.gait
+    impact = biped.impact(gait.q_minus, gait.v_minus)
+    lost = biped.kinetic_energy(gait.q_minus, gait.v_minus)
+    lost -= biped.kinetic_energy(impact.q, impact.v)
+    assert work(level, biped) == pytest.approx(lost, rel=1e-8)
+
+
+def test_the_walk_comes_back_and_keeps_the_limits(level: DesignedGait) -> None:
+    assert level.gap < 1e-7
+    assert level.certificate.violations() == ()
+    assert level.certificate.impulse_ratio <= 0.6
+
+
+def test_other_objectives_do_better_at_what_they_are_for(level: DesignedGait) -> None:
+    peak = design_gait("rabbit", 0.8, 0.4, preset="tac2003", objective="peak")
+    assert peak.certificate.peak_torque < 0.9 * level.certificate.peak_torque
+    assert peak.objective == pytest.approx(peak.certificate.peak_torque, rel=0.05)
+    frugal = design_gait("rabbit", 0.8, 0.4, preset="tac2003", objective="transport")
+    assert frugal.objective == pytest.approx(frugal.certificate.cost_of_transport, rel=0.03)
+    assert frugal.certificate.cost_of_transport < 0.9 * level.certificate.cost_of_transport
+
+
+def test_through_x_star_it_is_the_gait_of_the_other_optimiser() -> None:
+    """Gauss-Newton on weighted residuals found the stored gait; the minimum is flat there."""
+    biped = Biped.load("rabbit", "identified")
+    q, v = onto_section(biped, X_STAR[:5]), np.array(X_STAR[5:])
+    stored = load_gait("published", biped)
+    any_impulse = StepLimits(impulse_friction=float("inf"))
+    found = design_gait(biped, through=(q, v), limits=any_impulse)
+    np.testing.assert_allclose(found.gait.q_minus, stored.q_minus, atol=1e-9)
+    np.testing.assert_allclose(found.gait.v_minus, stored.v_minus, atol=1e-6)
+    zero = ZeroDynamics.of(biped, stored.constraint)
+    o = zero.orbit(zero.sigma_minus * zero.delta)
+    length = float(biped.swing_foot(stored.q_minus)[0])
+    squares = float(np.sum(o.u**2, axis=1) @ o.time_weights) / length
+    assert found.objective == pytest.approx(squares, rel=1e-3)
+
+
+# -- slopes and legs without knees -----------------------------------------------------------------
+def test_downhill_gravity_pays_for_the_impact(downhill: DesignedGait) -> None:
+    biped = Biped.load("rabbit", "identified-bare")
+    gait = downhill.gait
+    x, z = biped.swing_foot(gait.q_minus)
+    assert z / x == pytest.approx(-np.tan(0.06), abs=1e-9)
+    impact = biped.impact(gait.q_minus, gait.v_minus)
+    lost = biped.kinetic_energy(gait.q_minus, gait.v_minus)
+    lost -= biped.kinetic_energy(impact.q, impact.v)
+    assert work(downhill, biped) - biped.weight * z == pytest.approx(lost, rel=1e-8)
+    assert downhill.speed == pytest.approx(0.7, abs=1e-5)
+    assert downhill.certificate.violations() == ()
+
+
+def test_a_gait_on_a_slope_is_read_back(downhill: DesignedGait, tmp_path) -> None:
+    path = tmp_path / "downhill.json"
+    downhill.gait.save(path)
+    again = load_gait(path, Biped.load("rabbit", "identified-bare"))
+    assert again.slope == 0.06
+    np.testing.assert_array_equal(again.q_minus, downhill.gait.q_minus)
+
+
+def test_legs_without_knees_walk_when_scuffing_is_allowed() -> None:
+    found = design_gait("three_link", 0.9, 0.6, limits=StepLimits(clearance=None))
+    assert found.gap < 1e-6
+    assert found.speed == pytest.approx(0.9, abs=1e-5)
+
+
+# -- the stored library ----------------------------------------------------------------------------
+@pytest.mark.parametrize("preset", ["identified", "identified-bare", "tac2003"])
+def test_stored_gaits_have_their_speed_and_keep_the_limits(preset: str) -> None:
+    biped = Biped.load("rabbit", preset)
+    for speed in SPEEDS:
+        gait = load_gait(f"v{speed:g}", biped)
+        assert speed_of(gait, biped) == pytest.approx(speed, abs=1e-5)
+        assert missed_limits(biped, gait, StepLimits().of(biped)) == ()
+        zero = ZeroDynamics.of(biped, gait.constraint)
+        assert zero.end_state(zero.sigma_minus)[1] == pytest.approx(gait.v_minus, abs=1e-9)
+
+
+def test_library_is_written_read_and_searched(tmp_path, level: DesignedGait) -> None:
+    biped = Biped.load("rabbit", "tac2003")
+    GaitLibrary({0.8: level.gait, 0.5: load_gait("v0.5", biped)}).save(tmp_path)
+    library = GaitLibrary.load(tmp_path, biped)
+    assert library.speeds == pytest.approx((0.5, 0.8), abs=1e-5)
+    assert library.nearest(0.9).name == level.gait.name
+    with pytest.raises(GaitError, match="no gait of robot 'rabbit', preset 'identified'"):
+        GaitLibrary.load(tmp_path, Biped.load("rabbit", "identified"))
+
+
+def test_speeds_are_read_from_text() -> None:
+    assert speeds_named("0.4:1.1:0.1") == pytest.approx(SPEEDS)
+    assert speeds_named("0.4,1") == (0.4, 1.0)
+    with pytest.raises(ValueError, match="FIRST:LAST:STEP"):
+        speeds_named("1:0.5:0.1")
+
+
+# -- bad input -------------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("request_of", "says"),
+    [
+        ({}, "neither speed nor step"),
+        ({"speed": -1.0}, "speed is -1.0"),
+        ({"speed": float("nan")}, "speed is nan"),
+        ({"speed": 1.0, "degree": 3}, "degree is 3"),
+        ({"speed": 1.0, "slope": 2.0}, "slope is 2.0"),
+        ({"speed": 1.0, "through": (0.0,) * 10}, "leave them out"),
+    ],
+)
+def test_requests_that_make_no_sense(request_of: dict, says: str) -> None:
+    with pytest.raises(GaitError, match=says):
+        GaitRequest(**request_of)
+
+
+def test_what_stands_in_the_way_is_named() -> None:
+    weak = StepLimits(torque=8.0, clearance=None)
+    with pytest.raises(GaitError, match=r"would have to give: .*torque limit"):
+        design_gait("three_link", 0.9, 0.6, limits=weak)
+
+
+@pytest.mark.parametrize(
+    ("robot", "asked", "says"),
+    [
+        ("compass", {"speed": 0.5}, "2 coordinates and 0 motors"),
+        ("rabbit", {"speed": 0.5, "step": 1.9}, "at most 0.96 m"),
+        ("rabbit", {"speed": 0.5, "objective": "speed"}, "objective 'speed' is unknown"),
+        ("rabbit", {"speed": 0.5, "limits": StepLimits(ranges={"ankle": (0.0, 1.0)})}, "ankle"),
+    ],
+)
+def test_robots_and_steps_without_a_gait(robot: str, asked: dict, says: str) -> None:
+    with pytest.raises(GaitError, match=says):
+        design_gait(robot, **asked)
+
+
+def test_progress_is_told_and_can_interrupt() -> None:
+    told: list[int] = []
+
+    def stop(iteration: int, objective: float, missed: float) -> None:
+        told.append(iteration)
+        if iteration == 3:
+            raise KeyboardInterrupt
+
+    biped = Biped.load("three_link")
+    request = GaitRequest(0.9, 0.6, objective=Objective.TORQUE, limits=StepLimits(clearance=None))
+    with pytest.raises(KeyboardInterrupt):
+        optimise(biped, request, stop)
+    assert told == [0, 1, 2, 3]
