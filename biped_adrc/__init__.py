@@ -10,31 +10,48 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.return_map import ReturnMap
+    from biped_adrc.analysis.stride_gain import stride_response
+    from biped_adrc.analysis.to_ss import to_ss
+    from biped_adrc.analysis.zero_report import zero_report
     from biped_adrc.control.adrc import ADRCController
     from biped_adrc.control.base import Controller, Measurement
+    from biped_adrc.control.finite_time import FiniteTimeController
     from biped_adrc.control.npd import NPDController
+    from biped_adrc.control.output_npd import OutputNPDController
     from biped_adrc.control.passive import Passive
+    from biped_adrc.control.reference_reset import ReferenceReset
+    from biped_adrc.control.stride import StrideGains, StridePI
     from biped_adrc.control.tracking import TABLE_II, Gains
     from biped_adrc.disturbances.base import Disturbance
+    from biped_adrc.disturbances.hip_force import HipForce
     from biped_adrc.disturbances.pulse import TorquePulse
     from biped_adrc.disturbances.sine import TorqueSine
     from biped_adrc.disturbances.step import TorqueStep
     from biped_adrc.errors import BipedError
     from biped_adrc.gait.constraint import VirtualConstraint
     from biped_adrc.gait.conventions import convention
+    from biped_adrc.gait.corrected import continued
+    from biped_adrc.gait.design.request import StepLimits
     from biped_adrc.gait.exchange.importing import export_gait, import_gait
     from biped_adrc.gait.exchange.record import GaitRecord
     from biped_adrc.gait.gait import Gait, load_gait
+    from biped_adrc.gait.outputs import FunctionOutputs, LinearOutputs, Outputs
     from biped_adrc.gait.reference import Reference, TimeReference
     from biped_adrc.gait.zero_dynamics import ZeroDynamics
+    from biped_adrc.gait.zero_orbits import ZeroOrbits
+    from biped_adrc.ground import StepDown
     from biped_adrc.hybrid.exponential import Exponential
     from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
     from biped_adrc.hybrid.simulator import simulate
     from biped_adrc.hybrid.status import Status
     from biped_adrc.hybrid.trajectory import Trajectory
     from biped_adrc.model.biped import Biped
+    from biped_adrc.model.own import biped_from_urdf
     from biped_adrc.observers.base import Observer, ResetPolicy
     from biped_adrc.observers.gpi import TABLE_I, GPIObserver
+    from biped_adrc.studies.cycle_stability import cycle_stability, find_cycle
+    from biped_adrc.studies.gait_design import DesignedGait, design_gait
+    from biped_adrc.studies.gait_library import GaitLibrary
     from biped_adrc.studies.runs import load_walk
     from biped_adrc.studies.walk import Walk, walk
     from biped_adrc.walker import ContinuousTime, Mode, SampledTime, Walker
@@ -48,26 +65,39 @@ _HOMES = {
     "BipedError": "errors",
     "ContinuousTime": "walker",
     "Controller": "control.base",
+    "DesignedGait": "studies.gait_design",
     "Disturbance": "disturbances.base",
     "Exponential": "hybrid.exponential",
+    "FiniteTimeController": "control.finite_time",
+    "FunctionOutputs": "gait.outputs",
     "GPIObserver": "observers.gpi",
     "Gains": "control.tracking",
     "Gait": "gait.gait",
+    "GaitLibrary": "studies.gait_library",
     "GaitRecord": "gait.exchange.record",
+    "HipForce": "disturbances.hip_force",
+    "LinearOutputs": "gait.outputs",
     "Measurement": "control.base",
     "Mode": "walker",
     "NPDController": "control.npd",
     "Observer": "observers.base",
+    "OutputNPDController": "control.output_npd",
+    "Outputs": "gait.outputs",
     "Passive": "control.passive",
     "RK4": "hybrid.integrators",
     "Reference": "gait.reference",
+    "ReferenceReset": "control.reference_reset",
     "ResetPolicy": "observers.base",
     "ReturnMap": "analysis.return_map",
     "SampledTime": "walker",
+    "Status": "hybrid.status",
+    "StepDown": "ground",
+    "StepLimits": "gait.design.request",
+    "Stiff": "hybrid.integrators",
+    "StrideGains": "control.stride",
+    "StridePI": "control.stride",
     "TABLE_I": "observers.gpi",
     "TABLE_II": "control.tracking",
-    "Status": "hybrid.status",
-    "Stiff": "hybrid.integrators",
     "TimeReference": "gait.reference",
     "TorquePulse": "disturbances.pulse",
     "TorqueSine": "disturbances.sine",
@@ -77,42 +107,64 @@ _HOMES = {
     "Walk": "studies.walk",
     "Walker": "walker",
     "ZeroDynamics": "gait.zero_dynamics",
+    "ZeroOrbits": "gait.zero_orbits",
+    "biped_from_urdf": "model.own",
+    "continued": "gait.corrected",
     "convention": "gait.conventions",
+    "cycle_stability": "studies.cycle_stability",
+    "design_gait": "studies.gait_design",
     "export_gait": "gait.exchange.importing",
+    "find_cycle": "studies.cycle_stability",
     "import_gait": "gait.exchange.importing",
     "load_gait": "gait.gait",
     "load_walk": "studies.runs",
     "simulate": "hybrid.simulator",
+    "stride_response": "analysis.stride_gain",
+    "to_ss": "analysis.to_ss",
     "walk": "studies.walk",
+    "zero_report": "analysis.zero_report",
 }
 
-__all__ = [  # noqa: RUF022 -- in the order of _HOMES
+__all__ = [
+    "RK4",
+    "TABLE_I",
+    "TABLE_II",
     "ADRCController",
     "Adaptive",
     "Biped",
     "BipedError",
     "ContinuousTime",
     "Controller",
+    "DesignedGait",
     "Disturbance",
     "Exponential",
+    "FiniteTimeController",
+    "FunctionOutputs",
     "GPIObserver",
     "Gains",
     "Gait",
+    "GaitLibrary",
     "GaitRecord",
+    "HipForce",
+    "LinearOutputs",
     "Measurement",
     "Mode",
     "NPDController",
     "Observer",
+    "OutputNPDController",
+    "Outputs",
     "Passive",
-    "RK4",
     "Reference",
+    "ReferenceReset",
     "ResetPolicy",
     "ReturnMap",
     "SampledTime",
-    "TABLE_I",
-    "TABLE_II",
     "Status",
+    "StepDown",
+    "StepLimits",
     "Stiff",
+    "StrideGains",
+    "StridePI",
     "TimeReference",
     "TorquePulse",
     "TorqueSine",
@@ -122,13 +174,22 @@ __all__ = [  # noqa: RUF022 -- in the order of _HOMES
     "Walk",
     "Walker",
     "ZeroDynamics",
+    "ZeroOrbits",
+    "biped_from_urdf",
+    "continued",
     "convention",
+    "cycle_stability",
+    "design_gait",
     "export_gait",
+    "find_cycle",
     "import_gait",
     "load_gait",
     "load_walk",
     "simulate",
+    "stride_response",
+    "to_ss",
     "walk",
+    "zero_report",
 ]
 
 

@@ -1,8 +1,8 @@
 """The command `biped-adrc`.
 
-Exit codes: 0 all is well (for `reproduce`: every check holds); 1 a check of `reproduce` does not hold;
-2 the command line is wrong; 3 bad input (robot, gait, poles, duration, file); 4 the robot fell or did not
-come back; 5 a result cannot be written; 130 interrupted with Ctrl-C.
+Exit codes: 0 all is well (for `reproduce`: every check holds); 1 a check of `reproduce` or `robot check` does
+not hold; 2 the command line is wrong; 3 bad input (robot, gait, poles, duration, file); 4 the robot fell or
+did not come back; 5 a result cannot be written; 130 interrupted with Ctrl-C.
 """
 
 from __future__ import annotations
@@ -12,11 +12,22 @@ import sys
 
 from rich.console import Console
 
-from biped_adrc.cli import gait, look, reproduce, walk
+from biped_adrc.cli import design, gait, look, reproduce, robot, walk, zero
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, gait_app
 from biped_adrc.errors import BipedError
 
-__all__ = ["app", "gait", "gait_app", "look", "main", "reproduce", "walk"]
+__all__ = [
+    "app",
+    "design",
+    "gait",
+    "gait_app",
+    "look",
+    "main",
+    "reproduce",
+    "robot",
+    "walk",
+    "zero",
+]
 
 
 def _say_interrupted() -> None:

@@ -27,8 +27,8 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     help="Underactuated walking with active disturbance rejection control (ADRC with a GPI observer).\n\n"
-    "Exit codes: 0 all is well, 1 a check of 'reproduce' does not hold, 2 wrong command line, 3 bad input, "
-    "4 the robot fell, 5 cannot write, 130 interrupted.",
+    "Exit codes: 0 all is well, 1 a check of 'reproduce' or 'robot check' does not hold, 2 wrong command "
+    "line, 3 bad input, 4 the robot fell, 5 cannot write, 130 interrupted.",
 )
 gait_app = typer.Typer(
     no_args_is_help=True, rich_markup_mode=None, help="Regenerate or show the stored gaits."
@@ -38,6 +38,12 @@ console = Console()
 
 Preset = Annotated[
     str, typer.Option(help="Parameters of RABBIT: identified, identified-bare or tac2003.")
+]
+Robot = Annotated[
+    str, typer.Option(help="Robot by name ('biped-adrc robot list'), or the path of a robot.toml.")
+]
+RobotPreset = Annotated[
+    str | None, typer.Option(help="Parameters of the robot; its record's default if not given.")
 ]
 Pushes = Annotated[
     list[str] | None,

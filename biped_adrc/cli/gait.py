@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from biped_adrc.cli.app import Preset, console, gait_app
+from biped_adrc.cli.app import Preset, Robot, RobotPreset, console, gait_app
 
 
 @gait_app.command("published")
@@ -40,20 +40,25 @@ def gait_recipe(
 
 @gait_app.command("show")
 def gait_show(
-    gait: Annotated[str, typer.Argument(help="published, recipe, or a .json file.")] = "published",
-    preset: Preset = "identified",
+    gait: Annotated[
+        str, typer.Argument(help="A stored gait by name, or a .json file.")
+    ] = "published",
+    robot: Robot = "rabbit",
+    preset: RobotPreset = None,
 ) -> None:
     """Print a stored gait's provenance and its zero dynamics."""
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.gait.zero_dynamics import ZeroDynamics
     from biped_adrc.model.biped import Biped
 
-    biped = Biped.load("rabbit", preset)
+    biped = Biped.load(robot, preset)
     found = load_gait(gait, biped)
     for key, value in found.provenance.items():
-        console.print(f"{key}: {value}")
+        console.print(f"{key}: {value}", markup=False, highlight=False, soft_wrap=True)
     zero = ZeroDynamics.of(biped, found.constraint)
-    console.print(f"period {found.period:.6f} s, delta^2 {zero.delta**2:.6f}")
+    console.print(
+        f"period {found.period:.6f} s, delta^2 {zero.delta**2:.6f}, slope {found.slope:g} rad"
+    )
 
 
 def _save(gait: Any, out: Path | None) -> None:
@@ -64,9 +69,10 @@ def _save(gait: Any, out: Path | None) -> None:
 
 @gait_app.command("export")
 def gait_export(
-    gait: Annotated[str, typer.Argument(help="published, recipe, or a .json file.")],
+    gait: Annotated[str, typer.Argument(help="A stored gait by name, or a .json file.")],
     out: Annotated[Path, typer.Option("--out", "-o", help="Where to write it (.mat or .json).")],
-    preset: Preset = "identified",
+    robot: Robot = "rabbit",
+    preset: RobotPreset = None,
     convention: Annotated[
         str, typer.Option(help="Angle convention: paper, tac2003, frost or optimtraj.")
     ] = "paper",
@@ -76,14 +82,15 @@ def gait_export(
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.model.biped import Biped
 
-    export_gait(load_gait(gait, Biped.load("rabbit", preset)), out, convention)
+    export_gait(load_gait(gait, Biped.load(robot, preset)), out, convention)
     console.print(f"written to {out}")
 
 
 @gait_app.command("import")
 def gait_import(
     file: Annotated[Path, typer.Argument(help="A gait as .mat or .json.")],
-    preset: Preset = "identified",
+    robot: Robot = "rabbit",
+    preset: RobotPreset = None,
     convention: Annotated[
         str | None, typer.Option(help="Angle convention, of a file that does not say its own.")
     ] = None,
@@ -98,4 +105,4 @@ def gait_import(
     from biped_adrc.gait.exchange.importing import import_gait
     from biped_adrc.model.biped import Biped
 
-    _save(import_gait(file, Biped.load("rabbit", preset), convention, slopes=slopes), out)
+    _save(import_gait(file, Biped.load(robot, preset), convention, slopes=slopes), out)

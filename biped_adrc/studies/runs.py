@@ -91,6 +91,7 @@ class Run:
             ContinuousTime() if self.period is None else SampledTime(self.period),
             model=biped if plant is not biped else None,
             torque_limit=self.torque_limit,
+            slope=gait.slope,
         )
 
     def law(self, reference: Reference) -> Controller:

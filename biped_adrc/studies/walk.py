@@ -59,6 +59,13 @@ class Walk:
 
         export(Path(path), {self.controller_name: self}, Clip(view=view))
 
+    def export(self, path: Path | str) -> None:
+        """Write all signals for MATLAB (.mat), one array per name. Raises InputError and OutputError."""
+        from biped_adrc.gait.exchange.runs import export_run
+
+        note = f"{self.controller_name} on gait '{self.gait.name}', {self.gait.robot} {self.gait.preset}"
+        export_run(vars(self.signals), path, note=note)
+
     def _repr_html_(self) -> str:
         """What a notebook shows: the animation, and references and torques."""
         from biped_adrc.viz.meshcat import animation_html
