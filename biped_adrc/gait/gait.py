@@ -67,8 +67,8 @@ class Gait:
         begins, ends = float(c.phase @ after), float(c.phase @ self.q_minus)
         if max(abs(begins - c.theta_plus), abs(ends - c.theta_minus)) > CLOSES:
             raise GaitError(
-                f"gait '{self.name}': the curve covers Theta from {c.theta_plus:.5g} to {c.theta_minus:.5g} rad, "
-                f"the step runs from {begins:.5g} to {ends:.5g} rad; theta_plus has to be c q+ after the "
+                f"gait '{self.name}': the curve covers Theta from {c.theta_plus:.5g} to {c.theta_minus:.5g} "
+                f"rad, the step runs from {begins:.5g} to {ends:.5g} rad; theta_plus has to be c q+ after the "
                 "relabelled impact, theta_minus c q- before it"
             )
         end, begin = c.h(c.theta_minus)[0], c.h(c.theta_plus)[0]
