@@ -189,6 +189,7 @@ def _describe(biped: Biped) -> None:
     terms = " ".join(f"{c:+.6g} q{i + 1}" for i, c in enumerate(d.phase) if c != 0.0)
     _say(f"Theta = {terms}")
     _say(f"stance foot {d.stance_foot}, swing foot {d.swing_foot}, hip {d.hip}, trunk {d.trunk}")
+    _say(f"section: foot strike, where the height of {d.swing_foot} comes down to zero")
     limit = f"torque limit {d.peak_torque:g} N m, " if biped.p else ""
     _say(f"{limit}friction {d.friction_coefficient:g}, gravity {d.gravity:g} m/s^2")
     for name, link in biped.tree.links.items():
