@@ -44,6 +44,7 @@ imports: .venv/.dev
 
 bench: .venv/.core
 	$(BIN)/python benchmarks/step_timing.py
+	$(BIN)/python benchmarks/gait_design.py $(OUT)
 
 .venv/.made:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
