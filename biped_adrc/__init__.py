@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from biped_adrc.studies.cycle_stability import cycle_stability, find_cycle
     from biped_adrc.studies.gait_design import DesignedGait, design_gait
     from biped_adrc.studies.gait_library import GaitLibrary
+    from biped_adrc.studies.passive_walk import PassiveWalk, passive_walk
     from biped_adrc.studies.runs import load_walk
     from biped_adrc.studies.walk import Walk, walk
     from biped_adrc.walker import ContinuousTime, Mode, SampledTime, Walker
@@ -84,6 +85,7 @@ _HOMES = {
     "OutputNPDController": "control.output_npd",
     "Outputs": "gait.outputs",
     "Passive": "control.passive",
+    "PassiveWalk": "studies.passive_walk",
     "RK4": "hybrid.integrators",
     "Reference": "gait.reference",
     "ReferenceReset": "control.reference_reset",
@@ -118,6 +120,7 @@ _HOMES = {
     "import_gait": "gait.exchange.importing",
     "load_gait": "gait.gait",
     "load_walk": "studies.runs",
+    "passive_walk": "studies.passive_walk",
     "simulate": "hybrid.simulator",
     "stride_response": "analysis.stride_gain",
     "to_ss": "analysis.to_ss",
@@ -154,6 +157,7 @@ __all__ = [
     "OutputNPDController",
     "Outputs",
     "Passive",
+    "PassiveWalk",
     "Reference",
     "ReferenceReset",
     "ResetPolicy",
@@ -185,6 +189,7 @@ __all__ = [
     "import_gait",
     "load_gait",
     "load_walk",
+    "passive_walk",
     "simulate",
     "stride_response",
     "to_ss",

@@ -148,9 +148,13 @@ def test_a_slope_that_is_a_wall_is_refused() -> None:
         ba.Walker(ba.Biped.load("compass"), ba.Passive(), slope=1.6)
 
 
-def test_a_walk_on_a_slope_says_that_it_cannot_be_drawn() -> None:
-    biped = ba.Biped.load("rimless_wheel")
-    walker = ba.Walker(biped, ba.Passive(), slope=0.1, max_step_time=10.0)
-    rolled = walk(walker, np.array([math.pi - 0.1 + math.pi / 8]), np.array([-2.0]), 1)
-    with pytest.raises(InputError, match="slope cannot be drawn"):
-        Scene.of(type("Recorded", (), {"walker": walker, "trajectory": rolled}))
+def test_a_wheel_is_drawn_on_its_slope() -> None:
+    """Its footholds are a chord 2 l sin(alpha) apart, along the slope."""
+    biped, slope = ba.Biped.load("rimless_wheel"), 0.1
+    walker = ba.Walker(biped, ba.Passive(), slope=slope, max_step_time=10.0)
+    start = np.array([math.pi - slope + math.pi / 8])
+    rolled = walk(walker, start, np.array([-2.0]), 3)
+    scene = Scene.of(type("Recorded", (), {"walker": walker, "trajectory": rolled}))
+    along = 2.0 * math.sin(math.pi / 8) * np.arange(3.0)
+    np.testing.assert_allclose(scene.footholds, along * math.cos(slope), atol=1e-9)
+    np.testing.assert_allclose(scene.heights, -along * math.sin(slope), atol=1e-9)

@@ -90,7 +90,7 @@ def _certificate(walker: Walker, s: Signals, x_minus: Array) -> Certificate:
     b, n, p = walker.plant, walker.plant.n, walker.plant.p
     q, v = x_minus[:n], x_minus[n : 2 * n]
     impact = b.impact(q, v)
-    along, across = _slope(walker.slope)
+    along, across = ground_axes(walker.slope)
     F_T, F_N = s.ground_reaction @ along, s.ground_reaction @ across
     height = s.swing_foot[:, 1] + math.tan(walker.slope) * s.swing_foot[:, 0]
     height += walker.drop(int(s.step[0]))
@@ -115,7 +115,7 @@ def _certificate(walker: Walker, s: Signals, x_minus: Array) -> Certificate:
     )
 
 
-def _slope(angle: float) -> tuple[Array, Array]:
+def ground_axes(angle: float) -> tuple[Array, Array]:
     """Unit vectors (x, z) along the ground, downhill for a positive slope [rad], and out of it."""
     along = np.array([math.cos(angle), -math.sin(angle)])
     return along, np.array([math.sin(angle), math.cos(angle)])

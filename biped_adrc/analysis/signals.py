@@ -60,17 +60,19 @@ class Signals:
     """(K, p) kappa^-1 (xi^ - xi_nominal): the joint torque the estimate amounts to beyond the nominal
     model [N m]; NaN without an observer."""
     ground_reaction: Array
-    """(K, 2), (F_T, F_N) [N]."""
+    """(K, 2), (F_T, F_N) [N], horizontal and vertical on any ground."""
     kinetic: Array
     """(K,) [J]."""
     potential: Array
-    """(K,) [J], from the stance foot."""
+    """(K,) [J], zero at the height of the first stance foot."""
     swing_foot: Array
     """(K, 2) from the stance foot [m]."""
     hip: Array
     """(K, 2) from the stance foot [m]."""
     foothold: Array
     """(K,) x of the stance foot in the world [m]."""
+    foothold_height: Array
+    """(K,) z of the stance foot in the world [m]."""
 
     def of_step(self, step: int) -> Signals:
         """The rows of one single support."""
@@ -84,22 +86,22 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     Where outer loops correct the reference, q_d is the corrected one.
     """
     rows: list[tuple[object, ...]] = []
-    foothold = 0.0
+    foot = np.zeros(2)
     for arc in trajectory.arcs:
         later = np.append(arc.t[1:], arc.t[-1])
         for t, t_next, x in zip(arc.t, later, arc.x, strict=True):
             # a repeated time is a jump: its first node sees what acted before it
             seen = math.nextafter(t, -math.inf) if t == t_next else float(t)
-            row = _row(walker, reference, seen, x, arc.mode)
-            rows.append((float(t), *row[1:], foothold))
+            row = _row(walker, reference, seen, x, arc.mode, foot)
+            rows.append((float(t), *row[1:], *foot))
         if arc.event is not None and arc.event.x_plus is not None:
-            foothold += float(walker.plant.swing_foot(arc.event.x_minus[: walker.plant.n])[0])
+            foot = foot + walker.plant.swing_foot(arc.event.x_minus[: walker.plant.n])
     columns = (np.array(column) for column in zip(*rows, strict=True))
     return Signals(*columns)
 
 
 def _row(
-    walker: Walker, reference: Reference, t: float, x: Array, mode: Mode
+    walker: Walker, reference: Reference, t: float, x: Array, mode: Mode, foot: Array
 ) -> tuple[object, ...]:
     i = walker.instant(t, x, mode)
     m, b = i.measurement, walker.plant
@@ -131,7 +133,7 @@ def _row(
         m.terms.kappa_inverse @ (xi_estimate - m.terms.xi),
         walker.ground_reaction(i, mode),
         b.kinetic_energy(q, v),
-        b.potential_energy(q),
+        b.potential_energy(q) + b.weight * float(foot[1]),
         b.swing_foot(q),
         b.hip(q),
     )

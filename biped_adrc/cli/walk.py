@@ -18,6 +18,7 @@ from biped_adrc.cli.app import (
     console,
     parse_pushes,
 )
+from biped_adrc.cli.passive import simulate_passive
 from biped_adrc.errors import InputError
 
 if TYPE_CHECKING:
@@ -26,7 +27,10 @@ if TYPE_CHECKING:
 
 @app.command()
 def simulate(
-    controller: Annotated[str, typer.Option(help="ADRC or NPD.")] = "ADRC",
+    context: typer.Context,
+    controller: Annotated[
+        str, typer.Option(help="ADRC or NPD; passive for robots without motors.")
+    ] = "ADRC",
     gait: Annotated[
         str,
         typer.Option(
@@ -76,13 +80,17 @@ def simulate(
     from biped_adrc.studies.runs import Run, execute_fully
     from biped_adrc.studies.versions import versions
 
+    description = load_description(robot)
+    if not description.actuated:
+        simulate_passive(context, robot, preset, impacts, out)
+        return
     extra: dict[str, Any] = {}
     if poles is not None:
         extra["poles"] = _numbers(poles, "--poles")
     run = Run(
         controller.upper(),
         robot,
-        load_description(robot).preset(preset).name,
+        description.preset(preset).name,
         gait=gait,
         pushes=parse_pushes(push),
         period=period,

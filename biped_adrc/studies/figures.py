@@ -9,7 +9,7 @@ import numpy as np
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.errors import InputError
-from biped_adrc.studies.walk import Walk
+from biped_adrc.studies.recording import Recording
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")
 
 
-def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
+def draw(name: str, walks: Mapping[str, Recording]) -> Figure:
     """One of `NAMES`; of the first walk, or of all for "phase" and "comparison". Raises InputError."""
     from biped_adrc.viz import figures
 
@@ -28,13 +28,18 @@ def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
     title, walk = next(iter(walks.items()))
     signals = {n: w.signals for n, w in walks.items()}
     first, push = signals[title], push_window(signals[title])
+    if name in ("disturbance", "comparison") and any(s.u.shape[1] == 0 for s in signals.values()):
+        raise InputError(
+            f"figure '{name}' shows what motors do and these walks have a robot without; choose one of "
+            "'tracking', 'ground', 'energy', 'phase'"
+        )
     if name == "tracking":
-        return figures.tracking_figure(first, title, push, walk.walker.torque_limit)
+        return walk.plot(title, push)
     if name == "disturbance":
         return figures.disturbance_figure(first, title, push)
     if name == "ground":
         mu = walk.walker.plant.description.friction_coefficient
-        return figures.ground_figure(first, title, mu)
+        return figures.ground_figure(first, title, mu, walk.walker.slope)
     if name == "energy":
         return figures.energy_figure(first, title, push)
     if name == "phase":

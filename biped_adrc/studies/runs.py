@@ -31,6 +31,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 from biped_adrc.studies.push import Push
+from biped_adrc.studies.recording import Recording
 from biped_adrc.studies.walk import Walk, walk, watched
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, ContinuousTime, Mode, SampledTime, Walker
@@ -212,9 +213,13 @@ def replay(run: Run, trajectory: Trajectory) -> Walk:
     return watched(run.build(biped, gait), gait, trajectory)
 
 
-def load_walk(path: Path | str) -> Walk:
+def load_walk(path: Path | str) -> Recording:
     """The walk in a run file (.npz) written by `simulate` or `reproduce`. Raises InputError."""
+    from biped_adrc.studies.passive_walk import replayed
+
     trajectory = load(path, lambda step, start: Mode(int(step), start))
+    if "passive" in trajectory.settings:
+        return replayed(trajectory)
     record = trajectory.settings.get("run")
     if record is None:
         raise InputError(
@@ -224,7 +229,7 @@ def load_walk(path: Path | str) -> Walk:
     return replay(from_record(record), trajectory)
 
 
-def load_walks(paths: Sequence[Path]) -> dict[str, Walk]:
+def load_walks(paths: Sequence[Path]) -> dict[str, Recording]:
     """The walks in run files, named by controller and, where that is not enough, by file."""
     found = [(path, load_walk(path)) for path in paths]
     names = [walk.controller_name for _, walk in found]

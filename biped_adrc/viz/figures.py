@@ -48,6 +48,20 @@ def tracking_figure(
         return figure
 
 
+def passive_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
+    """A walk without motors: its angles and energies over time, and Theta against its rate."""
+    with style():
+        figure = new_figure(10.5, 5.6)
+        figure.suptitle(title)
+        parts = figure.subplot_mosaic(
+            [["angles", "phase"], ["energy", "phase"]], width_ratios=(3, 2)
+        )
+        plots.angles(parts["angles"], signals, push).set_xlabel("")
+        plots.energy(parts["energy"], signals, push)
+        plots.phase_portrait(parts["phase"], signals)
+        return figure
+
+
 def _zoom(column: NDArray[np.object_], s: Signals, push: Window) -> None:
     """Limits of the time axis and of each value axis around the push."""
     low = max(push[0] - BEFORE, float(s.t[0]))
@@ -93,14 +107,14 @@ def disturbance_figure(signals: Signals, title: str = "", push: Window | None = 
         return figure
 
 
-def ground_figure(signals: Signals, title: str = "", mu: float = 0.6) -> Figure:
-    """The ground reaction over time and against the friction cone."""
+def ground_figure(signals: Signals, title: str = "", mu: float = 0.6, slope: float = 0.0) -> Figure:
+    """The ground reaction over time and against the friction cone, on a slope [rad], positive downhill."""
     with style():
         figure = new_figure(10.0, 4.0)
         figure.suptitle(title)
         over_time, cone = figure.subplots(1, 2, width_ratios=(3, 2))
-        plots.ground_reaction(over_time, signals)
-        plots.friction_cone(cone, signals, mu)
+        plots.ground_reaction(over_time, signals, slope=slope)
+        plots.friction_cone(cone, signals, mu, slope)
         return figure
 
 
@@ -149,6 +163,7 @@ __all__ = [
     "energy_figure",
     "ground_figure",
     "multiplier_figure",
+    "passive_figure",
     "phase_figure",
     "push_map_figure",
     "return_map_figure",

@@ -71,23 +71,21 @@ class Frames:
 
 def pose(scene: Scene, i: int, t: float) -> Pose:
     """The pose in arc i at t [s]."""
-    arc, biped, foothold = scene.trajectory.arcs[i], scene.biped, float(scene.footholds[i])
+    arc, biped, foothold = scene.trajectory.arcs[i], scene.biped, scene.foothold(i)
     n, step = biped.n, arc.mode.step
     x = arc(t, "left" if t == arc.t[-1] else "right")
     q, v = x[:n], x[n : 2 * n]
     moving = [joint.name for joint in biped.tree.joints if joint.type != "fixed"]
     at, later, earlier = (
-        joint_values(biped, q + s * EPSILON * v, step, foothold) for s in (0.0, 1.0, -1.0)
+        joint_values(biped, q + s * EPSILON * v, step, *foothold) for s in (0.0, 1.0, -1.0)
     )
     rates = [(later[name] - earlier[name]) / (2.0 * EPSILON) for name in moving]
     acting = loads(scene, min(t, math.nextafter(float(arc.t[-1]), -math.inf)))
-    zeta = acting.zeta if step % 2 == 1 else acting.zeta[biped.relabelling]
-    points = np.concatenate((biped.hip(q), biped.swing_foot(q)))
-    points[[0, 2]] += foothold
+    points = np.concatenate((biped.hip(q), biped.swing_foot(q))) + np.tile(foothold, 2)
     return Pose(
         np.array([at[name] for name in moving]),
         np.array(rates),
-        np.concatenate((acting.ground_reaction, zeta)),
+        np.concatenate(acting),
         points,
     )
 

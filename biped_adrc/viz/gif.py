@@ -21,6 +21,7 @@ from biped_adrc.viz.loads import loads
 from biped_adrc.viz.placement import Recorded, Scene, link_placements
 from biped_adrc.viz.side_view import STANCE, SWING, TRUNK, SideView
 from biped_adrc.viz.style import style
+from biped_adrc.viz.surface import TILE
 
 COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
 REACTION, TORQUE = "#009E73", "#CC79A7"
@@ -29,8 +30,6 @@ GHOST = 0.35
 DPI = 100
 SHOWN = 2.6
 """[m], width of the picture."""
-TILE = 0.5
-"""[m], between marks on the ground."""
 
 
 def write_gif(
@@ -84,7 +83,6 @@ def _frames(scenes: Mapping[str, Scene], times: Array, width: int) -> list[Array
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_axis_off()
-    axes.set_ylim(-0.12, height)
     _ground(axes, views)
     drawn = [
         _Drawn(axes, view, times, GHOST if view is not views[-1] else 1.0, 2 + k)
@@ -97,7 +95,9 @@ def _frames(scenes: Mapping[str, Scene], times: Array, width: int) -> list[Array
         for walk in drawn:
             walk.show(k, float(t))
         x = views[-1].points(float(t))[0]
+        z = views[-1].scene.level(x)
         axes.set_xlim(x - 0.6 * SHOWN, x + 0.4 * SHOWN)
+        axes.set_ylim(z - 0.12, z + height)
         text.set_text(f"{caption}\nt = {t:.2f} s, step {views[-1].step(float(t))}")
         canvas.draw()  # type: ignore[no-untyped-call]
         picture = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
@@ -106,12 +106,16 @@ def _frames(scenes: Mapping[str, Scene], times: Array, width: int) -> list[Array
 
 
 def _ground(axes: Axes, views: list[SideView]) -> None:
+    """The ground of every walk as a line, of the solid one (the last) with its tiles."""
     x = np.concatenate([view.scene.footholds for view in views])
     low, high = math.floor(x.min()) - 3, math.ceil(x.max()) + 4
-    axes.plot([low, high], [0.0, 0.0], color="black", lw=1.0, zorder=1)
-    for k, at in enumerate(np.arange(low, high, TILE)):
-        shade = "#c8c8c8" if k % 2 == 0 else "#9e9e9e"
-        axes.fill_between([at, at + TILE], -0.05, 0.0, color=shade, lw=0.0, zorder=0)
+    lines = [view.scene.surface.line(low, high) for view in views]
+    for line in {line.tobytes(): line for line in lines}.values():
+        axes.plot(*line.T, color="black", lw=1.0, zorder=1)
+    for tile in views[-1].scene.surface.tiles(round(low / TILE), round(high / TILE)):
+        shade = "#c8c8c8" if tile.even else "#9e9e9e"
+        at, top = tile.ends.T
+        axes.fill_between(at, top - 0.05, top, color=shade, lw=0.0, zorder=0)
 
 
 class _Drawn:
@@ -146,12 +150,11 @@ class _Drawn:
         jumps = np.flatnonzero(np.diff(self.steps[: k + 1])) + 1
         self.foot.set_data(*np.insert(self.points[: k + 1, 2:], jumps, np.nan, axis=0).T)
         i = scene.arc_at(t)
-        self.prints.set_data(scene.footholds[: i + 1], np.zeros(i + 1))
+        self.prints.set_data(scene.footholds[: i + 1], scene.heights[: i + 1])
         acting = loads(scene, t)
         force = view.metres_per_newton * acting.ground_reaction
-        self.reaction.set_verts([arrow(np.array([scene.footholds[i], 0.0]), force)])
-        zeta = acting.zeta if view.step(t) % 2 == 1 else acting.zeta[scene.biped.relabelling]
-        self.torques.set_verts(self._rings(t, zeta))
+        self.reaction.set_verts([arrow(np.array(scene.foothold(i)), force)])
+        self.torques.set_verts(self._rings(t, acting.zeta))
 
     def _rings(self, t: float, zeta: Array) -> list[Array]:
         if not zeta.any():

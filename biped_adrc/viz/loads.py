@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.types import Array
-from biped_adrc.viz.placement import Scene
+from biped_adrc.viz.placement import Scene, exchanged
 
 
 class Loads(NamedTuple):
@@ -16,7 +16,7 @@ class Loads(NamedTuple):
     ground_reaction: Array
     """(2,), (F_T, F_N) on the stance foot [N]."""
     zeta: Array
-    """(n,) external torque on q1..qn [N m]."""
+    """(n,) external torque on the drawn joints of q1..qn [N m]."""
 
 
 def loads(scene: Scene, t: float) -> Loads:
@@ -27,4 +27,6 @@ def loads(scene: Scene, t: float) -> Loads:
     arc = scene.trajectory.arcs[scene.arc_at(t)]
     k = min(max(int(np.searchsorted(arc.t, t, side="right")) - 1, 0), len(arc.t) - 1)
     i = scene.walker.instant(float(arc.t[k]), arc.x[k], arc.mode)
-    return Loads(scene.walker.ground_reaction(i, arc.mode), i.zeta)
+    # with q drawn as R q, power zeta' q' is that of R^-T zeta, and R is its own inverse
+    zeta = scene.biped.R.T @ i.zeta if exchanged(scene.biped, arc.mode.step) else i.zeta
+    return Loads(scene.walker.ground_reaction(i, arc.mode), zeta)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +18,8 @@ from biped_adrc.types import Array
 from biped_adrc.viz import meshcat_scene as draw
 from biped_adrc.viz.frames import Frames
 from biped_adrc.viz.meshcat_page import MemoryWindow, page
-from biped_adrc.viz.placement import Recorded, Scene
+from biped_adrc.viz.placement import Recorded, Scene, exchanged, is_wheel
+from biped_adrc.viz.side_view import SideView
 
 GHOST = 0.35
 """Opacity of a ghost."""
@@ -29,6 +31,8 @@ METRES_PER_NEWTON_METRE = 0.004
 """Radius of the ring of an external torque [m / N m]."""
 TRACE_POINTS = 20_000
 """Room for the traces of a walk whose length is not known beforehand."""
+TALL = 1.6
+"""[m], the highest robot the cameras show from where they are for RABBIT; for higher ones they stand back."""
 VIEWS = ("side", "perspective")
 
 Marks = Sequence[tuple[float, float, str]]
@@ -125,11 +129,11 @@ def scene_settings(
         robot.set_transform(draw.shift((0.0, LANE * lane, 0.0)))
         described.append(_add_walk(robot, f"meshcat/robots/{names[name]}", scene, opacity, room))
     solid = next(iter(scenes.values()))
-    footholds = [scene.footholds for scene in scenes.values()]
-    draw.add_ground(viewer["ground"], footholds, draw.sole(solid.biped), LANE * (len(scenes) - 1))
+    draw.add_ground(viewer["ground"], list(scenes.values()), draw.sole(solid.biped), LANE)
     draw.set_stage(viewer)
     tree, base = solid.biped.tree, solid.biped.description.base[0]
     base_x = next(joint for joint in tree.joints if joint.name == base)
+    scale = max(1.0, SideView(solid).height / TALL)
     return {
         "walks": described,
         "leader": 0,
@@ -139,15 +143,15 @@ def scene_settings(
         "start": min(scene.trajectory.t_start for scene in scenes.values()),
         "end": max(scene.trajectory.t_end for scene in scenes.values()),
         "view": look.view,
-        "views": {kind: _view(kind) for kind in VIEWS},
+        "views": {kind: _view(kind, scale) for kind in VIEWS},
         "commands": window.packed(),
         "live": False,
     }
 
 
-def _view(kind: str) -> dict[str, Any]:
+def _view(kind: str, scale: float) -> dict[str, Any]:
     window = MemoryWindow(kind)
-    position, target = draw.set_camera(draw.visualizer(window), kind)
+    position, target = draw.set_camera(draw.visualizer(window), kind, scale)
     return {"commands": window.packed(), "position": position, "target": target}
 
 
@@ -155,8 +159,8 @@ def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) ->
     """Draw one walk and say where its parts are."""
     biped, depth = scene.biped, draw.sole(scene.biped)
     tree = biped.tree
-    draw.add_robot(robot, tree, opacity)
-    prints = draw.add_footprints(robot["footprints"], scene.footholds, depth, opacity)
+    draw.add_robot(robot, biped, opacity)
+    prints = draw.add_footprints(robot["footprints"], scene, depth, opacity)
     draw.add_trace(robot["hip_trace"], room, draw.DARK, opacity)
     draw.add_trace(robot["foot_trace"], room, draw.SWING, opacity)
     draw.add_arrow(robot["ground_reaction"], draw.REACTION, opacity)
@@ -179,9 +183,15 @@ def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) ->
         "traces": [f"{path}/hip_trace", f"{path}/foot_trace"],
         "footprints": [f"{path}/footprints/{name}" for name in prints],
         "supports": [
-            {"number": arc.mode.step, "x": float(x)}
-            for arc, x in zip(scene.trajectory.arcs, scene.footholds, strict=True)
+            {
+                "number": arc.mode.step,
+                "stance": int(exchanged(biped, arc.mode.step)),
+                "x": scene.foothold(i)[0],
+                "z": scene.foothold(i)[1],
+            }
+            for i, arc in enumerate(scene.trajectory.arcs)
         ],
+        "fall": math.tan(scene.walker.slope),
         "ground": -depth,
         "head": draw.HEAD,
         "metres_per_newton": WEIGHT_LENGTH / biped.weight,
@@ -216,9 +226,9 @@ def captions(scenes: Mapping[str, Scene]) -> list[tuple[str, str]]:
     solid, *ghosts = scenes
     biped = scenes[solid].biped
     newtons = 0.1 * biped.weight / WEIGHT_LENGTH
+    walking = [(_css(draw.STANCE), "stance leg"), (_css(draw.SWING), "swing leg")]
     entries = [
-        (_css(draw.STANCE), "stance leg"),
-        (_css(draw.SWING), "swing leg"),
+        *([] if is_wheel(biped) else walking),
         (_css(draw.REACTION), f"ground reaction, 0.1 m = {newtons:.0f} N"),
         (
             _css(draw.TORQUE),

@@ -1,14 +1,15 @@
 """Objects of the scene in Meshcat: robots from their URDF, ground, footprints, traces, arrows, cameras.
 
 The scene mirrors the tree of the URDF, a node per joint, so links stay together between frames. The feet are
-points in the model and balls in the URDF: the ground is drawn one radius below z = 0.
+points in the model and balls in the URDF: the ground is drawn one radius below the footholds.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,8 @@ from numpy.typing import NDArray
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.urdf import Joint, Tree, Visual
 from biped_adrc.types import Array
-from biped_adrc.viz.placement import joint_transform
+from biped_adrc.viz.placement import Scene, joint_transform, legs, spokes, turn
+from biped_adrc.viz.surface import TILE
 
 with warnings.catch_warnings():
     # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here
@@ -30,8 +32,6 @@ STANCE, SWING = (0.0, 0.447, 0.698), (0.902, 0.624, 0.0)
 REACTION, TORQUE = (0.0, 0.62, 0.451), (0.8, 0.475, 0.655)
 """Bluish green and reddish purple: the ground reaction, a torque from outside."""
 DARK = (0.1, 0.1, 0.1)
-TILE = 0.5
-"""[m], length of a tile of the ground."""
 VIEW = 2.0
 """[m], height of the picture from the side."""
 HEAD = 0.09
@@ -42,6 +42,13 @@ def shift(origin: Sequence[float]) -> Array:
     """A translation (4, 4)."""
     M = np.eye(4)
     M[:3, 3] = origin
+    return M
+
+
+def rotation(R: Array) -> Array:
+    """A rotation (4, 4) by R (3, 3)."""
+    M = np.eye(4)
+    M[:3, :3] = R
     return M
 
 
@@ -63,15 +70,17 @@ def joint_path(tree: Tree, joint: Joint) -> str:
     return "/".join([*reversed(above), joint.name])
 
 
-def add_robot(node: Any, tree: Tree, opacity: float) -> None:
-    """A node per joint at its zero, the primitives of its child below it."""
+def add_robot(node: Any, biped: Biped, opacity: float) -> None:
+    """A node per joint at its zero, the primitives of its child below it; of a wheel once a spoke."""
+    tree = biped.tree
     for joint in tree.joints:
         here = node[joint_path(tree, joint)]
         here.set_transform(joint_transform(joint, 0.0))
         for k, visual in enumerate(tree.links[joint.child].visuals):
-            part = here[f"visual_{k}"]
-            part.set_object(_shape(visual), paint(visual.rgba, opacity * visual.rgba[3]))
-            part.set_transform(visual_transform(visual))
+            for i, R in enumerate(spokes(biped) if any(visual.origin) else [np.eye(3)]):
+                part = here[f"visual_{k}" if i == 0 else f"visual_{k}_spoke_{i}"]
+                part.set_object(_shape(visual), paint(visual.rgba, opacity * visual.rgba[3]))
+                part.set_transform(rotation(R) @ visual_transform(visual))
 
 
 def _shape(visual: Visual) -> Any:
@@ -95,16 +104,15 @@ UPRIGHT = np.array(
 
 def leg_visuals(biped: Biped) -> list[list[str]]:
     """Paths below the robot of the parts of the leg that is stance leg in odd steps, and of the other."""
-    d, tree = biped.description, biped.tree
-    legs = [[j.name for j in tree.path_to_root(foot)] for foot in (d.stance_foot, d.swing_foot)]
+    tree = biped.tree
     return [
         [
             f"{joint_path(tree, joint)}/visual_{k}"
             for joint in tree.joints
-            if joint.name in own and joint.name not in other
+            if joint.child in leg
             for k in range(len(tree.links[joint.child].visuals))
         ]
-        for own, other in (legs, legs[::-1])
+        for leg in legs(biped)
     ]
 
 
@@ -115,13 +123,22 @@ def sole(biped: Biped) -> float:
 
 
 # -- what surrounds it -----------------------------------------------------------------------------
-def add_footprints(node: Any, footholds: Array, depth: float, opacity: float) -> list[str]:
+def add_footprints(node: Any, scene: Scene, depth: float, opacity: float) -> list[str]:
     """A flat plate under every stance foot; returns their names."""
-    for k, x in enumerate(footholds):
+    for k in range(len(scene.footholds)):
         plate = node[f"{k}"]
         plate.set_object(shapes.Box([0.06, 0.1, 0.004]), paint(DARK, opacity))
-        plate.set_transform(shift((float(x), 0.0, -depth)))
-    return [f"{k}" for k in range(len(footholds))]
+        plate.set_transform(under(scene.foothold(k), scene.walker.slope, depth))
+    return [f"{k}" for k in range(len(scene.footholds))]
+
+
+def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0) -> Array:
+    """Placement (4, 4) of what lies along the ground, `depth` [m] below the point (x, z) of its surface.
+
+    slope [rad], positive downhill; side [m], away from the camera.
+    """
+    R = turn((0.0, 1.0, 0.0), slope)
+    return shift((point[0], side, point[1])) @ rotation(R) @ shift((0.0, 0.0, -depth))
 
 
 def add_trace(node: Any, points: int, rgb: Sequence[float], opacity: float) -> None:
@@ -170,15 +187,42 @@ def ring_mesh(width: float = 0.12, segments: int = 40) -> tuple[Array, NDArray[n
     return np.vstack((vertices, head)), faces
 
 
-def add_ground(node: Any, footholds: Iterable[Array], depth: float, width: float) -> None:
-    """Light and dark tiles of TILE [m], two before and three behind the walks; the top at z = -depth."""
-    x = np.concatenate(list(footholds))
+def add_ground(node: Any, scenes: Sequence[Scene], depth: float, lane: float) -> None:
+    """Light and dark tiles, two before and three behind the walks, `depth` [m] below their footholds.
+
+    Walks on the same ground share it; on different grounds each has its own, as wide as its lane [m].
+    """
+    x = np.concatenate([scene.footholds for scene in scenes])
     low, high = math.floor(x.min() / TILE) - 2, math.ceil(x.max() / TILE) + 3
-    for k in range(low, high):
-        grey = 0.78 if k % 2 == 0 else 0.62
-        tile = node[f"{k - low}"]
-        tile.set_object(shapes.Box([TILE, 1.0 + width, 0.03]), paint((grey, grey, grey)))
-        tile.set_transform(shift(((k + 0.5) * TILE, 0.5 * width, -depth - 0.015)))
+    lines = {scene.surface.line(low * TILE, high * TILE).tobytes() for scene in scenes}
+    shared, last = len(lines) == 1, len(scenes) - 1
+    names = itertools.count()
+    for k, scene in enumerate(scenes[:1] if shared else scenes):
+        near = -0.5 if k == 0 else (k - 0.5) * lane
+        far = last * lane + 0.5 if shared or k == last else (k + 0.5) * lane
+        _add_strip(node, names, scene, (low, high), depth, (near, far))
+
+
+def _add_strip(
+    node: Any,
+    names: Iterator[int],
+    scene: Scene,
+    reach: tuple[int, int],
+    depth: float,
+    sides: tuple[float, float],
+) -> None:
+    """The tiles of one ground; below the highest step down they are thick enough to reach the lower ground."""
+    near, far = sides
+    thick = 0.03 + float(np.max(scene.surface.heights, initial=0.0))
+    for tile in scene.surface.tiles(*reach):
+        grey = 0.78 if tile.even else 0.62
+        size = [float(np.hypot(*(tile.ends[1] - tile.ends[0]))), far - near, thick]
+        slab = node[f"{next(names)}"]
+        slab.set_object(shapes.Box(size), paint((grey, grey, grey)))
+        middle = tile.ends.mean(axis=0)
+        slab.set_transform(
+            under(middle, scene.surface.slope, depth + 0.5 * thick, 0.5 * (near + far))
+        )
 
 
 def set_stage(viewer: Any) -> None:
@@ -189,19 +233,20 @@ def set_stage(viewer: Any) -> None:
         viewer["/Background"].set_property(name, [1.0, 1.0, 1.0])
 
 
-def set_camera(viewer: Any, kind: str) -> tuple[list[float], list[float]]:
+def set_camera(viewer: Any, kind: str, scale: float = 1.0) -> tuple[list[float], list[float]]:
     """A camera at the robot's right side (x to the right, z up) or before it; its position and target [m].
 
-    The camera's own frame has y up and z towards the robot's right.
+    The camera's own frame has y up and z towards the robot's right. scale: how much larger than for RABBIT.
     """
     node = viewer[f"/Cameras/{kind}/rotated"]
     node.set_transform(UPRIGHT)
     if kind == "side":
-        half = 0.5 * VIEW
+        half = 0.5 * VIEW * scale
         node.set_object(shapes.OrthographicCamera(-half, half, half, -half, near=0.1, far=100.0))
-        return [0.0, 0.7, 8.0], [0.0, 0.7, 0.0]
+        return [0.0, 0.7 * scale, 8.0], [0.0, 0.7 * scale, 0.0]
     node.set_object(shapes.PerspectiveCamera(fov=40.0, near=0.05, far=100.0))
-    return [1.7, 1.3, 2.6], [0.1, 0.6, 0.0]
+    position, target = [1.7, 1.3, 2.6], [0.1, 0.6, 0.0]
+    return [scale * c for c in position], [scale * c for c in target]
 
 
 def visualizer(window: Any) -> Any:

@@ -1,22 +1,25 @@
 """Where the links of the drawn robot are: the tree of the URDF at (q, step, foothold).
 
 In odd single supports the stance leg is the one the robot record calls so (RABBIT: left), in even ones the
-other. The joints drawn are q in odd steps and q[R] in even ones, so no drawn angle jumps at impact.
+other. The joints drawn are q in odd steps and R q in even ones, so no drawn angle jumps at impact. A rimless
+wheel has spokes in place of legs: it is drawn at q in every step, on the next of its equal spokes.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 
-from biped_adrc.errors import InputError
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.relabelling import twins
 from biped_adrc.model.urdf import Joint, Tree
 from biped_adrc.types import Array
+from biped_adrc.viz.surface import Surface
 from biped_adrc.walker import Walker
 
 
@@ -49,21 +52,52 @@ def link_placements(tree: Tree, values: dict[str, float]) -> dict[str, Array]:
     return placements
 
 
-def joint_values(biped: Biped, q: Array, step: int = 1, foothold: float = 0.0) -> dict[str, float]:
+def is_wheel(biped: Biped) -> bool:
+    """Whether no link changes over at impact: both feet belong to one body that rolls on."""
+    return np.array_equal(biped.R, np.eye(biped.n))
+
+
+def spokes(biped: Biped) -> list[Array]:
+    """Rotations (3, 3) from the spoke the URDF draws to every one; the identity alone for legs."""
+    if not is_wheel(biped):
+        return [np.eye(3)]
+    pitch = next(j for j in biped.tree.joints if j.name == biped.description.unactuated)
+    between = float(biped.relabel(np.zeros(biped.n))[-1])
+    count = round(2.0 * math.pi / abs(between))
+    return [turn(pitch.axis, k * between) for k in range(count)]
+
+
+def exchanged(biped: Biped, step: int) -> bool:
+    """Whether in single support `step` (from 1) the legs have changed over."""
+    return step % 2 == 0 and not is_wheel(biped)
+
+
+def legs(biped: Biped) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Links of the leg that carries odd steps and of the other, feet first; none for a wheel."""
+    if is_wheel(biped):
+        return (), ()
+    d = biped.description
+    pairs = tuple(twins(biped.tree, (d.stance_foot, d.swing_foot)))  # one, other, one, other, ...
+    return pairs[::2], pairs[1::2]
+
+
+def joint_values(
+    biped: Biped, q: Array, step: int = 1, foothold: float = 0.0, height: float = 0.0
+) -> dict[str, float]:
     """Joint values of the floating URDF [rad], [m] for q (n,) in single support `step` (from 1).
 
-    The stance foot stands at x = foothold [m], z = 0.
+    The stance foot stands at x = foothold, z = height [m].
     """
     d = biped.description
-    odd = step % 2 == 1
-    drawn = q if odd else biped.relabel(q)
+    other = exchanged(biped, step)
+    drawn = biped.relabel(q) if other else q
     values = dict(zip(d.joints, map(float, drawn), strict=True))
-    foot = d.stance_foot if odd else d.swing_foot
+    foot = d.swing_foot if other else d.stance_foot
     M = np.eye(4)
     for joint in biped.tree.path_to_root(foot):
         M = joint_transform(joint, values.get(joint.name, 0.0)) @ M
     values[d.base[0]] = foothold - float(M[0, 3])
-    values[d.base[1]] = -float(M[2, 3])
+    values[d.base[1]] = height - float(M[2, 3])
     return values
 
 
@@ -78,35 +112,44 @@ class Recorded(Protocol):
 
 @dataclass(frozen=True)
 class Scene:
-    """A walk laid out in the world; `footholds` (arcs,) is x of the stance foot [m]."""
+    """A walk laid out in the world; `footholds`, `heights` (arcs,) are x and z of the stance foot [m]."""
 
     walker: Walker
     trajectory: Trajectory
     footholds: Array
+    heights: Array
 
     @classmethod
     def of(cls, walk: Recorded) -> Scene:
-        """The first stance foot stands at x = 0; each impact moves it by p_2 of x-.
-
-        Raises InputError for a walk on a slope or over steps, which cannot be drawn yet.
-        """
-        if walk.walker.steps_down:
-            raise InputError("walks over steps down cannot be drawn yet")
-        if walk.walker.slope != 0.0:
-            raise InputError(
-                f"walks on a slope cannot be drawn yet, this one is on {walk.walker.slope:.4g} rad"
-            )
-        x, footholds, plant = 0.0, [], walk.walker.plant
+        """The first stance foot stands at x = z = 0; each impact moves it by p_2 of x-."""
+        foot, feet, plant = np.zeros(2), [], walk.walker.plant
         for arc in walk.trajectory.arcs:
-            footholds.append(x)
+            feet.append(foot)
             if arc.event is not None and arc.event.x_plus is not None:
-                x += float(plant.swing_foot(arc.event.x_minus[: plant.n])[0])
-        return cls(walk.walker, walk.trajectory, np.array(footholds))
+                foot = foot + plant.swing_foot(arc.event.x_minus[: plant.n])
+        return cls(walk.walker, walk.trajectory, *np.array(feet).T)
 
     @property
     def biped(self) -> Biped:
         """The robot drawn: the plant."""
         return self.walker.plant
+
+    def foothold(self, i: int) -> tuple[float, float]:
+        """x and z of the stance foot in arc i [m]."""
+        return float(self.footholds[i]), float(self.heights[i])
+
+    @cached_property
+    def surface(self) -> Surface:
+        """The ground walked on so far."""
+        arcs = self.trajectory.arcs[: len(self.footholds) - 1]
+        drops = np.array([self.walker.drop(arc.mode.step) for arc in arcs])
+        middles = 0.5 * (self.footholds[:-1] + self.footholds[1:])
+        return Surface(self.walker.slope, middles[drops > 0.0], drops[drops > 0.0])
+
+    def level(self, x: float) -> float:
+        """z of a smooth line through the footholds at x [m]: what a camera follows."""
+        fall = math.tan(self.walker.slope)
+        return float(np.interp(x, self.footholds, self.heights + fall * self.footholds)) - fall * x
 
     def arc_at(self, t: float) -> int:
         """Index of the arc that is shown at t [s]; at an impact, the one after it."""
@@ -119,4 +162,5 @@ class Scene:
         i = self.arc_at(t)
         arc = self.trajectory.arcs[i]
         q = arc(t)[: self.biped.n]
-        return joint_values(self.biped, q, arc.mode.step, float(self.footholds[i]))
+        x, z = self.foothold(i)
+        return joint_values(self.biped, q, arc.mode.step, x, z)

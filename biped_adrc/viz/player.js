@@ -95,9 +95,8 @@ class Robot {
         j.object.position.set(...j.origin.map((o, a) => o + value * j.axis[a]));
       }
     });
-    const stance = support.number % 2 === 1 ? 0 : 1;
-    this.legs.forEach((leg, k) =>
-      leg.forEach((material) => material.color.setHex(k === stance ? w.colours[0] : w.colours[1])));
+    this.legs.forEach((leg, k) => leg.forEach((material) =>
+      material.color.setHex(k === support.stance ? w.colours[0] : w.colours[1])));
     this.footprints.forEach((print, k) => { print.visible = k <= pose.arc; });
     this.push(pose, support);
     const here = [...this.passed, { p: pose.points, arc: pose.arc }];
@@ -110,7 +109,7 @@ class Robot {
     const length = w.metres_per_newton * Math.hypot(tangent, normal);
     const tip = Math.min(w.head, length);
     this.arrow.visible = length > 0 && Number.isFinite(length); // a walk that diverges may overflow
-    this.arrow.position.set(support.x, 0, w.ground);
+    this.arrow.position.set(support.x, 0, support.z + w.ground);
     const half = 0.5 * Math.atan2(tangent, normal);
     this.arrow.quaternion.set(0, Math.sin(half), 0, Math.cos(half));
     this.shaft.scale.set(1, 1, Math.max(length - tip, 1e-6));
@@ -127,7 +126,7 @@ const robots = scene.walks.map((walk) => new Robot(walk));
 const leader = robots[scene.leader];
 
 // -- camera ----------------------------------------------------------------------------------------
-let view = scene.view, followed = 0;
+let view = scene.view, followed = { x: 0, z: 0 };
 for (const kind of Object.values(scene.views)) {
   viewer.controls.dispose();
   kind.commands.forEach(command);
@@ -139,19 +138,31 @@ function look(kind) {
   viewer.set_camera(scene.views[kind].camera);
   viewer.camera.position.set(...scene.views[kind].position);
   viewer.controls.target.set(...scene.views[kind].target);
-  followed = 0;
+  followed = { x: 0, z: 0 };
   viewer.controls.update();
   element("view").textContent = kind === "side" ? "perspective" : "side view";
   viewer.set_3d_pane_size();
   viewer.set_dirty();
 }
 const eye = node(scene.follow);
+// z of a smooth line through the footholds at x
+function level(x) {
+  const { supports, fall } = leader.walk;
+  const above = (s) => s.z + fall * s.x;
+  const next = supports.findIndex((s) => s.x > x);
+  if (next < 0) return above(supports[supports.length - 1]) - fall * x;
+  const b = supports[next], a = supports[Math.max(next - 1, 0)];
+  const share = b.x > a.x ? (x - a.x) / (b.x - a.x) : 0;
+  return (1 - share) * above(a) + share * above(b) - fall * x;
+}
 const render = viewer.render.bind(viewer);
 viewer.render = () => {
-  const step = eye.position.x - followed;
-  followed += step;
-  viewer.camera.position.x += step;
-  viewer.controls.target.x += step;
+  const x = eye.position.x, z = level(x);
+  for (const place of [viewer.camera.position, viewer.controls.target]) {
+    place.x += x - followed.x;
+    place.y += z - followed.z; // the viewer's own world has y up
+  }
+  followed = { x, z };
   render();
 };
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.urdf import Visual
 from biped_adrc.types import Array
-from biped_adrc.viz.placement import Scene, link_placements
+from biped_adrc.viz.placement import Scene, exchanged, legs, link_placements, spokes
 
 STANCE, SWING, TRUNK = "#0072B2", "#E69F00", "#333333"
 """Blue, orange, dark grey: dark, light and black in print."""
@@ -29,32 +29,24 @@ class Bone:
 
 
 def bones(biped: Biped) -> list[Bone]:
-    """The axes of cylinders and the longest sides of boxes; lines from joint to joint where there are none."""
-    legs = _legs(biped)
+    """The axes of cylinders and the longest sides of boxes; lines from joint to joint where there are none.
+
+    A wheel has each of them once a spoke.
+    """
+    leg = dict.fromkeys(legs(biped)[0], "stance") | dict.fromkeys(legs(biped)[1], "swing")
     found = [
-        Bone(name, ends, legs.get(name, ""))
+        Bone(name, ends, leg.get(name, ""))
         for name, link in biped.tree.links.items()
         for visual in link.visuals
         if (ends := _axis(visual)) is not None
     ]
-    if found:
-        return found
-    return [
-        Bone(j.parent, np.array([[0.0, 0.0, 0.0], j.origin]), legs.get(j.child, ""))
-        for j in biped.tree.joints
-        if any(j.origin)
-    ]
-
-
-def _legs(biped: Biped) -> dict[str, str]:
-    """The leg each link belongs to; links of both paths belong to the trunk."""
-    d, tree = biped.description, biped.tree
-    paths = {
-        "stance": {joint.child for joint in tree.path_to_root(d.stance_foot)},
-        "swing": {joint.child for joint in tree.path_to_root(d.swing_foot)},
-    }
-    both = paths["stance"] & paths["swing"]
-    return {link: leg for leg, links in paths.items() for link in links - both}
+    if not found:
+        found = [
+            Bone(j.parent, np.array([[0.0, 0.0, 0.0], j.origin]), leg.get(j.child, ""))
+            for j in biped.tree.joints
+            if any(j.origin)
+        ]
+    return [replace(bone, ends=bone.ends @ R.T) for R in spokes(biped) for bone in found]
 
 
 def _axis(visual: Visual) -> Array | None:
@@ -96,7 +88,7 @@ class SideView:
 
     def roles(self, t: float) -> list[str]:
         """ "stance", "swing" or "" by bone at t: the legs change over at every impact."""
-        if self.step(t) % 2 == 1:
+        if not exchanged(self.scene.biped, self.step(t)):
             return [bone.leg for bone in self.bones]
         other = {"stance": "swing", "swing": "stance", "": ""}
         return [other[bone.leg] for bone in self.bones]
@@ -108,15 +100,29 @@ class SideView:
         i = self.scene.arc_at(t)
         q = trajectory.arcs[i](t)[: biped.n]
         points = np.concatenate((biped.hip(q), biped.swing_foot(q)))
-        points[[0, 2]] += float(self.scene.footholds[i])
-        return points
+        return points + np.tile(self.scene.foothold(i), 2)
+
+    @cached_property
+    def _about_foot(self) -> Array:
+        """(K, 2), x and z of the ends of all lines at 50 times, from the stance foot [m]."""
+        scene = self.scene
+        times = np.linspace(scene.trajectory.t_start, scene.trajectory.t_end, 50)
+        return np.concatenate(
+            [
+                self.segments(float(t)).reshape(-1, 2) - scene.foothold(scene.arc_at(float(t)))
+                for t in times
+            ]
+        )
 
     @cached_property
     def height(self) -> float:
-        """Highest point of the robot on this walk [m], for the limits of a picture."""
-        trajectory = self.scene.trajectory
-        times = np.linspace(trajectory.t_start, trajectory.t_end, 50)
-        return float(max(self.segments(float(t))[:, :, 1].max() for t in times))
+        """Highest point of the robot above its stance foot on this walk [m], for the limits of a picture."""
+        return float(self._about_foot[:, 1].max())
+
+    @cached_property
+    def width(self) -> float:
+        """How far the robot reaches to either side of its stance foot on this walk [m]."""
+        return float(np.abs(self._about_foot[:, 0]).max())
 
     @cached_property
     def metres_per_newton(self) -> float:

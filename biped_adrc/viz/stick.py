@@ -17,9 +17,11 @@ from biped_adrc.viz.style import label, new_figure, render, style
 LOOKS = {
     "swing": (SWING, 1.4, (0, (4, 1.5)), "swing leg"),
     "stance": (STANCE, 2.0, "-", "stance leg"),
-    "": (TRUNK, 2.6, "-", "torso"),
+    "": (TRUNK, 2.6, "-", ""),
 }
-"""Colour, width and dash by role."""
+"""Colour, width, dash and name by role; the trunk goes by its own name."""
+MARGIN = 0.6
+"""[m], least ground shown before the first and behind the last foothold."""
 
 
 def strip(
@@ -48,11 +50,10 @@ def strip(
             (k + 1) / poses,
             k == poses - 1,
         )
-    _ground(axes, scene, start, stop)
+    _ground(axes, view, start, stop)
     axes.set_aspect("equal")
     axes.grid(False)
     axes.legend(loc="upper right", bbox_to_anchor=(1.0, 1.1), ncols=4, borderaxespad=0.0)
-    axes.set_ylim(-0.08, 1.05 * view.height)
     label(axes, "x [m]", "z [m]", f"a pose every {1e3 * (times[1] - times[0]):.0f} ms")
     return axes
 
@@ -80,21 +81,25 @@ def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) ->
             linewidths=width,
             linestyles=dash,
             alpha=0.25 + 0.75 * darkness,
-            label=name if named and mine else "_",
+            label=(name or view.scene.biped.description.trunk) if named and mine else "_",
             capstyle="round",
             zorder=3,
         )
         axes.add_collection(lines)
 
 
-def _ground(axes: Axes, scene: Scene, start: float, stop: float) -> None:
+def _ground(axes: Axes, view: SideView, start: float, stop: float) -> None:
+    scene = view.scene
     first, last = scene.arc_at(start), scene.arc_at(float(np.nextafter(stop, start)))
-    x = scene.footholds[first : last + 1]
+    x, z = scene.footholds[first : last + 1], scene.heights[first : last + 1]
     reach = scene.footholds[min(last + 1, len(scene.footholds) - 1)]
-    low, high = float(x.min()) - 0.6, max(float(x.max()), float(reach)) + 0.6
-    axes.plot([low, high], [0.0, 0.0], color="black", lw=0.8, label="_", zorder=1)
-    axes.plot(x, np.zeros(len(x)), "^", color="black", ms=5, label="footprint", zorder=4)
+    aside = max(MARGIN, view.width + 0.05)
+    low, high = float(x.min()) - aside, max(float(x.max()), float(reach)) + aside
+    line = scene.surface.line(low, high)
+    axes.plot(*line.T, color="black", lw=0.8, label="_", zorder=1)
+    axes.plot(x, z, "^", color="black", ms=5, label="footprint", zorder=4)
     axes.set_xlim(low, high)
+    axes.set_ylim(float(line[:, 1].min()) - 0.08, float(z.max()) + 1.05 * view.height)
 
 
 def write_strip(

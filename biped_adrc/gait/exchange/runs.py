@@ -37,6 +37,7 @@ UNITS = {
     "swing_foot": "m",
     "hip": "m",
     "foothold": "m",
+    "foothold_height": "m",
 }
 """Units of the columns `biped_adrc.analysis.signals.Signals` has."""
 

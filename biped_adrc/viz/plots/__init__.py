@@ -9,9 +9,10 @@ from biped_adrc.viz.plots.energy import energy
 from biped_adrc.viz.plots.ground import friction_cone, ground_reaction
 from biped_adrc.viz.plots.phase import phase_portrait
 from biped_adrc.viz.plots.stability import magnitudes, multipliers, staircase
-from biped_adrc.viz.plots.tracking import joint_tracking, torques, tracking_errors
+from biped_adrc.viz.plots.tracking import angles, joint_tracking, torques, tracking_errors
 
 __all__ = [
+    "angles",
     "energy",
     "error_over_time",
     "error_sizes",

@@ -29,6 +29,15 @@ def chosen(s: Signals, joints: Sequence[int] | None) -> tuple[int, ...]:
     return found
 
 
+def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
+    """All coordinates over time [rad], with motors or without."""
+    shade(axes, push)
+    for i in range(s.q.shape[1]):
+        line(axes, s, s.q[:, i], i, f"$q_{i + 1}$")
+    label(axes, "time [s]", "angle [rad]")
+    return legend(axes)
+
+
 def joint_tracking(
     axes: Axes, s: Signals, joints: Sequence[int] | None = None, push: Window | None = None
 ) -> Axes:
