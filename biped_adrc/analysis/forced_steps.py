@@ -1,0 +1,157 @@
+"""A walk under a constant horizontal force on the hip, step by step, by quadrature.
+
+F_x [N] at the hip of height z_hip enters the unactuated row, sigma' = -G_N - z_hip F_x. With exact tracking
+
+    sigma^2 / 2 + V_F = const in a step,   V_F(Theta) = int_{Theta+}^{Theta} (G_N + z_hip F_x) I dTheta
+
+so that, with zeta = sigma-^2 / 2 before an impact and delta = sigma+ / sigma- across it, the step after it is
+
+    zeta  ->  delta^2 zeta - V_F(Theta-),   T = int |I| / sqrt(2 (delta^2 zeta - V_F)) dTheta,
+
+and is finished if delta^2 zeta > max V_F. The force changes no impact: delta is that of the gait. With F_x = 0
+these are the zero dynamics of Westervelt, Grizzle, Koditschek, IEEE TAC 48(1), 2003. Around them the PI of
+`control.stride` sets beta from step to step. No tracking law appears: what stops this walk stops it under any.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.analysis.stride_gain import bumped
+from biped_adrc.control.stride import StrideGains, StridePI
+from biped_adrc.errors import GaitError, InputError
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.zero_dynamics import ZeroDynamics, gauss_nodes
+from biped_adrc.gait.zero_orbits import series
+from biped_adrc.model.biped import Biped
+from biped_adrc.types import Array
+
+NODES = 400
+"""Gauss nodes of T; a step that nearly comes to rest needs more of them than V_F does."""
+LARGEST = 1e3
+"""[N]: where the search for a force that stops a walk gives up."""
+RESOLUTION = 1e-3
+"""[N]."""
+
+
+class ForcedStep(NamedTuple):
+    """One finished step."""
+
+    speed: float
+    """L / T [m/s]."""
+    beta: float
+    """Correction in force during it [rad]."""
+    zeta: float
+    """sigma-^2 / 2 at its end [kg^2 m^4/s^2]."""
+
+
+class ForcedCurve(NamedTuple):
+    """|I|, V_F (NODES,) at Gauss nodes with weights in |Theta|, and V_F(Theta-)."""
+
+    inertia: Array
+    potential: Array
+    end: float
+    weights: Array
+
+    @classmethod
+    def of(cls, biped: Biped, h: VirtualConstraint, force: float) -> ForcedCurve:
+        """V_F of one constraint under F_x = force [N]."""
+        zero = ZeroDynamics.of(biped, h)
+        height = np.array([biped.hip(q)[1] for q in zero.q])
+        slope = series(zero, (zero.gravity + force * height) * zero.inertia)
+        V, span = slope.integ(lbnd=h.theta_plus), h.theta_minus - h.theta_plus
+        s, w, _ = gauss_nodes(NODES)
+        theta = h.theta_plus + span * s
+        inertia = np.abs(series(zero, zero.inertia)(theta))
+        return cls(inertia, V(theta), float(V(h.theta_minus)), abs(span) * w)
+
+    def duration(self, begin: float) -> float:
+        """T [s] of the step with sigma+^2 / 2 = begin; infinite where it is not finished."""
+        square = 2.0 * (begin - self.potential)
+        if not min(float(np.min(square)), begin - self.end) > 0.0:
+            return math.inf
+        return float(self.weights @ (self.inertia / np.sqrt(square)))
+
+
+def forced_walk(
+    gait: Gait,
+    biped: Biped,
+    force: float,
+    steps: int,
+    stride: StridePI | None = None,
+    longest: float = 2.0,
+) -> tuple[ForcedStep, ...]:
+    """The finished steps, at most `steps`, from the orbit of a gait on, under F_x = force [N] from the start.
+
+    stride: the loop around the steps; its inner law plays no part. longest [s]: a longer step stops the walk.
+    Raises InputError for values that cannot be used, GaitError where the gait has no orbit.
+    """
+    _check(gait, force, steps, longest)
+    zero = ZeroDynamics.of(biped, gait.constraint)
+    delta2, zeta = zero.delta**2, 0.5 * zero.sigma_minus**2
+    length = float(biped.swing_foot(gait.q_minus)[0])
+    curve = ForcedCurve.of(biped, gait.constraint, force)
+    integral, beta, done = 0.0, 0.0, list[ForcedStep]()
+    for _ in range(steps):
+        if stride is not None:
+            h = bumped(gait.constraint, beta * np.array(stride.direction))
+            curve = ForcedCurve.of(biped, h, force)
+        T = curve.duration(delta2 * zeta)
+        if not longest >= T:
+            break
+        zeta = delta2 * zeta - curve.end
+        done.append(ForcedStep(length / T, beta, zeta))
+        if stride is not None:
+            integral, beta = pi(stride.gains, stride.speed - length / T, integral)
+    return tuple(done)
+
+
+def pi(k: StrideGains, e: float, integral: float) -> tuple[float, float]:
+    """I and beta after a step that missed its speed by e [m/s]."""
+    most = k.limit / abs(k.K_I) if k.K_I else math.inf
+    integral = min(max(integral + e, -most), most)
+    return integral, min(max(k.K_P * e + k.K_I * integral, -k.limit), k.limit)
+
+
+def stopping_force(gait: Gait, biped: Biped, steps: int, stride: StridePI | None = None) -> float:
+    """The smallest rearward force -F_x [N] that stops the walk within `steps`, to RESOLUTION.
+
+    Raises as `forced_walk`, and GaitError where the gait alone or the largest force does not do as expected.
+    """
+
+    def walks(force: float) -> bool:
+        return len(forced_walk(gait, biped, -force, steps, stride)) == steps
+
+    low, high = 0.0, 1.0
+    if not walks(low):
+        raise GaitError(
+            f"gait '{gait.name}' does not make {steps} steps without a force; expected a walk that lasts"
+        )
+    while walks(high):
+        low, high = high, 2.0 * high
+        if high > LARGEST:
+            raise GaitError(
+                f"gait '{gait.name}' makes {steps} steps under {low:g} N; expected a force that stops it, ask "
+                "for more steps"
+            )
+    while high - low > RESOLUTION:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if walks(middle) else (low, middle)
+    return high
+
+
+def _check(gait: Gait, force: float, steps: int, longest: float) -> None:
+    if not math.isfinite(force):
+        raise InputError(f"the force on the hip is {force} N, expected a finite number")
+    if steps < 1:
+        raise InputError(f"a walk of {steps} steps was asked for, expected at least 1")
+    if not (math.isfinite(longest) and longest > 0):
+        raise InputError(f"the longest step is {longest} s, expected a positive number")
+    if gait.slope:
+        raise InputError(
+            f"gait '{gait.name}' walks on a slope of {gait.slope} rad, expected level ground"
+        )

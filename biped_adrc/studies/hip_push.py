@@ -1,0 +1,159 @@
+"""How large a constant rearward force on the hip stops the walk, with and without a loop around the steps.
+
+Tracking cannot reject a force that enters the unactuated row: Westervelt, Grizzle, Canudas de Wit (IEEE CDC
+2003) report that 3 N stop a gait of 0.50 m/s under any inner loop, and that a PI from step to step recovers
+it. Here the smallest force, a multiple of `resolution`, with which the simulated walk does not make all its
+steps is searched under NPD and ADRC, alone and inside the PI of `control.stride`, beside the force that
+the quadratures of `analysis.forced_steps` find without a simulation. The search starts from that force, and
+both sides of what it returns were simulated. That more force is never better is taken for granted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from biped_adrc.analysis.stride_directions import DirectionMerit, direction_merits
+from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.studies.hip_case import TRACKING, HipCase, PushedWalk
+from biped_adrc.studies.pool import Task, TaskProgress, run_tasks
+
+MOST = 1000
+"""Multiples of the resolution after which a search gives up."""
+
+
+@dataclass(frozen=True)
+class HipLimit:
+    """A case, the force [N] that stops it by quadrature, and the walks simulated just below it and at it."""
+
+    case: HipCase
+    predicted: float
+    below: PushedWalk
+    stops: PushedWalk
+
+
+def first_failure(walks: Callable[[int], bool], guess: int) -> int:
+    """The smallest k >= 1 with walks(k) False, given that it stays False; searched outwards from `guess`.
+
+    walks(0) is asked too. Raises SimulationError when it is False, or when walks holds up to MOST.
+    """
+    low, high, stride = max(guess - 1, 0), min(max(guess, 1), MOST), 1
+    while not walks(low):
+        if low == 0:
+            raise SimulationError(
+                "the walk does not make its steps without a force; check its gait"
+            )
+        low, high, stride = max(low - stride, 0), low, 2 * stride
+    while walks(high):
+        if high == MOST:
+            raise SimulationError(
+                f"the walk makes its steps under {MOST} times the resolution; ask for a coarser one"
+            )
+        low, high, stride = high, min(high + stride, MOST), 2 * stride
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if walks(middle) else (low, middle)
+    return high
+
+
+def hip_limit(case: HipCase) -> HipLimit:
+    """The smallest force that stops a case. Raises as its parts do, and as `first_failure`."""
+    known: dict[int, PushedWalk] = {}
+
+    def walks(k: int) -> bool:
+        if k not in known:
+            known[k] = PushedWalk.of(case, k * case.resolution)
+        return known[k].walks
+
+    predicted = case.predicted()
+    k = first_failure(walks, int(np.ceil(predicted / case.resolution)))
+    return HipLimit(case, predicted, known[k - 1], known[k])
+
+
+@dataclass(frozen=True)
+class HipPush:
+    """The study: limits of all cases, the PI's walks at and above what stops the tracking, and directions."""
+
+    limits: tuple[HipLimit, ...]
+    kept: tuple[tuple[HipCase, PushedWalk], ...]
+    """With the PI, at the force that stops the same tracking alone, and `above` more."""
+    directions: dict[str, tuple[DirectionMerit, ...]]
+    """By preset."""
+
+    def limit(self, preset: str, tracking: str, stride: bool) -> HipLimit:
+        """One of `limits`. Raises InputError where it was not studied."""
+        for found in self.limits:
+            c = found.case
+            if (c.preset, c.tracking, c.stride) == (preset, tracking, stride):
+                return found
+        raise InputError(f"{tracking}, {preset}, was not studied; choose a case of `limits`")
+
+    def text(self) -> str:
+        """For a reader."""
+        lines = ["preset            controller     stops at [N]  by quadrature  speed below [m/s]"]
+        for x in self.limits:
+            lines.append(
+                f"{x.case.preset:<17} {x.case.name:<14} {x.stops.force:12.1f} {x.predicted:14.2f} "
+                f"{x.below.speed():18.4f}"
+            )
+        lines += [
+            "",
+            "preset            controller        force [N]  status      speed [m/s]  peak [N m]",
+        ]
+        for case, w in self.kept:
+            lines.append(
+                f"{case.preset:<17} {case.name:<14} {w.force:12.1f}  {w.status.name:<10} "
+                f"{w.speed():12.4f} {w.peak_torque:11.1f}"
+            )
+        lines += [
+            "",
+            "preset            direction      gain [m/s per rad]  per torque [m/s per N m]",
+        ]
+        for preset, merits in self.directions.items():
+            lines += [
+                f"{preset:<17} {d.name:<14} {d.static_gain:18.3f} {d.merit:25.5f}" for d in merits
+            ]
+        return "\n".join(lines)
+
+
+def hip_push(
+    presets: Sequence[str] = ("identified", "identified-bare", "tac2003"),
+    base: HipCase | None = None,
+    above: float = 1.0,
+    workers: int = 2,
+    progress: TaskProgress | None = None,
+) -> HipPush:
+    """The study, in `workers` processes. base: gait, direction and numbers of all cases; above [N].
+
+    Raises InputError, GaitError or SimulationError as its parts do.
+    """
+    if not presets:
+        raise InputError(
+            "no preset of RABBIT was given, expected at least one, such as 'identified'"
+        )
+    base = HipCase("NPD", False) if base is None else base
+    cases = [
+        replace(base, preset=preset, tracking=law, stride=stride)
+        for preset in presets
+        for law in TRACKING
+        for stride in (False, True)
+    ]
+    tasks = [Task(f"{c.preset}, {c.name}", hip_limit, (c,)) for c in cases]
+    limits = [found.value for found in run_tasks(tasks, workers, progress)]
+    kept = [
+        (replace(x.case, stride=True), x.stops.force + more)
+        for x in limits
+        if not x.case.stride
+        for more in (0.0, above)
+    ]
+    tasks = [Task(f"{c.preset}, {c.name}, {F:g} N", PushedWalk.of, (c, F)) for c, F in kept]
+    walks = [found.value for found in run_tasks(tasks, workers, progress)]
+    pairs = tuple((c, w) for (c, _), w in zip(kept, walks, strict=True))
+    return HipPush(tuple(limits), pairs, {p: _merits(replace(base, preset=p)) for p in presets})
+
+
+def _merits(case: HipCase) -> tuple[DirectionMerit, ...]:
+    biped, gait, _ = case.parts()
+    return direction_merits(gait, biped)

@@ -1,0 +1,206 @@
+"""A constant force on the hip: what stops the simulated walk against quadratures that know no controller."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis import forced_steps
+from biped_adrc.analysis.forced_steps import forced_walk, stopping_force
+from biped_adrc.analysis.stride_directions import (
+    DIRECTIONS,
+    STANCE_KNEE,
+    direction_merits,
+)
+from biped_adrc.errors import GaitError, InputError, SimulationError
+from biped_adrc.studies.hip_case import HipCase, PushedWalk
+from biped_adrc.studies.hip_push import MOST, HipLimit, HipPush, first_failure, hip_limit, hip_push
+
+STEPS = 3
+"""Of the tests; the study asks for 25."""
+
+
+@pytest.fixture(scope="module")
+def bare():
+    return ba.Biped.load("rabbit", "identified-bare")
+
+
+@pytest.fixture(scope="module")
+def gait(bare):
+    return ba.load_gait("v0.5", bare)
+
+
+@pytest.fixture(scope="module", params=["NPD", "ADRC"])
+def alone(request):
+    return hip_limit(HipCase(request.param, stride=False, steps=STEPS))
+
+
+def stride():
+    return HipCase("NPD", stride=True).parts().law
+
+
+# -- simulated against the quadratures --------------------------------------------------------------
+def test_the_force_that_stops_tracking_is_the_one_of_the_quadratures(alone):
+    assert alone.below.walks
+    assert not alone.stops.walks
+    assert alone.below.force < alone.predicted <= alone.stops.force
+    assert alone.stops.force - alone.below.force == pytest.approx(alone.case.resolution)
+    assert len(alone.below.speeds) == STEPS
+    assert np.all(np.diff(alone.below.speeds) < -0.05), "slower with every step"
+
+
+def test_with_the_stride_controlled_the_same_force_is_walked_through(alone, bare, gait):
+    case = HipCase(alone.case.tracking, stride=True, steps=STEPS)
+    walked = PushedWalk.of(case, alone.stops.force)
+    assert walked.walks
+    law = case.parts().law
+    expected = forced_walk(gait, bare, -alone.stops.force, STEPS, law)
+    np.testing.assert_allclose(walked.speeds, [step.speed for step in expected], atol=1e-3)
+    assert walked.speeds[1] > alone.stops.speeds[1] + 5e-3, "quicker from the second step on"
+
+
+def test_once_settled_the_walk_keeps_the_speed_of_the_gait(alone, bare, gait):
+    """Started where the quadratures settle under the force that stops the tracking."""
+    case = HipCase(alone.case.tracking, stride=True)
+    biped, _, law = case.parts()
+    force = alone.stops.force
+    settled = forced_walk(gait, bare, -force, 60, law)[-1]
+    zero = ba.ZeroDynamics.of(biped, gait.constraint)
+    before = zero.end_state(math.copysign(math.sqrt(2.0 * settled.zeta), zero.sigma_minus))
+    walker = ba.Walker(biped, law, ba.HipForce(biped, (-force, 0.0)))
+    impact = biped.impact(*before)
+    x = walker.initial_state(impact.q, impact.v)
+    x[-2:] = settled.beta / law.gains.K_I, settled.beta
+    method = ba.RK4(1e-3) if case.tracking == "NPD" else ba.Exponential(1e-3)
+    run = ba.simulate(walker, x, ba.Mode(), method, t_end=5.0, stop_after=("foot_strike", 1))
+    assert law.step_length / (run.t_end - run.t_start) == pytest.approx(0.5, abs=1e-3)
+    impact = biped.impact(*np.split(run.before("foot_strike")[0][:10], 2))
+    assert np.max(np.abs(np.append(impact.q, impact.v) - x[:10])) < 2e-2, "a cycle"
+
+
+# -- the quadratures ------------------------------------------------------------------------------
+def test_without_a_force_the_walk_is_the_gait(bare, gait):
+    steps = forced_walk(gait, bare, 0.0, 3, stride())
+    np.testing.assert_allclose([step.speed for step in steps], 0.5, atol=1e-8)
+    np.testing.assert_allclose([step.beta for step in steps], 0.0, atol=1e-8)
+
+
+def test_what_the_force_takes_from_zeta_is_linear_in_it(bare, gait):
+    free, *pushed = (forced_walk(gait, bare, -F, 1)[0].zeta for F in (0.0, 1.0, 3.0))
+    assert free - pushed[1] == pytest.approx(3.0 * (free - pushed[0]), rel=1e-9)
+    assert pushed[0] < free
+
+
+def test_the_first_step_agrees_with_the_work_of_the_force(bare, gait):
+    """The energy gained in a step is the work of the joints and of the force along the path of the hip."""
+    force = -2.0
+    case = HipCase("NPD", stride=False)
+    biped, gait, law = case.parts()
+    walker = ba.Walker(biped, law, ba.HipForce(biped, (force, 0.0)))
+    made = ba.walk(walker, gait, 1, ba.RK4(1e-3))
+    s, step = made.signals.of_step(1), made.certificates[0]
+    energy = s.kinetic + s.potential
+    work = force * (s.hip[-1, 0] - s.hip[0, 0])
+    assert energy[-1] - energy[0] == pytest.approx(step.joint_work + work, rel=1e-4)
+    expected = forced_walk(gait, bare, force, 1)[0]
+    sigma = biped.angular_momentum(s.q[-1], s.v[-1])
+    assert 0.5 * sigma**2 == pytest.approx(expected.zeta, rel=1e-3)
+
+
+def test_settled_under_a_small_force_is_the_fixed_point_of_the_affine_map(bare, gait):
+    zero = ba.ZeroDynamics.of(bare, gait.constraint)
+    delta2, start = zero.delta**2, 0.5 * zero.sigma_minus**2
+    zeta = np.array([step.zeta for step in forced_walk(gait, bare, -1.0, 60)])
+    assert zeta[1] - zeta[0] == pytest.approx(delta2 * (zeta[0] - start), rel=1e-9)
+    assert zeta[-1] == pytest.approx((zeta[1] - delta2 * zeta[0]) / (1.0 - delta2), rel=1e-8)
+
+
+def test_about_3_newton_stop_the_gait_and_the_loop_more_than_doubles_that(bare, gait):
+    """The literature's gait of the same speed stopped at 3 N (Westervelt et al., CDC 2003)."""
+    force = stopping_force(gait, bare, 25)
+    assert force == pytest.approx(3.0, abs=0.15)
+    assert len(forced_walk(gait, bare, -2.0 * force, 25)) < 4
+    assert len(forced_walk(gait, bare, -2.0 * force, 25, stride())) == 25
+
+
+# -- directions -----------------------------------------------------------------------------------
+def test_the_static_gain_is_what_a_held_correction_does(any_biped):
+    gait = ba.load_gait("v0.5", any_biped)
+    best = direction_merits(gait, any_biped)[0]
+    assert best.direction == STANCE_KNEE
+    beta = 1e-3
+    law = HipCase("NPD", stride=True, preset=any_biped.preset).parts().law
+    gains = ba.StrideGains(0.0, -1.0, limit=beta)  # one step with e > 0 takes beta to its bound
+    held = ba.StridePI(law.inner, 5.0, law.step_length, STANCE_KNEE, gains)
+    step = forced_walk(gait, any_biped, 0.0, 60, held)[-1]
+    assert step.beta == -beta
+    assert (step.speed - 0.5) / -beta == pytest.approx(best.static_gain, rel=5e-3)
+
+
+def test_scaling_a_direction_changes_its_gain_and_not_its_merit(bare, gait):
+    one, two = (
+        direction_merits(gait, bare, {"d": tuple(k * d for d in STANCE_KNEE)})[0]
+        for k in (1.0, 0.5)
+    )
+    assert two.static_gain == pytest.approx(0.5 * one.static_gain, rel=1e-4)
+    assert two.merit == pytest.approx(one.merit, rel=1e-4)
+    assert len(direction_merits(gait, bare)) == len(DIRECTIONS)
+
+
+# -- the search and the report ---------------------------------------------------------------------
+@pytest.mark.parametrize("first", [1, 2, 7, 40])
+@pytest.mark.parametrize("guess", [0, 1, 6, 7, 8, 300, 5000])
+def test_the_search_finds_the_first_failure_from_any_guess(first, guess):
+    asked = []
+    found = first_failure(lambda k: asked.append(k) or k < first, guess)
+    assert found == first
+    assert {first - 1, first} <= set(asked), "both sides were tried"
+
+
+def test_a_search_without_an_answer_ends(bare, gait, monkeypatch):
+    with pytest.raises(SimulationError, match="without a force"):
+        first_failure(lambda k: False, 5)
+    with pytest.raises(SimulationError, match=f"under {MOST} times"):
+        first_failure(lambda k: True, 5)
+    monkeypatch.setattr(forced_steps, "LARGEST", 2.0)
+    with pytest.raises(GaitError, match="makes 3 steps under 2 N"):
+        stopping_force(gait, bare, 3)
+
+
+def test_bad_values_are_refused(bare, gait):
+    with pytest.raises(InputError, match="force on the hip is nan"):
+        forced_walk(gait, bare, math.nan, 3)
+    with pytest.raises(InputError, match="0 steps"):
+        forced_walk(gait, bare, 0.0, 0)
+    with pytest.raises(InputError, match=r"longest step is 0\.0 s"):
+        forced_walk(gait, bare, 0.0, 3, longest=0.0)
+    with pytest.raises(InputError, match="law 'PID' is unknown"):
+        HipCase("PID", stride=False)
+    with pytest.raises(InputError, match="resolution is 0"):
+        HipCase("NPD", stride=False, resolution=0)
+    with pytest.raises(InputError, match="0 steps"):
+        HipCase("NPD", stride=False, steps=0)
+    with pytest.raises(InputError, match="no preset"):
+        hip_push(presets=())
+    with pytest.raises(InputError, match="at least one"):
+        direction_merits(gait, bare, {})
+    with pytest.raises(InputError, match="bends a joint"):
+        direction_merits(gait, bare, {"none": (0.0, 0.0, 0.0, 0.0)})
+
+
+def test_the_text_says_what_was_found():
+    walked, stopped = (
+        PushedWalk(2.9, ba.Status.COMPLETED, (0.3, 0.25), 14.0, 0.4, 0.01),
+        PushedWalk(3.0, ba.Status.STALLED, (), np.nan, np.nan, np.nan),
+    )
+    case = HipCase("NPD", stride=False)
+    study = HipPush((HipLimit(case, 2.92, walked, stopped),), ((case, walked),), {})
+    assert "3.0           2.92" in study.text()
+    assert "0.2750" in study.text()
+    assert study.limit("identified-bare", "NPD", False).predicted == 2.92
+    with pytest.raises(InputError, match="was not studied"):
+        study.limit("tac2003", "NPD", False)
+    assert np.isnan(stopped.speed())
