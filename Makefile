@@ -6,13 +6,13 @@ ARGS ?=
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
-.PHONY: reproduce test docs pictures results dev lint format types imports bench clean
+.PHONY: reproduce test docs pictures results verification dev lint format types imports bench clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
 
 test: .venv/.test
-	$(BIN)/python -m pytest -rs
+	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadfile
 
 # the pages, in docs/_build/html
 docs: .venv/.dev
@@ -25,6 +25,10 @@ pictures: .venv/.core
 # the reproduction's results in docs/ and README.md, from its summary
 results: .venv/.core
 	$(BIN)/python docs/write_results.py $(OUT)
+
+# published results and closed forms beside those of the package, in docs/verification.md
+verification: .venv/.core
+	$(BIN)/python docs/write_verification.py
 
 dev: .venv/.dev
 

@@ -1,98 +1,33 @@
 """The three-link walker of the literature: its model, and its cycle under three feedbacks of its outputs.
 
-Grizzle, Abba, Plestan, IEEE TAC 46(1), 2001; Westervelt et al., Feedback Control of Dynamic Bipedal Robot
-Locomotion, 2007. Absolute angles th = (stance leg, swing leg, torso), clockwise from the vertical:
-
-    y1 = th3 - p3(th1),   y2 = th2 + th1 - p2(th1) (th1^2 - th1d^2),   th1d = pi / 8
-
-A step ends at th1 = th1d, as in the source: with this constraint the swing foot passes below the ground.
+Model, outputs and cycle: biped_adrc.studies.verification.three_link.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from numpy.polynomial import Polynomial
-from scipy.optimize import newton
 
 import biped_adrc as ba
 from biped_adrc.control.finite_time import FiniteTimeController
 from biped_adrc.control.output_npd import OutputNPDController
 from biped_adrc.errors import InputError
-from biped_adrc.gait.curves import Polynomial as PolynomialCurve
-from biped_adrc.gait.outputs import LinearOutputs
-from biped_adrc.hybrid.system import Guard, HybridSystem
+from biped_adrc.studies.verification.three_link import (
+    END,
+    P2,
+    P3,
+    TO_Q,
+    ZERO,
+    EndsAtPhase,
+    cycle,
+    outputs,
+    robot,
+    step,
+)
 
-ROBOT = ba.Biped.load("three_link")
-END = math.pi / 8
-A = (0.512, 0.073, 0.035, -0.819, -2.27, 3.26, 3.11, 1.89)
-P3 = Polynomial(A[:4])
-P2 = Polynomial(A[4:]) * Polynomial([-(END**2), 0.0, 1.0])
-
-# q = TO_Q th + ZERO: absolute angles counter-clockwise, a hanging leg at pi; hips from the torso
-TO_Q = np.array([[-1.0, 0.0, 1.0], [0.0, -1.0, 1.0], [0.0, 0.0, -1.0]])
-ZERO = np.array([math.pi, math.pi, 0.0])
-
-
-def outputs() -> LinearOutputs:
-    """y = H0 q - h_d(Theta), Theta = pi - th1, s = (th1 + th1d) / (2 th1d)."""
-    th1 = Polynomial([-END, 2.0 * END])
-    torso, swing = P3(th1), P2(th1) - 2.0 * math.pi
-    a = np.zeros((2, 6))
-    a[0, : len(torso.coef)], a[1, : len(swing.coef)] = torso.coef, swing.coef
-    desired = ba.VirtualConstraint(PolynomialCurve(a), ROBOT.phase, math.pi + END, math.pi - END)
-    return LinearOutputs(np.array([[0.0, 0.0, -1.0], [-1.0, -1.0, -2.0]]), desired)
-
-
-def before_impact(omega: float) -> tuple[np.ndarray, np.ndarray]:
-    """(q-, q'-) with y = y' = 0 at th1 = th1d, th1' = omega."""
-    th = np.array([END, P2(END) - END, P3(END)])
-    slope = np.array([1.0, P2.deriv()(END) - 1.0, P3.deriv()(END)])
-    return TO_Q @ th + ZERO, TO_Q @ slope * omega
-
-
-@dataclass(frozen=True)
-class EndsAtPhase(HybridSystem):
-    """The walker, with impact where the stance leg has come to th1d."""
-
-    walker: ba.Walker
-
-    def flow(self, t, x, mode):
-        return self.walker.flow(t, x, mode)
-
-    def guards(self, mode):
-        return (
-            Guard(
-                "impact",
-                lambda t, x: float(ROBOT.phase @ x[:3]) - (math.pi - END),
-                lambda t, x: self.walker.strike(t, x, mode),
-            ),
-        )
-
-
-def step(controller: ba.Controller, omega: float, method: ba.Adaptive) -> tuple[float, float]:
-    """P(omega) [rad/s] and the period [s]."""
-    walker = ba.Walker(ROBOT, controller)
-    impact = ROBOT.impact(*before_impact(omega))
-    x = walker.initial_state(impact.q, impact.v)
-    run = ba.simulate(
-        EndsAtPhase(walker), x, ba.Mode(), method, t_end=3.0, stop_after=("impact", 1)
-    )
-    assert run.status is ba.Status.COMPLETED
-    (end,) = run.events("impact")
-    return -float(ROBOT.phase @ end.x_minus[3:6]), end.t
-
-
-def cycle(controller: ba.Controller, method: ba.Adaptive) -> tuple[float, float, float]:
-    """omega*, period and dP/domega."""
-    omega = newton(lambda w: step(controller, w, method)[0] - w, 1.55, tol=1e-8)
-    high, low = (step(controller, omega + h, method)[0] for h in (1e-3, -1e-3))
-    returned, period = step(controller, omega, method)
-    assert returned == pytest.approx(omega, abs=1e-8)
-    return omega, period, (high - low) / 2e-3
+ROBOT = robot()
 
 
 def test_model_is_the_published_one() -> None:
@@ -128,6 +63,7 @@ def test_cycle_under_proportional_derivative_feedback() -> None:
     """Both poles at -20 rad/s; digits from a separate derivation in absolute angles."""
     controller = OutputNPDController(outputs(), ba.Gains(400.0, 40.0))
     omega, period, slope = cycle(controller, ba.Adaptive())
+    assert step(controller, omega, ba.Adaptive())[0] == pytest.approx(omega, abs=1e-8)
     assert omega == pytest.approx(1.545015, rel=1e-6)
     assert period == pytest.approx(1.145869, rel=1e-6)
     assert slope == pytest.approx(0.5748, abs=1e-4)

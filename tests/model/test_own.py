@@ -15,55 +15,18 @@ from biped_adrc.gait.conventions import AngleMap
 from biped_adrc.model.own import biped_from_urdf, derive
 from biped_adrc.model.own_checks import checks
 from biped_adrc.model.record import Hints
-from biped_adrc.model.robots import load_description
 from biped_adrc.resources import data_folder
+from biped_adrc.studies.verification.frost_urdf import (
+    HUNG,
+    LIMIT,
+    TURNED,
+    bodies,
+    body,
+    joint,
+)
+from biped_adrc.studies.verification.frost_urdf import rabbit_urdf as rabbit
 
-BODIES = load_description("rabbit").preset("identified-bare").bodies
-FROST = ba.convention("frost").to_paper
-FROM_FROST = np.eye(5)[
-    [4, 0, 2, 1, 3]
-]  # (pitch, hip, knee, hip, knee) = this @ q of the derived robot
-LIMIT = '<limit effort="150"/>'
-HANGING = np.array([math.pi, math.pi, 0.0, 0.0, 0.0])
-
-
-# -- URDFs of RABBIT, written from its parameters --------------------------------------------------
-def body(name, kind, along="z", lateral="y"):
-    p = BODIES[kind]
-    moments = {"x": 0.9, "y": 0.8, "z": 0.7} | {lateral: 1.0}
-    inertia = " ".join(f'i{a}{a}="{p.inertia * moments[a]!r}"' for a in "xyz")
-    return (
-        f'<link name="{name}"><inertial><origin xyz="0 0 {p.com}"/><mass value="{p.mass}"/>'
-        f'<inertia {inertia} ixy="0" ixz="0" iyz="0"/></inertial></link>\n'
-    )
-
-
-def joint(name, kind, parent, child, axis=None, xyz="0 0 0", rpy="0 0 0"):
-    axis = "" if axis is None else f'<axis xyz="{axis}"/>'
-    return (
-        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
-        f'<origin xyz="{xyz}" rpy="{rpy}"/>{axis}{LIMIT}</joint>\n'
-    )
-
-
-def rabbit(axis="0 1 0", rpy="0 0 0", leg_axis=None, lateral="y", base=True, thigh=0.4, shin=0.4):
-    """FROST's RABBIT: positive about +y, right leg first; hips turned by rpy, legs about `leg_axis`."""
-    text = body("torso", "torso")
-    if base:
-        text += '<link name="world"/><link name="cart"/><link name="lift"/>\n'
-        text += joint("BasePosX", "prismatic", "world", "cart", "1 0 0")
-        text += joint("BasePosZ", "prismatic", "cart", "lift", "0 0 1")
-        text += joint("BaseRotY", "continuous", "lift", "torso", axis)
-    leg_axis = axis if leg_axis is None else leg_axis
-    for side in ("right", "left"):
-        text += body(f"{side}_thigh", "thigh", lateral=lateral)
-        text += body(f"{side}_shin", "shin", lateral=lateral) + f'<link name="{side}_toe"/>\n'
-        text += joint(f"q1_{side}", "continuous", "torso", f"{side}_thigh", leg_axis, rpy=rpy)
-        text += joint(
-            f"q2_{side}", "revolute", f"{side}_thigh", f"{side}_shin", leg_axis, f"0 0 {thigh}"
-        )
-        text += joint(f"{side}_end", "fixed", f"{side}_shin", f"{side}_toe", xyz=f"0 0 {shin}")
-    return f'<?xml version="1.0"?>\n<robot name="frost_rabbit">\n{text}</robot>\n'
+BODIES = bodies()
 
 
 @pytest.fixture
@@ -89,8 +52,6 @@ def close(found, expected, scale=0.0):
 
 
 # -- the same physics in other frames --------------------------------------------------------------
-TURNED = AngleMap(FROST.A @ FROM_FROST, FROST.b)
-HUNG = AngleMap(TURNED.A, TURNED.b + TURNED.A @ HANGING)
 COUNTER = AngleMap(-TURNED.A, TURNED.b * 0.0)
 SIDEWAYS = f"0 0 {math.pi / 2!r}"
 

@@ -1,0 +1,143 @@
+"""The rows of docs/verification.md hold; of the slow groups some of them."""
+
+from __future__ import annotations
+
+import importlib
+import math
+import sys
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from biped_adrc.errors import InputError
+from biped_adrc.gait.gait import gait_names
+from biped_adrc.model.robots import robot_names
+from biped_adrc.studies.verification import frost_urdf, gaits, paper, passive, rabbit, three_link
+from biped_adrc.studies.verification.design import SPEEDS, design_rows
+from biped_adrc.studies.verification.groups import Group, Maker, group_named, groups
+from biped_adrc.studies.verification.row import COLUMNS, Measure, Row, at_most
+
+PARTS: dict[str, Maker] = {
+    "bouncing ball": passive.ball_rows,
+    "rimless wheel": passive.wheel_rows,
+    "simplest walker": passive.simplest_rows,
+    "its short step": passive.short_step_rows,
+    "its heavy feet": passive.heavy_feet_rows,
+    "compass gait": passive.compass_rows,
+    "three-link walker": three_link.three_link_rows,
+    "1.05 m/s as printed": rabbit.printed_rows,
+    "1.05 m/s designed": rabbit.designed_rows,
+    "Table I": paper.poles_row,
+    "x* identified": partial(paper.fixed_point_rows, "identified"),
+    "other coordinates": frost_urdf.sense_rows,
+    "multipliers of the compass": partial(gaits.robot_rows, "compass"),
+    "multipliers of the simplest walker": partial(gaits.robot_rows, "simplest"),
+    "design identified": partial(design_rows, "identified", 0.7),
+    "design tac2003": partial(design_rows, "tac2003", 1.1),
+}
+
+
+def check(rows: tuple[Row, ...]) -> None:
+    targets = [row for row in rows if row.has_target]
+    assert targets
+    for row in targets:
+        assert row.holds, (row.system, row.quantity, row.expected, row.found)
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_rows_hold(name: str) -> None:
+    check(PARTS[name]())
+
+
+@pytest.mark.parametrize("preset", gaits.PRESETS)
+def test_work_of_every_stored_gait(preset: str) -> None:
+    rows = gaits.work_rows(preset)
+    assert len(rows) == len(gaits.invariant_gaits(preset))
+    check(rows)
+
+
+@pytest.mark.parametrize("gait", ["published", "v1.1"])
+@pytest.mark.parametrize("preset", gaits.PRESETS)
+def test_multiplier_of_stored_gaits(preset: str, gait: str) -> None:
+    check(gaits.multiplier_rows(preset, gait))
+
+
+def test_groups_are_complete() -> None:
+    """Every stored gait but the one whose impact leaves its constraint, every robot and every speed."""
+    count = {group.name: len(group.makers) for group in groups()}
+    stored = {preset: set(gaits.invariant_gaits(preset)) for preset in gaits.PRESETS}
+    for preset, names in stored.items():
+        assert names == set(gait_names("rabbit", preset)) - {"recipe"}
+        assert names >= {"published", *(f"v{speed:g}" for speed in SPEEDS)}
+    assert count["multipliers"] == sum(map(len, stored.values()))
+    assert count["design"] == 2 * (1 + len(SPEEDS))
+    assert set(gaits.ROBOTS) == set(robot_names())
+    with pytest.raises(InputError, match=r"no group 'coffee'; choose one of \['passive'"):
+        group_named("coffee")
+
+
+# -- the rows themselves ---------------------------------------------------------------------------
+def row(found: float, tolerance: float | None = 0.1, **more: object) -> Row:
+    return Row("s", "q", 2.0, found, tolerance, "source", **more)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("one", "verdict"),
+    [
+        (row(2.19), "holds"),
+        (row(1.79), "DOES NOT HOLD"),
+        (row(2.2, measure=Measure.ABSOLUTE), "DOES NOT HOLD"),
+        (row(1.91, measure=Measure.ABSOLUTE), "holds"),
+        (row(7.0, None), "no target"),
+        (row(math.nan), "DOES NOT HOLD"),
+        (row(math.nan, measure=Measure.ABSOLUTE), "DOES NOT HOLD"),
+        (at_most("s", "q", 1.0, 1.0, "source"), "holds"),
+        (at_most("s", "q", 1.0, 1.0001, "source"), "DOES NOT HOLD"),
+        (at_most("s", "q", 1.0, math.nan, "source"), "DOES NOT HOLD"),
+    ],
+)
+def test_verdicts(one: Row, verdict: str) -> None:
+    assert one.verdict == verdict
+    assert one.holds == (verdict == "holds")
+    assert len(one.cells()) == len(COLUMNS)
+
+
+def test_rows_that_make_no_sense() -> None:
+    with pytest.raises(InputError, match="tolerance of 'q' is -1"):
+        row(2.0, -1.0)
+    with pytest.raises(InputError, match=r"take Measure\.ABSOLUTE"):
+        Row("s", "q", 0.0, 1.0, 0.1, "source")
+
+
+# -- the page --------------------------------------------------------------------------------------
+def test_script_prints_a_group_and_names_those_there_are(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.syspath_prepend(str(Path(__file__).resolve().parents[1] / "docs"))
+    script = importlib.import_module("write_verification")
+    monkeypatch.setattr(sys, "argv", ["write_verification.py", "--only", "senses"])
+    assert script.main() == 0
+    head, _, *lines = capsys.readouterr().out.splitlines()
+    assert (
+        head
+        == "| system | quantity | expected | found | difference | tolerance | source | verdict |"
+    )
+    assert len(lines) == len(frost_urdf.sense_rows())
+    monkeypatch.setattr(sys, "argv", ["write_verification.py", "--only", "coffee"])
+    assert script.main() == InputError.exit_code
+    assert "no group 'coffee'" in capsys.readouterr().err
+
+
+def test_a_row_that_does_not_hold_fails_the_script(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    monkeypatch.syspath_prepend(str(Path(__file__).resolve().parents[1] / "docs"))
+    script = importlib.import_module("write_verification")
+    group = Group("g", "Title", "Text.", (lambda: (row(3.0), row(2.0), row(7.0, None)),))
+    monkeypatch.setattr(script, "groups", lambda: (group,))
+    monkeypatch.setattr(script, "PAGE", tmp_path / "verification.md")
+    monkeypatch.setattr(sys, "argv", ["write_verification.py"])
+    assert script.main() == 1
+    assert "does not hold: s, q" in capsys.readouterr().err
+    assert "**1 of 2 rows hold, 1 without a target.**" in (tmp_path / "verification.md").read_text()
