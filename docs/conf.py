@@ -25,9 +25,10 @@ exclude_patterns = ["_build", "**/.ipynb_checkpoints", "jupyter_execute"]
 nitpicky = True
 nitpick_ignore_regex = [
     # no network, hence no inventories of these projects
-    (r"py:.*", r"(numpy|np|scipy|matplotlib|pin|pinocchio|meshcat|tornado|typer|rich)\b.*"),
+    (r"py:.*", r"(numpy|np|scipy|matplotlib|pin|pinocchio|meshcat|tornado|typer|rich|xml|ET)\b.*"),
     (r"py:.*", r"_?(asyncio|collections|pathlib|enum|abc|concurrent|functools|types|typing)\b.*"),
     (r"py:.*", r"(Figure|Axes|ArrayLike|NDArray|Path|Callable|Mapping|Sequence|Iterator|Iterable)"),
+    (r"py:.*", r"StateSpace"),
     (r"py:.*", r"(.*\.)?_[A-Za-z]\w*"),  # private names in signatures
 ]
 

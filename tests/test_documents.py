@@ -28,6 +28,7 @@ import pytest
 from markdown_it import MarkdownIt
 
 from biped_adrc.cli import app, gait_app
+from biped_adrc.cli.robot import robot_app
 
 ROOT = Path(__file__).resolve().parents[1]
 BUILT = {"_build", "jupyter_execute"}
@@ -264,7 +265,7 @@ def test_every_package_is_in_the_reference():
 
 def test_every_command_is_in_the_reference():
     page = (ROOT / "docs" / "api" / "cli.md").read_text()
-    for group, prefix in ((app, ""), (gait_app, "gait ")):
+    for group, prefix in ((app, ""), (gait_app, "gait "), (robot_app, "robot ")):
         for command in group.registered_commands:
             name = command.name or command.callback.__name__
             assert f"<!-- help of biped-adrc {prefix}{name} -->" in page, name
