@@ -9,19 +9,78 @@ xi^ lumps model error and external torques into one signal per joint; the nomina
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import Generic, NamedTuple, TypeVar
 
-from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.base import Controller, ControllerLaws, Measurement, measured
 from biped_adrc.control.tracking import (
     TABLE_II,
     Gains,
-    feedback,
-    printed_acceleration,
-    solved_acceleration,
+    TrackingParameters,
+    constraint_parameters,
+    tracking_torque,
 )
+from biped_adrc.errors import InputError
+from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, virtual_constraint
 from biped_adrc.gait.reference import Reference
 from biped_adrc.observers.base import ErrorSystem, Estimate, Observer, ResetPolicy
-from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.observers.chain import Chain, chain_estimate, chain_reset, chain_state, rows
+from biped_adrc.observers.gpi import GPIObserver, GPIParameters, gpi_flow
+from biped_adrc.observers.gpi_sampled import (
+    SampledGPIObserver,
+    SampledGPIParameters,
+    gpi_correct,
+    gpi_predict,
+)
 from biped_adrc.types import Array
+
+K = TypeVar("K", bound=Chain)
+
+
+class ADRCParameters(NamedTuple, Generic[K]):
+    """h, the gains with the choice of loop, the observer's parameters, and `ResetPolicy.code`."""
+
+    h: ConstraintParameters
+    tracking: TrackingParameters
+    observer: K
+    policy: int
+
+
+def adrc_initial_state(k: ADRCParameters[Chain], m: Measurement) -> Array:
+    """s = z ((m + 2) p,) of an observer that agrees with measurement and model."""
+    return chain_state(k.observer, measured(m)).ravel()
+
+
+def adrc_output(k: ADRCParameters[Chain], s: Array, m: Measurement) -> Array:
+    """u (p,) [N m] on a virtual constraint."""
+    r = virtual_constraint(k.h, m.q, m.v)
+    return tracking_torque(k.tracking, r, chain_estimate(k.observer, rows(k.observer, s)), m.terms)
+
+
+def adrc_flow(k: ADRCParameters[GPIParameters], s: Array, m: Measurement, u: Array) -> Array:
+    """s' under the applied torque u (p,), with the observer (17)."""
+    Z = rows(k.observer, s)
+    return gpi_flow(k.observer, Z, measured(m).position, m.terms.kappa @ u).ravel()
+
+
+def adrc_jump(k: ADRCParameters[Chain], s: Array, after: Measurement, swap: Array) -> Array:
+    """s after impact."""
+    Z = rows(k.observer, s)
+    return chain_reset(k.observer, k.policy, Z, swap, measured(after)).ravel()
+
+
+def adrc_correct(k: ADRCParameters[SampledGPIParameters], s: Array, m: Measurement) -> Array:
+    """s at a tick, with the observer in discrete time."""
+    return gpi_correct(k.observer, rows(k.observer, s), measured(m).position).ravel()
+
+
+def adrc_predict(
+    k: ADRCParameters[SampledGPIParameters], s: Array, m: Measurement, u: Array
+) -> Array:
+    """s one period later under the applied torque u (p,)."""
+    return gpi_predict(k.observer, rows(k.observer, s), m.terms.kappa @ u).ravel()
+
+
+_GPI = (GPIObserver, SampledGPIObserver)
 
 
 @dataclass(frozen=True)
@@ -39,11 +98,8 @@ class ADRCController(Controller):
     reset: ResetPolicy = ResetPolicy.MODEL
 
     def output(self, s: Array, m: Measurement) -> Array:
-        x = self.observer.estimate(s)
-        r = self.reference(m.t, m.q, m.v)
-        f = feedback(self.gains, r, x.position, x.velocity)
-        a = solved_acceleration(r, m.terms, f) if self.solve_theta else printed_acceleration(r, f)
-        return m.terms.kappa_inverse @ (a - x.disturbance)
+        k, r = self.gains.parameters(self.solve_theta), self.reference(m.t, m.q, m.v)
+        return tracking_torque(k, r, self.observer.estimate(s), m.terms)
 
     def initial_state(self, m: Measurement) -> Array:
         return self.observer.initial_state(m.q_b, m.v_b, m.terms.xi)
@@ -59,6 +115,29 @@ class ADRCController(Controller):
 
     def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
         return self.observer.reset(s, self.reset, swap, after.q_b, after.v_b, after.terms.xi)
+
+    @property
+    def parameters(self) -> ADRCParameters[GPIParameters] | ADRCParameters[SampledGPIParameters]:
+        """What the laws `adrc_...` need. Raises InputError for a reference or an observer without a law."""
+        h, gains = constraint_parameters(self.reference), self.gains.parameters(self.solve_theta)
+        if type(self.observer) is GPIObserver:
+            return ADRCParameters(h, gains, self.observer.parameters, self.reset.code)
+        if type(self.observer) is SampledGPIObserver:
+            return ADRCParameters(h, gains, self.observer.parameters, self.reset.code)
+        raise InputError(
+            f"the laws of ADRC are written for a GPI observer, found {type(self.observer).__name__}; "
+            "call the controller's methods instead"
+        )
+
+    @property
+    def laws(self) -> ControllerLaws | None:
+        kind = type(self.observer)
+        if type(self.reference) is not VirtualConstraint or kind not in _GPI:
+            return None
+        laws = ControllerLaws(self.parameters, adrc_output, adrc_initial_state, jump=adrc_jump)
+        if kind is GPIObserver:
+            return laws._replace(flow=adrc_flow)
+        return laws._replace(correct=adrc_correct, predict=adrc_predict)
 
     def sampled(self, period: float) -> ADRCController:
         return replace(self, observer=self.observer.sampled(period))

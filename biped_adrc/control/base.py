@@ -10,7 +10,8 @@ both time bases. `u` handed to `flow` and `predict` is the torque applied, after
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -45,6 +46,31 @@ class Measurement(NamedTuple):
     def v_b(self) -> Array:
         """Their rates (p,) [rad/s]."""
         return self.v[: self.terms.kappa.shape[0]]
+
+
+def measured(m: Measurement) -> Estimate:
+    """What the measurement and the nominal model say of the p joints: q_b, q_b' and xi."""
+    p = m.terms.kappa.shape[0]
+    return Estimate(m.q[:p], m.v[:p], m.terms.xi)
+
+
+class ControllerLaws(NamedTuple):
+    """The pure functions behind a controller; None for what it has not, as a state or a discrete form."""
+
+    parameters: Any
+    """k, a NamedTuple of numbers and float64 arrays."""
+    output: Callable[..., Array]
+    """output(k, s, m) -> u."""
+    initial_state: Callable[..., Array] | None = None
+    """initial_state(k, m) -> s."""
+    flow: Callable[..., Array] | None = None
+    """flow(k, s, m, u) -> s'."""
+    jump: Callable[..., Array] | None = None
+    """jump(k, s, after, swap) -> s after impact."""
+    correct: Callable[..., Array] | None = None
+    """correct(k, s, m) -> s at the tick."""
+    predict: Callable[..., Array] | None = None
+    """predict(k, s, m, u) -> s at the next tick."""
 
 
 class Controller(ABC):
@@ -85,6 +111,11 @@ class Controller(ABC):
                 "or use ContinuousTime()"
             )
         return self
+
+    @property
+    def laws(self) -> ControllerLaws | None:
+        """The pure functions that the methods amount to; None for a controller written as methods alone."""
+        return None
 
     def error_system(self) -> ErrorSystem | None:
         """Linear error dynamics of an observer that is the whole state s; None otherwise."""

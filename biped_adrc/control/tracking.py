@@ -1,6 +1,8 @@
 """What (20) and (28) share: the acceleration asked for, with or without the loop through Theta''.
 
-    a = q_d'' + f,   f = -K_d (x2 - q_d') - K_p (x1 - q_d)
+    u = kappa^-1 (a - xi),   a = q_d'' + f,   f = -K_d (x2 - q_d') - K_p (x1 - q_d)
+
+They differ in where x1, x2 and xi come from: an observer in (20), the measurement and the model in (28).
 
 q_d'' = drift + H q'' contains q'' and so, through the model, the torque. With the unactuated rows
 q_N'' = A_N q_b'' + a_N of (12) and q_b'' = a,
@@ -13,14 +15,26 @@ is solved for a. As printed, (20) and (28) drop H q''.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.gait.reference import ReferencePoint
+from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint
+from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.linear import solve
 from biped_adrc.model.reduction import Reduction
+from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array
+
+
+class TrackingParameters(NamedTuple):
+    """K_p [1/s^2] and K_d [1/s], (p,), or (1,) for one number; loop: 1 solves for Theta'', 0 drops it."""
+
+    K_p: Array
+    K_d: Array
+    loop: float
 
 
 @dataclass(frozen=True)
@@ -39,14 +53,31 @@ class Gains:
                 )
             object.__setattr__(self, name, float(value) if value.ndim == 0 else value)
 
+    @cached_property
+    def _rows(self) -> tuple[Array, Array]:
+        return np.atleast_1d(self.K_p).copy(), np.atleast_1d(self.K_d).copy()
+
+    def parameters(self, solve_theta: bool) -> TrackingParameters:
+        """What the law `tracking_torque` needs."""
+        return TrackingParameters(*self._rows, 1.0 if solve_theta else 0.0)
+
 
 TABLE_II = Gains(5000.0, 50.0)
 """Table II of the paper."""
 
 
-def feedback(gains: Gains, r: ReferencePoint, x1: Array, x2: Array) -> Array:
+def tracking_torque(
+    k: TrackingParameters, r: ReferencePoint, x: Estimate, terms: Reduction
+) -> Array:
+    """u (p,) [N m] of (20) or (28), whichever x is. Raises SingularError as `solved_acceleration`."""
+    f = feedback(k, r, x.position, x.velocity)
+    a = solved_acceleration(r, terms, f) if k.loop > 0.0 else printed_acceleration(r, f)
+    return terms.kappa_inverse @ (a - x.disturbance)
+
+
+def feedback(k: TrackingParameters | Gains, r: ReferencePoint, x1: Array, x2: Array) -> Array:
     """-K_d (x2 - q_d') - K_p (x1 - q_d) (p,) [rad/s^2]."""
-    f: Array = -gains.K_d * (x2 - r.dq_d) - gains.K_p * (x1 - r.q_d)
+    f: Array = -k.K_d * (x2 - r.dq_d) - k.K_p * (x1 - r.q_d)
     return f
 
 
@@ -64,3 +95,13 @@ def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
 def printed_acceleration(r: ReferencePoint, f: Array) -> Array:
     """a (p,) as (20) and (28) print it, with h' Theta'' dropped."""
     return r.drift + f
+
+
+def constraint_parameters(reference: Reference) -> ConstraintParameters:
+    """Those of a virtual constraint. Raises InputError for any other reference: it has no law."""
+    if type(reference) is not VirtualConstraint:
+        raise InputError(
+            f"the reference is a {type(reference).__name__}, which has no law of arrays; expected a "
+            "VirtualConstraint such as gait.constraint. Call the controller's methods instead"
+        )
+    return reference.parameters

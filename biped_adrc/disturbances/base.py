@@ -4,12 +4,23 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
+
+
+class DisturbanceLaw(NamedTuple):
+    """The pure function behind a disturbance: zeta = torque(parameters, t, step, t_start, q, v)."""
+
+    parameters: Any
+    """k, a NamedTuple of numbers and float64 arrays."""
+    torque: Callable[..., Array]
 
 
 class Disturbance(ABC):
@@ -27,6 +38,11 @@ class Disturbance(ABC):
         """Force (F_x, F_z) [N] from outside on the robot as a whole, zero for torques; what the ground does not
         carry."""
         return np.zeros(2)
+
+    @property
+    def laws(self) -> tuple[DisturbanceLaw, ...] | None:
+        """The torque is their sum; None for a disturbance written as a method alone."""
+        return None
 
     def __add__(self, other: Disturbance) -> Disturbance:
         return Sum((*terms(self), *terms(other)))
@@ -53,15 +69,43 @@ class Sum(Disturbance):
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
         return tuple(s for part in self.parts for s in part.switching_times(step, t_start))
 
+    @property
+    def laws(self) -> tuple[DisturbanceLaw, ...] | None:
+        found: tuple[DisturbanceLaw, ...] = ()
+        for part in self.parts:
+            if part.laws is None:
+                return None
+            found += part.laws
+        return found
+
 
 def terms(disturbance: Disturbance) -> tuple[Disturbance, ...]:
     """The parts of a sum, or the disturbance itself."""
     return disturbance.parts if isinstance(disturbance, Sum) else (disturbance,)
 
 
+class WindowParameters(NamedTuple):
+    """amplitude (n,) [N m]; step, 0 when the window counts from the start of the run; start, stop [s]."""
+
+    amplitude: Array
+    step: int
+    start: float
+    stop: float
+
+
+def since_onset(k: WindowParameters, t: float, step: int, t_start: float) -> float:
+    """Time since onset [s], -1 outside the window."""
+    if k.step > 0 and step != k.step:
+        return -1.0
+    origin = t_start if k.step > 0 else 0.0
+    if origin + k.start <= t < origin + k.stop:
+        return t - (origin + k.start)
+    return -1.0
+
+
 @dataclass(frozen=True)
-class WindowedTorque(Disturbance):
-    """amplitude * profile(time since onset) between `start` and `stop` [s].
+class Windowed(Disturbance):
+    """A torque between `start` and `stop` [s].
 
     amplitude (n,) [N m] acts on q1..qN, actuated or not. With `step` the window counts from the start of
     that single support and closes at its end at the latest; without, from the start of the run.
@@ -87,19 +131,26 @@ class WindowedTorque(Disturbance):
         amplitude.setflags(write=False)
         object.__setattr__(self, "amplitude", amplitude)
 
-    @abstractmethod
-    def profile(self, s: float) -> float:
-        """Factor on the amplitude, s [s] after onset."""
-
-    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        origin = 0.0 if self.step is None else t_start
-        here = self.step is None or step == self.step
-        if here and origin + self.start <= t < origin + self.stop:
-            return self.amplitude * self.profile(t - (origin + self.start))
-        return np.zeros(len(self.amplitude))
+    @cached_property
+    def window(self) -> WindowParameters:
+        """What the law `since_onset` needs."""
+        return WindowParameters(self.amplitude, self.step or 0, float(self.start), float(self.stop))
 
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
         if self.step is not None and step != self.step:
             return ()
         origin = 0.0 if self.step is None else t_start
         return tuple(origin + s for s in (self.start, self.stop) if math.isfinite(s))
+
+
+@dataclass(frozen=True)
+class WindowedTorque(Windowed):
+    """amplitude * profile(time since onset) in its window."""
+
+    @abstractmethod
+    def profile(self, s: float) -> float:
+        """Factor on the amplitude, s [s] after onset."""
+
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        s = since_onset(self.window, t, step, t_start)
+        return self.amplitude * self.profile(s) if s >= 0.0 else np.zeros(len(self.amplitude))

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,6 +18,25 @@ from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
+
+
+class HipForceParameters(NamedTuple):
+    """F (2,) [N], and the first and the last single support in which it acts; last = 0 for all of them."""
+
+    force: Array
+    first: int
+    last: int
+
+
+def hip_force(k: HipForceParameters, step: int) -> Array:
+    """F (2,) [N] in single support `step`."""
+    acts = k.last == 0 or k.first <= step <= k.last
+    return k.force.copy() if acts else np.zeros(2)
+
+
+def hip_torque(k: HipForceParameters, step: int, J: Array) -> Array:
+    """zeta (n,) [N m] for J = dp_hip/dq (2, n) of the plant."""
+    return J.T @ hip_force(k, step)
 
 
 @dataclass(frozen=True)
@@ -43,8 +64,13 @@ class HipForce(Disturbance):
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         pinned = self.biped.pinned
-        return pinned.jacobian(q, pinned.hip).T @ self.resultant(t, step, t_start)
+        return hip_torque(self.parameters, step, pinned.jacobian(q, pinned.hip))
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:
-        acts = self.steps is None or self.steps[0] <= step <= self.steps[1]
-        return np.array(self.force) if acts else np.zeros(2)
+        return hip_force(self.parameters, step)
+
+    @cached_property
+    def parameters(self) -> HipForceParameters:
+        """What the laws `hip_force` and `hip_torque` need."""
+        first, last = self.steps or (0, 0)
+        return HipForceParameters(np.array(self.force, dtype=float), first, last)

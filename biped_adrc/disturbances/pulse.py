@@ -4,12 +4,32 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from biped_adrc.disturbances.base import WindowedTorque
+import numpy as np
+
+from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters, since_onset
+from biped_adrc.types import Array
+
+
+def pulse_torque(
+    k: WindowParameters, t: float, step: int, t_start: float, q: Array, v: Array
+) -> Array:
+    """zeta (n,) [N m]."""
+    is_on = since_onset(k, t, step, t_start) >= 0.0
+    return k.amplitude.copy() if is_on else np.zeros(len(k.amplitude))
 
 
 @dataclass(frozen=True)
-class TorquePulse(WindowedTorque):
+class TorquePulse(Windowed):
     """The push of the paper: amplitude (n,) [N m] over [start, stop) [s] of one step."""
 
-    def profile(self, s: float) -> float:
-        return 1.0
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        return pulse_torque(self.parameters, t, step, t_start, q, v)
+
+    @property
+    def parameters(self) -> WindowParameters:
+        """What the law `pulse_torque` needs."""
+        return self.window
+
+    @property
+    def laws(self) -> tuple[DisturbanceLaw, ...]:
+        return (DisturbanceLaw(self.parameters, pulse_torque),)

@@ -4,13 +4,34 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
-from biped_adrc.disturbances.base import WindowedTorque
+import numpy as np
+
+from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters, since_onset
 from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+
+
+class SineParameters(NamedTuple):
+    """The window, and f [Hz]."""
+
+    window: WindowParameters
+    frequency: float
+
+
+def sine_torque(
+    k: SineParameters, t: float, step: int, t_start: float, q: Array, v: Array
+) -> Array:
+    """zeta (n,) [N m]."""
+    s, amplitude = since_onset(k.window, t, step, t_start), k.window.amplitude
+    if s < 0.0:
+        return np.zeros(len(amplitude))
+    return amplitude * math.sin(2.0 * math.pi * k.frequency * s)
 
 
 @dataclass(frozen=True)
-class TorqueSine(WindowedTorque):
+class TorqueSine(Windowed):
     """amplitude (n,) [N m], frequency f [Hz]."""
 
     frequency: float = 1.0
@@ -20,5 +41,14 @@ class TorqueSine(WindowedTorque):
         if not (math.isfinite(self.frequency) and self.frequency > 0):
             raise InputError(f"sine frequency is {self.frequency} Hz, expected a positive number")
 
-    def profile(self, s: float) -> float:
-        return math.sin(2.0 * math.pi * self.frequency * s)
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        return sine_torque(self.parameters, t, step, t_start, q, v)
+
+    @property
+    def parameters(self) -> SineParameters:
+        """What the law `sine_torque` needs."""
+        return SineParameters(self.window, float(self.frequency))
+
+    @property
+    def laws(self) -> tuple[DisturbanceLaw, ...]:
+        return (DisturbanceLaw(self.parameters, sine_torque),)

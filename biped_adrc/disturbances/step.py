@@ -4,15 +4,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from biped_adrc.disturbances.base import WindowedTorque
+from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters
+from biped_adrc.disturbances.pulse import pulse_torque
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
 
+def step_torque(
+    k: WindowParameters, t: float, step: int, t_start: float, q: Array, v: Array
+) -> Array:
+    """zeta (n,) [N m]."""
+    if 0 < k.step < step:
+        return k.amplitude.copy()
+    return pulse_torque(k, t, step, t_start, q, v)
+
+
 @dataclass(frozen=True)
-class TorqueStep(WindowedTorque):
+class TorqueStep(Windowed):
     """amplitude (n,) [N m] from `start` [s] of single support `step` (or of the run) for good."""
 
     def __post_init__(self) -> None:
@@ -20,10 +28,14 @@ class TorqueStep(WindowedTorque):
         if self.stop != float("inf"):
             raise InputError("a torque step has no stop; use TorquePulse for a window")
 
-    def profile(self, s: float) -> float:
-        return 1.0
-
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        if self.step is not None and step > self.step:
-            return np.array(self.amplitude)
-        return super().torque(t, step, t_start, q, v)
+        return step_torque(self.parameters, t, step, t_start, q, v)
+
+    @property
+    def parameters(self) -> WindowParameters:
+        """What the law `step_torque` needs."""
+        return self.window
+
+    @property
+    def laws(self) -> tuple[DisturbanceLaw, ...]:
+        return (DisturbanceLaw(self.parameters, step_torque),)

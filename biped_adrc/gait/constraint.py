@@ -62,7 +62,9 @@ class VirtualConstraint(Reference):
         object.__setattr__(
             self,
             "_parameters",
-            ConstraintParameters(self.curve.parameters, c, self.theta_plus, 1.0 / span),
+            ConstraintParameters(
+                self.curve.parameters, c, float(self.theta_plus), float(1.0 / span)
+            ),
         )
 
     @property

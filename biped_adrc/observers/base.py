@@ -8,8 +8,9 @@ States are vectors passed in and handed back; an observer holds only parameters.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from enum import Enum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
@@ -38,6 +39,11 @@ class ResetPolicy(Enum):
     MODEL = "model"
     """As at the start: x1^, x2^ measured, xi^ from the nominal model, higher derivatives zero."""
 
+    @property
+    def code(self) -> int:
+        """The policy as a number, for laws: its place in this list, from 0."""
+        return list(ResetPolicy).index(self)
+
     @classmethod
     def named(cls, name: str | ResetPolicy) -> ResetPolicy:
         """The policy by name. Raises InputError with the names there are."""
@@ -57,6 +63,28 @@ class ErrorSystem(NamedTuple):
 
     A: Array
     velocity_scale: float
+
+
+class ObserverLaws(NamedTuple):
+    """The pure functions behind an observer, its state as rows Z (order, p); None for what it has not.
+
+    x is an Estimate taken from the measurement and the model.
+    """
+
+    parameters: Any
+    """k, a NamedTuple."""
+    state: Callable[..., Array]
+    """state(k, x) -> Z that agrees with x."""
+    estimate: Callable[..., Estimate]
+    """estimate(k, Z) -> x."""
+    reset: Callable[..., Array]
+    """reset(k, policy, Z, swap, x) -> Z after impact; policy is `ResetPolicy.code`."""
+    flow: Callable[..., Array] | None = None
+    """flow(k, Z, y, input) -> Z'."""
+    correct: Callable[..., Array] | None = None
+    """correct(k, Z, y) -> Z at the tick."""
+    predict: Callable[..., Array] | None = None
+    """predict(k, Z, input) -> Z one period later."""
 
 
 class Observer(ABC):
@@ -96,6 +124,11 @@ class Observer(ABC):
     def sampled(self, period: float) -> Observer:
         """The discrete form for ticks every `period` [s]."""
         raise InputError(f"{type(self).__name__} has no discrete form; use ContinuousTime()")
+
+    @property
+    def laws(self) -> ObserverLaws | None:
+        """The pure functions that the methods call; None for an observer written as methods alone."""
+        return None
 
     def error_system(self) -> ErrorSystem | None:
         """The linear error dynamics, for the exponential method; None when there are none."""

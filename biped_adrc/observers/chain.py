@@ -7,11 +7,58 @@ itself the observer matrix of Table I has condition number 3e29; scaled it has 5
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 from biped_adrc.types import Array
+
+NONE, RELABEL, MEASURED, MODEL = (policy.code for policy in ResetPolicy)
+
+
+class Chain(Protocol):
+    """What the laws of the chain need; the parameters of every observer of this kind have it."""
+
+    @property
+    def order(self) -> int:
+        """m + 2."""
+
+    @property
+    def scale(self) -> float:
+        """[rad/s]."""
+
+
+def rows(k: Chain, z: Array) -> Array:
+    """Z (m + 2, p), the flat state z by rows; no copy."""
+    return z.reshape(k.order, -1)
+
+
+def chain_state(k: Chain, x: Estimate) -> Array:
+    """Z (m + 2, p) that agrees with x, higher derivatives zero."""
+    Z = np.zeros((k.order, len(x.position)))
+    Z[0], Z[1] = x.position, x.velocity / k.scale
+    if k.order > 2:
+        Z[2] = x.disturbance / k.scale**2
+    return Z
+
+
+def chain_estimate(k: Chain, Z: Array) -> Estimate:
+    """x1^, x2^ and xi^ in Z (m + 2, p); xi^ = 0 for m = 0."""
+    xi = Z[2] * k.scale**2 if k.order > 2 else np.zeros(Z.shape[1])
+    return Estimate(Z[0], Z[1] * k.scale, xi)
+
+
+def chain_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) -> Array:
+    """Z after impact under the policy of this code; swap (p,) relabels the joints, x is taken after it."""
+    if policy == NONE:
+        return Z
+    if policy == MODEL:
+        return chain_state(k, x)
+    swapped = Z[:, swap]
+    if policy == MEASURED:
+        swapped[0], swapped[1] = x.position, x.velocity / k.scale
+    return swapped
 
 
 @dataclass(frozen=True)
@@ -26,25 +73,13 @@ class ChainObserver(Observer):
         return self.m + 2
 
     def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
-        Z = np.zeros((self.order, len(y)))
-        Z[0], Z[1] = y, dy / self.scale
-        if self.m > 0:
-            Z[2] = xi / self.scale**2
-        return Z.ravel()
+        return chain_state(self, Estimate(y, dy, xi)).ravel()
 
     def estimate(self, z: Array) -> Estimate:
-        Z = z.reshape(self.order, -1)
-        xi = Z[2] * self.scale**2 if self.m > 0 else np.zeros(Z.shape[1])
-        return Estimate(Z[0], Z[1] * self.scale, xi)
+        return chain_estimate(self, rows(self, z))
 
     def reset(
         self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
     ) -> Array:
-        if policy is ResetPolicy.NONE:
-            return z
-        if policy is ResetPolicy.MODEL:
-            return self.initial_state(y, dy, xi)
-        Z = z.reshape(self.order, -1)[:, swap]
-        if policy is ResetPolicy.MEASURED:
-            Z[0], Z[1] = y, dy / self.scale
-        return Z.ravel()
+        x = Estimate(y, dy, xi)
+        return chain_reset(self, policy.code, rows(self, z), swap, x).ravel()

@@ -21,8 +21,14 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.observers.base import ErrorSystem
-from biped_adrc.observers.chain import ChainObserver
+from biped_adrc.observers.base import ErrorSystem, ObserverLaws
+from biped_adrc.observers.chain import (
+    ChainObserver,
+    chain_estimate,
+    chain_reset,
+    chain_state,
+    rows,
+)
 from biped_adrc.observers.gpi_sampled import SampledGPIObserver
 from biped_adrc.types import Array
 
@@ -31,17 +37,19 @@ TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
 
 
 class GPIParameters(NamedTuple):
-    """Scaled gains (m + 2,) and w [rad/s]."""
+    """Scaled gains (m + 2,), w [rad/s] by which states are scaled, and m + 2."""
 
     gains: Array
-    w: float
+    scale: float
+    order: int
 
 
 def gpi_flow(k: GPIParameters, Z: Array, y: Array, input: Array) -> Array:
     """Z' (m + 2, p) for scaled states Z, measurement y (p,) and input kappa u (p,)."""
-    dZ = k.w * np.outer(k.gains, y - Z[0])
-    dZ[:-1] += k.w * Z[1:]
-    dZ[1] += input / k.w
+    w = k.scale
+    dZ = w * np.outer(k.gains, y - Z[0])
+    dZ[:-1] += w * Z[1:]
+    dZ[1] += input / w
     return dZ
 
 
@@ -83,9 +91,9 @@ class GPIObserver(ChainObserver):
 
     @cached_property
     def parameters(self) -> GPIParameters:
-        """What the law `gpi_flow` needs."""
+        """What the laws `gpi_flow` and `chain_...` need."""
         gains = np.real(np.poly(np.array(self.poles) / self.scale))[1:]
-        return GPIParameters(np.ascontiguousarray(gains), self.scale)
+        return GPIParameters(np.ascontiguousarray(gains), float(self.scale), self.order)
 
     @property
     def gains(self) -> Array:
@@ -93,8 +101,14 @@ class GPIObserver(ChainObserver):
         l: Array = self.parameters.gains * self.scale ** np.arange(1, self.order + 1)  # noqa: E741
         return l
 
+    @property
+    def laws(self) -> ObserverLaws:
+        return ObserverLaws(
+            self.parameters, chain_state, chain_estimate, chain_reset, flow=gpi_flow
+        )
+
     def flow(self, z: Array, y: Array, input: Array) -> Array:
-        return gpi_flow(self.parameters, z.reshape(self.order, -1), y, input).ravel()
+        return gpi_flow(self.parameters, rows(self, z), y, input).ravel()
 
     def sampled(self, period: float) -> SampledGPIObserver:
         """The current (filtered) discrete observer with poles exp(s T)."""

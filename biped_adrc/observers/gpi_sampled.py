@@ -19,16 +19,25 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.observers.chain import ChainObserver
+from biped_adrc.observers.base import ObserverLaws
+from biped_adrc.observers.chain import (
+    ChainObserver,
+    chain_estimate,
+    chain_reset,
+    chain_state,
+    rows,
+)
 from biped_adrc.types import Array
 
 
 class SampledGPIParameters(NamedTuple):
-    """Phi (k, k), Gamma T^2 (k,) and L (k,) for k = m + 2."""
+    """Phi (k, k), Gamma T^2 (k,) and L (k,), 1/T [1/s] by which states are scaled, and k = m + 2."""
 
     Phi: Array
     Gamma: Array
     L: Array
+    scale: float
+    order: int
 
 
 def gpi_correct(k: SampledGPIParameters, Z: Array, y: Array) -> Array:
@@ -59,7 +68,7 @@ class SampledGPIObserver(ChainObserver):
 
     @cached_property
     def parameters(self) -> SampledGPIParameters:
-        """What the laws `gpi_correct` and `gpi_predict` need."""
+        """What the laws `gpi_correct`, `gpi_predict` and `chain_...` need."""
         k = self.order
         N = np.zeros((k, k))
         for i in range(k):
@@ -76,10 +85,22 @@ class SampledGPIObserver(ChainObserver):
         for _ in range(k - 1):
             rows.append(rows[-1] @ Phi)
         last = np.linalg.solve(np.array(rows), np.eye(k)[-1])
-        return SampledGPIParameters(Phi, Gamma, np.real(p_of_Phi @ last))
+        L = np.ascontiguousarray(np.real(p_of_Phi @ last))
+        return SampledGPIParameters(Phi, Gamma, L, float(self.scale), k)
+
+    @property
+    def laws(self) -> ObserverLaws:
+        return ObserverLaws(
+            self.parameters,
+            chain_state,
+            chain_estimate,
+            chain_reset,
+            correct=gpi_correct,
+            predict=gpi_predict,
+        )
 
     def correct(self, z: Array, y: Array) -> Array:
-        return gpi_correct(self.parameters, z.reshape(self.order, -1), y).ravel()
+        return gpi_correct(self.parameters, rows(self, z), y).ravel()
 
     def predict(self, z: Array, input: Array) -> Array:
-        return gpi_predict(self.parameters, z.reshape(self.order, -1), input).ravel()
+        return gpi_predict(self.parameters, rows(self, z), input).ravel()
