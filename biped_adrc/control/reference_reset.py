@@ -17,15 +17,16 @@ Locomotion, 2007, on transition controllers).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.base import Measurement
+from biped_adrc.control.base import Measurement, measured
 from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
 from biped_adrc.errors import InputError
 from biped_adrc.gait.corrected import Correction
+from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.types import Array
 
 LEAST_REACH = 0.2
@@ -39,11 +40,29 @@ class ResetRange(NamedTuple):
     rate: float
 
 
+class ResetParameters(NamedTuple):
+    """Where the correction ends, and the row c_q (n,) of the phase."""
+
+    range: ResetRange
+    phase: Array
+
+
 def reset_coefficients(k: ResetRange, theta: float, e: Array, slope: Array) -> Array:
     """a_0, a_1 (2, p) with c = e [rad] and dc/dTheta = slope [rad/rad] at theta."""
     x = k.rate * (theta - k.end)
     A, B = e / x**3, slope / (k.rate * x**2)
-    return np.array((4.0 * A - B, (B - 3.0 * A) / x))
+    return np.vstack((4.0 * A - B, (B - 3.0 * A) / x))
+
+
+def reset_start(k: ResetParameters, r: ReferencePoint, m: Measurement) -> Array:
+    """(a_0, a_1) flat (2 p,) for the reference r in force; zero where there is nothing to correct."""
+    x = measured(m)
+    theta, dtheta = float(k.phase @ m.q), float(k.phase @ m.v)
+    reach = k.range.rate * (theta - k.range.end)
+    if reach < LEAST_REACH or not dtheta * k.range.rate < 0.0:
+        return np.zeros(2 * len(r.q_d))
+    slope = (x.velocity - r.dq_d) / dtheta
+    return reset_coefficients(k.range, theta, x.position - r.q_d, slope).ravel()
 
 
 def reset_polynomial(k: ResetRange, a: Array, theta: float) -> tuple[Array, Array, Array]:
@@ -81,23 +100,20 @@ class ReferenceReset(OuterLoop):
         reach = self.share * (h.theta_minus - h.theta_plus)
         return ResetRange(h.theta_plus + reach, -1.0 / reach)
 
+    @cached_property
+    def parameters(self) -> ResetParameters:
+        """What the laws `reset_start` and `reset_polynomial` need."""
+        return ResetParameters(self.range, tracked_constraint(self.inner).phase)
+
     @property
     def own_size(self) -> int:
         return 2 * tracked_constraint(self.inner).curve.coefficients.shape[0]
 
     def own_start(self, h: Constraint, m: Measurement) -> Array:
-        phase = tracked_constraint(self.inner).phase
-        theta, dtheta = float(phase @ m.q), float(phase @ m.v)
-        reach = self.range.rate * (theta - self.range.end)
-        if reach < LEAST_REACH or not dtheta * self.range.rate < 0.0:
-            return np.zeros(self.own_size)
-        r = h(m.t, m.q, m.v)
-        slope = (m.v_b - r.dq_d) / dtheta
-        return reset_coefficients(self.range, theta, m.q_b - r.q_d, slope).ravel()
+        return reset_start(self.parameters, h(m.t, m.q, m.v), m)
 
     def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
         return self.own_start(h, after)
 
     def correction(self, w: Array) -> Correction:
-        k, a = self.range, w.reshape(2, -1)
-        return lambda theta: reset_polynomial(k, a, theta)
+        return partial(reset_polynomial, self.range, w.reshape(2, -1))

@@ -21,6 +21,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -41,6 +43,38 @@ def bump(s: float) -> tuple[float, float, float]:
     """b, db/ds, d2b/ds2 at s; b = 1 in the middle of the step."""
     w, dw = max(s * (1.0 - s), 0.0), 1.0 - 2.0 * s
     return 64.0 * w**3, 192.0 * w**2 * dw, 384.0 * w * (dw**2 - w)
+
+
+class StrideParameters(NamedTuple):
+    """v* [m/s], L [m], d (p,), K_P, K_I [rad s/m], bounds on |beta| [rad] and |I| [m/s], Theta+ [rad] and
+    1 / (Theta- - Theta+) [1/rad]."""
+
+    speed: float
+    step_length: float
+    direction: Array
+    K_P: float
+    K_I: float
+    most_beta: float
+    most_I: float
+    theta_plus: float
+    rate: float
+
+
+def stride_correction(k: StrideParameters, w: Array, theta: float) -> tuple[Array, Array, Array]:
+    """beta b d and its two derivatives by Theta, each (p,), for w = (tau, I, beta)."""
+    b, db, ddb = bump(k.rate * (theta - k.theta_plus))
+    shift = w[2] * k.direction
+    return b * shift, k.rate * db * shift, k.rate**2 * ddb * shift
+
+
+def stride_jump(k: StrideParameters, w: Array) -> Array:
+    """w after impact; one at tau = 0, as when a run starts with it, has timed no step and changes nothing."""
+    if not w[0] > 0.0:
+        return w.copy()
+    e = k.speed - k.step_length / w[0]
+    integral = min(max(w[1] + e, -k.most_I), k.most_I)
+    beta = k.K_P * e + k.K_I * integral
+    return np.array((0.0, integral, min(max(beta, -k.most_beta), k.most_beta)))
 
 
 @dataclass(frozen=True)
@@ -114,22 +148,23 @@ class StridePI(OuterLoop):
         return np.array((m.t_step, w[1], w[2]))
 
     def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
-        """An impact at tau = 0, as when a run starts with one, has timed no step and changes nothing."""
-        if not w[0] > 0.0:
-            return w.copy()
-        k = self.gains
-        e = self.speed - self.step_length / float(w[0])
-        most = k.limit / abs(k.K_I) if k.K_I else math.inf
-        integral = min(max(float(w[1]) + e, -most), most)
-        beta = k.K_P * e + k.K_I * integral
-        return np.array((0.0, integral, min(max(beta, -k.limit), k.limit)))
+        return stride_jump(self.parameters, w)
+
+    @cached_property
+    def parameters(self) -> StrideParameters:
+        """What the laws `stride_correction` and `stride_jump` need."""
+        h, k = tracked_constraint(self.inner).parameters, self.gains
+        return StrideParameters(
+            float(self.speed),
+            float(self.step_length),
+            np.array(self.direction, dtype=float),
+            float(k.K_P),
+            float(k.K_I),
+            float(k.limit),
+            k.limit / abs(k.K_I) if k.K_I else math.inf,
+            h.theta_plus,
+            h.rate,
+        )
 
     def correction(self, w: Array) -> Correction:
-        h = tracked_constraint(self.inner)
-        rate, shift = 1.0 / (h.theta_minus - h.theta_plus), float(w[2]) * np.array(self.direction)
-
-        def bumped(theta: float) -> tuple[Array, Array, Array]:
-            b, db, ddb = bump(rate * (theta - h.theta_plus))
-            return b * shift, rate * db * shift, rate**2 * ddb * shift
-
-        return bumped
+        return partial(stride_correction, self.parameters, w)

@@ -8,7 +8,16 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.base import Controller
+from biped_adrc.control.finite_time import psi
 from biped_adrc.control.passive import Passive
+from biped_adrc.control.reference_reset import ReferenceReset, reset_polynomial, reset_start
+from biped_adrc.control.stride import (
+    TORSO_LEAN,
+    StrideGains,
+    StridePI,
+    stride_correction,
+    stride_jump,
+)
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.disturbances.hip_force import HipForce, hip_force, hip_torque
 from biped_adrc.gait.corrected import continued
@@ -169,6 +178,54 @@ def test_a_force_on_the_hip(biped):
         assert np.array_equal(expected, force.torque(0.0, step, 0.0, q, q))
         expected = agree(hip_force, force.parameters, step)
         assert np.array_equal(expected, force.resultant(0.0, step, 0.0))
+
+
+@pytest.mark.parametrize("w", [(0.4, 0.1, 0.02), (0.4, 9.0, 0.02), (0.0, 0.1, 0.02)])
+def test_a_stride_controller(biped, gait, w):
+    gains = StrideGains(-1.0, -0.4)
+    loop = StridePI(ba.NPDController(gait.constraint), 0.7, 0.3, TORSO_LEAN, gains)
+    k, w = loop.parameters, np.array(w)
+    (m, _), *_ = measurements(biped, gait)
+    assert np.array_equal(agree(stride_jump, k, w), loop.own_jump(w, gait.constraint, m))
+    for theta in np.linspace(k.theta_plus - 0.1, k.theta_plus + 0.5, 5):
+        agree(stride_correction, k, w, float(theta))
+
+
+def test_a_reference_reset(biped, gait):
+    loop = ReferenceReset(ba.NPDController(gait.constraint))
+    k = loop.parameters
+    for m, _ in measurements(biped, gait):
+        h = gait.constraint
+        w = agree(reset_start, k, h(m.t, m.q, m.v), m)
+        assert np.array_equal(w, loop.own_start(h, m))
+        for theta in np.linspace(k.range.end - 0.1, k.range.end + 0.3, 5):
+            agree(reset_polynomial, k.range, w.reshape(2, -1), float(theta))
+        late = m._replace(q=gait.q_minus)
+        assert not np.any(agree(reset_start, k, h(late.t, late.q, late.v), late))
+
+
+def test_outputs_brought_to_rest():
+    random = np.random.default_rng(6)
+    for _ in range(5):
+        agree(psi, *random.normal(size=(2, 4)), 0.9)
+
+
+def test_every_class_with_laws_is_tested_here():
+    def below(cls):
+        for child in cls.__subclasses__():
+            yield child
+            yield from below(child)
+
+    found = {
+        cls.__name__
+        for base in (Controller, Observer, Disturbance)
+        for cls in below(base)
+        if cls.__module__.startswith("biped_adrc.") and "laws" in vars(cls)
+    }
+    assert found == {
+        *("NPDController", "ADRCController", "Passive", "GPIObserver", "SampledGPIObserver"),
+        *("TorquePulse", "TorqueStep", "TorqueSine", "Sum"),
+    }
 
 
 def test_what_has_no_law_says_so(gait):
