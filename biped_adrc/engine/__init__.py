@@ -1,0 +1,1 @@
+"""Compiled code generated from the Pinocchio model of a planar robot, and checked against it."""
