@@ -78,7 +78,7 @@ class Walker(HybridSystem):
     """torque_limit [N m] saturates every motor; the observer is fed the torque applied.
 
     slope [rad]: of the ground, positive downhill. steps_down: where it falls off by steps.
-    fall_height: the run ends as a fall when the hip is below this fraction of its height at start.
+    fall_height: the run ends as a fall when the hip is below this fraction of |p_hip| at q = 0.
     max_step_time [s]: a longer single support ends as stalled.
     """
 

@@ -30,7 +30,7 @@ class Certificate:
     duration: float
     """[s]."""
     step_length: float
-    """[m]."""
+    """Along the ground [m]."""
     least_normal_force: float
     """F_N [N]."""
     friction: float
@@ -97,7 +97,7 @@ def _certificate(walker: Walker, s: Signals, x_minus: Array) -> Certificate:
     time = s.t - s.t[0]
     inner = (time > ENDS * time[-1]) & (time < (1.0 - ENDS) * time[-1])
     power = s.u * s.v[:, :p]
-    length = float(b.swing_foot(q)[0])
+    length = float(b.swing_foot(q)[0]) / math.cos(walker.slope)
     after = b.kinetic_energy(impact.q, impact.v)
     return Certificate(
         step=int(s.step[0]),

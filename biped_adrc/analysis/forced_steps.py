@@ -93,7 +93,7 @@ def forced_walk(
     _check(gait, force, steps, longest)
     zero = ZeroDynamics.of(biped, gait.constraint)
     delta2, zeta = zero.delta**2, 0.5 * zero.sigma_minus**2
-    length = float(biped.swing_foot(gait.q_minus)[0])
+    length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
     curve = ForcedCurve.of(biped, gait.constraint, force)
     integral, beta, done = 0.0, 0.0, list[ForcedStep]()
     for _ in range(steps):

@@ -106,7 +106,6 @@ def gait_library(
             except GaitError as error:
                 missed.append(f"{speed:g} m/s: {error}")
                 continue
-        out.mkdir(parents=True, exist_ok=True)
         found.gait.save(out / f"{found.gait.name}-{biped.preset}.json")
         c = found.certificate
         table.add_row(
@@ -118,8 +117,9 @@ def gait_library(
             f"{c.cost_of_transport:.3f}",
             f"{found.seconds:.1f}",
         )
-    console.print(table)
-    console.print(f"written to {out}")
+    if table.row_count:
+        console.print(table)
+        console.print(f"written to {out}")
     if missed:
         raise GaitError("; ".join(missed))
 

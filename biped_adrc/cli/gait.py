@@ -55,6 +55,11 @@ def gait_show(
     found = load_gait(gait, biped)
     for key, value in found.provenance.items():
         console.print(f"{key}: {value}", markup=False, highlight=False, soft_wrap=True)
+    if (found.robot, found.preset) != (biped.description.name, biped.preset):
+        console.print(
+            f"of robot {found.robot}, preset {found.preset}; below with {biped.description.name}, "
+            f"{biped.preset}"
+        )
     zero = ZeroDynamics.of(biped, found.constraint)
     console.print(
         f"period {found.period:.6f} s, delta^2 {zero.delta**2:.6f}, slope {found.slope:g} rad"

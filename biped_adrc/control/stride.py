@@ -129,7 +129,7 @@ class StridePI(OuterLoop):
         direction: tuple[float, ...] = TORSO_LEAN,
     ) -> StridePI:
         """Around `inner` on a gait, with its step length, and its speed unless another is given [m/s]."""
-        length = float(biped.swing_foot(gait.q_minus)[0])
+        length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
         return cls(
             inner, length / gait.period if speed is None else speed, length, direction, gains
         )

@@ -56,9 +56,23 @@ class Gait:
                 f"gait '{self.name}' has {p} joints and a phase row of {n}, robot "
                 f"'{biped.description.name}' has {biped.p} motors and {biped.n} coordinates"
             )
+        if not (math.isfinite(self.period) and self.period > 0.0):
+            raise GaitError(
+                f"gait '{self.name}': the period is {self.period} s, expected a positive number"
+            )
+        if not abs(self.slope) < 0.5 * math.pi:
+            raise GaitError(
+                f"gait '{self.name}': the slope is {self.slope} rad, expected less than a right angle"
+            )
+        rate = float(c.phase @ self.v_minus)
+        if not rate * (c.theta_minus - c.theta_plus) > 0.0:
+            raise GaitError(
+                f"gait '{self.name}': Theta' is {rate:.4g} rad/s before impact, but the curve runs from "
+                f"{c.theta_plus:.5g} to {c.theta_minus:.5g} rad: v_minus has the wrong sign or is not there"
+            )
         x, z = biped.swing_foot(self.q_minus)
         height = float(z + math.tan(self.slope) * x)
-        if abs(height) > CLOSES:
+        if not abs(height) <= CLOSES:
             raise GaitError(
                 f"gait '{self.name}': the swing foot is {height:.3g} m above the ground before impact, "
                 f"expected 0 within {CLOSES:g} m"
@@ -152,6 +166,8 @@ def load_gait(gait: str | Path, biped: Biped) -> Gait:
         return _from_record(record).check(biped)
     except FileNotFoundError:
         raise GaitError(f"gait file '{path}' not found") from None
+    except OSError as error:
+        raise GaitError(f"gait file '{path}' cannot be read: {error.strerror}") from error
     except (json.JSONDecodeError, UnicodeDecodeError) as error:
         raise GaitError(f"gait file '{path}' is not valid JSON: {error}") from error
     except KeyError as error:

@@ -141,8 +141,13 @@ class ZeroDynamics:
     def orbit(self, sigma_plus: float, floor: float = 0.0) -> ZeroDynamicsOrbit:
         """The step that starts with sigma_plus; sigma^2 is held above `floor`, for optimisers.
 
-        Raises GaitError when the step does not reach its end.
+        Raises GaitError when the step does not reach its end, or Theta is no phase since I changes its sign.
         """
+        if floor == 0.0 and not (np.all(self.inertia > 0.0) or np.all(self.inertia < 0.0)):
+            raise GaitError(
+                f"I(Theta) runs from {np.min(self.inertia):.4g} to {np.max(self.inertia):.4g} kg m^2 and "
+                "changes its sign: sigma does not give Theta' there, choose another phase or curve"
+            )
         square = np.maximum(self.sigma_squared(sigma_plus), floor)
         if np.min(square) <= 0:
             raise GaitError(

@@ -29,7 +29,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array, ComplexArray
 
 EXACT = 1e-11
-"""Largest relative difference to Pinocchio's D_s and Omega, and relative residual of the fit of a point."""
+"""Largest relative difference to Pinocchio's D_s, Omega, swing foot and hip."""
 
 
 @dataclass(frozen=True)
@@ -98,6 +98,11 @@ class PlanarTree:
     def w(self) -> ComplexArray:
         """(n,) [kg m], m times the COM of all."""
         return np.asarray(self.mass @ self.com)
+
+    @property
+    def leg(self) -> float:
+        """Length of the stretched stance leg [m]."""
+        return float(np.sum(np.abs(self.hip)))
 
     @property
     def total_mass(self) -> float:

@@ -150,13 +150,13 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         return _description(data, path)
     except KeyError as error:
         raise ModelError(f"robot record '{path}': the key {error} is missing") from error
-    except (TypeError, ValueError, AttributeError) as error:
+    except (TypeError, ValueError, AttributeError, IndexError) as error:
         raise ModelError(f"robot record '{path}': {error}") from error
 
 
 def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
     friction = data.get("friction", {})
-    return RobotDescription(
+    description = RobotDescription(
         name=data["name"],
         urdf=path.parent / data["urdf"],
         actuated=tuple(data["actuated"]),
@@ -179,6 +179,12 @@ def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
         presets={name: _preset(name, record, data) for name, record in data["presets"].items()},
         ranges={joint: _range(joint, ends) for joint, ends in data.get("ranges", {}).items()},
     )
+    unknown = sorted(set(description.ranges) - set(description.joints))
+    if unknown:
+        raise ValueError(f"ranges names {unknown}, the joints are {list(description.joints)}")
+    if description.phase[-1] == 0.0:
+        raise ValueError(f"phase is {list(description.phase)}; the last number must not be 0")
+    return description
 
 
 def _count(data: Mapping[str, Any]) -> int:
@@ -189,8 +195,8 @@ def _count(data: Mapping[str, Any]) -> int:
 def _numbers(data: Mapping[str, Any], key: str, values: Any) -> tuple[float, ...]:
     """One number per coordinate."""
     found = tuple(float(c) for c in values)
-    if len(found) != _count(data):
-        raise ValueError(f"{key} has {len(found)} numbers, expected {_count(data)}")
+    if len(found) != _count(data) or not all(map(math.isfinite, found)):
+        raise ValueError(f"{key} is {list(values)}, expected {_count(data)} finite numbers")
     return found
 
 

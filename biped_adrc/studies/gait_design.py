@@ -46,11 +46,7 @@ class DesignedGait:
     @property
     def speed(self) -> float:
         """Along the ground [m/s]."""
-        return float(np.hypot(self.certificate.step_length, self._drop) / self.gait.period)
-
-    @property
-    def _drop(self) -> float:
-        return float(np.tan(self.gait.slope) * self.certificate.step_length)
+        return self.certificate.step_length / self.gait.period
 
     def text(self) -> str:
         """What was found, one line per figure."""
@@ -58,7 +54,7 @@ class DesignedGait:
         unit = {"torque": " N^2 m s", "transport": "", "peak": " N m"}[o.value]
         lines = [
             f"speed                {self.speed:.6f} m/s",
-            f"step length          {np.hypot(c.step_length, self._drop):.6f} m",
+            f"step length          {c.step_length:.6f} m",
             f"period               {self.gait.period:.6f} s",
             f"least {o.value:14s} {self.objective:.6g}{unit}",
             f"delta^2              {self.multiplier:.6f}",
@@ -118,7 +114,8 @@ def objective_named(objective: Objective | str) -> Objective:
 def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGait:
     """Walk the gait and hold its first step against the limits. Raises GaitError when it misses one."""
     gait, limits = optimum.gait, request.limits.of(biped)
-    walker = Walker(biped, NPDController(gait.constraint), slope=gait.slope)
+    longest = max(Walker.max_step_time, 2.0 * gait.period)
+    walker = Walker(biped, NPDController(gait.constraint), slope=gait.slope, max_step_time=longest)
     made = walk(walker, gait, STEPS, Adaptive())
     status = made.trajectory.status
     if not status.ok:

@@ -150,6 +150,9 @@ def spoil(path, gait, **changes):
         ({"coefficients": [[0.0, 1.0], [float("nan"), 1.0]]}, "curve coefficients"),
         ({"theta_plus": 3.0}, "covers Theta from 3 to"),
         ({"theta_plus": "much"}, "much"),
+        ({"period": -1.0}, "period is -1.0 s"),
+        ({"slope": float("nan")}, "slope is nan"),
+        ({"v_minus": [0.0] * 5}, "wrong sign or is not there"),
         ({"coefficients": [[0.0, 1.0]] * 3}, "3 joints"),
     ],
 )

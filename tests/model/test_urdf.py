@@ -130,7 +130,7 @@ def test_legs_that_differ_are_refused(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("phase = [1.0, 0.0, 0.5, 0.0, 1.0]", "phase = [1.0]", "phase has 1 numbers"),
+        ("phase = [1.0, 0.0, 0.5, 0.0, 1.0]", "phase = [1.0]", "expected 5 finite numbers"),
         ("mass = 12.0", "mass = -12.0", "mass is -12"),
         ('stance_foot = "left_foot"', 'stance_foot = "left_toe"', "left_toe"),
         ('name = "rabbit"', "name = rabbit", "not valid TOML"),

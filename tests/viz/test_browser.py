@@ -12,6 +12,7 @@ from PIL import Image
 from selenium.webdriver import Chrome
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import WebDriverWait
 
 from biped_adrc.model.biped import Biped
 from biped_adrc.studies.walk import Walk
@@ -140,8 +141,7 @@ def test_it_plays_pauses_and_obeys_the_keyboard(opened: tuple[Chrome, Path]) -> 
     time = "return viewer.animator.time"
     assert browser.execute_script(time) == pytest.approx(0.2 + 1 / 60)
     body.send_keys(" ")
-    browser.execute_async_script("setTimeout(arguments[0], 300)")
-    assert browser.execute_script(time) > 0.25
+    WebDriverWait(browser, 20.0).until(lambda page: page.execute_script(time) > 0.25)
     body.send_keys(" ")
     at = browser.execute_script(time)
     browser.execute_async_script("setTimeout(arguments[0], 200)")

@@ -13,6 +13,7 @@ from PIL import Image
 from selenium.webdriver import Chrome
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import WebDriverWait
 
 from biped_adrc.studies.walk import Walk
 from biped_adrc.viz.meshcat import animation_html
@@ -35,6 +36,10 @@ def opened(
         browser.get(path.as_uri())
         frame = browser.find_element(By.TAG_NAME, "iframe")
         browser.execute_script("arguments[0].scrollIntoView()", frame)
+        browser.switch_to.frame(frame)
+        ready = "return typeof viewer === 'object' && typeof viewer.animator === 'object'"
+        WebDriverWait(browser, 30.0).until(lambda page: page.execute_script(ready))
+        browser.switch_to.default_content()
         time.sleep(1.0)
         yield browser, path
 

@@ -1,8 +1,11 @@
-"""IPOPT on a programme: its options, its progress, and what to say when nothing keeps the limits."""
+"""IPOPT on a programme: its options, progress, interruption, and what to say when nothing keeps the limits."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,8 +18,11 @@ from biped_adrc.types import Array
 
 Progress = Callable[[int, float, float], None]
 """Told the iteration, the objective, and by how much the worst row is missed."""
+Bounds = tuple[Array, Array]
 
 MAX_ITERATIONS = 250
+MAX_SECONDS = 60.0
+"""Of one attempt [s]."""
 ASKED = ("the speed", "the step length")
 ASKED_WEIGHT = 100.0  # so that a limit is named before what was asked
 MISSED = 1e-5  # a limit that has to give by more than this is named
@@ -28,8 +34,6 @@ class Found:
     """What IPOPT ends with."""
 
     x: Array
-    objective: float
-    """In the units of Objective."""
     status: str
     iterations: int
 
@@ -42,56 +46,82 @@ class Found:
 def solve(
     programme: Programme,
     x0: Array,
-    bounds: tuple[Array, Array],
+    bounds: Bounds,
     progress: Progress | None,
     strategy: str = "adaptive",
 ) -> Found:
-    """IPOPT from x0 with bounds of the unknowns; `strategy` is that of its barrier parameter."""
+    """IPOPT from x0 with bounds of the unknowns; `strategy` is that of its barrier parameter.
+
+    Raises KeyboardInterrupt on Ctrl-C, after the iteration under way.
+    """
     x = programme.unknowns.vector()
-    g = ca.vertcat(*(row.value for row in programme.rows))
-    g_low, g_high = sides(programme.rows)
-    options = _options(strategy)
-    watch = None
-    if progress is not None:
-        watch = _Watch(x.numel(), g.numel(), programme.rows, progress)
-        options["iteration_callback"] = watch
-    solver = ca.nlpsol("gait", "ipopt", {"x": x, "f": programme.objective, "g": g}, options)
-    found = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=g_low, ubg=g_high)
-    stats = solver.stats()
-    if watch is not None and watch.interrupted:
-        raise KeyboardInterrupt
-    value = ca.Function("value", [x], [programme.value])
-    return Found(
-        np.array(found["x"]).ravel(),
-        float(value(found["x"])),
-        str(stats["return_status"]),
-        int(stats["iter_count"]),
-    )
+    return _run(x, programme.objective, programme.rows, x0, bounds, progress, strategy)
 
 
-def _options(strategy: str) -> dict[str, Any]:
-    return {
+def _run(
+    x: Any,
+    objective: Any,
+    rows: tuple[Row, ...],
+    x0: Array,
+    bounds: Bounds,
+    progress: Progress | None,
+    strategy: str,
+) -> Found:
+    g = ca.vertcat(*(row.value for row in rows))
+    low = np.concatenate([np.full(row.value.numel(), row.low) for row in rows])
+    high = np.concatenate([np.full(row.value.numel(), row.high) for row in rows])
+    watch = _Watch(x.numel(), low, high, progress)
+    options: dict[str, Any] = {
         "print_time": False,
+        "iteration_callback": watch,
+        "show_eval_warnings": False,
         "ipopt.print_level": 0,
         "ipopt.sb": "yes",
         "ipopt.max_iter": MAX_ITERATIONS,
+        "ipopt.max_wall_time": MAX_SECONDS,
         "ipopt.mu_strategy": strategy,
         "ipopt.acceptable_tol": 1e-6,
         "ipopt.acceptable_constr_viol_tol": 1e-9,
         "ipopt.acceptable_iter": 5,
     }
+    solver = ca.nlpsol("gait", "ipopt", {"x": x, "f": objective, "g": g}, options)
+    with _interruptible(watch):
+        found = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
+    stats = solver.stats()
+    return Found(
+        np.array(found["x"]).ravel(), str(stats["return_status"]), int(stats["iter_count"])
+    )
+
+
+@contextmanager
+def _interruptible(watch: _Watch) -> Iterator[None]:
+    """Ctrl-C ends IPOPT at its next iteration and is raised afterwards; CasADi itself would swallow it."""
+    here = threading.current_thread() is threading.main_thread()
+    before = signal.signal(signal.SIGINT, lambda *_: watch.interrupt()) if here else None
+    try:
+        yield
+    finally:
+        if here:
+            signal.signal(signal.SIGINT, before)
+    if watch.interrupted:
+        raise KeyboardInterrupt
 
 
 class _Watch(ca.Callback):
-    """Hands IPOPT's iterations on."""
+    """Hands IPOPT's iterations on, and stops them."""
 
-    def __init__(self, nx: int, ng: int, rows: tuple[Row, ...], progress: Progress) -> None:
+    def __init__(self, nx: int, low: Array, high: Array, progress: Progress | None) -> None:
         ca.Callback.__init__(self)
+        ng = len(low)
         self._sizes = {"x": nx, "f": 1, "g": ng, "lam_x": nx, "lam_g": ng, "lam_p": 0}
-        self._sides = sides(rows)
+        self._low, self._high = low, high
         self._progress, self._iteration = progress, -1
         self.interrupted = False
         self.construct("watch", {})
+
+    def interrupt(self) -> None:
+        """Stop at the next iteration."""
+        self.interrupted = True
 
     def get_n_in(self) -> int:
         return int(ca.nlpsol_n_out())
@@ -105,26 +135,18 @@ class _Watch(ca.Callback):
 
     def eval(self, arg: Any) -> list[int]:
         values = dict(zip((ca.nlpsol_out(i) for i in range(len(arg))), arg, strict=True))
-        low, high = self._sides
         g = np.array(values["g"]).ravel()
         self._iteration += 1
-        missed = float(np.max(np.maximum(low - g, g - high), initial=0.0))
+        missed = float(np.max(np.maximum(self._low - g, g - self._high), initial=0.0))
         try:
-            self._progress(self._iteration, float(values["f"]), missed)
+            if self._progress is not None:
+                self._progress(self._iteration, float(values["f"]), missed)
         except KeyboardInterrupt:
             self.interrupted = True
         return [int(self.interrupted)]
 
 
-def sides(rows: tuple[Row, ...]) -> tuple[Array, Array]:
-    """low and high of all rows."""
-    low = np.concatenate([np.full(row.value.numel(), row.low) for row in rows])
-    return low, np.concatenate([np.full(row.value.numel(), row.high) for row in rows])
-
-
-def relaxed(
-    programme: Programme, asked: str, x0: Array, bounds: tuple[Array, Array], status: str
-) -> Array:
+def relaxed(programme: Programme, asked: str, x0: Array, bounds: Bounds, status: str) -> Array:
     """A point that keeps all limits, found by relaxing each by a slack of its own and making the sum least.
 
     Raises GaitError naming the limits whose slack stays.
@@ -140,36 +162,37 @@ def relaxed(
             rows.append(Row(row.name, row.value + give, row.low, np.inf))
         if np.isfinite(row.high):
             rows.append(Row(row.name, row.value - give, -np.inf, row.high))
-    x = ca.vertcat(programme.unknowns.vector(), slack)
-    g = ca.vertcat(*(row.value for row in rows))
     weight = np.array([ASKED_WEIGHT if name in ASKED else 1.0 for name in names])
-    nlp = {"x": x, "f": ca.dot(weight, slack) + 1e-6 * programme.objective, "g": g}
-    solver, (g_low, g_high) = (
-        ca.nlpsol("gives", "ipopt", nlp, _options("monotone")),
-        sides(tuple(rows)),
+    found = _run(
+        ca.vertcat(programme.unknowns.vector(), slack),
+        ca.dot(weight, slack) + 1e-6 * programme.objective,
+        tuple(rows),
+        np.concatenate((x0, np.ones(len(names)))),
+        (
+            np.concatenate((bounds[0], np.zeros(len(names)))),
+            np.concatenate((bounds[1], np.full(len(names), np.inf))),
+        ),
+        None,
+        "monotone",
     )
-    found = solver(
-        x0=np.concatenate((x0, np.ones(len(names)))),
-        lbx=np.concatenate((bounds[0], np.zeros(len(names)))),
-        ubx=np.concatenate((bounds[1], np.full(len(names), np.inf))),
-        lbg=g_low,
-        ubg=g_high,
-    )
-    if solver.stats()["return_status"] not in _SOLVED:
+    if not found.solved:
         raise GaitError(
             f"no gait with {asked} was found ({status}), and what stands in the way could not be told; ask "
             "for a slower or shorter step, give one of speed and step only, or loosen the limits"
         )
-    gives = np.array(found["x"]).ravel()[-len(names) :]
-    units = {row.name: row.unit for row in programme.rows}
-    missed = [
-        f"{name} by {amount:.3g} {units[name]}".rstrip()
-        for name, amount in sorted(zip(names, gives, strict=True), key=lambda pair: -pair[1])
-        if amount > MISSED
-    ]
+    missed = _named(programme, names, found.x[-len(names) :])
     if missed:
         raise GaitError(
             f"no gait with {asked} keeps the limits; these would have to give: {'; '.join(missed)}"
         )
-    point: Array = np.array(found["x"]).ravel()[: -len(names)]
-    return point
+    return found.x[: -len(names)]
+
+
+def _named(programme: Programme, names: list[str], gives: Array) -> list[str]:
+    """The limits that give, the one that gives most first."""
+    units = {row.name: row.unit for row in programme.rows}
+    return [
+        f"{name} by {amount:.3g} {units[name]}".rstrip()
+        for name, amount in sorted(zip(names, gives, strict=True), key=lambda pair: -pair[1])
+        if amount > MISSED
+    ]

@@ -16,7 +16,7 @@ import numpy as np
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Bezier
-from biped_adrc.gait.design.audit import missed_limits
+from biped_adrc.gait.design.audit import NODES, audited, missed_limits, missed_wishes, objective_of
 from biped_adrc.gait.design.ipopt import Progress, relaxed, solve
 from biped_adrc.gait.design.programme import Programme, transcribe
 from biped_adrc.gait.design.request import GaitRequest, Limits
@@ -55,22 +55,30 @@ def optimise(biped: Biped, request: GaitRequest, progress: Progress | None = Non
             f"robot '{biped.description.name}' has {biped.n} coordinates and {biped.p} motors; gaits are "
             "designed for robots with one coordinate without a motor and at least one motor"
         )
+    missed: tuple[str, ...] = ()
     for nodes in (request.nodes, 2 * request.nodes):
-        gait, value, iterations = _staged(biped, replace(request, nodes=nodes), limits, progress)
+        found, iterations = _staged(biped, replace(request, nodes=nodes), limits, progress)
         spent += iterations
-        missed = missed_limits(biped, gait, limits)
+        try:
+            gait = exact_gait(biped, request, limits, found)
+            a = audited(biped, gait)
+        except GaitError as error:
+            missed = (str(error),)
+            continue
+        missed = (*missed_wishes(request, a), *missed_limits(biped, gait, limits, a))
         if not missed:
+            value = objective_of(biped, request.objective, a)
             return Optimum(gait, value, spent, perf_counter() - begin)
     raise GaitError(
-        f"the gait found with {request.in_words()} keeps its limits at {2 * request.nodes} nodes and misses "
-        f"them in between: {'; '.join(missed)}; give more nodes, or more reserve"
+        f"the gait found with {request.in_words()} keeps its limits at {2 * request.nodes} nodes and not "
+        f"between them: {'; '.join(missed)}; give more nodes, another degree, or StepLimits with more reserve"
     )
 
 
 def _staged(
     biped: Biped, request: GaitRequest, limits: Limits, progress: Progress | None
-) -> tuple[Gait, float, int]:
-    """Gait, objective and iterations, by the stages of the request."""
+) -> tuple[Unknowns, int]:
+    """The unknowns and the iterations, by the stages of the request."""
     stages, iterations = request.stages(), 0
     direction, guess = cold_start(biped, stages[0], limits)
     for stage in stages:
@@ -78,8 +86,7 @@ def _staged(
         iterations += found.iterations
         if found.solved:
             guess = found.unknowns._asdict()
-    gait = exact_gait(biped, request, found.unknowns, found.objective)
-    return gait, found.objective, iterations
+    return found.unknowns, iterations
 
 
 class _Solution(NamedTuple):
@@ -87,7 +94,6 @@ class _Solution(NamedTuple):
 
     solved: bool
     unknowns: Unknowns
-    objective: float
     iterations: int
 
 
@@ -119,7 +125,7 @@ def _solve(
                 "limits can be met; try another degree or number of nodes"
             )
     x = programme.unknowns.parts(found.x)
-    return _Solution(found.solved, x, found.objective, iterations)
+    return _Solution(found.solved, x, iterations)
 
 
 def _bounds(
@@ -144,7 +150,7 @@ def _bounds(
 
 
 # -- the exact gait --------------------------------------------------------------------------------
-def exact_gait(biped: Biped, request: GaitRequest, x: Unknowns, objective: float) -> Gait:
+def exact_gait(biped: Biped, request: GaitRequest, limits: Limits, x: Unknowns) -> Gait:
     """The gait of q-, the slopes and the inner coefficients, by Pinocchio's impact and zero dynamics."""
     p, M, c = biped.p, request.degree, biped.phase
     q = onto_ground(biped, x.q.ravel(), request.slope)
@@ -158,7 +164,7 @@ def exact_gait(biped: Biped, request: GaitRequest, x: Unknowns, objective: float
     alpha[:, 1] = alpha[:, 0] + impact.v[:p] / float(c @ impact.v) * span / M
     alpha[:, M - 1] = alpha[:, M] - slope * span / M
     constraint = VirtualConstraint(Bezier(alpha), c, theta_plus, theta_minus)
-    zero = ZeroDynamics.of(biped, constraint)
+    zero = ZeroDynamics.of(biped, constraint, NODES)
     sigma = zero.sigma_minus
     q, v = zero.end_state(sigma)
     period = zero.orbit(sigma * zero.delta).period
@@ -166,7 +172,8 @@ def exact_gait(biped: Biped, request: GaitRequest, x: Unknowns, objective: float
     provenance = {
         "method": "direct optimisation on the zero dynamics, hybrid-invariant Bezier curves, IPOPT",
         "asked": request.in_words(),
-        "objective": f"{request.objective.value} {objective:.6g}",
+        "minimised": request.objective.value,
+        "limits": ", ".join(f"{k} {v}" for k, v in limits._asdict().items()),
         "speed [m/s]": f"{step / period:.6f}",
         "step length [m]": f"{step:.6f}",
         "command": request.command(biped),

@@ -53,17 +53,15 @@ class Programme:
 
     unknowns: Unknowns
     objective: Any
+    """Scaled, and smooth where the objective is not."""
     rows: tuple[Row, ...]
-    value: Any
-    """The objective in the units of Objective."""
 
 
 def transcribe(biped: Biped, request: GaitRequest, limits: Limits, direction: float) -> Programme:
     """The programme; `direction` is the sign of Theta'."""
     step = Step(biped, request, limits, direction)
     rows = (*_equalities(step), *_limits(step))
-    least, value = _objective(step)
-    return Programme(step.x, least, rows, value)
+    return Programme(step.x, _objective(step), rows)
 
 
 def _equalities(k: Step) -> tuple[Row, ...]:
@@ -121,6 +119,9 @@ def _limits(k: Step) -> tuple[Row, ...]:
         Row("the old foot lifting off", after / speed, lift, infinite, speeds),
         Row("one way of Theta", k.direction * k.span, 0.05, infinite, "rad"),
         Row("one way of Theta after impact", k.biped.phase[np.newaxis] @ k.v_plus, 0.02, infinite),
+        Row(
+            "the slowest rate", x.rates / x.rate, limits.slowest, infinite, "of that before impact"
+        ),
         Row("stability, delta^2 below 1", ratio, -infinite, limits.multiplier),
         Row("the range of steps", k.length / k.leg, SHORTEST, LONGEST, legs),
     ]
@@ -141,21 +142,15 @@ def _limits(k: Step) -> tuple[Row, ...]:
     return tuple(row._replace(value=ca.vec(row.value)) for row in rows)
 
 
-def _objective(k: Step) -> tuple[Any, Any]:
-    """What is made least, and the objective in its units, without smoothing."""
-    u = k.node.u
-    squares = ca.sum2(ca.sum1(u**2) * k.dt) / k.length
-    calm = squares * np.sqrt(k.leg * k.tree.gravity) / k.limits.torque**2
+def _objective(k: Step) -> Any:
+    u = k.node.u / k.limits.torque
+    calm = ca.sum2(ca.sum1(u**2) * k.dt) / k.length * np.sqrt(k.leg * k.tree.gravity)
     match k.request.objective:
         case Objective.TORQUE:
-            return calm, squares
+            return calm
         case Objective.TRANSPORT:
-            power, width = u * k.node.v_b, SMOOTH * k.limits.torque
-            smooth = ca.sqrt(power**2 + width**2) - width
-            least, value = (
-                ca.sum2(ca.sum1(p) * k.dt) / (k.biped.weight * k.length)
-                for p in (smooth, ca.fabs(power))
-            )
-            return least + CALM * calm, value
+            power = ca.sum1(ca.sqrt((u * k.node.v_b) ** 2 + SMOOTH**2) - SMOOTH)
+            work = ca.sum2(power * k.dt) * k.limits.torque
+            return work / (k.biped.weight * k.length) + CALM * calm
         case Objective.PEAK:
-            return k.x.peak + CALM * calm, k.x.peak * k.limits.torque
+            return k.x.peak + CALM * calm

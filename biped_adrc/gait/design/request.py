@@ -11,6 +11,8 @@ from typing import NamedTuple
 from biped_adrc.errors import GaitError
 from biped_adrc.model.biped import Biped
 
+MOST_NODES = 100
+
 
 class Objective(Enum):
     """What is made least; values are the names of the command line."""
@@ -34,6 +36,7 @@ class Limits(NamedTuple):
     lift_off: float
     ranges: Mapping[str, tuple[float, float]]
     multiplier: float
+    slowest: float
     reserve: float
 
 
@@ -58,6 +61,9 @@ class StepLimits:
     """[rad] by name of the coordinate, besides those of the record."""
     multiplier: float = 0.95
     """Largest delta^2 of the zero dynamics."""
+    slowest: float = 0.15
+    """Least |Theta'| in the step, share of that before impact: a walk that nearly stops falls back at a
+    touch."""
     reserve: float = 0.02
     """Share of friction and torque, and of a quarter of a radian at the ends of ranges, kept back for what
     happens between the nodes."""
@@ -80,6 +86,7 @@ class StepLimits:
             self.lift_off,
             {**d.ranges, **self.ranges},
             self.multiplier,
+            self.slowest,
             self.reserve,
         )
 
@@ -88,6 +95,14 @@ class StepLimits:
             value = getattr(self, name)
             if value is not None and not value >= 0.0:
                 raise GaitError(f"limit '{name}' is {value}, expected a number >= 0 or None")
+        for name in ("friction", "impulse_friction", "torque"):
+            value = getattr(self, name)
+            if value is not None and not value > 0.0:
+                raise GaitError(f"limit '{name}' is {value}, expected a positive number or None")
+        if self.torque == math.inf:
+            raise GaitError(
+                "limit 'torque' is infinite; give a number, the objective is scaled by it"
+            )
         for joint, (low, high) in self.ranges.items():
             if not low < high:
                 raise GaitError(
@@ -109,7 +124,7 @@ class GaitRequest:
     degree: int = 6
     """Of the Bezier curves."""
     nodes: int = 24
-    """Gauss nodes at which the limits are kept; twice as many are taken where that does not do."""
+    """Gauss nodes at which the limits are kept; twice as many where that does not do."""
     limits: StepLimits = StepLimits()
     through: tuple[float, ...] | None = None
     """Pre-impact state (q-, q'-) (2 n,) through which the orbit has to pass, in place of speed and step."""
@@ -131,8 +146,8 @@ class GaitRequest:
             raise GaitError(f"the slope is {self.slope} rad, expected less than 0.5 rad either way")
         if not 4 <= self.degree <= 12:
             raise GaitError(f"the degree is {self.degree}, expected 4 to 12")
-        if not 8 <= self.nodes <= 400:
-            raise GaitError(f"found {self.nodes} nodes, expected 8 to 400")
+        if not 8 <= self.nodes <= 2 * MOST_NODES:
+            raise GaitError(f"found {self.nodes} nodes, expected 8 to {MOST_NODES}")
 
     def stages(self) -> tuple[GaitRequest, ...]:
         """Requests that lead from an easy one to this one."""
@@ -160,8 +175,25 @@ class GaitRequest:
         return "-".join(parts)
 
     def command(self, biped: Biped) -> str:
-        """The command that designs it."""
-        robot = f"biped-adrc gait design --robot {biped.description.name} --preset {biped.preset}"
-        values = {"speed": self.speed, "step": self.step, "slope": self.slope or None}
-        asked = "".join(f" --{key} {value:g}" for key, value in values.items() if value is not None)
-        return f"{robot}{asked} --minimise {self.objective.value} --degree {self.degree}"
+        """The command that designs it; a robot of one's own is named, its robot.toml has to be given."""
+        limits, usual = self.limits, StepLimits()
+        values: dict[str, object] = {
+            "robot": biped.description.name,
+            "preset": biped.preset,
+            "speed": self.speed,
+            "step": self.step,
+            "slope": self.slope or None,
+            "minimise": self.objective.value,
+            "degree": self.degree,
+            "nodes": self.nodes,
+            "torque": limits.torque,
+            "friction": limits.friction,
+            "impulse-friction": limits.impulse_friction,
+        }
+        if limits.clearance != usual.clearance:
+            values["clearance"] = limits.clearance or 0
+        if self.through is not None:
+            values["through"] = ",".join(map(repr, self.through))
+        return "biped-adrc gait design" + "".join(
+            f" --{name} {value}" for name, value in values.items() if value is not None
+        )

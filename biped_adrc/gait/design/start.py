@@ -20,6 +20,8 @@ from biped_adrc.model.planar import PlanarTree
 from biped_adrc.types import Array
 
 LONGEST = 1.2  # step, share of the leg
+FROUDE = 1.5  # largest speed over sqrt(g leg); above 1 a stretched leg already leaves the ground
+MOVED = 1e-3  # [rad], how far a state to pass through may be moved onto the ground
 STEP = 0.5  # of the leg, where no step is asked for; and the Froude number of the guess
 BEND = 0.2  # share of its range, or at most this angle [rad], by which a joint starts off its end
 
@@ -71,9 +73,9 @@ def onto_ground(biped: Biped, q: Array, slope: float = 0.0) -> Array:
     normal = np.array([math.sin(slope), math.cos(slope)])
     for _ in range(30):
         height = float(normal @ biped.swing_foot(q))
-        if abs(height) < 1e-15:
-            break
         row = (normal @ biped.swing_foot_jacobian(q))[:-1]
+        if abs(height) < 1e-15 or not row @ row > 1e-12:
+            break
         q[:-1] -= row * height / (row @ row)
     if not abs(height) < 1e-12:
         raise GaitError(
@@ -82,12 +84,39 @@ def onto_ground(biped: Biped, q: Array, slope: float = 0.0) -> Array:
     return q
 
 
+def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array]:
+    """q- on the ground and q'-. Raises GaitError for a state that is not just before an impact forwards."""
+    n, c = biped.n, biped.phase
+    if len(state) != 2 * n:
+        raise GaitError(f"the state to pass through has {len(state)} numbers, expected {2 * n}")
+    q = onto_ground(biped, state[:n], slope)
+    moved = float(np.max(np.abs(q - state[:n])))
+    if moved > MOVED:
+        raise GaitError(
+            f"the state to pass through has its swing foot off the ground: q would have to move by {moved:.3g} "
+            f"rad, expected at most {MOVED:g}; give the state just before impact"
+        )
+    span, rate = float(c @ (q - biped.relabel(q))), float(c @ state[n:])
+    if not span * rate > 0.0:
+        raise GaitError(
+            f"Theta changes by {span:.4g} rad over the step that ends in this state, and its rate there is "
+            f"{rate:.4g} rad/s; they need one sign: the state before impact of a walk forwards"
+        )
+    return q, state[n:]
+
+
 def cold_start(biped: Biped, request: GaitRequest, limits: Limits) -> tuple[float, dict[str, Any]]:
     """Sign of Theta' and a first guess of the unknowns, by name."""
-    n, p, c, M = biped.n, biped.p, biped.phase, request.degree
+    p, c, M = biped.p, biped.phase, request.degree
     if request.through is None:
-        leg = float(np.abs(PlanarTree.of(biped).hip).sum())
+        leg = PlanarTree.of(biped).leg
         step = request.step or STEP * leg
+        most = FROUDE * math.sqrt(biped.description.gravity * leg)
+        if request.speed is not None and request.speed > most:
+            raise GaitError(
+                f"{request.speed:g} m/s is asked for; legs of {leg:g} m cannot walk, one foot always on the "
+                f"ground, faster than {most:.3g} m/s: ask for less"
+            )
         if step > LONGEST * leg:
             raise GaitError(
                 f"a step of {step:g} m is asked for, the legs are {leg:g} m long: ask for at most "
@@ -99,8 +128,8 @@ def cold_start(biped: Biped, request: GaitRequest, limits: Limits) -> tuple[floa
         duration = step / (request.speed or STEP * math.sqrt(biped.description.gravity * leg))
         rate = abs(float(c @ (q - q_plus))) / duration
     else:
-        q = onto_ground(biped, np.array(request.through[:n]), request.slope)
-        v, q_plus = np.array(request.through[n:]), biped.relabel(q)
+        q, v = _given_state(biped, np.array(request.through), request.slope)
+        q_plus = biped.relabel(q)
         dq, rate = v / float(c @ v), abs(float(c @ v))
     impact = biped.impact(q, dq)
     theta = np.array([c @ q_plus, c @ q])

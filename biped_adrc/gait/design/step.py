@@ -137,7 +137,7 @@ class Step:
         self.biped, self.request, self.limits = biped, request, limits
         self.tree, self.direction = PlanarTree.of(biped), direction
         self.n, self.p = biped.n, biped.p
-        self.leg = float(np.abs(self.tree.hip).sum())
+        self.leg = self.tree.leg
         self.sigma_scale = biped.weight * self.leg * np.sqrt(self.leg / self.tree.gravity)
         x = self.x = unknowns(self.n, request.degree, request.nodes)
         s, w, C = gauss_nodes(request.nodes)

@@ -175,6 +175,7 @@ def record_of(gait: Gait, to: str = "paper") -> GaitRecord:
         q_minus=back.angles(gait.q_minus),
         v_minus=back.rates(gait.v_minus),
         period=gait.period,
+        slope=gait.slope,
         name=gait.name,
         robot=gait.robot,
         preset=gait.preset,

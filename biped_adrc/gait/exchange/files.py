@@ -31,6 +31,7 @@ UNITS = {
     "q_minus": "rad",
     "v_minus": "rad/s",
     "period": "s",
+    "slope": "rad",
 }
 _KEYS = tuple(f.name for f in fields(GaitRecord))
 _REQUIRED = ("coefficients", "theta_plus", "theta_minus")
@@ -86,6 +87,8 @@ def _read_json(path: Path) -> dict[str, Any]:
         found = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise InputError(f"gait file '{path}' not found") from None
+    except OSError as error:
+        raise InputError(f"gait file '{path}' cannot be read: {error.strerror}") from error
     except (json.JSONDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"gait file '{path}' is not valid JSON: {error}") from error
     if not isinstance(found, dict):

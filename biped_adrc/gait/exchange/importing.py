@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.conventions import CONVENTIONS
 from biped_adrc.gait.exchange.closure import check
 from biped_adrc.gait.exchange.convert import record_of, state_to_paper
 from biped_adrc.gait.exchange.files import read_record, write_record
@@ -13,6 +15,7 @@ from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.robots import robot_names
 from biped_adrc.types import Array
 
 
@@ -38,6 +41,7 @@ def import_gait(
     Raises GaitError that names the joint, what was found, what was expected, the likely cause and what to
     try; InputError for a file that cannot be read.
     """
+    _check_angles(biped.description.name)
     record = gait if isinstance(gait, GaitRecord) else read_record(gait, convention, names)
     along = check(record, biped, slopes)
     constraint = along.constraint
@@ -53,7 +57,9 @@ def import_gait(
     if along.turns.any():
         provenance["whole turns added to q"] = ", ".join(f"{k:g}" for k in along.turns)
     robot, preset = record.robot or biped.description.name, record.preset or biped.preset
-    return Gait(record.name, robot, preset, constraint, *state, period, provenance).check(biped)
+    return Gait(
+        record.name, robot, preset, constraint, *state, period, provenance, record.slope
+    ).check(biped)
 
 
 def _orbit(biped: Biped, constraint: VirtualConstraint) -> tuple[Array, Array, float]:
@@ -69,4 +75,14 @@ def export_gait(gait: Gait, path: Path | str, convention: str = "paper") -> None
 
     `import_gait` gives it back. Raises InputError for another suffix or convention, and OutputError.
     """
+    _check_angles(gait.robot)
     write_record(record_of(gait, convention), path)
+
+
+def _check_angles(robot: str) -> None:
+    """Raises GaitError for a robot whose angles are its own, so that no convention says what they are."""
+    if robot and robot not in robot_names():
+        raise GaitError(
+            f"the angles of robot '{robot}' are those of its own URDF, which are in none of the conventions "
+            f"{list(CONVENTIONS)}: its gaits are stored and loaded as they are, by Gait.save and load_gait"
+        )

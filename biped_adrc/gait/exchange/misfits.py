@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -50,7 +51,7 @@ def first_misfit(
     ]
     if biped is not None:
         checks[:0] = [lambda: _fits(along, biped)]
-        checks.append(lambda: _feet(along, biped))
+        checks.append(lambda: _feet(along, biped, record.slope))
         if slopes:
             checks.append(lambda: _slopes(record, along, biped))
     return next((misfit for c in checks if (misfit := c()) is not None), None)
@@ -162,17 +163,19 @@ def _state(record: GaitRecord, along: Coordinates) -> Misfit | None:
     return None
 
 
-def _feet(along: Coordinates, biped: Biped) -> Misfit | None:
+def _feet(along: Coordinates, biped: Biped, slope: float) -> Misfit | None:
     """The swing foot starts and ends on the ground, and ends ahead of the stance foot."""
     for s, when in ((0.0, "start"), (1.0, "end")):
-        height = float(biped.swing_foot(along.curve(s)[0])[1])
-        if abs(height) > CLOSES:
+        x, z = biped.swing_foot(along.curve(s)[0])
+        height = float(z + math.tan(slope) * x)
+        if not abs(height) <= CLOSES:
             return Misfit(
                 f"swing foot at the {when} of the step",
                 f"{height:.4g} m above the ground",
                 f"0 within {CLOSES:g} m",
                 "thigh and shin of the gait's robot have other lengths, or the phase range is another "
-                "gait's or a time; load the robot it was made for, or give the range of the phase [rad]",
+                "gait's or a time, or it walks on another slope; load the robot it was made for, or give the "
+                "range of the phase [rad] and the slope",
             )
     ahead = float(biped.swing_foot(along.curve(1.0)[0])[0])
     if ahead > 0.0:

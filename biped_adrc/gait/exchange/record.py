@@ -48,6 +48,8 @@ class GaitRecord:
     """(n,) [rad/s]."""
     period: float | None = None
     """[s]."""
+    slope: float = 0.0
+    """Of the ground [rad], positive downhill."""
     name: str = "imported"
     robot: str = ""
     preset: str = ""
@@ -154,7 +156,7 @@ class GaitRecord:
         return a
 
     def _check_phase_range(self) -> None:
-        for key in ("theta_plus", "theta_minus", "period"):
+        for key in ("theta_plus", "theta_minus", "period", "slope"):
             value = getattr(self, key)
             if key == "period" and value is None:
                 continue
