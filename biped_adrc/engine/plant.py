@@ -11,7 +11,7 @@ import numpy as np
 
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlanarTree
-from biped_adrc.types import Array
+from biped_adrc.types import Array, ComplexArray
 
 
 class PlantArrays(NamedTuple):
@@ -46,7 +46,7 @@ def plant_arrays(biped: Biped, tree: PlanarTree | None = None) -> PlantArrays:
     tree = PlanarTree.of(biped) if tree is None else tree
     W, w = tree.W, tree.w
 
-    def parts(z: Array) -> tuple[Array, Array]:
+    def parts(z: ComplexArray) -> tuple[Array, Array]:
         return np.ascontiguousarray(z.real), np.ascontiguousarray(z.imag)
 
     W_re, W_im = parts(W)
