@@ -1,11 +1,20 @@
-"""Where the ground is lower: steps down, in numbers of single supports."""
+"""The ground: the axes of a slope, and where it is lower, by steps down in numbers of single supports."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+
+
+def ground_axes(slope: float) -> tuple[Array, Array]:
+    """Unit vectors (x, z) along the ground, downhill for a positive slope [rad], and out of it."""
+    along = np.array([math.cos(slope), -math.sin(slope)])
+    return along, np.array([math.sin(slope), math.cos(slope)])
 
 
 @dataclass(frozen=True)

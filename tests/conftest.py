@@ -22,3 +22,13 @@ def biped():
 @pytest.fixture(scope="session")
 def gait(biped):
     return ba.load_gait("published", biped)
+
+
+@pytest.fixture(scope="session")
+def bare():
+    return ba.Biped.load("rabbit", "identified-bare")
+
+
+@pytest.fixture(scope="session")
+def published(bare):
+    return ba.load_gait("published", bare)

@@ -17,16 +17,6 @@ HEIGHT = 0.015  # [m]
 
 
 @pytest.fixture(scope="module")
-def bare():
-    return ba.Biped.load("rabbit", "identified-bare")
-
-
-@pytest.fixture(scope="module")
-def published(bare):
-    return ba.load_gait("published", bare)
-
-
-@pytest.fixture(scope="module")
 def down(bare, published):
     """A step down at the end of the second single support."""
     law = ReferenceReset(ba.NPDController(continued(published.constraint)))

@@ -24,11 +24,6 @@ STEPS = 3
 
 
 @pytest.fixture(scope="module")
-def bare():
-    return ba.Biped.load("rabbit", "identified-bare")
-
-
-@pytest.fixture(scope="module")
 def gait(bare):
     return ba.load_gait("v0.5", bare)
 

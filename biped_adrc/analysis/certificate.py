@@ -15,6 +15,7 @@ import numpy as np
 
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.signals import Signals
+from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Walker
@@ -113,9 +114,3 @@ def _certificate(walker: Walker, s: Signals, x_minus: Array) -> Certificate:
         energy_lost=b.kinetic_energy(q, v) - after,
         cost_of_transport=integrate(s.t, np.sum(np.abs(power), axis=1)) / (b.weight * length),
     )
-
-
-def ground_axes(angle: float) -> tuple[Array, Array]:
-    """Unit vectors (x, z) along the ground, downhill for a positive slope [rad], and out of it."""
-    along = np.array([math.cos(angle), -math.sin(angle)])
-    return along, np.array([math.sin(angle), math.cos(angle)])

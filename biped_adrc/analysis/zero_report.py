@@ -20,6 +20,7 @@ from biped_adrc.gait.gait import CLOSES
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration
 from biped_adrc.gait.zero_limits import UNLIMITED, Bound, Domain, Limits, domain
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
+from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 
 CLOSENESS = 1e-3
@@ -143,10 +144,9 @@ def zero_report(
     orbits = ZeroOrbits.of(ZeroDynamics.of(biped, constraint))
     _check_ends(biped, constraint, limits.slope)
     zeta = orbits.zeta_star
-    slope = limits.slope
+    axes = ground_axes(limits.slope)
     impulse = biped.impact(*orbits.zero.end_state(orbits.sigma(zeta))).impulse
-    along = impulse @ [math.cos(slope), -math.sin(slope)]
-    across = impulse @ [math.sin(slope), math.cos(slope)]
+    along, across = (impulse @ axis for axis in axes)
     gap = invariance_gap(biped, constraint) if biped.p else 0.0
     return ZeroDynamicsReport(
         orbits, limits, domain(orbits, limits), zeta, float(abs(along) / across), gap

@@ -31,7 +31,7 @@ app = typer.Typer(
     "line, 3 bad input, 4 the robot fell, 5 cannot write, 130 interrupted.",
 )
 gait_app = typer.Typer(
-    no_args_is_help=True, rich_markup_mode=None, help="Regenerate or show the stored gaits."
+    no_args_is_help=True, rich_markup_mode=None, help="Design, show, import and export gaits."
 )
 app.add_typer(gait_app, name="gait")
 console = Console()
@@ -45,6 +45,7 @@ Robot = Annotated[
 RobotPreset = Annotated[
     str | None, typer.Option(help="Parameters of the robot; its record's default if not given.")
 ]
+StoredGait = Annotated[str, typer.Argument(help="A stored gait by name, or a .json file.")]
 Pushes = Annotated[
     list[str] | None,
     typer.Option(

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from biped_adrc.cli.app import Preset, Robot, RobotPreset, console, gait_app
+from biped_adrc.cli.app import Preset, Robot, RobotPreset, StoredGait, console, gait_app
 
 
 @gait_app.command("published")
@@ -40,9 +40,7 @@ def gait_recipe(
 
 @gait_app.command("show")
 def gait_show(
-    gait: Annotated[
-        str, typer.Argument(help="A stored gait by name, or a .json file.")
-    ] = "published",
+    gait: StoredGait = "published",
     robot: Robot = "rabbit",
     preset: RobotPreset = None,
 ) -> None:
@@ -74,7 +72,7 @@ def _save(gait: Any, out: Path | None) -> None:
 
 @gait_app.command("export")
 def gait_export(
-    gait: Annotated[str, typer.Argument(help="A stored gait by name, or a .json file.")],
+    gait: StoredGait,
     out: Annotated[Path, typer.Option("--out", "-o", help="Where to write it (.mat or .json).")],
     robot: Robot = "rabbit",
     preset: RobotPreset = None,

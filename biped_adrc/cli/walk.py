@@ -22,63 +22,66 @@ from biped_adrc.cli.passive import simulate_passive
 from biped_adrc.errors import InputError
 
 if TYPE_CHECKING:
-    from biped_adrc.studies.runs import Outcome
+    from biped_adrc.studies.runs import Outcome, Run
+
+
+Controller = Annotated[str, typer.Option(help="ADRC or NPD; passive for robots without motors.")]
+Gait = Annotated[
+    str,
+    typer.Option(
+        help="published (through x*), recipe (section IV), v0.4 to v1.1 (by speed), or a .json file."
+    ),
+]
+Impacts = Annotated[int, typer.Option(help="Impacts to walk (12.5 steps of the paper are 25).")]
+Period = Annotated[
+    float | None,
+    typer.Option(help="Sampling period [s] of the controller; continuous if left out."),
+]
+TorqueLimit = Annotated[float | None, typer.Option(help="Saturation of the motors [N m].")]
+Poles = Annotated[
+    str | None,
+    typer.Option(help="m + 2 observer poles [rad/s], comma separated; by default Table I."),
+]
+Bandwidth = Annotated[
+    float | None, typer.Option(help="Observer bandwidth [rad/s] instead of poles.")
+]
+Order = Annotated[int, typer.Option(help="Order m of the observer, with --bandwidth.")]
+Reset = Annotated[str, typer.Option(help="Observer at impact: none, relabel, measured or model.")]
+AsPrinted = Annotated[
+    bool, typer.Option("--as-printed", help="Drop h' Theta'' from (20) and (28), as printed.")
+]
+Friction = Annotated[bool, typer.Option("--friction", help="Add the robot's joint friction.")]
+Method = Annotated[str | None, typer.Option(help="rk4, exponential, adaptive or stiff.")]
+StepSize = Annotated[float | None, typer.Option(help="Step of rk4 and exponential [s].")]
+Out = Annotated[
+    Path | None, typer.Option("--out", "-o", help="Write the run (.npz), or its signals (.mat).")
+]
 
 
 @app.command()
 def simulate(
     context: typer.Context,
-    controller: Annotated[
-        str, typer.Option(help="ADRC or NPD; passive for robots without motors.")
-    ] = "ADRC",
-    gait: Annotated[
-        str,
-        typer.Option(
-            help="published (through x*), recipe (section IV), v0.4 to v1.1 (by speed), or a .json file."
-        ),
-    ] = "published",
+    controller: Controller = "ADRC",
+    gait: Gait = "published",
     robot: Robot = "rabbit",
     preset: RobotPreset = None,
     push: Pushes = None,
-    impacts: Annotated[
-        int, typer.Option(help="Impacts to walk (12.5 steps of the paper are 25).")
-    ] = 25,
-    period: Annotated[
-        float | None,
-        typer.Option(help="Sampling period [s] of the controller; continuous if left out."),
-    ] = None,
-    torque_limit: Annotated[
-        float | None, typer.Option(help="Saturation of the motors [N m].")
-    ] = None,
-    poles: Annotated[
-        str | None,
-        typer.Option(help="m + 2 observer poles [rad/s], comma separated; by default Table I."),
-    ] = None,
-    bandwidth: Annotated[
-        float | None, typer.Option(help="Observer bandwidth [rad/s] instead of poles.")
-    ] = None,
-    order: Annotated[int, typer.Option(help="Order m of the observer, with --bandwidth.")] = 1,
-    reset: Annotated[
-        str, typer.Option(help="Observer at impact: none, relabel, measured or model.")
-    ] = "model",
-    as_printed: Annotated[
-        bool, typer.Option("--as-printed", help="Drop h' Theta'' from (20) and (28), as printed.")
-    ] = False,
-    friction: Annotated[
-        bool, typer.Option("--friction", help="Add the robot's joint friction.")
-    ] = False,
-    method: Annotated[str | None, typer.Option(help="rk4, exponential, adaptive or stiff.")] = None,
-    step: Annotated[float | None, typer.Option(help="Step of rk4 and exponential [s].")] = None,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", "-o", help="Write the run (.npz), or its signals (.mat)."),
-    ] = None,
+    impacts: Impacts = 25,
+    period: Period = None,
+    torque_limit: TorqueLimit = None,
+    poles: Poles = None,
+    bandwidth: Bandwidth = None,
+    order: Order = 1,
+    reset: Reset = "model",
+    as_printed: AsPrinted = False,
+    friction: Friction = False,
+    method: Method = None,
+    step: StepSize = None,
+    out: Out = None,
 ) -> None:
     """Walk, and print what each step needed."""
-    from biped_adrc.hybrid.storage import save
     from biped_adrc.model.robots import load_description
-    from biped_adrc.studies.runs import Run, execute_fully
-    from biped_adrc.studies.versions import versions
+    from biped_adrc.studies.runs import Run
 
     description = load_description(robot)
     if not description.actuated:
@@ -105,8 +108,17 @@ def simulate(
         h=step,
         **extra,
     )
+    _walk(run, out)
+
+
+def _walk(run: Run, out: Path | None) -> None:
+    """Carry out a run, print it, and write it where it is asked for."""
+    from biped_adrc.hybrid.storage import save
+    from biped_adrc.studies.runs import execute_fully
+    from biped_adrc.studies.versions import versions
+
     with bar() as shown:
-        task = shown.add_task(f"walking, {run.controller}", total=impacts)
+        task = shown.add_task(f"walking, {run.controller}", total=run.impacts)
         full = execute_fully(run, lambda t, n: shown.update(task, completed=n))
     o = full.outcome
     _print_steps(o)

@@ -7,14 +7,12 @@ from typing import Annotated
 
 import typer
 
-from biped_adrc.cli.app import Robot, RobotPreset, console, gait_app
+from biped_adrc.cli.app import Robot, RobotPreset, StoredGait, console, gait_app
 
 
 @gait_app.command("zero")
 def gait_zero(
-    gait: Annotated[
-        str, typer.Argument(help="A stored gait by name, or a .json file.")
-    ] = "published",
+    gait: StoredGait = "published",
     robot: Robot = "rabbit",
     preset: RobotPreset = None,
     friction: Annotated[

@@ -21,6 +21,7 @@ from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Bezier
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit
+from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 
@@ -47,15 +48,20 @@ class GaitLimits:
     """[rad], both knees stay below it."""
 
 
-def onto_section(biped: Biped, q: Array) -> Array:
-    """The configuration nearest to q in q_b whose swing foot is on the ground, q_N kept."""
+def onto_section(biped: Biped, q: Array, slope: float = 0.0) -> Array:
+    """The configuration nearest to q in q_b whose swing foot is on the ground, q_N kept. Raises GaitError."""
     q = np.array(q, dtype=float)
-    for _ in range(20):
-        height = biped.swing_foot(q)[1]
-        row = biped.swing_foot_jacobian(q)[1, :-1]
-        q[:-1] -= row * height / (row @ row)
-        if abs(height) < 1e-15:
+    normal = ground_axes(slope)[1]
+    for _ in range(30):
+        height = float(normal @ biped.swing_foot(q))
+        row = (normal @ biped.swing_foot_jacobian(q))[:-1]
+        if abs(height) < 1e-15 or not row @ row > 1e-12:
             break
+        q[:-1] -= row * height / (row @ row)
+    if not abs(height) < 1e-12:
+        raise GaitError(
+            f"the swing foot stays {height:.3g} m off the ground: no configuration near this one reaches it"
+        )
     return q
 
 

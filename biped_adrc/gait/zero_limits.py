@@ -22,6 +22,7 @@ from scipy.optimize import minimize_scalar
 
 from biped_adrc.errors import InputError
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid, series
+from biped_adrc.ground import ground_axes
 from biped_adrc.types import Array
 
 LIFT_OFF, FRICTION, TORQUE = "lift-off", "friction", "torque"
@@ -103,9 +104,7 @@ def _margins(orbits: ZeroOrbits, limits: Limits) -> list[Margin]:
     rest, moving = ([zero.dynamics(k, rate) for k in range(len(zero.theta))] for rate in (0.0, 1.0))
     u_0, u_1 = (np.array([found[1] for found in rows]) for rows in (rest, moving))
     F_0, F_1 = (np.array([found[2] for found in rows]) for rows in (rest, moving))
-    sine, cosine = math.sin(limits.slope), math.cos(limits.slope)
-    across = np.array([sine, cosine])
-    along = np.array([cosine, -sine])
+    along, across = ground_axes(limits.slope)
     rows = [(LIFT_OFF, across)]
     if limits.friction is not None:
         rows += [(FRICTION, limits.friction * across + sign * along) for sign in (-1.0, 1.0)]

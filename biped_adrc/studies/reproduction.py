@@ -19,6 +19,7 @@ from biped_adrc.files import write_text
 from biped_adrc.hybrid.storage import save
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
+from biped_adrc.studies.checks import Check
 from biped_adrc.studies.figures import push_window
 from biped_adrc.studies.findings import findings
 from biped_adrc.studies.laws import work_identity
@@ -28,6 +29,7 @@ from biped_adrc.studies.plan import BOTH, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.poincare import regression_of
 from biped_adrc.studies.pool import TaskProgress, run_tasks
+from biped_adrc.studies.push_map import Cell
 from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
 from biped_adrc.studies.versions import versions
@@ -61,15 +63,7 @@ def reproduce(
     for preset in plan.presets:
         laws = laws + results[f"model {preset}"]
         laws = laws + [work_identity(results[f"nominal {preset} {c}"]) for c in BOTH]
-    checks = (
-        verdicts.consistency_checks(plan, results)
-        + verdicts.push_checks(results)
-        + verdicts.map_checks(cells)
-        + verdicts.multiplier_checks(results)
-        + verdicts.recipe_checks(plan, results)
-        + verdicts.certificate_checks(plan, results)
-        + laws
-    )
+    checks = _checks(plan, results, cells) + laws
     simulated = time.perf_counter()
     summary = {
         "command": command,
@@ -102,6 +96,18 @@ def reproduce(
     summary["seconds_writing"] = time.perf_counter() - simulated
     write_text(out / "summary.json", json.dumps(clean(summary), indent=1) + "\n")
     return summary
+
+
+def _checks(plan: Plan, results: dict[str, Any], cells: list[Cell]) -> list[Check]:
+    """What the runs have to show, besides the laws each of them was held against."""
+    return (
+        verdicts.consistency_checks(plan, results)
+        + verdicts.push_checks(results)
+        + verdicts.map_checks(cells)
+        + verdicts.multiplier_checks(results)
+        + verdicts.recipe_checks(plan, results)
+        + verdicts.certificate_checks(plan, results)
+    )
 
 
 def probe(out: Path) -> None:

@@ -23,16 +23,6 @@ LAWS = {"NPD": ba.NPDController, "ADRC": ba.ADRCController}
 
 
 @pytest.fixture(scope="module")
-def bare():
-    return ba.Biped.load("rabbit", "identified-bare")
-
-
-@pytest.fixture(scope="module")
-def published(bare):
-    return ba.load_gait("published", bare)
-
-
-@pytest.fixture(scope="module")
 def recipe(bare):
     return ba.load_gait("recipe", bare)
 

@@ -28,16 +28,6 @@ def orbits_of(biped, constraint):
 
 
 @pytest.fixture(scope="module")
-def bare():
-    return ba.Biped.load("rabbit", "identified-bare")
-
-
-@pytest.fixture(scope="module")
-def published(bare):
-    return ba.load_gait("published", bare)
-
-
-@pytest.fixture(scope="module")
 def orbits(bare, published):
     return orbits_of(bare, published.constraint)
 

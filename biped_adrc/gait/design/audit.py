@@ -6,9 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.gait.design.request import GaitRequest, Limits, Objective
+from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit
+from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlanarTree
 from biped_adrc.types import Array
@@ -36,7 +37,7 @@ def audited(biped: Biped, gait: Gait, nodes: int = NODES) -> Audited:
     """The step of a gait. Raises GaitError when its zero dynamics have none."""
     zero = ZeroDynamics.of(biped, gait.constraint, nodes)
     o = zero.orbit(zero.sigma_minus * zero.delta)
-    along, out = _axes(gait.slope)
+    along, out = ground_axes(gait.slope)
     height = np.array([biped.swing_foot(q) @ out for q in o.q])
     length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
     reaction = o.ground_reaction
@@ -57,7 +58,7 @@ def objective_of(biped: Biped, objective: Objective, a: Audited) -> float:
 
 
 def missed_limits(
-    biped: Biped, gait: Gait, limits: Limits, a: Audited | None = None
+    biped: Biped, gait: Gait, limits: RobotLimits, a: Audited | None = None
 ) -> tuple[str, ...]:
     """What the periodic step of the gait misses; empty when it keeps all limits.
 
@@ -66,7 +67,7 @@ def missed_limits(
     """
     a = audited(biped, gait) if a is None else a
     o, c, left = a.orbit, gait.constraint, 1.0 - limits.reserve
-    along, out = _axes(gait.slope)
+    along, out = ground_axes(gait.slope)
     impact = biped.impact(gait.q_minus, gait.v_minus)
     P_T, P_N = float(along @ impact.impulse), float(out @ impact.impulse)
     s = (o.theta - c.theta_plus) / (c.theta_minus - c.theta_plus)
@@ -113,9 +114,3 @@ def missed_wishes(request: GaitRequest, a: Audited) -> tuple[str, ...]:
         for name, (asked, found) in reached.items()
         if asked is not None and not abs(found - asked) <= SPEED * asked
     )
-
-
-def _axes(slope: float) -> tuple[Array, Array]:
-    """Unit vectors along the ground, downhill for a positive slope, and out of it."""
-    along = np.array([np.cos(slope), -np.sin(slope)])
-    return along, np.array([np.sin(slope), np.cos(slope)])

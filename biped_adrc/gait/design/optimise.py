@@ -19,10 +19,11 @@ from biped_adrc.gait.curves import Bezier
 from biped_adrc.gait.design.audit import NODES, audited, missed_limits, missed_wishes, objective_of
 from biped_adrc.gait.design.ipopt import Progress, relaxed, solve
 from biped_adrc.gait.design.programme import Programme, transcribe
-from biped_adrc.gait.design.request import GaitRequest, Limits
-from biped_adrc.gait.design.start import cold_start, onto_ground
+from biped_adrc.gait.design.request import GaitRequest, RobotLimits
+from biped_adrc.gait.design.start import cold_start
 from biped_adrc.gait.design.step import Unknowns
 from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.through_state import onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
@@ -76,7 +77,7 @@ def optimise(biped: Biped, request: GaitRequest, progress: Progress | None = Non
 
 
 def _staged(
-    biped: Biped, request: GaitRequest, limits: Limits, progress: Progress | None
+    biped: Biped, request: GaitRequest, limits: RobotLimits, progress: Progress | None
 ) -> tuple[Unknowns, int]:
     """The unknowns and the iterations, by the stages of the request."""
     stages, iterations = request.stages(), 0
@@ -100,7 +101,7 @@ class _Solution(NamedTuple):
 def _solve(
     biped: Biped,
     request: GaitRequest,
-    limits: Limits,
+    limits: RobotLimits,
     direction: float,
     guess: dict[str, Any],
     progress: Progress | None,
@@ -129,7 +130,7 @@ def _solve(
 
 
 def _bounds(
-    programme: Programme, guess: dict[str, Any], request: GaitRequest, limits: Limits
+    programme: Programme, guess: dict[str, Any], request: GaitRequest, limits: RobotLimits
 ) -> tuple[Array, Array]:
     """Bounds of the unknowns: rates are positive, the peak is the limit unless it is made least."""
     low, high = {}, {}
@@ -150,10 +151,10 @@ def _bounds(
 
 
 # -- the exact gait --------------------------------------------------------------------------------
-def exact_gait(biped: Biped, request: GaitRequest, limits: Limits, x: Unknowns) -> Gait:
+def exact_gait(biped: Biped, request: GaitRequest, limits: RobotLimits, x: Unknowns) -> Gait:
     """The gait of q-, the slopes and the inner coefficients, by Pinocchio's impact and zero dynamics."""
     p, M, c = biped.p, request.degree, biped.phase
-    q = onto_ground(biped, x.q.ravel(), request.slope)
+    q = onto_section(biped, x.q.ravel(), request.slope)
     slope = x.slope.ravel()
     dq = np.append(slope, (1.0 - c[:p] @ slope) / c[p])
     impact = biped.impact(q, dq)

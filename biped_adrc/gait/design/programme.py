@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
-from biped_adrc.gait.design.request import GaitRequest, Limits, Objective
+from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.start import LONGEST
 from biped_adrc.gait.design.step import Step, Unknowns
 from biped_adrc.model.biped import Biped
@@ -57,7 +57,9 @@ class Programme:
     rows: tuple[Row, ...]
 
 
-def transcribe(biped: Biped, request: GaitRequest, limits: Limits, direction: float) -> Programme:
+def transcribe(
+    biped: Biped, request: GaitRequest, limits: RobotLimits, direction: float
+) -> Programme:
     """The programme; `direction` is the sign of Theta'."""
     step = Step(biped, request, limits, direction)
     rows = (*_equalities(step), *_limits(step))

@@ -25,7 +25,7 @@ class Objective(Enum):
     """max |u_i| [N m]."""
 
 
-class Limits(NamedTuple):
+class RobotLimits(NamedTuple):
     """StepLimits of one robot, nothing left open."""
 
     friction: float
@@ -68,7 +68,7 @@ class StepLimits:
     """Share of friction and torque, and of a quarter of a radian at the ends of ranges, kept back for what
     happens between the nodes."""
 
-    def of(self, biped: Biped) -> Limits:
+    def of(self, biped: Biped) -> RobotLimits:
         """With the record of the robot in place of None. Raises GaitError."""
         d = biped.description
         unknown = set(self.ranges) - set(d.joints)
@@ -77,7 +77,7 @@ class StepLimits:
                 f"ranges are given for {sorted(unknown)}, robot '{d.name}' has the joints {list(d.joints)}"
             )
         friction = d.friction_coefficient if self.friction is None else self.friction
-        return Limits(
+        return RobotLimits(
             friction,
             friction if self.impulse_friction is None else self.impulse_friction,
             d.peak_torque if self.torque is None else self.torque,

@@ -14,7 +14,9 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.design.request import GaitRequest, Limits
+from biped_adrc.gait.design.request import GaitRequest, RobotLimits
+from biped_adrc.gait.through_state import onto_section
+from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlanarTree
 from biped_adrc.types import Array
@@ -52,7 +54,7 @@ def apart(
     """Pre-impact configuration (n,) with the swing foot `step` [m] ahead on the ground and the hip between."""
     tree = PlanarTree.of(biped)
     near = inside(standing(tree), biped, ranges)
-    target = step * np.array([np.cos(slope), -np.sin(slope)])
+    target = step * ground_axes(slope)[0]
     bounds = np.full((2, biped.n), np.inf) * [[-1.0], [1.0]]
     for joint, ends in ranges.items():
         bounds[:, biped.description.joint_index(joint)] = ends
@@ -67,29 +69,12 @@ def apart(
     return found
 
 
-def onto_ground(biped: Biped, q: Array, slope: float = 0.0) -> Array:
-    """The configuration nearest to q in q_b whose swing foot is on the ground, q_N kept. Raises GaitError."""
-    q = np.array(q, dtype=float)
-    normal = np.array([math.sin(slope), math.cos(slope)])
-    for _ in range(30):
-        height = float(normal @ biped.swing_foot(q))
-        row = (normal @ biped.swing_foot_jacobian(q))[:-1]
-        if abs(height) < 1e-15 or not row @ row > 1e-12:
-            break
-        q[:-1] -= row * height / (row @ row)
-    if not abs(height) < 1e-12:
-        raise GaitError(
-            f"the swing foot stays {height:.3g} m off the ground: no configuration near this one reaches it"
-        )
-    return q
-
-
 def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array]:
     """q- on the ground and q'-. Raises GaitError for a state that is not just before an impact forwards."""
     n, c = biped.n, biped.phase
     if len(state) != 2 * n:
         raise GaitError(f"the state to pass through has {len(state)} numbers, expected {2 * n}")
-    q = onto_ground(biped, state[:n], slope)
+    q = onto_section(biped, state[:n], slope)
     moved = float(np.max(np.abs(q - state[:n])))
     if moved > MOVED:
         raise GaitError(
@@ -105,7 +90,9 @@ def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array
     return q, state[n:]
 
 
-def cold_start(biped: Biped, request: GaitRequest, limits: Limits) -> tuple[float, dict[str, Any]]:
+def cold_start(
+    biped: Biped, request: GaitRequest, limits: RobotLimits
+) -> tuple[float, dict[str, Any]]:
     """Sign of Theta' and a first guess of the unknowns, by name."""
     p, c, M = biped.p, biped.phase, request.degree
     if request.through is None:

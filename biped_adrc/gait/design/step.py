@@ -7,14 +7,15 @@ exact.
 
 from __future__ import annotations
 
-from math import comb
 from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
 
-from biped_adrc.gait.design.request import GaitRequest, Limits
+from biped_adrc.gait.curves import Bezier
+from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.zero_dynamics import gauss_nodes
+from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlanarTree
 from biped_adrc.types import Array
@@ -68,19 +69,9 @@ class Node(NamedTuple):
 
 def bernstein(degree: int, s: Array) -> tuple[Array, Array, Array]:
     """Values, first and second derivatives of the Bernstein polynomials, each (M + 1, K)."""
-
-    def basis(m: int) -> Array:
-        return np.array([comb(m, k) * s**k * (1.0 - s) ** (m - k) for k in range(m + 1)])
-
-    def shift(values: Array, m: int) -> Array:
-        zero = np.zeros((1, len(s)))
-        return m * (np.vstack((zero, values)) - np.vstack((values, zero)))
-
-    return (
-        basis(degree),
-        shift(basis(degree - 1), degree),
-        shift(shift(basis(degree - 2), degree - 1), degree),
-    )
+    basis = Bezier(np.eye(degree + 1))
+    values, first, second = (np.array(rows).T for rows in zip(*map(basis, s), strict=True))
+    return values, first, second
 
 
 def node_function(tree: PlanarTree, phase: Array, degree: int, direction: float) -> Any:
@@ -132,7 +123,7 @@ class Step:
     """What the rows are made of; scales are the weight, the leg, and the peak torque."""
 
     def __init__(
-        self, biped: Biped, request: GaitRequest, limits: Limits, direction: float
+        self, biped: Biped, request: GaitRequest, limits: RobotLimits, direction: float
     ) -> None:
         self.biped, self.request, self.limits = biped, request, limits
         self.tree, self.direction = PlanarTree.of(biped), direction
@@ -156,8 +147,7 @@ class Step:
         self.work, self.until = drive @ w, drive @ C.T
         c_b, c_N = biped.phase[: self.p], biped.phase[self.p]
         self.dq = ca.vertcat(x.slope, (1.0 - ca.dot(c_b, x.slope)) / c_N)
-        along = np.array([np.cos(request.slope), -np.sin(request.slope)])
-        out = np.array([np.sin(request.slope), np.cos(request.slope)])
+        along, out = ground_axes(request.slope)
         self.along, self.out = along[np.newaxis], out[np.newaxis]
         self.foot = ca.vertcat(*self.tree.point(ca, self.tree.foot, x.q))
         self.length = self.along @ self.foot

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from biped_adrc.analysis.certificate import ground_axes
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.errors import InputError
+from biped_adrc.ground import ground_axes
 from biped_adrc.viz.plots.lines import Window, broken, legend, line, shade
 from biped_adrc.viz.style import GREY, PALETTE, label
 
