@@ -13,7 +13,15 @@ import pytest
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import gait_names
 from biped_adrc.model.robots import robot_names
-from biped_adrc.studies.verification import frost_urdf, gaits, paper, passive, rabbit, three_link
+from biped_adrc.studies.verification import (
+    frost_urdf,
+    gaits,
+    hip,
+    paper,
+    passive,
+    rabbit,
+    three_link,
+)
 from biped_adrc.studies.verification.design import SPEEDS, design_rows
 from biped_adrc.studies.verification.groups import Group, Maker, group_named, groups
 from biped_adrc.studies.verification.row import COLUMNS, Measure, Row, at_most
@@ -33,6 +41,7 @@ PARTS: dict[str, Maker] = {
     "other coordinates": frost_urdf.sense_rows,
     "multipliers of the compass": partial(gaits.robot_rows, "compass"),
     "multipliers of the simplest walker": partial(gaits.robot_rows, "simplest"),
+    "force at the hip": partial(hip.hip_rows, "NPD"),
     "design identified": partial(design_rows, "identified", 0.7),
     "design tac2003": partial(design_rows, "tac2003", 1.1),
 }

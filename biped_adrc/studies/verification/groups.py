@@ -17,6 +17,7 @@ from biped_adrc.studies.verification.gaits import (
     robot_rows,
     work_rows,
 )
+from biped_adrc.studies.verification.hip import hip_rows, published_force_rows
 from biped_adrc.studies.verification.paper import fixed_point_rows, poles_row
 from biped_adrc.studies.verification.passive import (
     ball_rows,
@@ -80,6 +81,12 @@ DESIGN = """\
 Gaits of least squared torque from a cold start, with no stored gait as a guess. The time is that of the
 processor, with the two steps under NPD that certify the gait and the loading of the robot."""
 
+HIP = """\
+A gait of 0.50 m/s of the literature stopped at a constant force of 3 N backwards at the hip under any loop that
+only tracks, and a PI on the stride recovered it. The same for the gait of 0.50 m/s designed here: alone under
+NPD and ADRC, and with the PI. The whole study, with what the PI survives, is in [a force at the
+hip](hip_force.md)."""
+
 SENSES = """\
 The same robot in URDFs as others write them: D, Omega and the rates after impact at random states, taken to the
 coordinates of the registered one."""
@@ -119,6 +126,7 @@ def groups() -> tuple[Group, ...]:
         for speed in SPEEDS
     )
     example = (printed_rows, designed_rows, partial(designed_rows, 0.4))
+    pushed = tuple(partial(hip_rows, tracking) for tracking in ("NPD", "ADRC"))
     through = tuple(partial(through_rows, preset) for preset in ("identified", "tac2003"))
     return (
         Group("passive", "Systems without motors", PASSIVE, passive),
@@ -129,6 +137,7 @@ def groups() -> tuple[Group, ...]:
         Group("multipliers", "The multiplier in closed form", MULTIPLIERS, multipliers),
         Group("robots", "Two ways to every multiplier", ROBOT, robots),
         Group("design", "Gait design", DESIGN, (*designed, *through)),
+        Group("hip", "A force at the hip", HIP, (published_force_rows, *pushed)),
         Group("senses", "One robot in other coordinates", SENSES, (sense_rows,)),
     )
 
