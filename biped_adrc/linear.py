@@ -21,3 +21,8 @@ def solve(A: Array, B: Array, what: str) -> Array:
         raise SingularError(f"{what} is singular: pivot {info} of its LU factors is zero")
     solution: Array = X
     return solution
+
+
+def solve_positive(A: Array, B: Array, what: str) -> Array:
+    """`solve` for a symmetric positive definite A, which needs no pivots where code is generated for it."""
+    return solve(A, B, what)

@@ -22,7 +22,7 @@ from biped_adrc.control.tracking import (
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, virtual_constraint
 from biped_adrc.gait.reference import Reference
-from biped_adrc.observers.base import ErrorSystem, Estimate, Observer, ResetPolicy
+from biped_adrc.observers.base import ErrorSystem, Estimate, Feedback, Observer, ResetPolicy
 from biped_adrc.observers.chain import Chain, chain_estimate, chain_reset, chain_state, rows
 from biped_adrc.observers.gpi import GPIObserver, GPIParameters, gpi_flow
 from biped_adrc.observers.gpi_sampled import (
@@ -80,6 +80,11 @@ def adrc_predict(
     return gpi_predict(k.observer, rows(k.observer, s), m.terms.kappa @ u).ravel()
 
 
+def adrc_estimate(k: ADRCParameters[Chain], s: Array, m: Measurement) -> Estimate:
+    """What the observer says."""
+    return chain_estimate(k.observer, rows(k.observer, s))
+
+
 _GPI = (GPIObserver, SampledGPIObserver)
 
 
@@ -134,7 +139,13 @@ class ADRCController(Controller):
         kind = type(self.observer)
         if type(self.reference) is not VirtualConstraint or kind not in _GPI:
             return None
-        laws = ControllerLaws(self.parameters, adrc_output, adrc_initial_state, jump=adrc_jump)
+        laws = ControllerLaws(
+            self.parameters,
+            adrc_output,
+            adrc_initial_state,
+            jump=adrc_jump,
+            estimate=adrc_estimate,
+        )
         if kind is GPIObserver:
             return laws._replace(flow=adrc_flow)
         return laws._replace(correct=adrc_correct, predict=adrc_predict)
@@ -143,7 +154,10 @@ class ADRCController(Controller):
         return replace(self, observer=self.observer.sampled(period))
 
     def error_system(self) -> ErrorSystem | None:
-        return self.observer.error_system()
+        error = self.observer.error_system()
+        if error is None:
+            return None
+        return error._replace(feedback=Feedback(self.gains.K_p, self.gains.K_d, self.reference))
 
     def estimate(self, s: Array, m: Measurement) -> Estimate | None:
         return self.observer.estimate(s)

@@ -71,6 +71,8 @@ class ControllerLaws(NamedTuple):
     """correct(k, s, m) -> s at the tick."""
     predict: Callable[..., Array] | None = None
     """predict(k, s, m, u) -> s at the next tick."""
+    estimate: Callable[..., Estimate] | None = None
+    """estimate(k, s, m) -> what an observer inside says."""
 
 
 class Controller(ABC):

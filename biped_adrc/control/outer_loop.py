@@ -96,7 +96,10 @@ class OuterLoop(Controller):
         return replace(self, inner=self.inner.sampled(period))
 
     def error_system(self) -> ErrorSystem | None:
-        return self.inner.error_system()
+        error = self.inner.error_system()
+        if error is None or error.feedback is None:
+            return error
+        return error._replace(feedback=error.feedback._replace(reference=self))
 
     def estimate(self, s: Array, m: Measurement) -> Estimate | None:
         return self.inner.estimate(self.parts(s)[0], m)

@@ -34,7 +34,7 @@ class TrackingParameters(NamedTuple):
 
     K_p: Array
     K_d: Array
-    loop: float
+    loop: int
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class Gains:
 
     def parameters(self, solve_theta: bool) -> TrackingParameters:
         """What the law `tracking_torque` needs."""
-        return TrackingParameters(*self._rows, 1.0 if solve_theta else 0.0)
+        return TrackingParameters(*self._rows, int(solve_theta))
 
 
 TABLE_II = Gains(5000.0, 50.0)
@@ -71,7 +71,7 @@ def tracking_torque(
 ) -> Array:
     """u (p,) [N m] of (20) or (28), whichever x is. Raises SingularError as `solved_acceleration`."""
     f = feedback(k, r, x.position, x.velocity)
-    a = solved_acceleration(r, terms, f) if k.loop > 0.0 else printed_acceleration(r, f)
+    a = solved_acceleration(r, terms, f) if k.loop > 0 else printed_acceleration(r, f)
     return terms.kappa_inverse @ (a - x.disturbance)
 
 

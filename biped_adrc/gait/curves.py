@@ -15,6 +15,7 @@ from math import comb
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from biped_adrc.errors import GaitError
 from biped_adrc.types import Array
@@ -24,7 +25,7 @@ class CurveParameters(NamedTuple):
     """Power coefficients of h, h', h'' stacked, (3 p, M + 1), and the exponents (M + 1,)."""
 
     stacked: Array
-    powers: Array
+    powers: NDArray[np.int64]
 
 
 def curve(c: CurveParameters, s: float) -> tuple[Array, Array, Array]:
@@ -64,7 +65,7 @@ class Curve(ABC):
     def parameters(self) -> CurveParameters:
         """What the law `curve` needs."""
         a = self.power_coefficients
-        k = np.arange(a.shape[1], dtype=float)
+        k = np.arange(a.shape[1])
         first, second = np.zeros_like(a), np.zeros_like(a)
         first[:, :-1] = a[:, 1:] * k[1:]
         second[:, :-2] = a[:, 2:] * k[2:] * (k[2:] - 1.0)

@@ -199,11 +199,12 @@ class Biped:
         """Joint friction (n,) [N m]: -viscous v - static tanh(v / STICTION_SPEED); zero if off."""
         if not self.friction:
             return np.zeros(self.n)
-        viscous, static = self._friction
+        viscous, static = self.friction_coefficients
         return -viscous * v - static * np.tanh(v / STICTION_SPEED)
 
     @cached_property
-    def _friction(self) -> tuple[Array, Array]:
+    def friction_coefficients(self) -> tuple[Array, Array]:
+        """Viscous [N m s/rad] and static [N m], each (n,), as in the record."""
         d = self.description
         viscous = np.array([d.viscous.get(name, 0.0) for name in d.joints])
         return viscous, np.array([d.static.get(name, 0.0) for name in d.joints])

@@ -64,7 +64,7 @@ class PlanarTree:
         fitted = np.linalg.lstsq(turns, where[..., 0] + 1j * where[..., 1], rcond=None)[0]
         rotor = np.zeros(n)
         rotor[: biped.p] = biped.armature
-        d = np.asarray(np.where(np.abs(fitted) < EXACT, 0.0, fitted).T, dtype=np.complex128)
+        d = np.asarray((_clean(fitted.real) + 1j * _clean(fitted.imag)).T, dtype=np.complex128)
         gravity = biped.description.gravity
         tree = cls(A, mass, inertia, rotor, d[:n], d[n], d[n + 1], gravity)
         return tree.check(biped)
@@ -152,3 +152,8 @@ class PlanarTree:
         centre_x = xp.dot(d.real, cos * r2) - xp.dot(d.imag, sin * r2)
         centre_z = xp.dot(d.imag, cos * r2) + xp.dot(d.real, sin * r2)
         return xp.dot(j_x, acc) - centre_x, xp.dot(j_z, acc) - centre_z
+
+
+def _clean(x: Array) -> Array:
+    """Round-off of the fit taken off."""
+    return np.where(np.abs(x) < EXACT, 0.0, x)

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.linear import solve
+from biped_adrc.linear import solve_positive
 from biped_adrc.types import Array
 
 
@@ -42,7 +42,7 @@ class Reduction(NamedTuple):
 def reduce(D: Array, Omega: Array, p: int) -> Reduction:
     """(15) and (14) with xi~ = 0, for the first p coordinates actuated; p = 0 is a passive robot."""
     if p == 0:
-        a_N = -solve(D, Omega, "D_s")
+        a_N = -solve_positive(D, Omega, "D_s")
         none = np.zeros((0, 0))
         return Reduction(D, Omega, none, np.zeros(0), none, np.zeros((D.shape[0], 0)), a_N)
     D12 = D[:p, p:]
@@ -50,10 +50,10 @@ def reduce(D: Array, Omega: Array, p: int) -> Reduction:
         A_N = D[p:, :p] / -D[p, p]
         a_N = Omega[p:] / -D[p, p]
     else:
-        A_N = -solve(D[p:, p:], D[p:, :p], "D22")
-        a_N = -solve(D[p:, p:], Omega[p:], "D22")
+        A_N = -solve_positive(D[p:, p:], D[p:, :p], "D22")
+        a_N = -solve_positive(D[p:, p:], Omega[p:], "D22")
     kappa_inverse = D[:p, :p] + D12 @ A_N
-    kappa = solve(kappa_inverse, np.eye(p), "D11 - D12 D22^-1 D21")
+    kappa = solve_positive(kappa_inverse, np.eye(p), "D11 - D12 D22^-1 D21")
     xi = kappa @ -(Omega[:p] + D12 @ a_N)
     return Reduction(D, Omega, kappa, xi, kappa_inverse, A_N, a_N)
 

@@ -1,0 +1,333 @@
+"""The equations of a walker on symbols, one straight-line function each, from the laws' own lines.
+
+    flow    (t, step, t_start, x, zeta) -> x'            (10); between ticks the torque is held
+    tick    (t, step, t_start, x, zeta) -> x             the controller's step in sampled time
+    strike  (t, step, x) -> x+                           (7), (8), relabelling, and the controller's jump
+    watch   (q) -> clearance, x of the swing foot, height of the hip
+    terms   (q, v) -> D, Omega, kappa, xi, ... of the nominal model, (11)-(15)
+    accelerate (q, v, force) -> q'',  ground (q, v, a) -> F
+
+flow, tick and strike add the least pivot of the matrices inverted by the controller.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from biped_adrc.control.base import ControllerLaws, Measurement
+from biped_adrc.engine import mechanics
+from biped_adrc.engine.called import Call, call, result_size
+from biped_adrc.engine.mechanics import Structure
+from biped_adrc.engine.plant import PlantArrays
+from biped_adrc.engine.symbols import (
+    Tracer,
+    Untraceable,
+    Vector,
+    column,
+    floats,
+    maximum,
+    minimum,
+    solve_positive,
+    tanh,
+)
+from biped_adrc.model.biped import STICTION_SPEED
+from biped_adrc.observers.base import Estimate
+from biped_adrc.model.reduction import Reduction, reduce
+from biped_adrc.split import SplitLaws
+from biped_adrc.types import Array
+
+
+class Numbers(NamedTuple):
+    """All that is given at run time, in the order of the vector K."""
+
+    plant: PlantArrays
+    model: PlantArrays | None
+    """Of the controller, None where it is the plant."""
+    k: Any
+    """Parameters of the controller's laws."""
+    torque_limit: float
+    """[N m], infinite without."""
+    tan_slope: float
+    friction: tuple[Array, Array] | tuple[()]
+    """Viscous [N m s] and static [N m] of the coordinates, empty without."""
+    split: Any = ()
+    """Parameters of the split's laws, empty without."""
+
+
+class Make(NamedTuple):
+    """What the equations are made of, besides numbers."""
+
+    robot: Structure
+    laws: ControllerLaws
+    size: int
+    """Of the controller's state."""
+    sampled: bool
+    split: SplitLaws | None = None
+    """Coordinates of the exponential method."""
+    called: dict[str, str] = {}  # noqa: RUF012
+    """Laws that are called because they branch on numbers, and the names of their functions."""
+
+
+class Function(NamedTuple):
+    """`void f(double* K, double* inp, double* out)` as CasADi's columns, and the laws that it calls."""
+
+    K: Any
+    inp: Any
+    out: Any
+    calls: tuple[Call, ...] = ()
+
+
+class At(NamedTuple):
+    """What a function is given at one instant."""
+
+    inp: Vector
+    trace: Tracer
+    m: Measurement
+    s: Any
+    u: Any
+    zeta: Any
+
+
+def count(example: Any) -> int:
+    """Length of the vector of numbers: one more than there are, so that it is never empty."""
+    return 1 + sum(1 for _ in floats(example))
+
+
+def masked(make: Make, numbers: Numbers) -> Numbers:
+    """The numbers without those that are zero by make."""
+    model = numbers.model
+    return numbers._replace(
+        plant=mechanics.without_zeros(make.robot, numbers.plant),
+        model=None if model is None else mechanics.without_zeros(make.robot, model),
+    )
+
+
+@dataclass(frozen=True)
+class Equations:
+    """The functions of one make; K is CasADi's column of the symbols in `numbers`."""
+
+    make: Make
+    K: Any
+    numbers: Numbers
+
+    @classmethod
+    def of(cls, make: Make, example: Numbers) -> Equations:
+        """With symbols for the floats of an example."""
+        K = Vector("K", count(example))
+        return cls(make, K.symbol, masked(make, K.like(example)))
+
+    @property
+    def nx(self) -> int:
+        """Numbers in a state."""
+        robot = self.make.robot
+        return 2 * robot.n + self.make.size + (robot.p if self.make.sampled else 0)
+
+    def functions(self) -> dict[str, Callable[[], Function]]:
+        """By name, those that this make has."""
+        found = {"flow": self.flow, "strike": self.strike, "watch": self.watch}
+        if self.make.sampled:
+            found |= {"tick": self.tick}
+        if self.make.split is not None:
+            found |= {"to": self.to, "back": self.back, "remainder": self.remainder}
+        return found
+
+    # -- parts -------------------------------------------------------------------------------------
+    def terms(self, trace: Tracer, q: Any, v: Any) -> Reduction:
+        """The nominal model's."""
+        robot, numbers = self.make.robot, self.numbers
+        K = numbers.plant if numbers.model is None else numbers.model
+        terms: Reduction = trace(reduce)(*mechanics.inertia_and_bias(robot, K, q, v), robot.p)
+        return terms
+
+    def acceleration(self, terms: Reduction | None, q: Any, v: Any, force: Any) -> Any:
+        """q'' of the plant, with the nominal model's D and Omega where they are its own."""
+        robot, numbers = self.make.robot, self.numbers
+        if numbers.model is None and terms is not None:
+            D, Omega = terms.D, terms.Omega
+        else:
+            D, Omega = mechanics.inertia_and_bias(robot, numbers.plant, q, v)
+        if numbers.friction:
+            viscous, static = numbers.friction
+            force = force - viscous * v - static * tanh(v / STICTION_SPEED)
+        return solve_positive(D, force - Omega, "D_s")
+
+    def at(self, back: Callable[[Any], Any] = lambda x: x) -> At:
+        """The symbols of an instant; `back` makes x of what is given in its place."""
+        robot, size = self.make.robot, self.make.size
+        inp = Vector("inp", 3 + self.nx + robot.n)
+        t, step, start = inp.take(), inp.take(), inp.take()
+        x, n = back(inp.take(self.nx)), robot.n
+        q, v, s = x[:n], x[n : 2 * n], x[2 * n : 2 * n + size]
+        u = x[2 * n + size :] if self.make.sampled else None
+        trace = Tracer()
+        m = Measurement(t, step, t - start, q, v, self.terms(trace, q, v))
+        return At(inp, trace, m, s, u, inp.take(n))
+
+    def saturated(self, u: Any) -> Any:
+        """u within the torque limit."""
+        limit = self.numbers.torque_limit
+        return np.array([minimum(maximum(x, -limit), limit) for x in u], dtype=object)
+
+    def force(self, u: Any, zeta: Any) -> Any:
+        """B_s u + zeta."""
+        force = zeta.copy()
+        force[: self.make.robot.p] = force[: self.make.robot.p] + u
+        return force
+
+    def law(self, at: At, name: str, s: Any, *rest: Any) -> Any:
+        """What a law of the controller says at an instant, for a state s."""
+        return self.said(at.trace, name, self.numbers.k, s, at.m, *rest)
+
+    def said(self, trace: Tracer, name: str, *arguments: Any) -> Any:
+        """The law on symbols, or a call of it. Raises Untraceable, with the law's name as its second argument."""
+        make = self.make
+        if name in make.called:
+            size = result_size(name, make.robot.p, make.size)
+            made, result = call(make.called[name], arguments, size)
+            trace.calls.append(made)
+            return Estimate(*result.reshape(3, -1)) if name == "estimate" else result
+        try:
+            return trace(getattr(make.laws, name))(*arguments)
+        except Exception as error:  # whatever NumPy says of an object that is no float
+            raise Untraceable(f"{type(error).__name__}: {error}", name) from error
+
+    # -- functions ---------------------------------------------------------------------------------
+    def flow(self) -> Function:
+        """x' between events."""
+        at = self.at()
+        m, make = at.m, self.make
+        if make.sampled:
+            a = self.acceleration(m.terms, m.q, m.v, self.force(at.u, at.zeta))
+            still = np.full(make.size + make.robot.p, 0.0, dtype=object)
+            return self.given(at, m.v, a, still)
+        u = self.saturated(self.law(at, "output", at.s))
+        a = self.acceleration(m.terms, m.q, m.v, self.force(u, at.zeta))
+        ds = self.law(at, "flow", at.s, u) if make.size else at.s
+        return self.given(at, m.v, a, ds)
+
+    def tick(self) -> Function:
+        """x after the controller has acted; without a discrete law its state stays."""
+        at, laws = self.at(), self.make.laws
+        s = self.law(at, "correct", at.s) if laws.correct is not None else at.s
+        u = self.saturated(self.law(at, "output", s))
+        s = self.law(at, "predict", s, u) if laws.predict is not None else s
+        return self.given(at, at.m.q, at.m.v, s, u)
+
+    def strike(self) -> Function:
+        """x after impact, relabelling and the controller's jump."""
+        robot, make = self.make.robot, self.make
+        inp = Vector("inp", 2 + self.nx)
+        t, step = inp.take(), inp.take()
+        q, v, s = inp.take(robot.n), inp.take(robot.n), inp.take(make.size)
+        u = inp.take(robot.p if make.sampled else 0)
+        q, v = mechanics.impact(robot, self.numbers.plant, q, v)
+        trace = Tracer()
+        if make.laws.jump is not None:
+            after = Measurement(t, step, 0.0 * t, q, v, self.terms(trace, q, v))
+            s = self.said(trace, "jump", self.numbers.k, s, after, robot.swap)
+        out = column(q, v, s, u, trace.solver.least)
+        return Function(self.K, inp.symbol, out, tuple(trace.calls))
+
+    def _coordinates(self, y: Any) -> tuple[Any, Any]:
+        """w and E of y."""
+        split, p = self.make.split, self.make.robot.p
+        assert split is not None
+        stiff = len(split.A) * p
+        return y[: len(y) - stiff], y[len(y) - stiff :].reshape(-1, p)
+
+    def to(self) -> Function:
+        """y = (w, E) of x."""
+        split, inp, trace = self.make.split, Vector("inp", self.nx), Tracer()
+        assert split is not None
+        y = trace(split.to)(self.numbers.split, inp.take(self.nx))
+        return Function(self.K, inp.symbol, column(*y))
+
+    def back(self) -> Function:
+        """x of y = (w, E)."""
+        split, inp, trace = self.make.split, Vector("inp", self.nx), Tracer()
+        assert split is not None
+        x = trace(split.back)(self.numbers.split, *self._coordinates(inp.take(self.nx)))
+        return Function(self.K, inp.symbol, column(x))
+
+    def remainder(self) -> Function:
+        """N_w, and N_E in its forced rows."""
+        split, k, given = self.make.split, self.numbers.split, []
+        assert split is not None
+
+        def back(y: Any) -> Any:
+            given.append(y)
+            return Tracer()(split.back)(k, *self._coordinates(y))
+
+        at = self.at(back)
+        m, observed = at.m, k.order * k.p
+        u = self.saturated(self.law(at, "output", at.s))
+        a = self.acceleration(m.terms, m.q, m.v, self.force(u, at.zeta))
+        ds = at.s[observed:]
+        if len(ds):
+            ds = self.law(at, "flow", at.s, u)[observed:]
+        w, E = self._coordinates(given[0])
+        N = at.trace(split.remainder)(k, w, E, a, m.terms.kappa @ u, ds)
+        return self.given(at, *N)
+
+    def watch(self) -> Function:
+        """What the guards look at."""
+        robot, plant = self.make.robot, self.numbers.plant
+        inp = Vector("inp", robot.n)
+        t = mechanics.turned(robot, inp.take(robot.n))
+        x, z = mechanics.point(t, plant.foot_re, plant.foot_im)
+        _, hip = mechanics.point(t, plant.hip_re, plant.hip_im)
+        return Function(self.K, inp.symbol, column(z + self.numbers.tan_slope * x, x, hip))
+
+    def given(self, at: At, *parts: Any) -> Function:
+        """The parts, and the least pivot."""
+        out = column(*parts, at.trace.solver.least)
+        return Function(self.K, at.inp.symbol, out, tuple(at.trace.calls))
+
+
+@dataclass(frozen=True)
+class PlantEquations:
+    """The functions of a robot by itself, for controllers in plain Python and for what is looked up afterwards."""
+
+    robot: Structure
+    K: Any
+    numbers: PlantArrays
+
+    @classmethod
+    def of(cls, robot: Structure, example: PlantArrays) -> PlantEquations:
+        """With symbols for the floats of an example."""
+        K = Vector("K", count(example))
+        return cls(robot, K.symbol, mechanics.without_zeros(robot, K.like(example)))
+
+    def functions(self) -> dict[str, Callable[[], Function]]:
+        """By name."""
+        return {"terms": self.terms, "accelerate": self.accelerate, "ground": self.ground}
+
+    def terms(self) -> Function:
+        """Every number of a `Reduction`."""
+        K = self.numbers
+        n, p = self.robot.n, self.robot.p
+        inp = Vector("inp", 2 * n)
+        q, v = inp.take(n), inp.take(n)
+        D, Omega = mechanics.inertia_and_bias(self.robot, K, q, v)
+        return Function(self.K, inp.symbol, column(*Tracer()(reduce)(D, Omega, p)))
+
+    def accelerate(self) -> Function:
+        """q''."""
+        K = self.numbers
+        n = self.robot.n
+        inp = Vector("inp", 3 * n)
+        q, v, force = inp.take(n), inp.take(n), inp.take(n)
+        D, Omega = mechanics.inertia_and_bias(self.robot, K, q, v)
+        return Function(self.K, inp.symbol, column(solve_positive(D, force - Omega, "D_s")))
+
+    def ground(self) -> Function:
+        """(F_T, F_N) and the end of the swing foot."""
+        K = self.numbers
+        n = self.robot.n
+        inp = Vector("inp", 3 * n)
+        q, v, a = inp.take(n), inp.take(n), inp.take(n)
+        return Function(self.K, inp.symbol, column(mechanics.ground_reaction(self.robot, K, q, v, a)))

@@ -1,0 +1,80 @@
+"""What generated code depends on, as one hash: the laws' own code, the make of robot and parameters, and versions."""
+
+from __future__ import annotations
+
+import hashlib
+import platform
+import types
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.engine.symbols import names_of
+
+
+def hash_of(*parts: Any) -> str:
+    """A name for files."""
+    return hashlib.sha256("\0".join(map(str, parts)).encode()).hexdigest()[:32]
+
+
+def law_text(law: Any, seen: set[Any] | None = None) -> str:
+    """The code of a law and of all functions that it reaches, and the constants that they use."""
+    seen = set() if seen is None else seen
+    if not isinstance(law, types.FunctionType):
+        return constant_text(law)
+    if law in seen:
+        return law.__qualname__
+    seen.add(law)
+    used = {name: law.__globals__[name] for name in sorted(names_of(law.__code__)) if name in law.__globals__}
+    closed = [cell.cell_contents for cell in law.__closure__ or ()]
+    parts = [law.__qualname__, _code_text(law.__code__), constant_text(law.__defaults__)]
+    parts += [f"{name}={law_text(value, seen)}" for name, value in used.items()]
+    return "\n".join([*parts, *(law_text(value, seen) for value in closed)])
+
+
+def _code_text(code: types.CodeType) -> str:
+    inner = [_code_text(c) if isinstance(c, types.CodeType) else repr(c) for c in code.co_consts]
+    return f"{code.co_code.hex()} {code.co_names} {code.co_varnames} {inner}"
+
+
+def constant_text(value: Any) -> str:
+    """A constant by value, a class or module by name."""
+    if isinstance(value, np.ndarray):
+        return f"{value.dtype}{value.shape}{value.tobytes().hex()}"
+    if isinstance(value, types.ModuleType):
+        return value.__name__
+    if isinstance(value, type):
+        return f"{value.__module__}.{value.__qualname__}{getattr(value, '_fields', '')}"
+    return repr(value)
+
+
+def skeleton(tree: Any) -> str:
+    """Parameters without their floats: names, shapes, and the ints, which decide."""
+    if isinstance(tree, tuple):
+        names = getattr(tree, "_fields", range(len(tree)))
+        inside = ", ".join(f"{name}={skeleton(x)}" for name, x in zip(names, tree, strict=True))
+        return f"{type(tree).__name__}({inside})"
+    if isinstance(tree, np.ndarray):
+        return f"float{tree.shape}" if tree.dtype.kind == "f" else constant_text(tree)
+    return "float" if isinstance(tree, float | np.floating) else repr(tree)
+
+
+@lru_cache(maxsize=1)
+def versions_text() -> str:
+    """The versions of what makes code, this package's own generator, and the processor."""
+    import casadi
+    import llvmlite
+
+    import biped_adrc
+    from biped_adrc.engine.machine import processor
+
+    root = Path(biped_adrc.__file__).parent
+    own = [*sorted((root / "engine").glob("*.py")), root / "model" / "reduction.py", root / "linear.py"]
+    return "\n".join(
+        [
+            *(platform.python_version(), np.__version__, casadi.__version__, llvmlite.__version__),
+            *(processor(), *(path.read_text(encoding="utf-8") for path in own)),
+        ]
+    )

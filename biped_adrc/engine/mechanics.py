@@ -1,0 +1,116 @@
+"""The planar robot's equations for symbols, in absolute angles, with the numbers of `PlantArrays`.
+
+With a = A q, c = cos a, s = sin a, C_ij = cos(a_j - a_i) = c_i c_j + s_i s_j and S_ij = sin(a_j - a_i):
+
+    D = Re W o C - Im W o S + diag J,   Omega = -(Re W o S + Im W o C) a'^2 + g Re(w exp(i a))
+
+taken to the coordinates by A. In double support q_e = (q_s, p_e), and with J_m the row of m p_com
+
+    D_e = (D_s, J_m'; J_m, m 1),   E_2 = (J_2, 1)                    (2), (4)
+
+and the plastic impact (7) is solved by F_2 = -(E_2 D_e^-1 E_2')^-1 E_2 q_e-'.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from biped_adrc.engine.plant import PlantArrays
+from biped_adrc.engine.symbols import cos, sin, solve_positive
+from biped_adrc.types import Array
+
+
+class Structure(NamedTuple):
+    """What is no number of a robot but its make: links, signs, and which terms there are."""
+
+    n: int
+    p: int
+    A: NDArray[np.int_]
+    """a = A q (n, n)."""
+    R: NDArray[np.int_]
+    """Relabelling at impact (n, n)."""
+    offset: Array
+    """Relabelling at impact (n,) [rad]."""
+    swap: NDArray[np.int_]
+    """Relabelling of the actuated joints (p,)."""
+    present: tuple[Any, ...]
+    """Which of the numbers of `PlantArrays` are not zero by make, arrays of bool."""
+
+
+def without_zeros(robot: Structure, K: PlantArrays) -> PlantArrays:
+    """The numbers with a plain 0 for those that are zero by make, whose terms then vanish."""
+    kept = (np.where(mask, x, 0.0) if mask.ndim else x for x, mask in zip(K, robot.present, strict=True))
+    return PlantArrays(*kept)
+
+
+class Turned(NamedTuple):
+    """Cosines and sines of the absolute angles, (n,)."""
+
+    c: Any
+    s: Any
+
+
+def turned(robot: Structure, q: Any) -> Turned:
+    """At the angles q (n,)."""
+    a = robot.A @ q
+    return Turned(cos(a), sin(a))
+
+
+def inertia_and_bias(robot: Structure, K: PlantArrays, q: Any, v: Any) -> tuple[Any, Any]:
+    """D_s (n, n) and Omega (n,)."""
+    t, A, rate2 = turned(robot, q), robot.A, (robot.A @ v) ** 2
+    off = 1.0 - np.eye(robot.n)
+    C = (np.outer(t.c, t.c) + np.outer(t.s, t.s)) * off
+    S = (np.outer(t.c, t.s) - np.outer(t.s, t.c)) * off
+    D = K.W_re * C - K.W_im * S
+    for i in range(robot.n):
+        D[i, i] = K.inertia[i]
+    spin = K.W_re * S + K.W_im * C
+    Omega = K.gravity * (K.w_re * t.c - K.w_im * t.s) - spin @ rate2
+    D_s = A.T @ D @ A
+    for i in range(robot.n):
+        D_s[i, i] = D_s[i, i] + K.rotor[i]
+    for i in range(robot.n):
+        for j in range(i):
+            D_s[i, j] = D_s[j, i]
+    return D_s, A.T @ Omega
+
+
+def point(t: Turned, re: Any, im: Any) -> tuple[Any, Any]:
+    """(x, z) [m] of a point, from its vectors."""
+    return re @ t.c - im @ t.s, im @ t.c + re @ t.s
+
+
+def jacobian(robot: Structure, t: Turned, re: Any, im: Any) -> Any:
+    """d(x, z)/dq (2, n)."""
+    rows = [-(re * t.s) - im * t.c, re * t.c - im * t.s]
+    return np.array([robot.A.T @ row for row in rows], dtype=object)
+
+
+def ground_reaction(robot: Structure, K: PlantArrays, q: Any, v: Any, a: Any) -> Any:
+    """(F_T, F_N) [N] of the ground on the stance foot: m (p_com'' - g)."""
+    t, rate2 = turned(robot, q), (robot.A @ v) ** 2
+    J = jacobian(robot, t, K.w_re, K.w_im)
+    x, z = point(Turned(t.c * rate2, t.s * rate2), K.w_re, K.w_im)
+    F_x, F_z = J @ a
+    return np.array([F_x - x, F_z - z + K.mass * K.gravity], dtype=object)
+
+
+def impact(robot: Structure, K: PlantArrays, q: Any, v: Any) -> tuple[Any, Any]:
+    """(q, q')+ of (8), relabelled."""
+    n = robot.n
+    t = turned(robot, q)
+    D, _ = inertia_and_bias(robot, K, q, v)
+    D_e, E = np.full((n + 2, n + 2), 0.0, dtype=object), np.full((2, n + 2), 0.0, dtype=object)
+    D_e[:n, :n], D_e[n:, :n] = D, jacobian(robot, t, K.w_re, K.w_im)
+    D_e[:n, n:] = D_e[n:, :n].T
+    D_e[n, n] = D_e[n + 1, n + 1] = K.mass
+    E[:, :n] = jacobian(robot, t, K.foot_re, K.foot_im)
+    E[0, n] = E[1, n + 1] = 1.0
+    X = solve_positive(D_e, E.T, "D_e")
+    F = solve_positive(E @ X, -(E[:, :n] @ v), "E_2 D_e^-1 E_2'")
+    v_plus = v + (X @ F)[:n]
+    return robot.R @ q + robot.offset, robot.R @ v_plus

@@ -1,0 +1,142 @@
+"""A walker as machine code: addresses of its functions, and the vector K of its numbers.
+
+One compilation serves every robot, gain and gait of the same make; a program is made in microseconds where its
+functions are in memory, in milliseconds where they are on disk.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.control.base import Controller, ControllerLaws
+from biped_adrc.engine.called import link
+from biped_adrc.engine.equations import Equations, Make, Numbers
+from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
+from biped_adrc.engine.ir import module_text
+from biped_adrc.engine.machine import Machine, Text, machine
+from biped_adrc.engine.robot import Robot, robot_of
+from biped_adrc.engine.symbols import Untraceable, floats
+from biped_adrc.errors import InputError
+from biped_adrc.split import SplitLaws
+from biped_adrc.types import Array
+from biped_adrc.walker import Walker
+
+
+class NotCompiled(InputError):
+    """A part of the walker has no laws to be compiled from; the text says which, and what is used instead."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """Functions by name, and the numbers they are called with."""
+
+    make: Make
+    machine: Machine
+    K: Array
+
+    @property
+    def nx(self) -> int:
+        """Numbers in a state."""
+        robot = self.make.robot
+        return 2 * robot.n + self.make.size + (robot.p if self.make.sampled else 0)
+
+    @classmethod
+    def of(cls, walker: Walker, size: int, split: SplitLaws | None = None) -> Program:
+        """The program of a walker whose controller has `size` states, with coordinates to split it in.
+
+        Raises NotCompiled, or ModelError for a robot that is no planar tree.
+        """
+        plant, laws = robot_of(walker.plant), laws_of(walker.law)
+        model = None if walker.model is None else robot_of(walker.model)
+        make = Make(_common(plant, model), laws._replace(parameters=None), size, walker.sampled, split)
+        numbers = _numbers(walker, plant, model, laws, split)
+        K = np.array([*floats(numbers), 0.0])
+        return cls(make, _machine(make, numbers), K)
+
+    def address(self, name: str) -> int:
+        """Where a function is, 0 for one that this walker has not."""
+        return self.machine.addresses.get(name, 0)
+
+
+def laws_of(controller: Controller) -> ControllerLaws:
+    """The laws of a controller. Raises NotCompiled when it is written as methods alone."""
+    laws = controller.laws
+    if laws is None:
+        raise NotCompiled(
+            f"controller {type(controller).__name__} has no laws of arrays; it runs in Python on the "
+            "compiled plant"
+        )
+    return laws
+
+
+def _common(plant: Robot, model: Robot | None) -> Any:
+    """The plant's make, with every term that it or the model has."""
+    if model is None:
+        return plant.structure
+    present = tuple(a | b for a, b in zip(plant.structure.present, model.structure.present, strict=True))
+    return plant.structure._replace(present=present)
+
+
+def _numbers(
+    walker: Walker,
+    plant: Robot,
+    model: Robot | None,
+    laws: ControllerLaws,
+    split: SplitLaws | None,
+) -> Numbers:
+    biped = walker.plant
+    limit = math.inf if walker.torque_limit is None else float(walker.torque_limit)
+    return Numbers(
+        plant.arrays,
+        None if model is None else model.arrays,
+        laws.parameters,
+        limit,
+        math.tan(walker.slope),
+        biped.friction_coefficients if biped.friction else (),
+        () if split is None else split.parameters,
+    )
+
+
+_MACHINES: dict[str, Machine] = {}
+
+
+def _machine(make: Make, numbers: Numbers) -> Machine:
+    split = () if make.split is None else make.split[3:]
+    laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split))
+    key = hash_of(
+        "walker",
+        skeleton(make.robot),
+        laws,
+        make.size,
+        make.sampled,
+        len(split) and (make.split.A.shape, make.split.rows),
+        skeleton(numbers),
+        versions_text(),
+    )
+    if key not in _MACHINES:
+        names = list(Equations.of(make, numbers).functions())
+
+        def linked(law: str) -> str:
+            of_walker = make.laws._replace(parameters=numbers.k)
+            return link(of_walker, law, make.robot.n, make.robot.p, make.size)
+
+        _MACHINES[key] = machine(key, names, lambda: traced(make, numbers, linked), linked)
+    return _MACHINES[key]
+
+
+def traced(make: Make, numbers: Numbers, link: Callable[[str], str]) -> Text:
+    """Every function run on symbols; laws that branch on numbers are linked and called."""
+    while True:
+        functions = Equations.of(make, numbers).functions()
+        try:
+            text = module_text({name: function() for name, function in functions.items()})
+            return Text(text, tuple(make.called))
+        except Untraceable as error:
+            if error.law in make.called or not error.law:
+                raise
+            make = make._replace(called={**make.called, error.law: link(error.law)})

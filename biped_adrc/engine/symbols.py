@@ -1,0 +1,314 @@
+"""Laws on symbols: a law is run once on CasADi's scalars in NumPy's object arrays, and what it did is an expression.
+
+A law sees copies of `np`, `math` and `solve` that make no float arrays and decide nothing by the numbers. Numbers of
+type int decide, and are part of the expression's structure; floats are symbols, to be given at run time. A law
+that branches on a symbol raises `Untraceable`.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+import types
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from biped_adrc import linear
+from biped_adrc.errors import InputError
+
+
+class Untraceable(InputError):
+    """The law looks at a number to decide what to do, or does what has no symbol."""
+
+    def __init__(self, reason: str, law: str = ""):
+        super().__init__(reason)
+        self.law = law
+
+
+class Scalar:
+    """One number of an expression; arithmetic gives another."""
+
+    __slots__ = ("e",)
+
+    def __init__(self, e: Any):
+        self.e = e
+
+    def __bool__(self) -> bool:
+        raise Untraceable("the law branches on the value of a number")
+
+    def __float__(self) -> float:
+        raise Untraceable("the law turns a number into a float of Python's or of an array's")
+
+    def __pow__(self, other: Any) -> Any:
+        if isinstance(other, np.ndarray):
+            return NotImplemented
+        if isinstance(other, int | float | np.number) and float(other).is_integer():
+            return Scalar(self.e ** int(other))
+        return Scalar(self.e ** expression(other))
+
+    def __abs__(self) -> Scalar:
+        return Scalar(ca.fabs(self.e))
+
+    def __neg__(self) -> Scalar:
+        return Scalar(-self.e)
+
+    def __pos__(self) -> Scalar:
+        return self
+
+
+def expression(x: Any) -> Any:
+    """The expression of a Scalar or a number."""
+    return x.e if isinstance(x, Scalar) else float(x)
+
+
+def _binary(name: str, reflected: bool) -> Callable[[Scalar, Any], Any]:
+    function = getattr(operator, name)
+
+    def apply(self: Scalar, other: Any) -> Any:
+        if isinstance(other, np.ndarray):
+            return NotImplemented
+        one, two = self.e, expression(other)
+        return Scalar(function(two, one) if reflected else function(one, two))
+
+    return apply
+
+
+for _name in ("add", "sub", "mul", "truediv"):
+    setattr(Scalar, f"__{_name}__", _binary(_name, False))
+    setattr(Scalar, f"__r{_name}__", _binary(_name, True))
+for _name in ("lt", "le", "gt", "ge"):
+    setattr(Scalar, f"__{_name}__", _binary(_name, False))
+
+FUNCTIONS = {
+    **{name: name for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "sinh", "cosh", "tanh")},
+    **{f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan")},
+    "fabs": "fabs",
+    "sign": "sign",
+}
+"""NumPy's names and CasADi's."""
+
+
+def _function(name: str) -> Callable[[Any], Any]:
+    def of_scalar(x: Any) -> Any:
+        return Scalar(getattr(ca, name)(expression(x)))
+
+    return of_scalar
+
+
+def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
+    """A function of scalars for arrays and scalars alike."""
+    vectorised = np.frompyfunc(function, function.__code__.co_argcount, 1)
+    return lambda *arguments: vectorised(*arguments)
+
+
+cos, sin, tanh = (elementwise(_function(name)) for name in ("cos", "sin", "tanh"))
+
+
+class _Substitute:
+    """A module some of whose functions are replaced."""
+
+    def __init__(self, module: types.ModuleType, replaced: dict[str, Any]):
+        self._module = module
+        self.__dict__.update(replaced)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._module, name)
+
+
+def _filled(value: float) -> Callable[..., Any]:
+    def make(shape: Any, *_: Any, **__: Any) -> Any:
+        return np.full(shape, value, dtype=object)
+
+    return make
+
+
+def minimum(a: Any, b: Any) -> Any:
+    return Scalar(ca.fmin(expression(a), expression(b)))
+
+
+def maximum(a: Any, b: Any) -> Any:
+    return Scalar(ca.fmax(expression(a), expression(b)))
+
+
+def where(condition: Any, a: Any, b: Any) -> Any:
+    return Scalar(ca.if_else(expression(condition), expression(a), expression(b)))
+
+
+def solve_positive(A: Any, B: Any, what: str) -> Any:
+    """X with A X = B for a symmetric positive definite A, by A = L d L' without pivots."""
+    n, columns = len(A), B.reshape(len(A), -1).copy()
+    L, d = np.full((n, n), 0.0, dtype=object), []
+    for j in range(n):
+        rest = A[j, j] - sum(L[j, k] * L[j, k] * d[k] for k in range(j))
+        d.append(rest)
+        for i in range(j + 1, n):
+            L[i, j] = (A[i, j] - sum(L[i, k] * L[j, k] * d[k] for k in range(j))) / rest
+    for i in range(n):
+        for k in range(i):
+            columns[i] = columns[i] - L[i, k] * columns[k]
+    for i in range(n):
+        columns[i] = columns[i] / d[i]
+    for i in reversed(range(n)):
+        for k in range(i + 1, n):
+            columns[i] = columns[i] - L[k, i] * columns[k]
+    return columns.reshape(B.shape)
+
+
+class Solver:
+    """`solve` by elimination with the largest pivot of each column, chosen at run time; notes the least pivot."""
+
+    def __init__(self) -> None:
+        self.pivots: list[Any] = []
+
+    def __call__(self, A: Any, B: Any, what: str = "") -> Any:
+        n = len(A)
+        if n == 0:
+            return np.full(np.shape(B), 0.0, dtype=object)
+        rows = [list(a) + list(b) for a, b in zip(A, B.reshape(n, -1), strict=True)]
+        for j in range(n):
+            for i in range(j + 1, n):
+                rows[j], rows[i] = _larger_first(rows[j], rows[i], j)
+            self.pivots.append(abs(rows[j][j]))
+            for i in range(j + 1, n):
+                factor = rows[i][j] / rows[j][j]
+                rows[i] = [a - factor * b if c > j else 0.0 for c, (a, b) in _pairs(rows[i], rows[j])]
+        X = np.full((n, len(rows[0]) - n), 0.0, dtype=object)
+        for i in reversed(range(n)):
+            for c in range(X.shape[1]):
+                known = sum(rows[i][k] * X[k, c] for k in range(i + 1, n))
+                X[i, c] = (rows[i][n + c] - known) / rows[i][i]
+        return X.reshape(B.shape)
+
+    @property
+    def least(self) -> Any:
+        """The smallest |pivot|, infinite without one."""
+        least: Any = Scalar(ca.SX(math.inf))
+        for pivot in self.pivots:
+            least = minimum(least, pivot)
+        return least
+
+
+def _pairs(one: list[Any], other: list[Any]) -> Iterator[tuple[int, tuple[Any, Any]]]:
+    return enumerate(zip(one, other, strict=True))
+
+
+def _larger_first(one: list[Any], other: list[Any], j: int) -> tuple[list[Any], list[Any]]:
+    """The two rows, that with the larger entry in column j first."""
+    swap = expression(abs(Scalar(ca.SX(expression(other[j]))))) > expression(
+        abs(Scalar(ca.SX(expression(one[j]))))
+    )
+
+    def choose(a: Any, b: Any) -> Any:
+        return Scalar(ca.if_else(swap, expression(a), expression(b)))
+
+    first = [choose(b, a) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
+    second = [choose(a, b) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
+    return first, second
+
+
+class Tracer:
+    """Copies of laws that run on symbols, with one solver for all of them, and the calls of those that do not."""
+
+    def __init__(self) -> None:
+        self.solver = Solver()
+        self.calls: list[Any] = []
+        functions = {name: elementwise(_function(theirs)) for name, theirs in FUNCTIONS.items()}
+        numpy = {
+            **functions,
+            **{"zeros": _filled(0.0), "ones": _filled(1.0), "empty": _filled(0.0)},
+            "full": lambda shape, value, *_: np.full(shape, value, dtype=object),
+            "eye": lambda n, *rest, **more: np.eye(n, *rest, **more).astype(object),
+            "zeros_like": lambda a, *_, **__: np.full(np.shape(a), 0.0, dtype=object),
+            "diag": lambda a: np.diag(np.asarray(a, dtype=object)),
+            **{"minimum": elementwise(minimum), "maximum": elementwise(maximum)},
+            "clip": elementwise(lambda x, low, high: minimum(maximum(x, low), high)),
+            **{"where": elementwise(where), "abs": np.abs, "float64": lambda x: x},
+            "linalg": _Substitute(np.linalg, {"solve": self.solver}),
+        }
+        scalars = {name: _function(theirs) for name, theirs in FUNCTIONS.items()}
+        scalars |= {f"a{name}": _function(f"a{name}") for name in ("sin", "cos", "tan")}
+        self._substitutes: list[tuple[Any, Any]] = [
+            (np, _Substitute(np, numpy)),
+            (math, _Substitute(math, scalars)),
+            (linear.solve, self.solver),
+            (linear.solve_positive, solve_positive),
+        ]
+        self._copies: dict[Any, Any] = {}
+
+    def __call__(self, law: Any) -> Any:
+        """The law for symbols, with every function that it reaches."""
+        if not isinstance(law, types.FunctionType):
+            return law
+        if law not in self._copies:
+            scope = dict(law.__globals__)
+            scope["float"] = lambda x: x
+            copy = types.FunctionType(
+                law.__code__, scope, law.__name__, law.__defaults__, law.__closure__
+            )
+            self._copies[law] = copy
+            for name in names_of(law.__code__):
+                if name in scope:
+                    scope[name] = self._substitute(scope[name])
+        return self._copies[law]
+
+    def _substitute(self, value: Any) -> Any:
+        for old, new in self._substitutes:
+            if value is old:
+                return new
+        return self(value)
+
+
+def names_of(code: types.CodeType) -> set[str]:
+    """The names that a piece of code and what is defined inside it look up."""
+    found = set(code.co_names)
+    for constant in code.co_consts:
+        if isinstance(constant, types.CodeType):
+            found |= names_of(constant)
+    return found
+
+
+class Vector:
+    """A flat vector of symbols, taken from the front, one array after the other."""
+
+    def __init__(self, name: str, size: int):
+        self.symbol = ca.SX.sym(name, size)
+        self._taken = 0
+
+    def take(self, *shape: int) -> Any:
+        """The next symbols as an object array of this shape; a Scalar for no shape."""
+        if not shape:
+            self._taken += 1
+            return Scalar(self.symbol[self._taken - 1])
+        out = np.empty(shape, dtype=object)
+        for index in np.ndindex(*shape):
+            out[index] = self.take()
+        return out
+
+    def like(self, tree: Any) -> Any:
+        """The parameters of a law with their floats as symbols; ints stay what they are."""
+        if isinstance(tree, tuple) and hasattr(tree, "_fields"):
+            return type(tree)(*(self.like(x) for x in tree))
+        if isinstance(tree, np.ndarray):
+            return self.take(*tree.shape) if tree.dtype.kind == "f" else tree
+        return self.take() if isinstance(tree, float | np.floating) else tree
+
+
+def floats(tree: Any) -> Iterator[float]:
+    """The numbers that `Vector.like` takes symbols for, in its order."""
+    if isinstance(tree, tuple) and hasattr(tree, "_fields"):
+        for x in tree:
+            yield from floats(x)
+    elif isinstance(tree, np.ndarray):
+        if tree.dtype.kind == "f":
+            yield from tree.ravel().tolist()
+    elif isinstance(tree, float | np.floating):
+        yield float(tree)
+
+
+def column(*parts: Any) -> Any:
+    """CasADi's column of all numbers in arrays and scalars."""
+    flat = [expression(x) for part in parts for x in np.asarray(part, dtype=object).ravel()]
+    return ca.vertcat(*flat) if flat else ca.SX(0, 1)

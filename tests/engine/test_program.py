@@ -1,0 +1,213 @@
+"""A walker's equations in machine code against the Python engine, at random states."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.base import Controller, ControllerLaws
+from biped_adrc.control.npd import npd_output
+from biped_adrc.control.passive import Passive
+from biped_adrc.engine.compiled_biped import CompiledBiped
+from biped_adrc.engine.plant import plant_arrays
+from biped_adrc.engine.program import NotCompiled, Program
+from biped_adrc.engine.robot import robot_of
+from biped_adrc.errors import ModelError
+from biped_adrc.model.planar import PlanarTree
+from biped_adrc.model.robots import robot_names
+from biped_adrc.walker import Mode, SampledTime, Walker
+
+EXACT = 1e-11
+COUNT = 10_000
+
+
+def evaluator(program, name, inputs, outputs):
+    import ctypes
+
+    function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(program.address(name))
+    inp, out = np.zeros(inputs), np.zeros(outputs)
+    at = (program.K.ctypes.data, inp.ctypes.data, out.ctypes.data)
+
+    def call(*parts):
+        np.concatenate([np.atleast_1d(x) for x in parts], out=inp)
+        function(*at)
+        return out.copy()
+
+    return call
+
+
+def compiled(walker, x0):
+    n, p = walker.plant.n, walker.plant.p
+    return Program.of(walker, len(x0) - 2 * n - (p if walker.sampled else 0))
+
+
+def states(walker, gait, count, spread=0.3):
+    """Random states about the start of a gait, the controller's own near what it starts with."""
+    random = np.random.default_rng(11)
+    n = walker.plant.n
+    q, v = gait.start(walker.plant)
+    for _ in range(count):
+        near = q + spread * random.normal(size=n), v + 3.0 * spread * random.normal(size=n)
+        x = walker.initial_state(*near)
+        x[2 * n :] *= 1.0 + 0.1 * random.normal(size=len(x) - 2 * n)
+        yield x, random
+
+
+def close(found, expected):
+    gap = np.max(np.abs(found[: len(expected)] - expected))
+    assert gap <= EXACT * np.max(np.abs(expected)), gap
+
+
+@pytest.mark.parametrize("robot", robot_names())
+def test_the_terms_of_every_robot_are_pinocchio_s(robot):
+    biped = ba.Biped.load(robot)
+    code = CompiledBiped.of(biped).checked(biped, 500)
+    random = np.random.default_rng(5)
+    for _ in range(20):
+        q, v, a = random.normal(size=(3, biped.n))
+        close(code.ground_reaction(q, v, a), biped.ground_reaction(q, v, a))
+
+
+@pytest.mark.parametrize("robot", ["rabbit", "three_link"])
+def test_terms_and_impact_at_ten_thousand_states(robot):
+    biped = ba.Biped.load(robot)
+    code, walker = CompiledBiped.of(biped), Walker(biped, Passive())
+    strike = evaluator(compiled(walker, np.zeros(2 * biped.n)), "strike", 2 + 2 * biped.n, 2 * biped.n + 1)
+    random = np.random.default_rng(12)
+    for _ in range(COUNT):
+        q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)
+        found, expected = code.reduction(q, v), biped.reduction(q, v)
+        for name in ("D", "Omega", "kappa", "kappa_inverse", "A_N"):
+            close(getattr(found, name), getattr(expected, name))
+        for name in ("xi", "a_N"):  # sums that may cancel, compared with their largest terms
+            gap = np.max(np.abs(getattr(found, name) - getattr(expected, name)), initial=0.0)
+            inverse = np.max(np.abs(np.linalg.inv(expected.D)))
+            assert gap <= EXACT * np.max(np.abs(expected.Omega)) * inverse
+        after = biped.impact(q, v)
+        close(strike(0.0, 2.0, q, v), np.concatenate((after.q, after.v)))
+
+
+CONTROLLERS = {
+    "NPD": lambda c: ba.NPDController(c),
+    "NPD as printed": lambda c: ba.NPDController(c, solve_theta=False),
+    "ADRC": lambda c: ba.ADRCController(c),
+    "ADRC, m = 1, reset measured": lambda c: ba.ADRCController(
+        c, ba.GPIObserver.from_bandwidth(500.0), reset=ba.ResetPolicy.MEASURED
+    ),
+    "ADRC, m = 0, gains per joint": lambda c: ba.ADRCController(
+        c, ba.GPIObserver.from_bandwidth(300.0, 0), ba.Gains([4e3, 5e3, 6e3, 7e3], 50.0)
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CONTROLLERS)
+@pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
+def test_the_closed_loop_is_the_python_engine_s(biped, gait, name, sampled):
+    time = SampledTime(1e-3) if sampled else ba.ContinuousTime()
+    walker = Walker(biped, CONTROLLERS[name](gait.constraint), timing=time, torque_limit=150.0)
+    check_walker(walker, gait, 2000 if name == "ADRC" else 200)
+
+
+@pytest.mark.parametrize("name", ["NPD", "ADRC"])
+def test_a_plant_that_is_not_the_model(gait, name):
+    biped = ba.Biped.load("rabbit", friction=True)
+    heavy = biped.with_errors(mass={"torso": 1.2}, inertia={"thigh": 1.15})
+    walker = Walker(heavy, CONTROLLERS[name](gait.constraint), model=biped, slope=0.05)
+    check_walker(walker, gait, 200)
+
+
+def check_walker(walker, gait, count):
+    n, mode = walker.plant.n, Mode(3, 0.05)
+    call = None
+    for x, random in states(walker, gait, count):
+        nx = len(x)
+        if call is None:
+            program = compiled(walker, x)
+            call = {
+                "flow": evaluator(program, "flow", 3 + nx + n, nx + 1),
+                "strike": evaluator(program, "strike", 2 + nx, nx + 1),
+                "watch": evaluator(program, "watch", n, 3),
+            }
+            if walker.sampled:
+                call["tick"] = evaluator(program, "tick", 3 + nx + n, nx + 1)
+        zeta = 30.0 * random.normal(size=n)
+        pushed = replace(walker, disturbance=ba.TorqueStep(zeta))
+        close(call["flow"](0.1, 3.0, 0.05, x, zeta), pushed.flow(0.1, x, mode))
+        q = x[:n]
+        seen = [walker.clearance(q), walker.plant.swing_foot(q)[0], walker.plant.hip(q)[1]]
+        close(call["watch"](q), np.array(seen))
+        if walker.sampled:
+            close(call["tick"](0.1, 3.0, 0.05, x, zeta), pushed._tick(0.1, x, mode))
+        struck = walker.strike(0.1, x, Mode(2, 0.0))
+        if struck is not None:
+            close(call["strike"](0.1, 3.0, x), struck[0])
+
+
+def test_one_compilation_serves_every_number(biped, gait):
+    """Robots, gains, gaits and limits change K alone."""
+    first = Program.of(Walker(biped, ba.NPDController(gait.constraint)), 0)
+    bare = ba.Biped.load("rabbit", "tac2003").with_errors(mass={"torso": 1.3})
+    other = ba.NPDController(gait.constraint, ba.Gains(100.0, 20.0))
+    second = Program.of(Walker(biped.with_errors(mass={"shin": 0.9}), other, torque_limit=9.0), 0)
+    assert second.machine is first.machine
+    assert not np.array_equal(second.K, first.K)
+    third = Program.of(Walker(bare, other), 0)
+    assert third.make.robot.n == 5
+
+
+def test_a_law_that_branches_is_called(gait, biped):
+    walker = Walker(biped, Creeping(gait.constraint))
+    check_walker(walker, gait, 50)
+    check_walker(replace(walker, timing=SampledTime(1e-3)), gait, 50)
+
+
+def creeping_output(k, s, m):
+    """NPD, above 20 N m at half the slope."""
+    u = npd_output(k, s, m)
+    for i in range(len(u)):
+        if u[i] > 20.0:
+            u[i] = 20.0 + 0.5 * (u[i] - 20.0)
+    return u
+
+
+@dataclass(frozen=True)
+class Creeping(Controller):
+    """A controller whose law looks at its numbers."""
+
+    constraint: ba.VirtualConstraint
+
+    def output(self, s, m):
+        return creeping_output(ba.NPDController(self.constraint).parameters, s, m)
+
+    @property
+    def laws(self):
+        return ControllerLaws(ba.NPDController(self.constraint).parameters, creeping_output)
+
+
+@dataclass(frozen=True)
+class InPython(Controller):
+    """A controller written as methods alone."""
+
+    def output(self, s, m):
+        return np.zeros(4)
+
+
+def test_a_controller_without_laws_is_refused(biped):
+    with pytest.raises(NotCompiled, match=r"InPython has no laws .* on the compiled plant"):
+        Program.of(Walker(biped, InPython()), 0)
+
+
+def test_another_robot_s_numbers_are_refused(biped):
+    code = CompiledBiped.of(biped)
+    other = ba.Biped.load("rabbit", "tac2003")
+    wrong = replace(code, robot=robot_of(other))
+    with pytest.raises(ModelError, match="differs from Pinocchio's"):
+        wrong.checked(biped)
+
+
+def test_numbers_that_are_zero_by_make_are_no_part_of_the_code(biped):
+    """RABBIT's links are straight: no imaginary part is there to be multiplied."""
+    arrays = plant_arrays(biped, PlanarTree.of(biped))
+    assert not np.any(arrays.W_im)
+    assert not any(mask.any() for mask in robot_of(biped).structure.present[1:2])
