@@ -10,8 +10,8 @@ the state. The controller's terms come from the nominal `model`, the motion from
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,6 +24,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, Guard, HybridSystem, Split
 from biped_adrc.linear import solve
 from biped_adrc.model.biped import Biped
+from biped_adrc.split import SplitLaws, error_laws, loop_laws
 from biped_adrc.types import Array
 
 FOOT_STRIKE = "foot_strike"
@@ -204,10 +205,14 @@ class Walker(HybridSystem):
 
     def _tick(self, t: float, x: Array, mode: Mode) -> Array:
         q, v, s = self.split_state(x)
+        return np.concatenate((q, v, *self.acted(t, q, v, s, mode)))
+
+    def acted(self, t: float, q: Array, v: Array, s: Array, mode: Mode) -> tuple[Array, Array]:
+        """The controller's state and the torque to be held (p,) after a tick at (t, q, v)."""
         m = self.measure(t, q, v, mode)
         s = self.law.correct(s, m)
         u = self._saturate(self.law.output(s, m))
-        return np.concatenate((q, v, self.law.predict(s, m, u), u))
+        return self.law.predict(s, m, u), u
 
     def clocks(self) -> tuple[Clock, ...]:
         if isinstance(self.timing, SampledTime):
@@ -222,9 +227,13 @@ class Walker(HybridSystem):
     # -- impact ----------------------------------------------------------------------------------
     def strike(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode] | None:
         """x+ after impact and relabelling; None unless the swing foot is ahead of the stance foot."""
-        q, v, s = self.split_state(x)
-        if self.plant.swing_foot(q)[0] <= LEAST_STEP:
+        if self.plant.swing_foot(x[: self.plant.n])[0] <= LEAST_STEP:
             return None
+        return self.struck(t, x, mode)
+
+    def struck(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode]:
+        """x+ after impact and relabelling, wherever the swing foot is."""
+        q, v, s = self.split_state(x)
         impact = self.plant.impact(q, v)
         mode = Mode(mode.step + 1, t)
         after = self.measure(t, impact.q, impact.v, mode)
@@ -253,7 +262,8 @@ class Walker(HybridSystem):
         return float(z + math.tan(self.slope) * x) + drop
 
     @cached_property
-    def _lowest_hip(self) -> float:
+    def lowest_hip(self) -> float:
+        """Height of the hip below which the run ends as a fall [m]."""
         straight = np.zeros(self.plant.n)
         return self.fall_height * float(np.linalg.norm(self.plant.hip(straight)))
 
@@ -267,7 +277,7 @@ class Walker(HybridSystem):
             ),
             Guard(
                 "hip_too_low",
-                lambda t, x: float(self.plant.hip(x[:n])[1]) - self._lowest_hip,
+                lambda t, x: float(self.plant.hip(x[:n])[1]) - self.lowest_hip,
                 terminal=Status.FELL,
             ),
             Guard(
@@ -278,35 +288,53 @@ class Walker(HybridSystem):
         )
 
     # -- exponential method ----------------------------------------------------------------------
+    def split_laws(self, feedback: bool = False) -> SplitLaws | None:
+        """The laws behind `split`, or behind `feedback_split`, which raises InputError and says why not."""
+        n, p = self.plant.n, self.plant.p
+        if not feedback:
+            return None if self.sampled else error_laws(self.law, n, p)
+        if self.sampled:
+            raise InputError(
+                "feedback=True needs a controller that acts at every instant, and this one acts at ticks; "
+                "use ContinuousTime(), or RK4, Adaptive or Stiff"
+            )
+        return loop_laws(self.law, n, p, self.plant.inertia)
+
     def split(self, mode: Mode) -> Split | None:
         """Error coordinates of the observer: e' = A e + b (q_b'' - kappa u), independent of u itself.
 
         The observer's states are the first of s; what follows them is taken with (q, q').
         """
-        error = None if self.sampled else self.law.error_system()
-        if error is None:
-            return None
-        n, p, k, scale = self.plant.n, self.plant.p, error.A.shape[0], error.velocity_scale
-        end = (2 * n, 2 * n + k * p)
+        laws = self.split_laws()
+        return None if laws is None else replace(self._split(laws, mode), node=None)
 
-        def to(x: Array) -> tuple[Array, Array]:
-            E = -x[end[0] : end[1]].reshape(k, p)
-            E[0] += x[:p]
-            E[1] += scale * x[n : n + p]
-            return np.concatenate((x[: end[0]], x[end[1] :])), E
+    def feedback_split(self, mode: Mode) -> Split | None:
+        """Those with the tracking error q_b - h(Theta) too, beside Theta and the angular momentum.
 
-        def back(w: Array, E: Array) -> Array:
-            Z = -E
-            Z[0] += w[:p]
-            Z[1] += scale * w[n : n + p]
-            return np.concatenate((w[: end[0]], Z.ravel(), w[end[0] :]))
+        Raises InputError for a walker without such coordinates.
+        """
+        laws = self.split_laws(feedback=True)
+        return None if laws is None else self._split(laws, mode)
+
+    def _split(self, laws: SplitLaws, mode: Mode) -> Split:
+        k = laws.parameters
+        observed = k.order * k.p
 
         def remainder(t: float, w: Array, E: Array) -> tuple[Array, Array]:
-            i = self.instant(t, back(w, E), mode)
-            N = np.zeros((k, p))
-            N[1] = scale * (i.a[:p] - i.measurement.terms.kappa @ i.u)
-            rest = len(w) > 2 * n
-            ds = self.law.flow(i.s, i.measurement, i.u)[k * p :] if rest else np.zeros(0)
-            return np.concatenate((w[n : 2 * n], i.a, ds)), N
+            i = self.instant(t, laws.back(k, w, E), mode)
+            rest = len(i.s) > observed
+            ds = self.law.flow(i.s, i.measurement, i.u) if rest else i.s
+            return forcing(w, E, i, ds)
 
-        return Split(to, back, error.A, remainder)
+        def forcing(w: Array, E: Array, i: Instant, ds: Array) -> tuple[Array, Array]:
+            kappa_u = i.measurement.terms.kappa @ i.u
+            N_w, forced = laws.remainder(k, w, E, i.a, kappa_u, ds[observed:])
+            return N_w, laws.spread(forced)
+
+        def node(t: float, w: Array, E: Array) -> tuple[tuple[Array, Array], Array, Array]:
+            x = laws.back(k, w, E)
+            i = self.instant(t, x, mode)
+            m, ds = i.measurement, self.law.flow(i.s, i.measurement, i.u)
+            return forcing(w, E, i, ds), x, np.concatenate((m.v, i.a, ds))
+
+        return Split(partial(laws.to, k), partial(laws.back, k), laws.A, remainder, node)

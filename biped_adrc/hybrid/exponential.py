@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +23,7 @@ from scipy.linalg import expm
 
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.integrators import Flow, OneStepMethod, Step, check_step, step_ends
-from biped_adrc.hybrid.system import Split
+from biped_adrc.hybrid.system import HybridSystem, Mode, Split
 from biped_adrc.types import Array
 
 _SAME_STEP = 1e-9  # relative difference below which two steps share their phi-functions
@@ -73,40 +73,52 @@ def _remembered(A: bytes, k: int, h: float) -> PhiTable:
     return phi_table(np.frombuffer(A).reshape(k, k), h)
 
 
+def no_coordinates() -> InputError:
+    """What the method says of a system without a split."""
+    return InputError(
+        "the exponential method needs a controller in continuous time whose observer is linear "
+        "in its error and measures the true q_b; use RK4, Adaptive or Stiff instead"
+    )
+
+
 @dataclass(frozen=True)
 class Exponential(OneStepMethod):
-    """ETD-RK4 with fixed step h [s]. Raises InputError for a system without a `split`."""
+    """ETD-RK4 with fixed step h [s]; feedback: the system's `feedback_split` instead of its `split`.
+
+    With feedback a step costs more and its error is smaller, most where the model is right. Where the torque is
+    at its limit the linear part is wrong, the remainder has to undo it, and the other coordinates are better.
+    Raises InputError for a system without these coordinates.
+    """
 
     h: float = 5e-4
+    feedback: bool = False
 
     def __post_init__(self) -> None:
         check_step(self.h, "step h [s]")
 
     @property
     def label(self) -> str:
-        return f"ETD-RK4, h = {self.h:g} s"
+        return f"ETD-RK4{' with feedback' if self.feedback else ''}, h = {self.h:g} s"
+
+    def split(self, system: HybridSystem, mode: Mode) -> Split | None:
+        return system.feedback_split(mode) if self.feedback else system.split(mode)
 
     def steps(
         self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
         if split is None:
-            raise InputError(
-                "the exponential method needs a controller in continuous time whose observer is linear "
-                "in its error and measures the true q_b; use RK4, Adaptive or Stiff instead"
-            )
+            raise no_coordinates()
         A = np.ascontiguousarray(split.A)
         table = _remembered(A.tobytes(), A.shape[0], self.h)
         p, E = split.to(x)
-        N = split.remainder(t, p, E)
-        dx = split.back(N[0], A @ E + N[1])
+        node = split.node or partial(_linear_node, split)
+        N, _, dx = node(t, p, E)
         for t1 in step_ends(t, t_end, self.h):
             h = t1 - t
             if abs(h - self.h) > _SAME_STEP * self.h:
                 table = phi_table(A, h)
             p1, E1 = etd_rk4(split, table, t, p, E, N, h)
-            N1 = split.remainder(t1, p1, E1)
-            x1 = split.back(p1, E1)
-            dx1 = split.back(N1[0], A @ E1 + N1[1])
+            N1, x1, dx1 = node(t1, p1, E1)
 
             def at(
                 s: float,
@@ -119,6 +131,14 @@ class Exponential(OneStepMethod):
 
             yield Step(t, t1, x, x1, dx, dx1, at)
             t, x, dx, p, E, N = t1, x1, dx1, p1, E1, N1
+
+
+def _linear_node(
+    split: Split, t: float, p: Array, E: Array
+) -> tuple[tuple[Array, Array], Array, Array]:
+    """The remainder, x and x' for a linear `back`."""
+    N = split.remainder(t, p, E)
+    return N, split.back(p, E), split.back(N[0], split.A @ E + N[1])
 
 
 def etd_rk4(

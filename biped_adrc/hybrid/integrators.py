@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from scipy.integrate import DOP853, RK45, OdeSolver, Radau
 
 from biped_adrc.errors import InputError
-from biped_adrc.hybrid.system import Split
+from biped_adrc.hybrid.system import HybridSystem, Mode, Split
 from biped_adrc.types import Array
 
 Flow = Callable[[float, Array], Array]
@@ -40,6 +40,10 @@ class Step:
 
 class OneStepMethod(ABC):
     """Yields the steps of a smooth segment."""
+
+    def split(self, system: HybridSystem, mode: Mode) -> Split | None:
+        """The coordinates of `system` that the method steps in; None for x itself."""
+        return None
 
     @abstractmethod
     def steps(

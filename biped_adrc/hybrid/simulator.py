@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -91,7 +91,7 @@ def simulate(
     during the run is in the trajectory's status.
     """
     x = np.array(x0, dtype=float)
-    _check_start(x, t0, t_end, stop_after, store_every)
+    check_start(x, t0, t_end, stop_after, store_every)
     arcs: list[Arc] = []
     counts: dict[str, int] = {}
     t, status, detail = t0, Status.COMPLETED, ""
@@ -123,9 +123,10 @@ def simulate(
     return Trajectory(tuple(arcs), status, detail, {"method": method.label})
 
 
-def _check_start(
+def check_start(
     x: Array, t0: float, t_end: float, stop_after: tuple[str, int] | None, store_every: int
 ) -> None:
+    """Raise InputError for a run that cannot begin."""
     if x.ndim != 1 or not np.all(np.isfinite(x)):
         raise InputError(f"the initial state is {x}, expected a vector of finite numbers")
     if not (math.isfinite(t_end) and math.isfinite(t0) and t_end > t0):
@@ -152,7 +153,7 @@ def _flow_arc(
 ) -> tuple[Arc, Status, str, Outcome]:
     """One arc from (t, x): returns it, the status so far, its detail, and (x+, mode+) after an event."""
     record = _Recorder(store_every)
-    split = system.split(mode)
+    split = method.split(system, mode)
     t_arc, status, detail = t, Status.COMPLETED, ""
     watch = _Watch(system.guards(mode), t, x, fired)
     event: Event | None = None
@@ -199,13 +200,7 @@ def _segment(
 
     clamped: Flow = f
     if split is not None:
-        remainder = split.remainder
-        split = Split(
-            split.to,
-            split.back,
-            split.A,
-            lambda s, p, E: remainder(min(s, just_before), p, E),
-        )
+        split = _until(split, just_before)
     first = True
     for step in method.steps(clamped, split, t, x, t_next):
         if first:
@@ -214,6 +209,15 @@ def _segment(
         if not math.isfinite(step.x1.dot(step.x1)):
             raise NotFiniteError(f"the state is not finite after t = {step.t0:.6g} s")
         yield step
+
+
+def _until(split: Split, last: float) -> Split:
+    """The split with no time after `last` asked for."""
+    remainder, node = split.remainder, split.node
+    clamped = replace(split, remainder=lambda t, p, E: remainder(min(t, last), p, E))
+    if node is None:
+        return clamped
+    return replace(clamped, node=lambda t, p, E: node(min(t, last), p, E))
 
 
 def _ticks(clock: Clock, t_arc: float, t_first: float) -> float:

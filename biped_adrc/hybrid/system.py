@@ -70,14 +70,15 @@ class Clock:
 class Split:
     """Coordinates x -> (p, E) in which the stiff part is linear: E' = A E + N_E, p' = N_p.
 
-    E has shape (k, c) and A (k, k); `to` and `back` are linear maps and inverse to each other;
-    `remainder(t, p, E)` returns (N_p, N_E).
+    E has shape (k, c) and A (k, k); `to` and `back` are inverse to each other; `remainder(t, p, E)`
+    returns (N_p, N_E). `node(t, p, E)` returns that, x and x'; where `back` is linear none is needed.
     """
 
     to: Callable[[Array], tuple[Array, Array]]
     back: Callable[[Array, Array], Array]
     A: Array
     remainder: Callable[[float, Array, Array], tuple[Array, Array]]
+    node: Callable[[float, Array, Array], tuple[tuple[Array, Array], Array, Array]] | None = None
 
 
 class HybridSystem(ABC):
@@ -101,4 +102,8 @@ class HybridSystem(ABC):
 
     def split(self, mode: Mode) -> Split | None:
         """Coordinates for the exponential method; None when the system has none."""
+        return None
+
+    def feedback_split(self, mode: Mode) -> Split | None:
+        """Those with a controller's feedback in the linear part too; None, or InputError, for none."""
         return None

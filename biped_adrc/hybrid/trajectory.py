@@ -34,6 +34,12 @@ class Arc:
     dx: Array
     event: Event | None = None
 
+    @property
+    def seen(self) -> Array:
+        """t (K,) with the first of two equal times, which is a jump, just before it: what acted until then [s]."""
+        later = np.append(self.t[1:], self.t[-1])
+        return np.where(self.t == later, np.nextafter(self.t, -np.inf), self.t)
+
     def __call__(self, t: float, side: str = "right") -> Array:
         """x(t) by cubic Hermite interpolation, the limit from `side` where x or x' jumps."""
         i = int(np.searchsorted(self.t, t, side="right" if side == "right" else "left")) - 1

@@ -54,6 +54,17 @@ class ResetPolicy(Enum):
             raise InputError(f"reset policy '{name}' is unknown; choose one of {names}") from None
 
 
+class Feedback(NamedTuple):
+    """What a controller makes of the estimates: kappa u = q_d'' - K_d (x2^ - q_d') - K_p (x1^ - q_d) - xi^."""
+
+    K_p: Array | float
+    """[1/s^2], one number or (p,)."""
+    K_d: Array | float
+    """[1/s]."""
+    reference: object
+    """Where q_d comes from; an outer loop puts itself here."""
+
+
 class ErrorSystem(NamedTuple):
     """Coordinates in which a linear observer's error obeys e' = A e + b (q_b'' - kappa u).
 
@@ -63,6 +74,8 @@ class ErrorSystem(NamedTuple):
 
     A: Array
     velocity_scale: float
+    feedback: Feedback | None = None
+    """Of the controller around the observer; None for an observer alone."""
 
 
 class ObserverLaws(NamedTuple):

@@ -1,0 +1,256 @@
+"""Coordinates x -> (w, E) of a walker in which what is stiff is linear, for the exponential method.
+
+    E' = A E + N_E,   w' = N_w          E (k, p): one column per actuated joint
+
+With the observer in A, e = S (q_b, q_b') - Z its error, scale by which it has velocities multiplied:
+
+    w = (q, q', rest),   E = e,   N_E = scale xi_total in row 1,   xi_total = q_b'' - kappa u
+
+With the feedback in A too, around a virtual constraint, for n = p + 1 and phase Theta = c q:
+
+    w = (Theta, r(Theta) q', rest),   E = (eps, scale eps', e),   eps = q_b - h(Theta)
+    q_b = h + eps,   q_N = (Theta - c_b q_b) / c_N,   q_b' = h' Theta' + eps',   likewise q_N'
+    eps'' = -K_d (eps' - e2) - K_p (eps - e1) + e3 + N
+
+N_E has scale N in row 1 and scale xi_total in row 3. N is the true eps'' without the linear part, so that
+torque limits, a wrong model and forces from outside are in it; else it is xi_total and what the law misses of
+q_d''.
+
+r(Theta) (n,) is any row for which r dq/dTheta on the constraint is not zero. With r = c the coordinate is
+Theta', but its derivative has the fast parts of q_b'' in it: RK4 sums them wrongly, and at 1 ms the time of
+impact is off by 1e-5 to 1e-4 s. D_N q' with the row of q_N of the plant's D_s is the angular momentum about the
+stance foot, in whose derivative no motor acts. So r is D_N on the constraint, a polynomial fitted once: fast
+parts of the size of eps are left, and what the fit misses costs accuracy alone. `rest` is what follows the
+observer in the controller's state.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from biped_adrc.control.base import Controller
+from biped_adrc.errors import InputError
+from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint
+from biped_adrc.gait.curves import CurveParameters, Polynomial, curve
+from biped_adrc.observers.base import ErrorSystem
+from biped_adrc.types import Array
+
+DEGREE = 8
+"""Of the polynomial r, dimensionless."""
+MARGIN = 0.05
+"""Share of the phase range by which the fit of r goes past both ends."""
+
+
+class ErrorParameters(NamedTuple):
+    """n coordinates, p of them actuated, states per joint, `scale` [s] of velocities."""
+
+    n: int
+    p: int
+    order: int
+    scale: float
+
+
+class LoopParameters(NamedTuple):
+    """The same with h, the row of A that holds the feedback (order + 2,) [1/s], and r over the phase of h."""
+
+    n: int
+    p: int
+    order: int
+    scale: float
+    h: ConstraintParameters
+    row: Array
+    r: CurveParameters
+
+
+class SplitLaws(NamedTuple):
+    """The pure functions behind a split, and its linear part as data."""
+
+    parameters: Any
+    """k, a NamedTuple."""
+    A: Array
+    """(k, k) [1/s]."""
+    rows: tuple[int, ...]
+    """Of E, those that N_E enters."""
+    to: Callable[..., tuple[Array, Array]]
+    """to(k, x) -> (w, E)."""
+    back: Callable[..., Array]
+    """back(k, w, E) -> x."""
+    remainder: Callable[..., tuple[Array, Array]]
+    """remainder(k, w, E, q'', kappa u, rest') -> (N_w, the forced rows of N_E)."""
+
+    def spread(self, forced: Array) -> Array:
+        """N_E (k, p) from its forced rows."""
+        N = np.zeros((len(self.A), forced.shape[1]))
+        for row, values in zip(self.rows, forced, strict=True):
+            N[row] = values
+        return N
+
+
+# -- the observer in the linear part -------------------------------------------------------------
+def error_to(k: ErrorParameters, x: Array) -> tuple[Array, Array]:
+    """w (2 n + rest,) and E (order, p)."""
+    n, p, end = k.n, k.p, 2 * k.n + k.order * k.p
+    z = x[2 * n : end]
+    e = np.concatenate((x[:p] - z[:p], k.scale * x[n : n + p] - z[p : 2 * p], -z[2 * p :]))
+    return np.concatenate((x[: 2 * n], x[end:])), e.reshape(k.order, p)
+
+
+def error_back(k: ErrorParameters, w: Array, E: Array) -> Array:
+    """x, linear in (w, E)."""
+    n, p = k.n, k.p
+    z = (w[:p] - E[0], k.scale * w[n : n + p] - E[1], -E[2:].ravel())
+    return np.concatenate((w[: 2 * n], *z, w[2 * n :]))
+
+
+def error_remainder(
+    k: ErrorParameters, w: Array, E: Array, a: Array, kappa_u: Array, ds: Array
+) -> tuple[Array, Array]:
+    """N_w and scale xi_total (1, p), for q'' (n,), kappa u (p,) and the derivative of the rest."""
+    forced = k.scale * (a[: k.p] - kappa_u)
+    return np.concatenate((w[k.n : 2 * k.n], a, ds)), forced.reshape(1, -1)
+
+
+# -- the feedback in it too ----------------------------------------------------------------------
+def loop_path(k: LoopParameters, theta: Any) -> tuple[Array, Array, Array]:
+    """h, dh/dTheta, d2h/dTheta2 at theta [rad], each (p,)."""
+    h, dh, ddh = curve(k.h.curve, k.h.rate * (theta - k.h.theta_plus))
+    return h, k.h.rate * dh, k.h.rate * k.h.rate * ddh
+
+
+def loop_row(k: LoopParameters, theta: Any) -> tuple[Array, Array]:
+    """r and dr/dTheta at theta [rad], each (n,)."""
+    r, dr, _ = curve(k.r, k.h.rate * (theta - k.h.theta_plus))
+    return r, k.h.rate * dr
+
+
+def loop_to(k: LoopParameters, x: Array) -> tuple[Array, Array]:
+    """w (2 + rest,) and E (order + 2, p)."""
+    n, p, end = k.n, k.p, 2 * k.n + k.order * k.p
+    q, v, z = x[:n], x[n : 2 * n], x[2 * n : end]
+    c = k.h.c.reshape(1, -1)
+    theta, dtheta = c @ q, c @ v
+    h, dh, _ = loop_path(k, theta[0])
+    r, _ = loop_row(k, theta[0])
+    eps = (q[:p] - h, k.scale * (v[:p] - dh * dtheta))
+    e = (q[:p] - z[:p], k.scale * v[:p] - z[p : 2 * p], -z[2 * p :])
+    E = np.concatenate((*eps, *e)).reshape(k.order + 2, p)
+    return np.concatenate((theta, r.reshape(1, -1) @ v, x[end:])), E
+
+
+def loop_back(k: LoopParameters, w: Array, E: Array) -> Array:
+    """x."""
+    h, _, _ = loop_path(k, w[0])
+    q, v = _with_unactuated(k, w[0], h + E[0]), loop_velocity(k, w, E)
+    z = (q[: k.p] - E[2], k.scale * v[: k.p] - E[3], -E[4:].ravel())
+    return np.concatenate((q, v, *z, w[2:]))
+
+
+def loop_velocity(k: LoopParameters, w: Array, E: Array) -> Array:
+    """q' (n,): with the Theta' for which r q' = w[1]."""
+    _, dh, _ = loop_path(k, w[0])
+    r, _ = loop_row(k, w[0])
+    along, aside = _with_unactuated(k, 1.0, dh), _with_unactuated(k, 0.0, E[1] / k.scale)
+    return along * ((w[1] - r @ aside) / (r @ along)) + aside
+
+
+def _with_unactuated(k: LoopParameters, theta: Any, q_b: Array) -> Array:
+    """(q_b, q_N) with phase theta; of angles, rates or displacements."""
+    return np.concatenate((q_b, (theta - k.h.c[: k.p] @ q_b) / k.h.c[k.p :]))
+
+
+def loop_remainder(
+    k: LoopParameters, w: Array, E: Array, a: Array, kappa_u: Array, ds: Array
+) -> tuple[Array, Array]:
+    """N_w, and scale N and scale xi_total (2, p), for q'' (n,), kappa u (p,) and the derivative of the rest."""
+    v, c, a_b = loop_velocity(k, w, E), k.h.c.reshape(1, -1), a[: k.p]
+    _, dh, ddh = loop_path(k, w[0])
+    r, dr = loop_row(k, w[0])
+    dtheta = c @ v
+    eps = k.scale * (a_b - ddh * (dtheta * dtheta) - dh * (c @ a)) - k.row @ E
+    forced = np.concatenate((eps, k.scale * (a_b - kappa_u))).reshape(2, -1)
+    dy = r.reshape(1, -1) @ a + (dr @ v) * dtheta
+    return np.concatenate((dtheta, dy, ds)), forced
+
+
+def loop_matrix(error: ErrorSystem, K_p: float, K_d: float) -> Array:
+    """A (order + 2, order + 2) [1/s].
+
+    xi^ is what the observer adds to x2^' beside injection and input, so e3 has the coefficients of e2'.
+    """
+    order, scale = error.A.shape[0], error.velocity_scale
+    A = np.zeros((order + 2, order + 2))
+    A[2:, 2:] = error.A
+    A[0, 1] = 1.0 / scale
+    A[1, :4] = -scale * K_p, -K_d, scale * K_p, K_d
+    A[1, 4:] = error.A[1, 2:]
+    return A
+
+
+# -- of a controller -----------------------------------------------------------------------------
+def error_laws(law: Controller, n: int, p: int) -> SplitLaws | None:
+    """With the observer in the linear part; None for a controller without a linear observer."""
+    error = law.error_system()
+    if error is None:
+        return None
+    k = ErrorParameters(n, p, error.A.shape[0], float(error.velocity_scale))
+    return SplitLaws(k, error.A, (1,), error_to, error_back, error_remainder)
+
+
+def loop_laws(law: Controller, n: int, p: int, inertia: Callable[[Array], Array]) -> SplitLaws:
+    """With the feedback in the linear part too. Raises InputError for a controller without such coordinates.
+
+    inertia: D_s(q) (n, n) of the plant, to take r from; other rows would do, with less accuracy.
+    Of gains that differ from joint to joint A has the mean; the remainder takes up the rest.
+    """
+    name, error = type(law).__name__, law.error_system()
+    if error is None:
+        raise InputError(
+            f"feedback=True puts the error of a linear observer into the linear part, and {name} has none; "
+            "use RK4, Adaptive or Stiff, or ADRCController with a GPIObserver"
+        )
+    if error.feedback is None:
+        raise _refused(f"{name} does not say what its feedback is (`ErrorSystem.feedback`)")
+    h = error.feedback.reference
+    if type(h) is not VirtualConstraint:
+        raise _refused(
+            f"{name} tracks a {type(h).__name__}, expected a VirtualConstraint such as gait.constraint, "
+            "not corrected"
+        )
+    if n != p + 1:
+        raise _refused(f"the robot has {n} coordinates and {p} motors, expected one motor less")
+    if h.phase[p] == 0.0:
+        raise _refused(f"the phase row {h.phase} has no part of the unactuated coordinate")
+    A = loop_matrix(error, float(np.mean(error.feedback.K_p)), float(np.mean(error.feedback.K_d)))
+    k = LoopParameters(
+        n,
+        p,
+        error.A.shape[0],
+        float(error.velocity_scale),
+        h.parameters,
+        A[1].copy(),
+        _momentum_row(h, inertia),
+    )
+    return SplitLaws(k, A, (1, 3), loop_to, loop_back, loop_remainder)
+
+
+def _momentum_row(h: VirtualConstraint, inertia: Callable[[Array], Array]) -> CurveParameters:
+    """D_N on the constraint over its phase s, fitted at Chebyshev's nodes of [-MARGIN, 1 + MARGIN]."""
+    nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+    s = 0.5 + (0.5 + MARGIN) * nodes
+    rows = []
+    for theta in h.theta_plus + s * (h.theta_minus - h.theta_plus):
+        q_b, c = h.h(float(theta))[0], h.phase
+        q = np.append(q_b, (theta - c[:-1] @ q_b) / c[-1])
+        rows.append(inertia(q)[-1])
+    powers = s[:, np.newaxis] ** np.arange(DEGREE + 1)
+    return Polynomial(np.linalg.solve(powers, np.array(rows)).T).parameters
+
+
+def _refused(reason: str) -> InputError:
+    return InputError(
+        f"feedback=True needs coordinates (Theta, q_b - h(Theta)), and there are none: {reason}; use "
+        "Exponential(h), which has the observer alone in its linear part"
+    )

@@ -1,0 +1,291 @@
+"""The coordinates of the exponential method: inverses, their derivatives against the flow, order, accuracy."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.reference_reset import ReferenceReset
+from biped_adrc.errors import InputError
+from biped_adrc.gait.corrected import continued
+from biped_adrc.gait.reference import TimeReference
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.hybrid.system import HybridSystem
+from biped_adrc.observers.gpi import TABLE_I
+from biped_adrc.split import loop_laws, loop_matrix
+from biped_adrc.walker import FOOT_STRIKE
+
+SLOW = ba.GPIObserver.from_poles([0.05 * pole for pole in TABLE_I])
+GAINS = ba.Gains([4e3, 5e3, 6e3, 7e3], [40.0, 50.0, 60.0, 70.0])
+PUSH = ba.TorquePulse([30.0] * 4 + [0.0], step=1, start=0.02, stop=0.3)
+ON_THE_TORSO = ba.TorquePulse([30.0, -20.0, 10.0, 5.0, 25.0], step=1, start=0.0, stop=0.3)
+BOTH = pytest.mark.parametrize("feedback", [False, True], ids=["observer", "feedback"])
+
+
+def heavier(biped):
+    factors = {"torso": 1.2, "thigh": 1.15}
+    return biped.with_errors(mass=factors, inertia=factors)
+
+
+WALKERS = {
+    "nominal": lambda b, c: ba.Walker(b, ba.ADRCController(c)),
+    "m = 0": lambda b, c: ba.Walker(b, ba.ADRCController(c, ba.GPIObserver.from_bandwidth(300, 0))),
+    "a gain for each joint": lambda b, c: ba.Walker(b, ba.ADRCController(c, SLOW, GAINS)),
+    "as printed": lambda b, c: ba.Walker(b, ba.ADRCController(c, solve_theta=False)),
+    "disturbed": lambda b, c: ba.Walker(
+        heavier(b), ba.ADRCController(c), ON_THE_TORSO, model=b, torque_limit=40.0
+    ),
+    "joint friction": lambda b, c: ba.Walker(
+        b.with_errors(friction=True), ba.ADRCController(c), model=b
+    ),
+}
+
+
+def split_of(walker, feedback):
+    return Exponential(feedback=feedback).split(walker, ba.Mode())
+
+
+def states(walker, gait, count=4):
+    """States about the start of a step, the observer's with errors in all its rows."""
+    random = np.random.default_rng(7)
+    q, v = gait.start(walker.plant)
+    for _ in range(count):
+        x = walker.initial_state(q + 0.05 * random.normal(size=5), v + 0.5 * random.normal(size=5))
+        yield x * (1.0 + 0.01 * random.normal(size=len(x)))
+
+
+def close(one, other, relative):
+    return np.max(np.abs(one - other)) <= relative * np.max(np.abs(other))
+
+
+@BOTH
+@pytest.mark.parametrize("name", list(WALKERS))
+def test_to_and_back_are_inverse(biped, gait, name, feedback):
+    walker = WALKERS[name](biped, gait.constraint)
+    split = split_of(walker, feedback)
+    for x in states(walker, gait):
+        w, E = split.to(x)
+        assert E.shape == (len(split.A), 4)
+        assert close(split.back(w, E), x, 1e-13)
+        for one, other in zip(split.to(split.back(w, E)), (w, E), strict=True):
+            assert close(one, other, 1e-12)
+
+
+@BOTH
+@pytest.mark.parametrize("name", list(WALKERS))
+def test_linear_part_and_remainder_are_the_derivative_along_the_flow(biped, gait, name, feedback):
+    """(w, E)' by differences of `to` along x', row by row."""
+    walker = WALKERS[name](biped, gait.constraint)
+    split = split_of(walker, feedback)
+    for x in states(walker, gait):
+        dx, d = walker.flow(0.1, x, ba.Mode()), 1e-6
+        after, before = split.to(x + d * dx), split.to(x - d * dx)
+        dw, dE = ((a - b) / (2.0 * d) for a, b in zip(after, before, strict=True))
+        w, E = split.to(x)
+        N_w, N_E = split.remainder(0.1, w, E)
+        assert np.allclose(N_w, dw, rtol=1e-6, atol=1e-6)
+        for found, row in zip(split.A @ E + N_E, dE, strict=True):
+            assert close(found, row, 1e-5)
+        if feedback:
+            _, same, slope = split.node(0.1, w, E)
+            assert close(same, x, 1e-13)
+            assert close(slope, dx, 1e-10)
+
+
+def test_the_linear_part_is_the_law_where_the_model_is_right(biped, gait):
+    """On the constraint, with the observer's error in e_1 alone: eps'' = K_p e_1, whatever the state."""
+    walker = WALKERS["nominal"](biped, gait.constraint)
+    split, laws = split_of(walker, True), walker.split_laws(feedback=True)
+    x = walker.initial_state(*gait.start(biped))
+    w, E = split.to(x)
+    e = 1e-3 * np.arange(1.0, 5.0)
+    at_rest, moved = E.copy(), E.copy()
+    moved[2] += e
+    change = split.A @ (moved - at_rest)
+    assert change[1] == pytest.approx(laws.parameters.scale * 5000.0 * e)
+    a = [walker.instant(0.0, split.back(w, F), ba.Mode()).a for F in (at_rest, moved)]
+    r = gait.constraint(0.0, x[:5], x[5:10])
+    true = (a[1] - a[0])[:4] - r.H @ (a[1] - a[0])
+    assert true == pytest.approx(5000.0 * e, rel=1e-9)
+
+
+def test_eigenvalues_are_those_of_feedback_and_observer():
+    """A is block triangular, and with poles of the observer slow the two sets are apart."""
+    observer = ba.GPIObserver.from_poles([-3.0, -4.0, -5.0])
+    found = np.sort_complex(np.linalg.eigvals(loop_matrix(observer.error_system(), 5000.0, 50.0)))
+    expected = np.sort_complex(np.concatenate((np.roots([1, 50, 5000]), [-3.0, -4.0, -5.0])))
+    assert np.allclose(found, expected, rtol=1e-7)
+
+
+@BOTH
+def test_laws_take_arrays_of_objects_and_change_none(biped, gait, feedback):
+    walker = WALKERS["nominal"](biped, gait.constraint)
+    laws, (x,) = walker.split_laws(feedback), states(walker, gait, 1)
+    k = laws.parameters
+    w, E = laws.to(k, x)
+    a, kappa_u, rest = np.arange(1.0, 6.0), np.arange(4.0), np.zeros(0)
+    calls = ((laws.to, (x,)), (laws.back, (w, E)), (laws.remainder, (w, E, a, kappa_u, rest)))
+    for law, arguments in calls:
+        kept = [y.copy() for y in arguments]
+        results = law(k, *arguments), law(k, *(y.astype(object) for y in arguments))
+        for y, copy in zip(arguments, kept, strict=True):
+            assert np.array_equal(y, copy)
+        pairs = zip(*results, strict=True) if isinstance(results[0], tuple) else [results]
+        for expected, found in pairs:
+            assert np.allclose(found.astype(float), expected, rtol=1e-12, atol=1e-12)
+
+
+def test_on_the_constraint_the_second_coordinate_is_the_angular_momentum(biped, gait):
+    """sigma of the plant, to the accuracy of the fit, at the start of a step and at its end."""
+    walker = WALKERS["disturbed"](biped, gait.constraint)
+    split = split_of(walker, True)
+    for q, v in (gait.start(biped), (gait.q_minus, gait.v_minus)):
+        w, _ = split.to(walker.initial_state(q, v))
+        assert w[0] == pytest.approx(gait.constraint.phase @ q, rel=1e-14)
+        assert w[1] == pytest.approx(walker.plant.angular_momentum(q, v), rel=1e-4)
+
+
+def test_another_row_makes_the_rate_of_the_phase_the_coordinate(biped, gait):
+    """r = c: (Theta, Theta'), and the same x."""
+    walker = WALKERS["nominal"](biped, gait.constraint)
+    c = gait.constraint.phase
+    laws = loop_laws(walker.law, 5, 4, lambda q: np.outer(np.ones(5), c))
+    k = laws.parameters
+    for x in states(walker, gait):
+        w, E = laws.to(k, x)
+        assert w == pytest.approx([c @ x[:5], c @ x[5:10]], rel=1e-9)
+        assert close(laws.back(k, w, E), x, 1e-12)
+
+
+GAIN = pytest.mark.parametrize("gains", [ba.Gains(), GAINS], ids=["one gain", "one per joint"])
+
+
+def errors_after(walker, gait, dv, steps, feedback):
+    """Largest error of (q, q') after 0.08 s, against an explicit method of order 8 on x itself."""
+    q, v = gait.start(walker.plant)
+    x0 = walker.initial_state(q, v + dv)
+
+    def end(method):
+        return simulate(walker, x0, ba.Mode(), method, t_end=0.08).final_state[:10]
+
+    exact = end(ba.Adaptive(1e-13, 1e-13))
+    return np.array([np.max(np.abs(end(Exponential(h, feedback)) - exact)) for h in steps])
+
+
+@GAIN
+@pytest.mark.parametrize("dv", [np.zeros(5), np.array([0.3, -0.4, 0.5, -0.2, 0.1])])
+def test_order_with_the_feedback_in_the_linear_part(biped, gait, gains, dv):
+    """Table I times 0.02, on the orbit and off it."""
+    observer = ba.GPIObserver.from_poles([0.02 * pole for pole in TABLE_I])
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint, observer, gains))
+    steps = np.array([2e-3, 1e-3, 5e-4])
+    errors = errors_after(walker, gait, dv, steps, True)
+    order = np.polyfit(np.log(steps), np.log(errors), 1)[0]
+    assert order == pytest.approx(4.0, abs=0.5)
+
+
+@GAIN
+def test_the_feedback_in_the_linear_part_takes_most_of_the_error(biped, gait, gains):
+    """Table I times 0.05."""
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint, SLOW, gains))
+    steps = np.array([4e-3, 2e-3, 1e-3])
+    with_it, without = (errors_after(walker, gait, 0.0, steps, f) for f in (True, False))
+    assert np.all(with_it < 0.2 * without)
+
+
+def impact(walker, gait, h, feedback):
+    x0 = walker.initial_state(*gait.start(walker.nominal))
+    method, stop = Exponential(h, feedback), (FOOT_STRIKE, 1)
+    run = simulate(walker, x0, ba.Mode(), method, t_end=2.0, stop_after=stop)
+    (event,) = run.events(FOOT_STRIKE)
+    return event
+
+
+@pytest.mark.parametrize(
+    ("plant", "push", "limit", "bound"),
+    [
+        (lambda b: b, None, None, 2e-6),
+        (lambda b: b, PUSH, None, 3e-5),
+        (heavier, PUSH, 150.0, 3e-5),
+    ],
+    ids=["undisturbed", "push", "heavier, push and torque limit"],
+)
+def test_one_step_of_walking_at_table_one(biped, gait, plant, push, limit, bound):
+    """(q, q') at the first impact, against steps of 0.1 ms."""
+    adrc = ba.ADRCController(gait.constraint)
+    walker = ba.Walker(plant(biped), adrc, push, model=biped, torque_limit=limit)
+    exact = impact(walker, gait, 1e-4, True)
+    for h in (5e-4, 1e-3):
+        found = impact(walker, gait, h, True)
+        assert np.max(np.abs(found.x_minus - exact.x_minus)[:10]) < bound
+        assert abs(found.t - exact.t) < 1e-6
+        assert abs(walker.clearance(found.x_minus[:5], 1)) < 1e-12
+        x_plus, _ = walker.strike(found.t, found.x_minus, ba.Mode())
+        assert np.array_equal(found.x_plus, x_plus)
+    coarse = impact(walker, gait, 5e-4, False)
+    assert np.max(np.abs(coarse.x_minus - exact.x_minus)[:10]) < 1e-4
+
+
+def test_at_the_torque_limit_the_walk_is_the_same(biped, gait):
+    """There the linear part is wrong and the remainder undoes it."""
+    walker = WALKERS["disturbed"](biped, gait.constraint)
+    x0 = walker.initial_state(*gait.start(biped))
+    ends = []
+    for method in (Exponential(1e-4), Exponential(1e-4, feedback=True)):
+        run = simulate(walker, x0, ba.Mode(), method, t_end=0.1)
+        assert run.status.ok
+        ends.append(run.final_state[:10])
+    torques = [walker.instant(t, run(t), ba.Mode()).u for t in np.linspace(0.0, 0.1, 50)]
+    assert np.max(np.abs(torques)) == 40.0
+    assert np.max(np.abs(ends[1] - ends[0])) < 1e-3
+
+
+def without_the_torso(constraint):
+    """The same curves over the phase of the joints alone, c_N = 0."""
+    return replace(constraint, phase=np.array([1.0, 0.0, 0.5, 0.0, 0.0]))
+
+
+REFUSED = {
+    "has none; use RK4, Adaptive or Stiff": lambda b, c: ba.Walker(b, ba.NPDController(c)),
+    "acts at ticks": lambda b, c: ba.Walker(b, ba.ADRCController(c), timing=ba.SampledTime(1e-3)),
+    "tracks a TimeReference": lambda b, c: ba.Walker(
+        b, ba.ADRCController(TimeReference(lambda t: (np.zeros(4),) * 3))
+    ),
+    "tracks a CorrectedConstraint": lambda b, c: ba.Walker(b, ba.ADRCController(continued(c))),
+    "tracks a ReferenceReset": lambda b, c: ba.Walker(b, ReferenceReset(ba.ADRCController(c))),
+    "no part of the unactuated coordinate": lambda b, c: ba.Walker(
+        b, ba.ADRCController(without_the_torso(c))
+    ),
+}
+
+
+@pytest.mark.parametrize("reason", list(REFUSED))
+def test_a_walker_without_the_coordinates_is_refused_with_the_reason(biped, gait, reason):
+    walker = REFUSED[reason](biped, gait.constraint)
+    with pytest.raises(InputError, match=reason):
+        ba.walk(walker, gait, 1, Exponential(1e-3, feedback=True))
+
+
+def test_a_robot_without_exactly_one_motor_less_is_refused(gait):
+    with pytest.raises(InputError, match="6 coordinates and 4 motors"):
+        loop_laws(ba.ADRCController(gait.constraint), 6, 4, np.eye)
+
+
+def test_a_controller_that_does_not_tell_its_feedback_is_refused(biped, gait):
+    class Silent(ba.ADRCController):
+        def error_system(self):
+            return self.observer.error_system()
+
+    with pytest.raises(InputError, match="Silent does not say what its feedback is"):
+        ba.Walker(biped, Silent(gait.constraint)).feedback_split(ba.Mode())
+
+
+def test_a_system_without_a_feedback_split_is_refused():
+    class Still(HybridSystem):
+        def flow(self, t, x, mode):
+            return np.zeros_like(x)
+
+    with pytest.raises(InputError, match="use RK4, Adaptive or Stiff"):
+        simulate(Still(), np.ones(2), 0, Exponential(feedback=True), t_end=1.0)
