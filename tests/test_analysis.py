@@ -11,7 +11,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.studies.checks import at_least, at_most, between
 from biped_adrc.studies.poincare import speed_slope
 from biped_adrc.studies.push import Push
-from biped_adrc.studies.push_map import push_cell
+from biped_adrc.studies.push_map import Tried, push_map
 from biped_adrc.studies.runs import Run, execute, from_record
 
 
@@ -93,10 +93,11 @@ def test_checks_do_not_hold_for_nan():
 
 def test_the_push_map_knows_a_push_that_only_npd_falls_from():
     """A late push on the hips of RABBIT without rotor inertia; an early one both walk through."""
-    late = push_cell(Run(preset="identified-bare"), 0.3, 150.0, "hips together", None)
+    tried = [Tried(0.3, 150.0, "hips together", None), Tried(0.05, 90.0, "swing knee +", None)]
+    late, _ = push_map(Run(preset="identified-bare"), tried)
     assert late.verdict == "only NPD falls"
     assert late.row()["onset_ms"] == pytest.approx(300.0)
-    early = push_cell(Run(), 0.05, 90.0, "swing knee +", None)
+    (early,) = push_map(Run(), tried[1:])
     assert early.verdict == "both walk"
 
 

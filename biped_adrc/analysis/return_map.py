@@ -10,20 +10,27 @@ except when the reset at impact forgets them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import tan
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from biped_adrc.errors import SimulationError
+from biped_adrc.engine.choice import COMPILED, PINOCCHIO, check_engine
+from biped_adrc.errors import ModelError, SimulationError
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.linear import solve
 from biped_adrc.types import Array, ComplexArray
 from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
+
+if TYPE_CHECKING:
+    from biped_adrc.engine.batch import Strides, Walked
 
 _CHORD = 0.1  # the residual must fall by this factor with the old dP/ds, else it is taken anew
 
@@ -55,7 +62,7 @@ class ReturnMap:
 
     controller_states: keep the controller's states as coordinates; False starts the controller anew at
     each passage. difference: half width of the central differences [rad, rad/s]. pitch: where the search for
-    q_N starts [rad].
+    q_N starts [rad]. engine: "compiled", or "pinocchio", which also steps in where a part has no compiled form.
     """
 
     walker: Walker
@@ -63,6 +70,10 @@ class ReturnMap:
     controller_states: bool = True
     difference: float = 1e-5
     pitch: float = 0.0
+    engine: str = COMPILED
+
+    def __post_init__(self) -> None:
+        check_engine(self.engine)
 
     @property
     def _dropped(self) -> int:
@@ -91,8 +102,37 @@ class ReturnMap:
 
     def __call__(self, s: Array) -> Array:
         """P(s). Raises SimulationError, with the status, when the walker does not come back."""
-        start = after_impact(self.walker, 0.0, self.lift(s), Mode())
-        return self.project(self.next_strike(self.walker, *start).x_minus)
+        return self.images([s])[0]
+
+    def images(self, points: Sequence[Array], mapper: Mapper = map) -> list[Array]:
+        """P of several points, in parallel threads where it is compiled, by `mapper` otherwise. Raises as P."""
+        starts = [after_impact(self.walker, 0.0, self.lift(s), Mode()) for s in points]
+        compiled = self._compiled(len(starts[0][0]))
+        if compiled is None:
+            strikes = mapper(lambda start: self.next_strike(self.walker, *start).x_minus, starts)
+            return [self.project(x) for x in strikes]
+        return [self.project(_returned(walked)) for walked in compiled(starts)]
+
+    @cached_property
+    def ran(self) -> str:
+        """The engine that P runs on: the one asked for, or "pinocchio" where a part has no compiled form."""
+        q = np.zeros(self.walker.plant.n)
+        return PINOCCHIO if self._compiled(len(self.walker.initial_state(q, q))) is None else COMPILED
+
+    def _compiled(self, states: int) -> Strides | None:
+        if self.engine != COMPILED:
+            return None
+        from biped_adrc.engine.batch import Strides
+        from biped_adrc.engine.compiled_walker import CompiledWalker
+        from biped_adrc.engine.program import NotCompiled
+
+        n, p = self.walker.plant.n, self.walker.plant.p
+        size = states - 2 * n - (p if self.walker.sampled else 0)
+        try:
+            walker = CompiledWalker.of(self.walker, self.method, size)
+        except (NotCompiled, ModelError):
+            return None
+        return Strides(walker, 2.0 * self.walker.max_step_time)
 
     def next_strike(self, system: HybridSystem, x: Array, mode: Mode) -> Event:
         """The next foot strike of the walker, or of a system that carries it along, from x after impact.
@@ -102,16 +142,14 @@ class ReturnMap:
         limit = 2.0 * self.walker.max_step_time
         run = simulate(system, x, mode, self.method, t_end=limit, stop_after=(FOOT_STRIKE, 1))
         if not run.status.ok:
-            raise SimulationError(
-                f"no return to the section: {run.status.name}, {run.status.value} {run.detail}"
-            )
+            raise _no_return(run.status, run.detail)
         return run.events(FOOT_STRIKE)[-1]
 
     def jacobian(self, s: Array, mapper: Mapper = map) -> Array:
         """dP/ds by central differences."""
         d = self.difference
         points = [s + sign * d * e for e in np.eye(len(s)) for sign in (1.0, -1.0)]
-        images = list(mapper(self, points))
+        images = self.images(points, mapper)
         return np.array([(images[2 * i] - images[2 * i + 1]) / (2.0 * d) for i in range(len(s))]).T
 
     def fixed_point(
@@ -139,6 +177,18 @@ class ReturnMap:
                 return PeriodicOrbit(self.lift(s), sorted_eigenvalues(J), residual, iteration)
             s, previous = s + newton_step(J, gap), residual
         raise not_converged(max_iterations, residual, tolerance)
+
+
+def _returned(walked: Walked) -> Array:
+    """x- of the next strike. Raises SimulationError, with the status, when there is none."""
+    if not walked.status.ok:
+        raise _no_return(walked.status, walked.detail)
+    x: Array = walked.x_minus[-1]
+    return x
+
+
+def _no_return(status: Status, detail: str) -> SimulationError:
+    return SimulationError(f"no return to the section: {status.name}, {status.value} {detail}")
 
 
 def after_impact(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array, Mode]:

@@ -5,7 +5,6 @@ Controllers have no hidden state, so the signals are computed again from the sto
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -83,16 +82,20 @@ class Signals:
 def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Signals:
     """Compute the signals of a walk; `reference` gives q_d (the controller's own, usually).
 
-    Where outer loops correct the reference, q_d is the corrected one.
+    Where outer loops correct the reference, q_d is the corrected one. Of a compiled run they are compiled too.
     """
+    seen = None
+    if trajectory.settings.get("engine") == "compiled":
+        from biped_adrc.engine.seeing import see
+
+        seen = see(walker, trajectory, reference)
+    if seen is not None:
+        return Signals(*seen)
     rows: list[tuple[object, ...]] = []
     foot = np.zeros(2)
     for arc in trajectory.arcs:
-        later = np.append(arc.t[1:], arc.t[-1])
-        for t, t_next, x in zip(arc.t, later, arc.x, strict=True):
-            # a repeated time is a jump: its first node sees what acted before it
-            seen = math.nextafter(t, -math.inf) if t == t_next else float(t)
-            row = _row(walker, reference, seen, x, arc.mode, foot)
+        for t, seen_at, x in zip(arc.t, arc.seen, arc.x, strict=True):
+            row = _row(walker, reference, float(seen_at), x, arc.mode, foot)
             rows.append((float(t), *row[1:], *foot))
         if arc.event is not None and arc.event.x_plus is not None:
             foot = foot + walker.plant.swing_foot(arc.event.x_minus[: walker.plant.n])

@@ -51,7 +51,10 @@ AsPrinted = Annotated[
     bool, typer.Option("--as-printed", help="Drop h' Theta'' from (20) and (28), as printed.")
 ]
 Friction = Annotated[bool, typer.Option("--friction", help="Add the robot's joint friction.")]
-Method = Annotated[str | None, typer.Option(help="rk4, exponential, adaptive or stiff.")]
+Method = Annotated[
+    str | None, typer.Option(help="rk4, exponential, feedback, adaptive or stiff.")
+]
+Engine = Annotated[str, typer.Option(help="pinocchio, or compiled: the same walk, much faster.")]
 StepSize = Annotated[float | None, typer.Option(help="Step of rk4 and exponential [s].")]
 Out = Annotated[
     Path | None, typer.Option("--out", "-o", help="Write the run (.npz), or its signals (.mat).")
@@ -77,6 +80,7 @@ def simulate(
     friction: Friction = False,
     method: Method = None,
     step: StepSize = None,
+    engine: Engine = "pinocchio",
     out: Out = None,
 ) -> None:
     """Walk, and print what each step needed."""
@@ -106,6 +110,7 @@ def simulate(
         reset=reset,
         method=method,
         h=step,
+        engine=engine,
         **extra,
     )
     _walk(run, out)
@@ -122,6 +127,8 @@ def _walk(run: Run, out: Path | None) -> None:
         full = execute_fully(run, lambda t, n: shown.update(task, completed=n))
     o = full.outcome
     _print_steps(o)
+    if "why" in full.trajectory.settings:
+        console.print(full.trajectory.settings["why"])
     if out is not None and out.suffix == ".mat":
         full.export(out)
         console.print(f"written to {out}")
@@ -147,7 +154,7 @@ def _print_steps(o: Outcome) -> None:
     console.print(table)
     console.print(
         f"{o.status}: {o.message}\n{o.impacts} impacts, largest tracking error {o.peak_error:.3e} rad, "
-        f"peak torque {o.peak_torque:.1f} N m, {o.method}"
+        f"peak torque {o.peak_torque:.1f} N m, {o.method}, engine {o.engine}"
     )
 
 

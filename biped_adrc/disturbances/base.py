@@ -21,6 +21,8 @@ class DisturbanceLaw(NamedTuple):
     parameters: Any
     """k, a NamedTuple of numbers and float64 arrays."""
     torque: Callable[..., Array]
+    switches: tuple[tuple[int, float], ...] = ()
+    """(step, s): not smooth s [s] after that single support began, or for step 0 at the time s of the run."""
 
 
 class Disturbance(ABC):
@@ -136,11 +138,16 @@ class Windowed(Disturbance):
         """What the law `since_onset` needs."""
         return WindowParameters(self.amplitude, self.step or 0, float(self.start), float(self.stop))
 
+    @property
+    def switches(self) -> tuple[tuple[int, float], ...]:
+        """As `DisturbanceLaw.switches`."""
+        ends = (self.start, self.stop)
+        return tuple((self.step or 0, float(s)) for s in ends if math.isfinite(s))
+
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
-        if self.step is not None and step != self.step:
-            return ()
-        origin = 0.0 if self.step is None else t_start
-        return tuple(origin + s for s in (self.start, self.stop) if math.isfinite(s))
+        return tuple(
+            s if at == 0 else t_start + s for at, s in self.switches if at in (0, step)
+        )
 
 
 @dataclass(frozen=True)

@@ -32,4 +32,4 @@ class TorquePulse(Windowed):
 
     @property
     def laws(self) -> tuple[DisturbanceLaw, ...]:
-        return (DisturbanceLaw(self.parameters, pulse_torque),)
+        return (DisturbanceLaw(self.parameters, pulse_torque, self.switches),)

@@ -51,4 +51,4 @@ class TorqueSine(Windowed):
 
     @property
     def laws(self) -> tuple[DisturbanceLaw, ...]:
-        return (DisturbanceLaw(self.parameters, sine_torque),)
+        return (DisturbanceLaw(self.parameters, sine_torque, self.switches),)

@@ -38,4 +38,4 @@ class TorqueStep(Windowed):
 
     @property
     def laws(self) -> tuple[DisturbanceLaw, ...]:
-        return (DisturbanceLaw(self.parameters, step_torque),)
+        return (DisturbanceLaw(self.parameters, step_torque, self.switches),)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import Any
+from itertools import pairwise
 
 import numpy as np
 
@@ -27,6 +27,15 @@ from biped_adrc.types import Array
 SAMPLES = 50
 """Random states at which the code is held against Pinocchio."""
 _C = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
+
+
+def pointer_call(machine: Machine, name: str, K: Array, inp: Array, out: Array) -> None:
+    """A function for every row of inp (N, inputs) and out (N, outputs), both contiguous float64."""
+    function = _C(machine.addresses[name])
+    at, given, result = K.ctypes.data, inp.ctypes.data, out.ctypes.data
+    for _ in range(len(inp)):
+        function(at, given, result)
+        given, result = given + inp.strides[0], result + out.strides[0]
 
 
 class _Call:
@@ -88,7 +97,9 @@ class CompiledBiped(Biped):
         assert robot is not None
         key = hash_of("plant", skeleton(robot.structure), skeleton(robot.arrays), versions_text())
         functions = PlantEquations.of(robot.structure, robot.arrays).functions()
-        code = machine(key, list(functions), lambda: Text(module_text({k: f() for k, f in functions.items()})))
+        code = machine(
+            key, list(functions), lambda: Text(module_text({k: f() for k, f in functions.items()}))
+        )
         K, n = np.array([*floats(robot.arrays), 0.0]), self.n
         sizes = {"terms": (2 * n, self._cuts[-1]), "accelerate": (3 * n, n), "ground": (3 * n, 2)}
         return {name: _Call(code, name, K, *size) for name, size in sizes.items()}
@@ -107,16 +118,23 @@ class CompiledBiped(Biped):
     def reduction(self, q: Array, v: Array) -> Reduction:
         call, n = self._calls["terms"], self.n
         call.inp[:n], call.inp[n:] = self._angles(q), self._angles(v)
-        out, cuts = call(), self._cuts
-        return Reduction(
-            *(out[a:b].reshape(shape) for a, b, shape in zip(cuts, cuts[1:], self._shapes, strict=False))
-        )
+        out = call()
+        return Reduction(*[out[part].reshape(shape) for part, shape in self._parts])
+
+    @cached_property
+    def _parts(self) -> list[tuple[slice, tuple[int, ...]]]:
+        cuts = self._cuts
+        return [(slice(*ends), shape) for ends, shape in zip(pairwise(cuts), self._shapes, strict=True)]
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         call, n = self._calls["accelerate"], self.n
         if self.friction:
             force = force + self.friction_torque(v)
-        call.inp[:n], call.inp[n : 2 * n], call.inp[2 * n :] = self._angles(q), self._angles(v), force
+        call.inp[:n], call.inp[n : 2 * n], call.inp[2 * n :] = (
+            self._angles(q),
+            self._angles(v),
+            force,
+        )
         return call()
 
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:

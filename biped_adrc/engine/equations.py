@@ -35,8 +35,8 @@ from biped_adrc.engine.symbols import (
     tanh,
 )
 from biped_adrc.model.biped import STICTION_SPEED
-from biped_adrc.observers.base import Estimate
 from biped_adrc.model.reduction import Reduction, reduce
+from biped_adrc.observers.base import Estimate
 from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
 
@@ -150,10 +150,14 @@ class Equations:
             D, Omega = terms.D, terms.Omega
         else:
             D, Omega = mechanics.inertia_and_bias(robot, numbers.plant, q, v)
-        if numbers.friction:
-            viscous, static = numbers.friction
-            force = force - viscous * v - static * tanh(v / STICTION_SPEED)
-        return solve_positive(D, force - Omega, "D_s")
+        return solve_positive(D, self.with_friction(force, v) - Omega, "D_s")
+
+    def with_friction(self, force: Any, v: Any) -> Any:
+        """A generalised force with that of the joints' friction."""
+        if not self.numbers.friction:
+            return force
+        viscous, static = self.numbers.friction
+        return force - viscous * v - static * tanh(v / STICTION_SPEED)
 
     def at(self, back: Callable[[Any], Any] = lambda x: x) -> At:
         """The symbols of an instant; `back` makes x of what is given in its place."""
@@ -239,19 +243,22 @@ class Equations:
         stiff = len(split.A) * p
         return y[: len(y) - stiff], y[len(y) - stiff :].reshape(-1, p)
 
+    def _x(self, y: Any) -> Any:
+        """x of y."""
+        assert self.make.split is not None
+        return Tracer()(self.make.split.back)(self.numbers.split, *self._coordinates(y))
+
     def to(self) -> Function:
         """y = (w, E) of x."""
-        split, inp, trace = self.make.split, Vector("inp", self.nx), Tracer()
-        assert split is not None
-        y = trace(split.to)(self.numbers.split, inp.take(self.nx))
+        assert self.make.split is not None
+        inp = Vector("inp", self.nx)
+        y = Tracer()(self.make.split.to)(self.numbers.split, inp.take(self.nx))
         return Function(self.K, inp.symbol, column(*y))
 
     def back(self) -> Function:
         """x of y = (w, E)."""
-        split, inp, trace = self.make.split, Vector("inp", self.nx), Tracer()
-        assert split is not None
-        x = trace(split.back)(self.numbers.split, *self._coordinates(inp.take(self.nx)))
-        return Function(self.K, inp.symbol, column(x))
+        inp = Vector("inp", self.nx)
+        return Function(self.K, inp.symbol, column(self._x(inp.take(self.nx))))
 
     def remainder(self) -> Function:
         """N_w, and N_E in its forced rows."""
@@ -260,7 +267,7 @@ class Equations:
 
         def back(y: Any) -> Any:
             given.append(y)
-            return Tracer()(split.back)(k, *self._coordinates(y))
+            return self._x(y)
 
         at = self.at(back)
         m, observed = at.m, k.order * k.p
@@ -330,4 +337,6 @@ class PlantEquations:
         n = self.robot.n
         inp = Vector("inp", 3 * n)
         q, v, a = inp.take(n), inp.take(n), inp.take(n)
-        return Function(self.K, inp.symbol, column(mechanics.ground_reaction(self.robot, K, q, v, a)))
+        return Function(
+            self.K, inp.symbol, column(mechanics.ground_reaction(self.robot, K, q, v, a))
+        )

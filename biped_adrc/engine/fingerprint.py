@@ -27,7 +27,11 @@ def law_text(law: Any, seen: set[Any] | None = None) -> str:
     if law in seen:
         return law.__qualname__
     seen.add(law)
-    used = {name: law.__globals__[name] for name in sorted(names_of(law.__code__)) if name in law.__globals__}
+    used = {
+        name: law.__globals__[name]
+        for name in sorted(names_of(law.__code__))
+        if name in law.__globals__
+    }
     closed = [cell.cell_contents for cell in law.__closure__ or ()]
     parts = [law.__qualname__, _code_text(law.__code__), constant_text(law.__defaults__)]
     parts += [f"{name}={law_text(value, seen)}" for name, value in used.items()]
@@ -67,11 +71,14 @@ def versions_text() -> str:
     import casadi
     import llvmlite
 
-    import biped_adrc
     from biped_adrc.engine.machine import processor
 
-    root = Path(biped_adrc.__file__).parent
-    own = [*sorted((root / "engine").glob("*.py")), root / "model" / "reduction.py", root / "linear.py"]
+    root = Path(__file__).parents[1]
+    own = [
+        *sorted((root / "engine").glob("*.py")),
+        root / "model" / "reduction.py",
+        root / "linear.py",
+    ]
     return "\n".join(
         [
             *(platform.python_version(), np.__version__, casadi.__version__, llvmlite.__version__),

@@ -172,7 +172,9 @@ class _Writer:
         if code == ca.OP_ASSIGN:
             return a[0]
         if code not in OPERATIONS:
-            raise InputError(f"CasADi's operation {code} has no line of machine code; use NumPy's basic ones")
+            raise InputError(
+                f"CasADi's operation {code} has no line of machine code; use NumPy's basic ones"
+            )
         unary = code in (ca.OP_TWICE, ca.OP_SQ, ca.OP_INV, ca.OP_NEG)
         two = code in (ca.OP_ADD, ca.OP_SUB, ca.OP_MUL, ca.OP_DIV, ca.OP_FMIN, ca.OP_FMAX)
         two = two or code in (ca.OP_POW, ca.OP_CONSTPOW)

@@ -1,6 +1,6 @@
 """What can be read off a walk at one instant, as one compiled function; the columns of `analysis.signals`.
 
-    observe (t, step, t_start, x, zeta) -> the parts of `Seen`, in its order
+observe (t, step, t_start, x, zeta) -> the parts of `Seen`, in its order
 """
 
 from __future__ import annotations

@@ -38,6 +38,8 @@ class Program:
     make: Make
     machine: Machine
     K: Array
+    numbers: Numbers
+    """Those in K, by name."""
 
     @property
     def nx(self) -> int:
@@ -53,10 +55,12 @@ class Program:
         """
         plant, laws = robot_of(walker.plant), laws_of(walker.law)
         model = None if walker.model is None else robot_of(walker.model)
-        make = Make(_common(plant, model), laws._replace(parameters=None), size, walker.sampled, split)
+        make = Make(
+            _common(plant, model), laws._replace(parameters=None), size, walker.sampled, split
+        )
         numbers = _numbers(walker, plant, model, laws, split)
         K = np.array([*floats(numbers), 0.0])
-        return cls(make, _machine(make, numbers), K)
+        return cls(make, _machine(make, numbers), K, numbers)
 
     def address(self, name: str) -> int:
         """Where a function is, 0 for one that this walker has not."""
@@ -78,7 +82,9 @@ def _common(plant: Robot, model: Robot | None) -> Any:
     """The plant's make, with every term that it or the model has."""
     if model is None:
         return plant.structure
-    present = tuple(a | b for a, b in zip(plant.structure.present, model.structure.present, strict=True))
+    present = tuple(
+        a | b for a, b in zip(plant.structure.present, model.structure.present, strict=True)
+    )
     return plant.structure._replace(present=present)
 
 

@@ -174,7 +174,9 @@ class Solver:
             self.pivots.append(abs(rows[j][j]))
             for i in range(j + 1, n):
                 factor = rows[i][j] / rows[j][j]
-                rows[i] = [a - factor * b if c > j else 0.0 for c, (a, b) in _pairs(rows[i], rows[j])]
+                rows[i] = [
+                    a - factor * b if c > j else 0.0 for c, (a, b) in _pairs(rows[i], rows[j])
+                ]
         X = np.full((n, len(rows[0]) - n), 0.0, dtype=object)
         for i in reversed(range(n)):
             for c in range(X.shape[1]):
@@ -218,14 +220,19 @@ class Tracer:
         functions = {name: elementwise(_function(theirs)) for name, theirs in FUNCTIONS.items()}
         numpy = {
             **functions,
-            **{"zeros": _filled(0.0), "ones": _filled(1.0), "empty": _filled(0.0)},
+            "zeros": _filled(0.0),
+            "ones": _filled(1.0),
+            "empty": _filled(0.0),
             "full": lambda shape, value, *_: np.full(shape, value, dtype=object),
             "eye": lambda n, *rest, **more: np.eye(n, *rest, **more).astype(object),
             "zeros_like": lambda a, *_, **__: np.full(np.shape(a), 0.0, dtype=object),
             "diag": lambda a: np.diag(np.asarray(a, dtype=object)),
-            **{"minimum": elementwise(minimum), "maximum": elementwise(maximum)},
+            "minimum": elementwise(minimum),
+            "maximum": elementwise(maximum),
             "clip": elementwise(lambda x, low, high: minimum(maximum(x, low), high)),
-            **{"where": elementwise(where), "abs": np.abs, "float64": lambda x: x},
+            "where": elementwise(where),
+            "abs": np.abs,
+            "float64": lambda x: x,
             "linalg": _Substitute(np.linalg, {"solve": self.solver}),
         }
         scalars = {name: _function(theirs) for name, theirs in FUNCTIONS.items()}

@@ -12,6 +12,7 @@ from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.tracking import TABLE_II
+from biped_adrc.engine.choice import COMPILED, simulate_by
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.exponential import Exponential
@@ -156,7 +157,9 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
     x0 = walker.initial_state(q, v)
 
     def end(h: float) -> Array:
-        return simulate(walker, x0, StepMode(), Exponential(h), t_end=0.1).final_state[:10]
+        return simulate_by(
+            COMPILED, walker, x0, StepMode(), Exponential(h), t_end=0.1
+        ).final_state[:10]
 
     exact = end(3.125e-5)
     coarse, fine = (float(np.max(np.abs(end(h) - exact))) for h in (2.5e-4, 1.25e-4))
@@ -167,7 +170,7 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
 def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
     """(23) on a held joint, the order in the sampling period, the order of the exponential method."""
     simulated, corrected, printed = held_joint()
-    order = sampling_order(Run("NPD", preset=preset))
+    order = sampling_order(Run("NPD", preset=preset, engine=COMPILED))
     etd, _ = exponential_order(preset, 0.05)
     etd_table, error = exponential_order(preset, 1.0)
     gap = abs(simulated - corrected) / corrected

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from biped_adrc.analysis.signals import Signals
+from biped_adrc.engine.choice import COMPILED
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.gait.published import X_STAR
@@ -15,7 +16,7 @@ from biped_adrc.studies.laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.studies.poincare import poincare, return_map_samples
 from biped_adrc.studies.pool import Task
 from biped_adrc.studies.push import Push, joints_push
-from biped_adrc.studies.push_map import PATTERNS, push_map_tasks
+from biped_adrc.studies.push_map import PATTERNS, push_map, pushes
 from biped_adrc.studies.runs import CONTROLLERS, Outcome, Run, execute, execute_fully
 
 BOTH = CONTROLLERS
@@ -98,7 +99,7 @@ def base_runs(plan: Plan) -> dict[str, Run]:
         runs[f"heavier, masses and inertias {c}"] = replace(heavier, inertia=HEAVIER)
     if not plan.quick:
         runs |= literal_runs(plan)
-    return {name: replace(run, store_every=2) for name, run in runs.items()}
+    return {name: replace(run, store_every=2, engine=COMPILED) for name, run in runs.items()}
 
 
 def literal_runs(plan: Plan) -> dict[str, Run]:
@@ -128,7 +129,7 @@ class RecipeResult:
 
 def recipe_result(preset: str, controller: str) -> RecipeResult:
     """Walk gait (b) and look for its fixed point; whatever comes out is reported."""
-    run = Run(controller, preset=preset, gait="recipe", h=1e-3, impacts=8)
+    run = Run(controller, preset=preset, gait="recipe", h=1e-3, impacts=8, engine=COMPILED)
     biped = run.biped()
     record: dict[str, Any] = {}
     try:
@@ -194,21 +195,24 @@ def tasks(plan: Plan) -> dict[str, Task]:
     for name, run in base_runs(plan).items():
         out[name] = Task(name, execute, (run,))
     if not plan.quick:
-        out |= {f"map {i}": task for i, task in enumerate(map_tasks(plan))}
+        out |= map_tasks(plan)
     return out
 
 
-def map_tasks(plan: Plan) -> list[Task]:
-    """The map of pushes: coarse, or fine with `full`."""
+def map_tasks(plan: Plan) -> dict[str, Task]:
+    """The map of pushes of each preset: coarse, or fine with `full`."""
     onsets: tuple[float, ...] = (0.05, 0.3)
     amplitudes: tuple[float, ...] = (90.0, 150.0)
     if plan.full:
         onsets, amplitudes = FULL_ONSETS, FULL_AMPLITUDES
-    return [
-        task
+    return {
+        f"map {preset}": Task(
+            f"map of pushes, {preset}",
+            push_map,
+            (Run(preset=preset), pushes(onsets, amplitudes, tuple(PATTERNS), limits)),
+        )
         for preset, limits in map_presets(plan).items()
-        for task in push_map_tasks(Run(preset=preset), onsets, amplitudes, tuple(PATTERNS), limits)
-    ]
+    }
 
 
 def map_presets(plan: Plan) -> dict[str, tuple[float | None, ...]]:

@@ -6,15 +6,15 @@ with RABBIT's 150 N m. The walk starts on the periodic orbit at that step, and h
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+from biped_adrc.engine.batch import Case, simulate_many
 from biped_adrc.gait.gait import load_gait
-from biped_adrc.studies.pool import Task
 from biped_adrc.studies.push import Push
 from biped_adrc.studies.runs import CONTROLLERS, Run
-from biped_adrc.studies.walk import walk
+from biped_adrc.walker import Mode
 
 PATTERNS: dict[str, dict[str, float]] = {
     "all +": {"q1": 1.0, "q2": 1.0, "q3": 1.0, "q4": 1.0},
@@ -77,40 +77,54 @@ class Cell:
         }
 
 
-def push_cell(base: Run, onset: float, amplitude: float, pattern: str, limit: float | None) -> Cell:
-    """Both controllers under one push."""
-    torque = {joint: amplitude * factor for joint, factor in PATTERNS[pattern].items()}
-    push = Push(torque, step=PUSHED_STEP, start=onset, stop=onset + DURATION)
+@dataclass(frozen=True)
+class Tried:
+    """A push by its onset [s], amplitude [N m], joint pattern and torque limit [N m], None for unlimited."""
+
+    onset: float
+    amplitude: float
+    pattern: str
+    torque_limit: float | None
+
+    def run(self, base: Run, controller: str) -> Run:
+        """The walk under it."""
+        factors = PATTERNS[self.pattern].items()
+        torque = {joint: self.amplitude * factor for joint, factor in factors}
+        push = Push(torque, step=PUSHED_STEP, start=self.onset, stop=self.onset + DURATION)
+        limit = self.torque_limit
+        return replace(base, controller=controller, pushes=(push,), torque_limit=limit, h=MAP_STEP)
+
+
+def push_map(base: Run, tried: Sequence[Tried], threads: int | None = None) -> list[Cell]:
+    """Both controllers under every push, on the compiled engine, in parallel threads."""
     biped = base.biped()
     gait = load_gait(base.gait, biped)
-    status = []
-    for controller in CONTROLLERS:
-        run = replace(base, controller=controller, pushes=(push,), torque_limit=limit, h=MAP_STEP)
-        made = walk(
-            run.build(biped, gait),
-            gait,
-            IMPACTS,
-            run.one_step_method(),
-            first_step=PUSHED_STEP,
-            store_every=50,
-        )
-        status.append(made.trajectory.status.name)
-    return Cell(base.preset, onset, amplitude, pattern, limit, status[0], status[1])
+    q, v = gait.start(biped)
+
+    def cases() -> Iterator[Case]:
+        for push in tried:
+            for controller in CONTROLLERS:
+                run = push.run(base, controller)
+                walker, method = run.build(biped, gait), run.one_step_method()
+                yield Case(walker, q, v, method, IMPACTS, Mode(PUSHED_STEP))
+
+    status = (walked.status.name for walked in simulate_many(cases(), threads))
+    return [
+        Cell(base.preset, p.onset, p.amplitude, p.pattern, p.torque_limit, npd, adrc)
+        for p, npd, adrc in zip(tried, status, status, strict=True)
+    ]
 
 
-def push_map_tasks(
-    base: Run,
+def pushes(
     onsets: Sequence[float],
     amplitudes: Sequence[float],
     patterns: Sequence[str],
     limits: Sequence[float | None],
-) -> list[Task]:
-    """One task per cell."""
+) -> list[Tried]:
+    """All of them, the limits slowest and the onsets fastest."""
     return [
-        Task(
-            f"push {pattern}, {amplitude:g} N m", push_cell, (base, onset, amplitude, pattern, lim)
-        )
-        for lim in limits
+        Tried(onset, amplitude, pattern, limit)
+        for limit in limits
         for pattern in patterns
         for amplitude in amplitudes
         for onset in onsets

@@ -54,7 +54,7 @@ def reproduce(
     named = planned_tasks(plan)
     done = run_tasks(list(named.values()), workers, progress)
     results = {name: found.value for name, found in zip(named, done, strict=True)}
-    cells = [value for name, value in results.items() if name.startswith("map ")]
+    cells = [cell for name, value in results.items() if name.startswith("map ") for cell in value]
     laws, figures = results["numerics"]
     for c in BOTH:
         results[f"headline {c}"], more = results[f"headline {c}"]

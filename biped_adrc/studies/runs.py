@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from biped_adrc.control.base import Controller
 from biped_adrc.control.npd import NPDController
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.disturbances.base import Sum
+from biped_adrc.engine.choice import PINOCCHIO, check_engine
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.reference import Reference
@@ -37,7 +39,13 @@ from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, ContinuousTime, Mode, SampledTime, Walker
 
 CONTROLLERS = ("NPD", "ADRC")
-METHODS = {"rk4": RK4, "exponential": Exponential, "adaptive": Adaptive, "stiff": Stiff}
+METHODS: dict[str, Any] = {
+    "rk4": RK4,
+    "exponential": Exponential,
+    "feedback": partial(Exponential, feedback=True),
+    "adaptive": Adaptive,
+    "stiff": Stiff,
+}
 
 
 @dataclass(frozen=True)
@@ -45,7 +53,8 @@ class Run:
     """A walk. SI units; `period` None is continuous time, otherwise the sampling period [s].
 
     mass, inertia: factors of the plant's bodies while the model stays nominal. first_step: number of the
-    first single support, so that a push in the 19th can be studied without walking there.
+    first single support, so that a push in the 19th can be studied without walking there. engine: "pinocchio" or
+    "compiled".
     """
 
     controller: str = "ADRC"
@@ -70,6 +79,7 @@ class Run:
     method: str | None = None
     h: float | None = None
     store_every: int = 1
+    engine: str = PINOCCHIO
 
     def record(self) -> dict[str, Any]:
         """The resolved settings as plain values."""
@@ -122,8 +132,10 @@ class Run:
                 raise InputError(
                     f"method '{name}' chooses its own step; leave out h = {self.h:g} s"
                 )
-            return METHODS[name]()
-        return METHODS[name](self.h) if self.h is not None else METHODS[name]()
+            made: OneStepMethod = METHODS[name]()
+            return made
+        method: OneStepMethod = METHODS[name](self.h) if self.h is not None else METHODS[name]()
+        return method
 
 
 @dataclass(frozen=True)
@@ -146,6 +158,8 @@ class Outcome:
     """[N m]."""
     certificates: tuple[Certificate, ...]
     method: str
+    engine: str
+    """What ran."""
 
     @property
     def walked(self) -> bool:
@@ -155,9 +169,14 @@ class Outcome:
 
 @dataclass(frozen=True)
 class FullOutcome(Walk):
-    """A walk with its outcome."""
+    """A walk and the run that it was asked for by."""
 
-    outcome: Outcome
+    run: Run
+
+    @cached_property
+    def outcome(self) -> Outcome:
+        """What is left of it for another process."""
+        return _outcome(self.run, self)
 
 
 def execute(run: Run) -> Outcome:
@@ -167,6 +186,7 @@ def execute(run: Run) -> Outcome:
 
 def execute_fully(run: Run, progress: Progress | None = None) -> FullOutcome:
     """Carry out a run from the impact of the gait's periodic orbit, and keep the trajectory."""
+    check_engine(run.engine)
     if run.impacts < 1:
         raise InputError(f"the run asks for {run.impacts} impacts, expected at least 1")
     biped = run.biped()
@@ -179,9 +199,9 @@ def execute_fully(run: Run, progress: Progress | None = None) -> FullOutcome:
         first_step=run.first_step,
         store_every=run.store_every,
         progress=progress,
+        engine=run.engine,
     )
-    outcome = _outcome(run, made)
-    return FullOutcome(made.walker, gait, made.trajectory, outcome)
+    return FullOutcome(made.walker, gait, made.trajectory, run)
 
 
 def _outcome(run: Run, made: Walk) -> Outcome:
@@ -203,6 +223,7 @@ def _outcome(run: Run, made: Walk) -> Outcome:
         float(np.max(np.abs(s.u))),
         made.certificates,
         str(trajectory.settings["method"]),
+        str(trajectory.settings["engine"]),
     )
 
 

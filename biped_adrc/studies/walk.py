@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from biped_adrc.engine.choice import PINOCCHIO, simulate_by
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
-from biped_adrc.hybrid.simulator import Progress, simulate
+from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.studies.recording import Recording, RecordingViewer
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.walker import Mode, Walker
 
 
 @dataclass(frozen=True)
@@ -56,20 +57,23 @@ def walk(
     first_step: int = 1,
     store_every: int = 1,
     progress: Progress | None = None,
+    engine: str = PINOCCHIO,
 ) -> Walk:
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
 
-    A fall is a status of the trajectory. Raises InputError for parts that do not fit together.
+    engine: "pinocchio" or "compiled"; the trajectory's settings say what ran. A fall is a status of the
+    trajectory. Raises InputError for parts that do not fit together.
     """
     mode = Mode(first_step)
     q, v = gait.start(walker.nominal) if start is None else start
-    trajectory = simulate(
+    trajectory = simulate_by(
+        engine,
         walker,
         walker.initial_state(q, v, mode),
         mode,
         default_method(walker) if method is None else method,
         t_end=impacts * walker.max_step_time,
-        stop_after=(FOOT_STRIKE, impacts),
+        impacts=impacts,
         store_every=store_every,
         progress=progress,
     )

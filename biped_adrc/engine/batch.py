@@ -1,0 +1,232 @@
+"""Many walks at once: compiled, in threads, each by itself, so that their number does not change a bit of any.
+
+What a run needs is made when it starts and given up when it ends: memory does not grow with the number of runs,
+but for the few numbers that each of them leaves.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from biped_adrc.engine.choice import COMPILED, PINOCCHIO
+from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.kernels import layout
+from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.kernels.plan import Plan
+from biped_adrc.engine.kernels.tables import STATUS
+from biped_adrc.engine.partly import partly
+from biped_adrc.engine.program import NotCompiled
+from biped_adrc.errors import BipedError, InputError, ModelError, NotFiniteError, SingularError
+from biped_adrc.hybrid import simulator
+from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.hybrid.simulator import check_start
+from biped_adrc.hybrid.status import Status
+from biped_adrc.types import Array
+from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
+
+AHEAD = 4
+"""Runs handed to each thread beforehand."""
+STORE = 1_000_000
+"""Of runs in Python the ends of the arcs are kept."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """One walk to be made: from (q, v) (n,) at the start of single support `mode.step`, for `impacts` foot strikes."""
+
+    walker: Walker
+    q: Array
+    v: Array
+    method: OneStepMethod
+    impacts: int = 25
+    mode: Mode = Mode()
+
+    @property
+    def t_end(self) -> float:
+        """When it ends at the latest [s]."""
+        return self.mode.start + self.impacts * self.walker.max_step_time
+
+
+@dataclass(frozen=True)
+class Walked:
+    """What one walk of a batch leaves; M impacts, states of nx numbers."""
+
+    status: Status
+    detail: str
+    times: Array
+    """(M,) of the foot strikes [s]."""
+    x_minus: Array
+    """(M, nx) before them."""
+    final_state: Array
+    """(nx,), x+ where the last of the strikes asked for was made."""
+    t_end: float
+    """[s]"""
+    engine: str
+    """What ran."""
+
+    @property
+    def impacts(self) -> int:
+        """M."""
+        return len(self.times)
+
+    @property
+    def durations(self) -> Array:
+        """(M,) of the single supports that ended in a strike, from the start of the run [s]."""
+        return np.diff(self.times, prepend=0.0)
+
+
+def simulate_many(
+    cases: Iterable[Case],
+    threads: int | None = None,
+    progress: Callable[[int], None] | None = None,
+) -> Iterator[Walked]:
+    """The walks in the order of their cases, made in parallel threads and handed over as they come.
+
+    threads: number of cores without. `cases` may be a generator, of which a few are taken ahead. progress is told
+    how many are done. A fall, a NaN or a controller that raises ends its own run, with a status. Raises InputError for
+    a case whose parts do not fit together.
+    """
+    count = threads if threads is not None else os.cpu_count() or 1
+    if count < 1:
+        raise InputError(f"the batch asks for {count} threads, expected at least 1")
+    return _in_order(iter(cases), count, progress)
+
+
+def _in_order(
+    cases: Iterator[Case], threads: int, progress: Callable[[int], None] | None
+) -> Iterator[Walked]:
+    waiting: deque[Future[Walked]] = deque()
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            done = 0
+            for case in cases:
+                waiting.append(pool.submit(run_case(case)))
+                while len(waiting) >= AHEAD * threads or (waiting and waiting[0].done()):
+                    done += 1
+                    yield _told(waiting.popleft().result(), done, progress)
+            while waiting:
+                done += 1
+                yield _told(waiting.popleft().result(), done, progress)
+        finally:
+            for future in waiting:
+                future.cancel()
+
+
+def _told(walked: Walked, done: int, progress: Callable[[int], None] | None) -> Walked:
+    if progress is not None:
+        progress(done)
+    return walked
+
+
+def run_case(case: Case) -> Callable[[], Walked]:
+    """What carries a case out, in any thread; parts of Python's and Pinocchio's are touched here only."""
+    try:
+        x = case.walker.initial_state(case.q, case.v, case.mode)
+    except (NotFiniteError, SingularError) as error:
+        return _ended(case, error)
+    check_start(x, 0.0, case.t_end, (FOOT_STRIKE, case.impacts), 1)
+    n, p = case.walker.plant.n, case.walker.plant.p
+    size = len(x) - 2 * n - (p if case.walker.sampled else 0)
+    try:
+        compiled = CompiledWalker.of(case.walker, case.method, size, case.mode.start)
+    except (NotCompiled, ModelError) as reason:
+        walked = _in_python(case, x, reason)
+        return lambda: walked
+    return lambda: _compiled(compiled, case, x)
+
+
+def _ended(case: Case, error: BipedError) -> Callable[[], Walked]:
+    status = Status.SINGULAR if isinstance(error, SingularError) else Status.NOT_FINITE
+    x = np.concatenate((case.q, case.v))
+    none = np.zeros((0, len(x)))
+    walked = Walked(status, str(error), np.zeros(0), none, x, case.mode.start, COMPILED)
+    return lambda: walked
+
+
+def _compiled(compiled: CompiledWalker, case: Case, x: Array) -> Walked:
+    plan, nx = compiled.plan, len(x)
+    s = plan.start(x, case.mode.start, case.mode.step, case.mode.start, case.t_end)
+    strikes = np.zeros((case.impacts, 1 + 2 * nx))
+    code, made = kernels().stride(plan.P, plan.F, compiled.K, plan.work(), s, case.impacts, strikes)
+    return _walked(plan, code, made, s, strikes)
+
+
+def _in_python(case: Case, x: Array, reason: BipedError) -> Walked:
+    """On the compiled plant, or on Pinocchio's where there is none."""
+    stop = (FOOT_STRIKE, case.impacts)
+    if isinstance(reason, NotCompiled):
+        run = partly(
+            case.walker,
+            x,
+            case.mode,
+            case.method,
+            str(reason),
+            t_end=case.t_end,
+            t0=case.mode.start,
+            impacts=case.impacts,
+            store_every=STORE,
+            progress=None,
+        )
+    else:
+        run = simulator.simulate(
+            case.walker,
+            x,
+            case.mode,
+            case.method,
+            t_end=case.t_end,
+            t0=case.mode.start,
+            stop_after=stop,
+            store_every=STORE,
+        )
+    events = run.events(FOOT_STRIKE)
+    return Walked(
+        run.status,
+        run.detail,
+        np.array([event.t for event in events]),
+        run.before(FOOT_STRIKE).reshape(-1, len(x)),
+        run.final_state,
+        run.t_end,
+        str(run.settings.get("engine", PINOCCHIO)),
+    )
+
+
+@dataclass(frozen=True)
+class Strides:
+    """Single supports of one walker from many states, for return maps; x_minus of the next strike, or its status."""
+
+    compiled: CompiledWalker
+    t_end: float
+
+    def __call__(
+        self, starts: Sequence[tuple[Array, Mode]], threads: int | None = None
+    ) -> list[Walked]:
+        """From every (x, mode), in their order."""
+        with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
+            return list(pool.map(self.one, starts))
+
+    def one(self, start: tuple[Array, Mode]) -> Walked:
+        """From x+ after an impact that began the single support of `mode`: its foot strike has just fired."""
+        x, mode = start
+        plan, nx = self.compiled.plan, len(x)
+        s = plan.start(x, mode.start, mode.step, mode.start, mode.start + self.t_end)
+        strikes = np.zeros((1, 1 + 2 * nx))
+        code, made = kernels().stride(plan.P, plan.F, self.compiled.K, plan.work(), s, 1, strikes)
+        return _walked(plan, code, made, s, strikes)
+
+
+def _walked(plan: Plan, code: int, made: int, s: Array, strikes: Array) -> Walked:
+    return Walked(
+        STATUS[code],
+        "",
+        strikes[:made, 0].copy(),
+        strikes[:made, 1 : 1 + plan.nx].copy(),
+        s[layout.HEAD :].copy(),
+        float(s[layout.TIME]),
+        COMPILED,
+    )
