@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import tan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 _CHORD = 0.1  # the residual must fall by this factor with the old dP/ds, else it is taken anew
 
-Mapper = Callable[[Callable[[Array], Array], Iterable[Array]], Iterable[Array]]
+Mapper = Callable[[Callable[[Any], Array], Iterable[Any]], Iterable[Array]]
 """Like `map`; a parallel one evaluates the differences at once."""
 
 
@@ -117,7 +117,9 @@ class ReturnMap:
     def ran(self) -> str:
         """The engine that P runs on: the one asked for, or "pinocchio" where a part has no compiled form."""
         q = np.zeros(self.walker.plant.n)
-        return PINOCCHIO if self._compiled(len(self.walker.initial_state(q, q))) is None else COMPILED
+        return (
+            PINOCCHIO if self._compiled(len(self.walker.initial_state(q, q))) is None else COMPILED
+        )
 
     def _compiled(self, states: int) -> Strides | None:
         if self.engine != COMPILED:

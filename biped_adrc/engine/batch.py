@@ -38,14 +38,14 @@ STORE = 1_000_000
 
 @dataclass(frozen=True)
 class Case:
-    """One walk to be made: from (q, v) (n,) at the start of single support `mode.step`, for `impacts` foot strikes."""
+    """One walk to be made: from (q, v) (n,) at the start of single support `mode.step`, for some foot strikes."""
 
     walker: Walker
     q: Array
     v: Array
     method: OneStepMethod
     impacts: int = 25
-    mode: Mode = Mode()
+    mode: Mode = Mode()  # noqa: RUF009
 
     @property
     def t_end(self) -> float:
@@ -88,9 +88,9 @@ def simulate_many(
 ) -> Iterator[Walked]:
     """The walks in the order of their cases, made in parallel threads and handed over as they come.
 
-    threads: number of cores without. `cases` may be a generator, of which a few are taken ahead. progress is told
-    how many are done. A fall, a NaN or a controller that raises ends its own run, with a status. Raises InputError for
-    a case whose parts do not fit together.
+    threads: number of cores without. `cases` may be a generator, of which a few are taken ahead. progress is
+    told how many are done. A fall or a NaN ends its own run, with a status. Raises InputError for a case whose
+    parts do not fit together.
     """
     count = threads if threads is not None else os.cpu_count() or 1
     if count < 1:
@@ -198,7 +198,7 @@ def _in_python(case: Case, x: Array, reason: BipedError) -> Walked:
 
 @dataclass(frozen=True)
 class Strides:
-    """Single supports of one walker from many states, for return maps; x_minus of the next strike, or its status."""
+    """Single supports of one walker from many states, for return maps: the next strike, or a status."""
 
     compiled: CompiledWalker
     t_end: float

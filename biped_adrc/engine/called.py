@@ -15,7 +15,6 @@ from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton
 from biped_adrc.engine.native import NativeLaw, native_law
 from biped_adrc.engine.symbols import Scalar, column
 from biped_adrc.model.reduction import Reduction
-from biped_adrc.types import Array
 
 
 class Call(NamedTuple):
@@ -60,7 +59,7 @@ def examples(k: Any, field: str, n: int, p: int, size: int) -> tuple[Any, ...]:
         np.zeros(n - p),
     )
     m = Measurement(0.0, 1, 0.0, np.full(n, 0.1), np.full(n, 0.1), terms)
-    rest: dict[str, tuple[Array, ...]] = {
+    rest: dict[str, tuple[Any, ...]] = {
         "flow": (np.zeros(p),),
         "predict": (np.zeros(p),),
         "jump": (np.arange(p),),

@@ -1,4 +1,4 @@
-"""A robot whose dynamics are compiled, for controllers in plain Python: the same terms, an order of magnitude sooner.
+"""A robot whose dynamics are compiled, for controllers in plain Python.
 
 Kinematics, contact and everything that is not asked for at every instant stay Pinocchio's.
 """
@@ -69,7 +69,7 @@ class CompiledBiped(Biped):
         return made.checked(biped)
 
     def checked(self, biped: Biped, samples: int = SAMPLES) -> CompiledBiped:
-        """Itself, when D_s and Omega are Pinocchio's at random states, and its q'' obeys (1). Raises ModelError."""
+        """Itself, when its terms are Pinocchio's at random states and q'' obeys (1). Raises ModelError."""
         random = np.random.default_rng(3)
         for _ in range(samples):
             q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)
@@ -124,7 +124,9 @@ class CompiledBiped(Biped):
     @cached_property
     def _parts(self) -> list[tuple[slice, tuple[int, ...]]]:
         cuts = self._cuts
-        return [(slice(*ends), shape) for ends, shape in zip(pairwise(cuts), self._shapes, strict=True)]
+        return [
+            (slice(*ends), shape) for ends, shape in zip(pairwise(cuts), self._shapes, strict=True)
+        ]
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         call, n = self._calls["accelerate"], self.n

@@ -50,8 +50,8 @@ class CompiledWalker:
     ) -> CompiledWalker:
         """For a controller with `size` states and a run that begins at t_first [s].
 
-        Raises NotCompiled where a part has no laws or the method no compiled form, InputError for a method without
-        the coordinates that it needs.
+        Raises NotCompiled where a part has no laws or the method no compiled form, InputError for a method
+        without the coordinates that it needs.
         """
         split, made = _method(walker, method)
         program = Program.of(walker, size, split)

@@ -187,7 +187,7 @@ class Equations:
         return self.said(at.trace, name, self.numbers.k, s, at.m, *rest)
 
     def said(self, trace: Tracer, name: str, *arguments: Any) -> Any:
-        """The law on symbols, or a call of it. Raises Untraceable, with the law's name as its second argument."""
+        """The law on symbols, or a call of it. Raises Untraceable, with the law's name."""
         make = self.make
         if name in make.called:
             size = result_size(name, make.robot.p, make.size)
@@ -297,7 +297,7 @@ class Equations:
 
 @dataclass(frozen=True)
 class PlantEquations:
-    """The functions of a robot by itself, for controllers in plain Python and for what is looked up afterwards."""
+    """The functions of a robot by itself, for controllers in plain Python."""
 
     robot: Structure
     K: Any

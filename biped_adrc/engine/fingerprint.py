@@ -1,4 +1,4 @@
-"""What generated code depends on, as one hash: the laws' own code, the make of robot and parameters, and versions."""
+"""What generated code depends on, as one hash: the laws' code, the make of robot and parameters, versions."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def skeleton(tree: Any) -> str:
 def versions_text() -> str:
     """The versions of what makes code, this package's own generator, and the processor."""
     import casadi
-    import llvmlite
+    from importlib.metadata import version
 
     from biped_adrc.engine.machine import processor
 
@@ -81,7 +81,7 @@ def versions_text() -> str:
     ]
     return "\n".join(
         [
-            *(platform.python_version(), np.__version__, casadi.__version__, llvmlite.__version__),
+            *(platform.python_version(), np.__version__, casadi.__version__, version("llvmlite")),
             *(processor(), *(path.read_text(encoding="utf-8") for path in own)),
         ]
     )

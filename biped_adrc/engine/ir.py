@@ -1,7 +1,7 @@
 """LLVM's language for a straight-line function: `void f(double* K, double* inp, double* out)`.
 
-CasADi lists the instructions of an expression in order; each becomes one line. Nothing is re-ordered by value and no
-operations are fused, so the numbers are the same whatever runs beside.
+CasADi lists the instructions of an expression in order; each becomes one line. Nothing is re-ordered by value
+and no operations are fused, so the numbers are the same whatever runs beside.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ OPERATIONS: dict[int, Line] = {
     },
 }
 COMPARISONS: dict[int, Line] = {ca.OP_LT: _compare("olt"), ca.OP_LE: _compare("ole")}
-ONE = ("llvm.fabs.f64", "llvm.sqrt.f64", "sin", "cos", "tan", "exp", "log")
+ONE: tuple[str, ...] = ("llvm.fabs.f64", "llvm.sqrt.f64", "sin", "cos", "tan", "exp", "log")
 ONE += ("sinh", "cosh", "tanh", "asin", "acos", "atan")
 TWO = ("llvm.minimum.f64", "llvm.maximum.f64", "pow")
 DECLARATIONS = "\n".join(

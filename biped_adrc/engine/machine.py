@@ -1,7 +1,7 @@
 """Machine code of generated functions, kept on disk with a checksum.
 
-Object code is stored under a hash of what it was made from and of what makes it; a damaged file is made again, and
-where nothing can be written it is made in memory each time.
+Object code is stored under a hash of what it was made from and of what makes it; a damaged file is made again,
+and where nothing can be written it is made in memory each time.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def machine(
     text: Callable[[], Text],
     link: Callable[[str], Any] = lambda need: None,
 ) -> Machine:
-    """The functions `names` stored under `key`, or compiled from `text()`; `link` is called for all it needs."""
+    """The functions `names` stored under `key`, or compiled from `text()`; `link` is called for its needs."""
     with _LOCK:
         found = stored(key)
         if found is None:

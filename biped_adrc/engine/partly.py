@@ -1,8 +1,8 @@
 """Runs of which a part has no laws: it runs in Python on the compiled plant.
 
-In sampled time the controller is called once per tick and the plant flows between ticks in compiled code; in
-continuous time, and for disturbances or methods without a compiled form, the Python engine runs with compiled D_s,
-Omega and q''.
+In sampled time the controller is called once per tick and the plant flows between ticks in compiled code. In
+continuous time, and for disturbances or methods without a compiled form, the Python engine runs with compiled
+D_s, Omega and q''.
 """
 
 from __future__ import annotations

@@ -120,7 +120,7 @@ def _machine(make: Make, numbers: Numbers) -> Machine:
         laws,
         make.size,
         make.sampled,
-        len(split) and (make.split.A.shape, make.split.rows),
+        () if make.split is None else (make.split.A.shape, make.split.rows),
         skeleton(numbers),
         versions_text(),
     )

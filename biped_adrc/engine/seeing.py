@@ -55,8 +55,8 @@ def _arc(walker: Walker, arc: Arc, code: Machine, K: Array, foot: Array) -> list
     parts = np.split(out, np.cumsum(sizes)[:-1], axis=1)
     s = Seen(
         *(
-            part[:, 0] if size == 1 and name in _SINGLE else part
-            for part, size, name in zip(parts, sizes, Seen._fields, strict=True)
+            part[:, 0] if name in SINGLE else part
+            for name, part in zip(Seen._fields, parts, strict=True)
         )
     )
     q, v = arc.x[:, :n], arc.x[:, n : 2 * n]
@@ -90,7 +90,7 @@ def _arc(walker: Walker, arc: Arc, code: Machine, K: Array, foot: Array) -> list
     ]
 
 
-_SINGLE = ("theta", "dtheta", "kinetic", "potential")
+SINGLE = ("theta", "dtheta", "kinetic", "potential")
 
 
 def _external(walker: Walker, arc: Arc, mode: Mode) -> Array:

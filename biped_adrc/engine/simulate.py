@@ -1,7 +1,7 @@
 """Runs of a walker in compiled code, with the trajectory that the Python engine would leave.
 
-What has no laws runs in Python on the compiled plant: a controller in sampled time tick by tick, with the plant's
-flow between ticks compiled; anything else through the Python engine with compiled dynamics.
+What has no laws runs in Python on the compiled plant: a controller in sampled time tick by tick, with the
+plant's flow between ticks compiled; anything else through the Python engine with compiled dynamics.
 """
 
 from __future__ import annotations
@@ -43,8 +43,8 @@ def simulate(
 ) -> Trajectory:
     """As `hybrid.simulate` for a walker; impacts: end after that many foot strikes.
 
-    The trajectory's settings say which engine ran and, where it is not all compiled, why. Raises InputError for a
-    start that is not finite or parts that do not fit, ModelError for a robot that is no planar tree.
+    The trajectory's settings say which engine ran and, where it is not all compiled, why. Raises InputError
+    for a start that is not finite or parts that do not fit, ModelError for a robot that is no planar tree.
     """
     stop_after = None if impacts is None else (FOOT_STRIKE, impacts)
     check_start(np.asarray(x0), t0, t_end, stop_after, store_every)
@@ -118,9 +118,7 @@ class _Run:
 def _terminal(found: ArcRun, status: Status) -> Event | None:
     if status not in TERMINAL:
         return None
-    return Event(
-        TERMINAL[status], float(found.s[layout.TIME]), found.s[layout.HEAD :].copy(), None
-    )
+    return Event(TERMINAL[status], float(found.s[layout.TIME]), found.s[layout.HEAD :].copy(), None)
 
 
 def _arc(found: ArcRun, mode: Mode, event: Event | None) -> Arc:

@@ -1,8 +1,8 @@
-"""Laws on symbols: a law is run once on CasADi's scalars in NumPy's object arrays, and what it did is an expression.
+"""Laws on symbols: run once on CasADi's scalars in NumPy's object arrays, a law leaves an expression of what it did.
 
-A law sees copies of `np`, `math` and `solve` that make no float arrays and decide nothing by the numbers. Numbers of
-type int decide, and are part of the expression's structure; floats are symbols, to be given at run time. A law
-that branches on a symbol raises `Untraceable`.
+A law sees copies of `np`, `math` and `solve` that make no float arrays and decide nothing by the numbers. Numbers
+of type int decide, and are part of the expression's structure; floats are symbols, to be given at run time. A
+law that branches on a symbol raises `Untraceable`.
 """
 
 from __future__ import annotations
@@ -140,7 +140,8 @@ def where(condition: Any, a: Any, b: Any) -> Any:
 def solve_positive(A: Any, B: Any, what: str) -> Any:
     """X with A X = B for a symmetric positive definite A, by A = L d L' without pivots."""
     n, columns = len(A), B.reshape(len(A), -1).copy()
-    L, d = np.full((n, n), 0.0, dtype=object), []
+    L = np.full((n, n), 0.0, dtype=object)
+    d: list[Any] = []
     for j in range(n):
         rest = A[j, j] - sum(L[j, k] * L[j, k] * d[k] for k in range(j))
         d.append(rest)
@@ -158,7 +159,7 @@ def solve_positive(A: Any, B: Any, what: str) -> Any:
 
 
 class Solver:
-    """`solve` by elimination with the largest pivot of each column, chosen at run time; notes the least pivot."""
+    """`solve` by elimination with the largest pivot of each column, chosen at run time; keeps the pivots."""
 
     def __init__(self) -> None:
         self.pivots: list[Any] = []
@@ -212,7 +213,7 @@ def _larger_first(one: list[Any], other: list[Any], j: int) -> tuple[list[Any], 
 
 
 class Tracer:
-    """Copies of laws that run on symbols, with one solver for all of them, and the calls of those that do not."""
+    """Copies of laws that run on symbols, with one solver for all, and the calls of laws that do not."""
 
     def __init__(self) -> None:
         self.solver = Solver()

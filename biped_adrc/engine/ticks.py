@@ -82,7 +82,9 @@ class TickByTick:
         """Arcs until enough impacts, the end or a terminal status."""
         n, p = self.walker.plant.n, self.walker.plant.p
         s = x0[2 * n : len(x0) - p]
-        vector = self.plant.plan.start(np.concatenate((x0[: 2 * n], x0[-p:])), t0, mode.step, mode.start, t_end)
+        vector = self.plant.plan.start(
+            np.concatenate((x0[: 2 * n], x0[-p:])), t0, mode.step, mode.start, t_end
+        )
         arcs: list[Arc] = []
         status, detail = Status.COMPLETED, ""
         while True:

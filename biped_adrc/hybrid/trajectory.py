@@ -36,7 +36,7 @@ class Arc:
 
     @property
     def seen(self) -> Array:
-        """t (K,) with the first of two equal times, which is a jump, just before it: what acted until then [s]."""
+        """t (K,) with the first of two equal times, a jump, just before it: for what acted until then [s]."""
         later = np.append(self.t[1:], self.t[-1])
         return np.where(self.t == later, np.nextafter(self.t, -np.inf), self.t)
 

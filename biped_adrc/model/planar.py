@@ -154,6 +154,6 @@ class PlanarTree:
         return xp.dot(j_x, acc) - centre_x, xp.dot(j_z, acc) - centre_z
 
 
-def _clean(x: Array) -> Array:
+def _clean(x: Any) -> Any:
     """Round-off of the fit taken off."""
     return np.where(np.abs(x) < EXACT, 0.0, x)

@@ -157,9 +157,9 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
     x0 = walker.initial_state(q, v)
 
     def end(h: float) -> Array:
-        return simulate_by(
-            COMPILED, walker, x0, StepMode(), Exponential(h), t_end=0.1
-        ).final_state[:10]
+        return simulate_by(COMPILED, walker, x0, StepMode(), Exponential(h), t_end=0.1).final_state[
+            :10
+        ]
 
     exact = end(3.125e-5)
     coarse, fine = (float(np.max(np.abs(end(h) - exact))) for h in (2.5e-4, 1.25e-4))

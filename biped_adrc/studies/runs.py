@@ -53,8 +53,8 @@ class Run:
     """A walk. SI units; `period` None is continuous time, otherwise the sampling period [s].
 
     mass, inertia: factors of the plant's bodies while the model stays nominal. first_step: number of the
-    first single support, so that a push in the 19th can be studied without walking there. engine: "pinocchio" or
-    "compiled".
+    first single support, so that a push in the 19th can be studied without walking there. engine: "pinocchio"
+    or "compiled".
     """
 
     controller: str = "ADRC"

@@ -30,7 +30,7 @@ def published_force_rows() -> tuple[Row, ...]:
 
 
 def hip_rows(tracking: str, steps: int = 25) -> tuple[Row, ...]:
-    """Just below the predicted force the walk goes on, just above it stops, and with the PI it keeps its speed."""
+    """Just below the predicted force the walk goes on, just above it stops; with the PI it keeps its speed."""
     case = HipCase(tracking, stride=False, steps=steps)
     force, name = case.predicted(), f"RABBIT identified-bare, v0.5, {tracking}"
     below, above = (1.0 - BESIDE) * force, (1.0 + BESIDE) * force

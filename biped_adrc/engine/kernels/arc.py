@@ -1,0 +1,143 @@
+"""One arc: the ticks that are due, steps to the next switching time or tick, and so on to the first event.
+
+A run is a vector s: the head of `layout`, then x. `arc` goes on from s; `strike`, or another END,
+makes it the next arc or the next stretch of the same one. Nodes (t, x, x') go into the rows of R.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from biped_adrc.engine.kernels.call import Ints, Rows, data, inner, kernel, shift
+from biped_adrc.engine.kernels.laws import (
+    act,
+    copy,
+    lower,
+    row,
+    watch,
+)
+from biped_adrc.engine.kernels.layout import (
+    AFTER,
+    ARC,
+    ARMED,
+    COMPLETED,
+    COUNT,
+    DX0,
+    END,
+    EVERY,
+    FIRED,
+    FULL,
+    GUARDS,
+    HEAD,
+    LIMIT,
+    PERIOD,
+    RESTART,
+    ROOM,
+    START,
+    STATES,
+    STEP,
+    SWITCHES,
+    SWITCHES_AT,
+    T_FIRST,
+    TIME,
+    VALUES,
+    X0,
+    ZERO_PIVOT,
+)
+from biped_adrc.engine.kernels.segment import node, through
+from biped_adrc.types import Array
+
+
+@inner
+def is_tick(F: Array, t: float, start: float) -> bool:
+    k = np.floor((t - start) / F[PERIOD] + 0.5)
+    return t == start + k * F[PERIOD]
+
+
+@inner
+def next_tick(F: Array, t: float, start: float) -> float:
+    k = np.floor((t - start) / F[PERIOD])
+    while start + k * F[PERIOD] <= t:
+        k += 1.0
+    return start + k * F[PERIOD]
+
+
+@inner
+def next_break(P: Ints, F: Array, W: Array, t: float, start: float) -> float:
+    """The first switching time or tick after t, at most the end."""
+    first = W[END]
+    for i in range(P[SWITCHES]):
+        at = P[SWITCHES_AT] + 2 * i
+        if F[at] == 0.0 or F[at] == W[STEP]:
+            s = F[at + 1] if F[at] == 0.0 else W[START] + F[at + 1]
+            if t < s < first:
+                first = s
+    return min(first, next_tick(F, t, start)) if F[PERIOD] > 0.0 else first
+
+
+@inner
+def travel(P: Ints, F: Array, K: Array, W: Array, R: Array) -> int:
+    """From X0 at TIME to the first event or END; a code, 0 at END."""
+    start = W[ARC] if P[RESTART] == 1 else F[T_FIRST]
+    while W[TIME] < W[END]:
+        t = W[TIME]
+        W[LIMIT] = math.inf
+        if F[PERIOD] > 0.0 and is_tick(F, t, start):
+            code = act(P, F, K, W, t, row(P, W, X0))
+            if code != 0:
+                return code
+        code = through(P, F, K, W, next_break(P, F, W, t, start), R)
+        if code != 0:
+            return code
+    return COMPLETED
+
+
+@inner
+def arm(P: Ints, F: Array, K: Array, W: Array) -> None:
+    """The witnesses at the start of an arc; what is left of the one that has just fired is taken as zero."""
+    W[ARC] = W[TIME]
+    after = row(P, W, AFTER)
+    watch(P, F, K, W, W[TIME], row(P, W, X0), after)
+    for guard in range(GUARDS):
+        fired = W[FIRED] == guard
+        W[VALUES + guard] = 0.0 if fired else after[guard]
+    W[ARMED] = 1.0
+
+
+@inner
+def load(P: Ints, W: Array, s: Array) -> None:
+    """The head of W and row X0 from the vector of a run."""
+    copy(s, W, HEAD)
+    copy(shift(s, HEAD), row(P, W, X0), P[STATES])
+    W[ZERO_PIVOT] = 0.0
+
+
+@inner
+def save(P: Ints, W: Array, s: Array) -> None:
+    """The vector of a run from the head of W and row X0."""
+    copy(W, s, HEAD)
+    copy(row(P, W, X0), shift(s, HEAD), P[STATES])
+
+
+@kernel
+def arc(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array, kept: Rows) -> int:
+    """Go on from `run` to the first event or its END; a code. `run` is as it was where `kept` is FULL."""
+    P, F, K, W, s = data(ints), data(floats), data(numbers), data(work), data(run)
+    R = data(kept)
+    load(P, W, s)
+    lower(P, F, W)
+    if W[ARMED] == 0.0:
+        arm(P, F, K, W)
+    W[ROOM] = kept.shape[0]
+    code = travel(P, F, K, W, R)
+    if W[EVERY] > 0.0 and W[COUNT] == 0.0 and code != FULL:
+        dx = row(P, W, DX0)
+        for i in range(P[STATES]):
+            dx[i] = 0.0
+        if not node(P, W, R, W[TIME], row(P, W, X0), dx):
+            code = FULL
+    if code != FULL:
+        save(P, W, s)
+    return code

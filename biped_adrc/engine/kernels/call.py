@@ -1,0 +1,128 @@
+"""Pointers, calls of C functions by their addresses at run time, and how the loops are compiled.
+
+The loops work on pointers, written and read as arrays are; a vector is a pointer to its first number.
+numba compiles what a function calls once more into each of its callers; a `unit` is compiled once, and called
+by its symbol.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numba
+import numpy as np
+from llvmlite import binding, ir
+from numba import extending
+from numpy.typing import NDArray
+
+Ints = NDArray[np.int64]
+Rows = NDArray[np.float64]
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+njit: Any = numba.njit
+cfunc: Any = numba.cfunc
+types: Any = numba.types
+
+KERNELS: list[Any] = []
+UNITS: dict[str, tuple[Any, Any]] = {}
+"""By symbol: the signature and the function, in the order in which they need each other."""
+_NUMBERS = {"int": types.int64, "float": types.float64, "None": types.void}
+_POINTERS = {"Ints": types.CPointer(types.int64), "Array": types.CPointer(types.float64)}
+_ARRAYS = {"Ints": types.int64[::1], "Array": types.float64[::1], "Rows": types.float64[:, ::1]}
+_KEEP: list[Any] = []
+
+
+def intrinsic(function: Callable[..., Any]) -> Any:
+    """numba's, written in LLVM's instructions."""
+    made: Any = extending.intrinsic
+    return made(function)
+
+
+def kernel(function: Function) -> Function:
+    """Callable from Python without the GIL, with arrays, once `compile_all` has run."""
+    made: Any = njit(nogil=True, error_model="numpy", cache=True)(function)
+    KERNELS.append(made)
+    return made
+
+
+def inner(function: Function) -> Function:
+    """Compiled into the units and kernels that call it, and kept on disk with them."""
+    return njit(
+        nogil=True,
+        error_model="numpy",
+        no_cpython_wrapper=True,
+        no_cfunc_wrapper=True,
+    )(function)
+
+
+def _signature(function: Any, kinds: dict[str, Any]) -> tuple[list[Any], Any]:
+    """Kinds of the arguments and of the result, from the annotations."""
+    known = _NUMBERS | kinds
+    hints = function.__annotations__
+    return [known[hint] for name, hint in hints.items() if name != "return"], known.get(
+        hints["return"]
+    )
+
+
+def unit(function: Function) -> Function:
+    """A C function with a symbol of its own, once `compile_all` has run; its annotations are its signature."""
+    arguments, result = _signature(function, _POINTERS)
+    signature = result(*arguments)
+    symbol = f"{function.__module__}.{function.__name__}"
+    UNITS[symbol] = signature, function
+    external: Any = types.ExternalFunction(symbol, signature)
+    return external
+
+
+def compile_all() -> None:
+    """The machine code of all units and kernels, from the disk if it is there; no more is compiled after."""
+    for symbol, (signature, function) in UNITS.items():
+        compiled = cfunc(signature, cache=True, error_model="numpy")(function)
+        _KEEP.append(compiled)
+        binding.add_symbol(symbol, compiled.address)
+    for made in KERNELS:
+        made.compile(tuple(_signature(made.py_func, _ARRAYS)[0]))
+        made.disable_compile()
+
+
+def _pointer(context: Any, builder: Any, kind: Any, value: Any) -> Any:
+    if isinstance(kind, types.Array):
+        return context.make_array(kind)(context, builder, value).data
+    return value
+
+
+@intrinsic
+def call(typingctx: Any, address: Any, K: Any, inp: Any, out: Any) -> Any:
+    """Call `void f(double* K, double* inp, double* out)` at `address`, with pointers or arrays of float64."""
+
+    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        double = ir.DoubleType().as_pointer()
+        kind = ir.FunctionType(ir.VoidType(), [double] * 3).as_pointer()
+        pairs = zip(signature.args[1:], arguments[1:], strict=True)
+        pointers = [_pointer(context, builder, *pair) for pair in pairs]
+        builder.call(builder.inttoptr(arguments[0], kind), pointers)
+        return context.get_dummy_value()
+
+    return types.void(types.int64, K, inp, out), codegen
+
+
+@intrinsic
+def data(typingctx: Any, array: Any) -> Any:
+    """Pointer to the first number of an array."""
+
+    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return _pointer(context, builder, signature.args[0], arguments[0])
+
+    return types.CPointer(array.dtype)(array), codegen
+
+
+@intrinsic
+def shift(typingctx: Any, pointer: Any, i: Any) -> Any:
+    """Pointer to entry i."""
+
+    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.gep(arguments[0], [arguments[1]])
+
+    return pointer(pointer, types.int64), codegen

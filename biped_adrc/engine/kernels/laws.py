@@ -1,0 +1,195 @@
+"""The laws of a run, called by address: flow, tick, strike, witnesses, and the disturbance's torque.
+
+A row that a law fills ends with its least pivot; where that is exactly zero the run is noted as singular.
+"""
+
+from __future__ import annotations
+
+import math
+
+from biped_adrc.engine.kernels.call import Ints, call, inner, shift, unit
+from biped_adrc.engine.kernels.layout import (
+    ARC,
+    BACK,
+    COORDINATES,
+    DROP,
+    DROPS,
+    DROPS_AT,
+    FLOW,
+    FOOT_STRIKE,
+    FOOT_X,
+    FORCED,
+    HIP_TOO_LOW,
+    INP,
+    JOINTS,
+    LIMIT,
+    LONGEST,
+    LOWEST_HIP,
+    NOT_FINITE,
+    OUT,
+    PART,
+    PARTS,
+    PARTS_AT,
+    REMAINDER,
+    SINGULAR,
+    SLOW,
+    START,
+    STATES,
+    STEP,
+    STEP_TOO_LONG,
+    STIFF,
+    STRIKE,
+    TICK,
+    TIME,
+    TO,
+    WATCH,
+    WIDTH,
+    ZERO_PIVOT,
+    ZETA,
+)
+from biped_adrc.types import Array
+
+
+@inner
+def row(P: Ints, W: Array, i: int) -> Array:
+    """Pointer to row i of the work rows."""
+    return shift(W, i * P[WIDTH])
+
+
+@inner
+def copy(x: Array, out: Array, size: int) -> None:
+    for i in range(size):
+        out[i] = x[i]
+
+
+@inner
+def finite(x: Array, size: int) -> bool:
+    """Whether the sum of squares is finite."""
+    total = 0.0
+    for i in range(size):
+        total += x[i] * x[i]
+    return total < math.inf
+
+
+@inner
+def regular(dx: Array, size: int) -> bool:
+    """Whether every number is finite, however large."""
+    total = 0.0
+    for i in range(size):
+        total += 0.0 * dx[i]
+    return total == 0.0
+
+
+@inner
+def broken(W: Array) -> int:
+    """The status of a run whose state or slope is not finite."""
+    return SINGULAR if W[ZERO_PIVOT] == 1.0 else NOT_FINITE
+
+
+@inner
+def disturb(P: Ints, F: Array, W: Array, zeta: Array) -> None:
+    """zeta: the sum of the parts at (t, step, t_start, q, v) in row INP."""
+    n, inp, part = P[COORDINATES], row(P, W, INP), row(P, W, PART)
+    for i in range(n):
+        zeta[i] = 0.0
+    for k in range(P[PARTS]):
+        at = P[PARTS_AT] + 2 * k
+        call(P[at], shift(F, P[at + 1]), inp, part)
+        for i in range(n):
+            zeta[i] += part[i]
+
+
+@unit
+def evaluate(
+    P: Ints, F: Array, K: Array, W: Array, law: int, t: float, x: Array, out: Array
+) -> None:
+    """out = law(t, step, t_start, x, zeta)."""
+    n, nx, inp, zeta = P[COORDINATES], P[STATES], row(P, W, INP), row(P, W, ZETA)
+    inp[0], inp[1], inp[2] = min(t, W[LIMIT]), W[STEP], W[START]
+    copy(x, shift(inp, 3), nx)
+    disturb(P, F, W, zeta)
+    copy(zeta, shift(inp, 3 + nx), n)
+    call(P[law], K, inp, out)
+    if out[nx] == 0.0:
+        W[ZERO_PIVOT] = 1.0
+
+
+@inner
+def flow(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array, dx: Array) -> None:
+    """dx = x'(t, x)."""
+    evaluate(P, F, K, W, FLOW, t, x, dx)
+
+
+@inner
+def act(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array) -> int:
+    """x after a tick at t, or as it was where the tick gives no number."""
+    out = row(P, W, OUT)
+    evaluate(P, F, K, W, TICK, t, x, out)
+    if not finite(out, P[STATES]):
+        return broken(W)
+    copy(out, x, P[STATES])
+    return 0
+
+
+@unit
+def remainder(P: Ints, F: Array, K: Array, W: Array, t: float, y: Array, N: Array) -> None:
+    """N = (N_w, N_E) at (t, y); zeta is asked for at x of y."""
+    n, ny = P[COORDINATES], P[SLOW] + P[STIFF] * P[JOINTS]
+    inp, zeta = row(P, W, INP), row(P, W, ZETA)
+    inp[0], inp[1], inp[2] = min(t, W[LIMIT]), W[STEP], W[START]
+    if P[PARTS] > 0:
+        call(P[BACK], K, y, row(P, W, OUT))
+        copy(row(P, W, OUT), shift(inp, 3), 2 * n)
+    disturb(P, F, W, zeta)
+    copy(y, shift(inp, 3), ny)
+    copy(zeta, shift(inp, 3 + ny), n)
+    call(P[REMAINDER], K, inp, N)
+    if N[P[SLOW] + P[FORCED] * P[JOINTS]] == 0.0:
+        W[ZERO_PIVOT] = 1.0
+
+
+@inner
+def split(P: Ints, K: Array, x: Array, y: Array) -> None:
+    """y = (w, E) of x."""
+    call(P[TO], K, x, y)
+
+
+@inner
+def join(P: Ints, K: Array, y: Array, x: Array) -> None:
+    """x of y = (w, E)."""
+    call(P[BACK], K, y, x)
+
+
+@inner
+def jump(P: Ints, K: Array, W: Array, x: Array, out: Array) -> int:
+    """out = x+ at the strike in x; the next single support begins."""
+    nx, inp = P[STATES], row(P, W, INP)
+    inp[0], inp[1] = W[TIME], W[STEP] + 1.0
+    copy(x, shift(inp, 2), nx)
+    call(P[STRIKE], K, inp, out)
+    if not finite(out, nx):
+        return SINGULAR if out[nx] == 0.0 else NOT_FINITE
+    W[STEP] += 1.0
+    W[START] = W[ARC] = W[TIME]
+    return 0
+
+
+@unit
+def watch(P: Ints, F: Array, K: Array, W: Array, t: float, q: Array, out: Array) -> None:
+    """The three witnesses at (t, q), and x of the swing foot."""
+    seen = row(P, W, OUT)
+    call(P[WATCH], K, q, seen)
+    out[FOOT_STRIKE] = seen[0] + W[DROP]
+    out[HIP_TOO_LOW] = seen[2] - F[LOWEST_HIP]
+    out[STEP_TOO_LONG] = W[START] + F[LONGEST] - t
+    out[FOOT_X] = seen[1]
+
+
+@inner
+def lower(P: Ints, F: Array, W: Array) -> None:
+    """How far the steps down of this single support lower the ground it ends on."""
+    W[DROP] = 0.0
+    for i in range(P[DROPS]):
+        at = P[DROPS_AT] + 2 * i
+        if F[at] == W[STEP]:
+            W[DROP] += F[at + 1]

@@ -1,0 +1,73 @@
+"""Where the loops find their numbers: one vector of integers P, one of floats F, and work rows W.
+
+Every function takes some of (P, F, K, W): the plan of a run in integers and in floats, the parameters K that
+the called laws read, and the work rows, whose first is the state of the run. The names here are plain numbers,
+and so constants to the compiler.
+"""
+
+from __future__ import annotations
+
+# P: addresses
+FLOW, TICK, STRIKE, WATCH, TO, BACK, REMAINDER = 0, 1, 2, 3, 4, 5, 6
+# P: sizes n, nx, p, nw, k, the forced rows of E, and the levels of halving
+COORDINATES, STATES, JOINTS, SLOW, STIFF, FORCED, LEVELS = 7, 8, 9, 10, 11, 12, 13
+# P: method, clock, and how many drops, switching times and parts of the disturbance there are
+KIND, RESTART, DROPS, SWITCHES, PARTS = 14, 15, 16, 17, 18
+# P: where forced rows and parts begin in P; drops, switching times and weights in F; length of a work row
+ROWS_AT, PARTS_AT, DROPS_AT, SWITCHES_AT, WEIGHTS_AT = 19, 20, 21, 22, 23
+WIDTH = 24
+P_HEAD = 25
+# F
+PERIOD, T_FIRST, LOWEST_HIP, LONGEST, LEAST_STEP, H, RTOL, ATOL, MAX_STEP = (
+    0,
+    1,
+    2,
+    3,
+    4,
+    5,
+    6,
+    7,
+    8,
+)
+F_HEAD = 9
+
+# kinds of method
+RK4, DOP853, ETD = 0, 1, 2
+# the matrices of one level of halving, in the order of PhiTable
+HALF, HALF_PHI, FULL_STEP, FIRST, MIDDLE, LAST, MATRICES = 0, 1, 2, 3, 4, 5, 6
+# the tableau: A (12, 12), B and C (12,), E3 and E5 (13,), one after the other
+STAGES = 12
+B_AT, C_AT, E3_AT, E5_AT, TABLEAU = 144, 156, 168, 181, 194
+
+# guards, in the order in which they are watched
+FOOT_STRIKE, HIP_TOO_LOW, STEP_TOO_LONG, GUARDS = 0, 1, 2, 3
+FOOT_X = 3  # beside the three witnesses: x of the swing foot
+
+# codes that an arc ends with; the first eight are statuses
+COMPLETED, TIME_OUT, FELL, STALLED = 0, 1, 2, 3
+NOT_FINITE, SINGULAR, STEP_FAILED, EVENT_LIMIT = 4, 5, 6, 7
+STRUCK, FULL = 8, 9
+
+# head of the vector s of a run, and of W: t [s]; single support; its start [s]; end of the arc or
+# segment [s]; the guard that ended the last arc, -1 for none; every how many steps a node is kept; nodes kept;
+# whether the witnesses are known; the witnesses; start of the arc [s]
+TIME, STEP, START, END, FIRED, EVERY, COUNT, ARMED, VALUES, ARC = 0, 1, 2, 3, 4, 5, 6, 7, 8, 11
+# W only: the steps down; no later than this [s]; whether a pivot was zero; time of the event [s]
+DROP, LIMIT, ZERO_PIVOT, EVENT = 12, 13, 14, 15
+# W only: rows of R; time reached and next step to try; time after the sub-steps, end and witness of the bracket
+ROOM, REACHED, TRY, LANDED, FAR, FAR_VALUE = 16, 17, 18, 19, 20, 21
+HEAD = 22
+
+# rows of W, after the head in row 0
+INP, OUT, ZETA, PART, AFTER, TRIED = 1, 2, 3, 4, 5, 6
+X0, DX0, X1, DX1, STAGE, K2, K3, K4 = 7, 8, 9, 10, 11, 12, 13, 14
+XE, DXE, XB, DXB = 15, 16, 17, 18  # at the event; after the sub-steps towards it
+Y0, N0, Y1, N1, YA, YB, NA, NB, NC = 19, 20, 21, 22, 23, 24, 25, 26, 27
+E_HALF, Y_SUB, N_SUB, Y_TRY = 28, 29, 30, 31
+SLOPES = 32  # 13 rows of DOP853
+ROWS = 45
+
+RESOLUTION = 2e-3  # [s], longest stretch of a step without a look at the witnesses
+LANDING = 1e-9  # a last step longer than h by this fraction is still one step
+SAME_STEP = 1e-9  # relative difference below which two steps share their matrices
+XTOL, XRTOL = 1e-15, 9e-16  # [s] and relative, of the time of an event

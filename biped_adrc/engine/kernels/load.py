@@ -1,0 +1,46 @@
+"""The kernels as one module on disk, so that its machine code is kept under the hash of all of its text."""
+
+from __future__ import annotations
+
+import ast
+from functools import lru_cache
+from pathlib import Path
+from types import ModuleType
+
+from biped_adrc.engine.store import forget, load_source
+
+FILES = ("layout", "call", "laws", "steps", "dop853", "events", "segment", "arc", "walk")
+"""In the order in which they need each other."""
+_OWN = "biped_adrc.engine.kernels"
+
+
+@lru_cache(maxsize=1)
+def kernels() -> ModuleType:
+    """The compiled module, with `arc`, `strike` and `stride`."""
+    text = source()
+    module = load_source(text)
+    try:
+        module.compile_all()
+    except Exception:  # numba does not say what it raises for machine code that is damaged
+        forget(module)
+        module = load_source(text)
+        module.compile_all()
+    return module
+
+
+def source() -> str:
+    """The text of all kernels, their imports of each other left out."""
+    folder = Path(__file__).parent
+    texts = [_alone((folder / f"{name}.py").read_text(encoding="utf-8")) for name in FILES]
+    return "\n\n".join(['"""Compiled loops."""', "from __future__ import annotations", *texts])
+
+
+def _alone(text: str) -> str:
+    lines = text.splitlines()
+    for statement in ast.parse(text).body:
+        if isinstance(statement, ast.ImportFrom) and (
+            statement.module == "__future__" or str(statement.module).startswith(_OWN)
+        ):
+            for i in range(statement.lineno - 1, statement.end_lineno or statement.lineno):
+                lines[i] = ""
+    return "\n".join(lines)

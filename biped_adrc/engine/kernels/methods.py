@@ -1,0 +1,138 @@
+"""The methods of the compiled loops, and the matrices of ETD-RK4 for a step and its halvings.
+
+phi_0 = e^z, phi_(j+1)(z) = (phi_j(z) - 1/j!) / z; by their series for steps so short that |hA| < 1/2, and
+doubled from there:
+
+    phi_0(2z) = phi_0^2                    phi_1(2z) = (phi_0 phi_1 + phi_1) / 2
+    phi_2(2z) = (phi_0 phi_2 + phi_1 + phi_2) / 4
+    phi_3(2z) = (phi_0 phi_3 + phi_1 / 2 + phi_2 + phi_3) / 8
+
+by plain sums, so that they are the same whatever BLAS there is.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.integrate import DOP853
+
+from biped_adrc.engine.kernels import layout
+from biped_adrc.engine.kernels.tables import Ints, Method
+from biped_adrc.errors import InputError
+from biped_adrc.hybrid.integrators import check_step
+from biped_adrc.types import Array
+
+TERMS = 24
+"""Of the series; |z|^24 / 24! < 1e-30."""
+STABLE = 0.1
+"""Largest |lambda| h 2^-(levels - 1) for the classical step that ends a landing."""
+Phi = tuple[Array, Array, Array, Array]
+
+
+def rk4(h: float) -> Method:
+    """The classical method with step h [s]. Raises InputError."""
+    check_step(h, "step h [s]")
+    return _method(layout.RK4, h=h)
+
+
+def dop853(rtol: float, atol: float, max_step: float) -> Method:
+    """Dormand and Prince 8(5, 3) with step control; max_step [s]. Raises InputError."""
+    for name, value in (("rtol", rtol), ("atol", atol), ("max_step [s]", max_step)):
+        check_step(value, name)
+    least = 100.0 * np.finfo(float).eps
+    if rtol < least:
+        raise InputError(
+            f"rtol is {rtol:g}, expected at least {least:.1e}, the round-off of a step"
+        )
+    return _method(layout.DOP853, rtol=rtol, atol=atol, max_step=max_step)
+
+
+def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> Method:
+    """ETD-RK4 with step h [s] for E' = A E + N_E, A (k, k) [1/s], N_E zero but in `rows`.
+
+    levels: the shortest sub-step of a landing is h 2^-(levels - 1). Raises InputError, also where the classical
+    step below it would not be stable.
+    """
+    check_step(h, "step h [s]")
+    A, rows = np.array(A, dtype=float), np.array(rows, dtype=np.int64)
+    if A.ndim != 2 or A.shape[0] != A.shape[1] or not np.all(np.isfinite(A)):
+        raise InputError(f"A has shape {A.shape}, expected a square matrix of finite numbers")
+    if rows.ndim != 1 or np.any(rows < 0) or np.any(rows >= len(A)):
+        raise InputError(
+            f"the forced rows are {rows}, expected row numbers of a matrix of {len(A)}"
+        )
+    if not 1 <= levels <= 40:
+        raise InputError(f"levels is {levels}, expected 1 to 40")
+    shortest = h * 0.5 ** (levels - 1)
+    fastest = float(np.max(np.abs(np.linalg.eigvals(A)), initial=0.0))
+    if fastest * shortest > STABLE:
+        raise InputError(
+            f"the fastest pole is {fastest:.3g} rad/s and the shortest sub-step {shortest:.2e} s; "
+            f"their product has to be below {STABLE}: give more levels or a shorter h"
+        )
+    return _method(layout.ETD, h=h, phi=phi_levels(A, h, levels), rows=rows)
+
+
+def _method(kind: int, **given: float | Array | Ints) -> Method:
+    values: dict[str, float | Array | Ints] = dict.fromkeys(("h", "rtol", "atol", "max_step"), 1.0)
+    values |= {
+        name: np.ascontiguousarray(getattr(DOP853, name)) for name in ("A", "B", "C", "E3", "E5")
+    }
+    values |= {"phi": np.zeros((0, layout.MATRICES, 0, 0)), "rows": np.zeros(0, dtype=np.int64)}
+    return Method(kind, **(values | given))  # type: ignore[arg-type]
+
+
+def _times(A: Array, B: Array) -> Array:
+    product: Array = np.einsum("ij,jk->ik", A, B)
+    return product
+
+
+def _series(Z: Array) -> Phi:
+    """phi_0 to phi_3 of a small Z (k, k), each by Horner's rule."""
+    one = np.eye(len(Z))
+
+    def phi(j: int) -> Array:
+        total = one / math.factorial(TERMS + j)
+        for i in reversed(range(TERMS)):
+            total = one / math.factorial(i + j) + _times(Z, total)
+        return total
+
+    return phi(0), phi(1), phi(2), phi(3)
+
+
+def _doubled(phi: Phi) -> Phi:
+    p0, p1, p2, p3 = phi
+    return (
+        _times(p0, p0),
+        0.5 * (_times(p0, p1) + p1),
+        0.25 * (_times(p0, p2) + p1 + p2),
+        0.125 * (_times(p0, p3) + 0.5 * p1 + p2 + p3),
+    )
+
+
+def phi_levels(A: Array, h: float, levels: int) -> Array:
+    """The six matrices of `hybrid.exponential.PhiTable` for h 2^-level, (levels, 6, k, k)."""
+    size = float(np.max(np.sum(np.abs(A), axis=1), initial=0.0)) * h
+    short = max(0, math.ceil(math.log2(2.0 * size))) if size > 0.0 else 0
+    phi = _series(A * (h * 0.5 ** max(short, levels)))
+    table = np.zeros((levels, layout.MATRICES, *A.shape))
+    for level in reversed(range(max(short, levels))):
+        half, phi = phi, _doubled(phi) if level < short else _series(A * (h * 0.5**level))
+        if level < levels:
+            table[level] = _weights(half, phi, h * 0.5**level)
+    return table
+
+
+def _weights(half: Phi, phi: Phi, h: float) -> Array:
+    p0, p1, p2, p3 = phi
+    return np.array(
+        (
+            half[0],
+            0.5 * h * half[1],
+            p0,
+            h * (p1 - 3.0 * p2 + 4.0 * p3),
+            h * (2.0 * p2 - 4.0 * p3),
+            h * (4.0 * p3 - p2),
+        )
+    )

@@ -1,0 +1,195 @@
+"""Steps over a segment in which all is smooth, to its end or the first event.
+
+Nodes (t, x, x') go into the rows of R, every k-th step and points inside of a long one.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from biped_adrc.engine.kernels.call import Ints, inner, shift, unit
+from biped_adrc.engine.kernels.dop853 import adaptive, initial_step
+from biped_adrc.engine.kernels.events import event, pieces, retake
+from biped_adrc.engine.kernels.laws import (
+    broken,
+    copy,
+    finite,
+    flow,
+    join,
+    regular,
+    remainder,
+    row,
+    split,
+)
+from biped_adrc.engine.kernels.layout import (
+    COUNT,
+    DOP853,
+    DX0,
+    DX1,
+    DXB,
+    DXE,
+    ETD,
+    EVENT,
+    EVERY,
+    FORCED,
+    FULL,
+    JOINTS,
+    KIND,
+    LANDED,
+    LANDING,
+    LIMIT,
+    N0,
+    N1,
+    REACHED,
+    RK4,
+    ROOM,
+    SAME_STEP,
+    SLOW,
+    STATES,
+    STEP_FAILED,
+    STIFF,
+    TIME,
+    TRY,
+    X0,
+    X1,
+    XB,
+    XE,
+    Y0,
+    Y1,
+    H,
+)
+from biped_adrc.engine.kernels.steps import classical, exponential, halve
+from biped_adrc.types import Array
+
+
+@inner
+def left(t: float) -> float:
+    """The number just before t."""
+    return np.nextafter(t, -np.inf)
+
+
+@inner
+def node(P: Ints, W: Array, R: Array, t: float, x: Array, dx: Array) -> bool:
+    """Keep (t, x, dx); False when there is no room."""
+    i, nx = int(W[COUNT]), P[STATES]
+    if i >= W[ROOM]:
+        return False
+    kept = shift(R, i * (1 + 2 * nx))
+    kept[0] = t
+    for j in range(nx):
+        kept[1 + j], kept[1 + nx + j] = x[j], dx[j]
+    W[COUNT] += 1.0
+    return True
+
+
+@inner
+def nodes(P: Ints, F: Array, K: Array, W: Array, R: Array, t0: float, t1: float) -> bool:
+    """Keep the end of a step, and of a long one points inside; False when there is no room."""
+    count, xe, dxe = pieces(t0, t1), row(P, W, XE), row(P, W, DXE)
+    for j in range(1, count):
+        s = t0 + (t1 - t0) * j / count
+        retake(P, F, K, W, t0, s)
+        flow(P, F, K, W, s, xe, dxe)
+        if not node(P, W, R, s, xe, dxe):
+            return False
+    return node(P, W, R, t1, row(P, W, X1), row(P, W, DX1))
+
+
+@inner
+def begin(P: Ints, F: Array, K: Array, W: Array, t: float) -> None:
+    """What the first step of a smooth segment starts from, beside X0."""
+    x, y = row(P, W, X0), row(P, W, Y0)
+    if P[KIND] == ETD:
+        split(P, K, x, y)
+        remainder(P, F, K, W, t, y, row(P, W, N0))
+    if P[KIND] != ETD or W[EVERY] > 0.0:
+        flow(P, F, K, W, t, x, row(P, W, DX0))
+
+
+@unit
+def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int) -> int:
+    """X1 and what the next step starts from, at t1; none follows the last before a break. A status."""
+    nx, sloped, x1, y1 = P[STATES], W[EVERY] > 0.0, row(P, W, X1), row(P, W, Y1)
+    if P[KIND] == RK4:
+        classical(P, F, K, W, t, row(P, W, X0), row(P, W, DX0), t1 - t, x1)
+        sloped = sloped or last == 0
+    elif abs(t1 - t - F[H]) <= SAME_STEP * F[H]:
+        exponential(P, F, K, W, 0, t, t1 - t, row(P, W, Y0), row(P, W, N0), y1)
+        join(P, K, y1, x1)
+    else:
+        halve(P, F, K, W, -1, t, t1, t1, 0.0)
+        now = W[LANDED]
+        classical(P, F, K, W, now, row(P, W, XB), row(P, W, DXB), t1 - now, x1)
+    if not finite(x1, nx):
+        return broken(W)
+    if P[KIND] == ETD and last == 0:
+        N = row(P, W, N1)
+        remainder(P, F, K, W, t1, y1, N)
+        if not regular(N, P[SLOW] + P[FORCED] * P[JOINTS]):
+            return broken(W)
+    if sloped:
+        dx1 = row(P, W, DX1)
+        flow(P, F, K, W, t1, x1, dx1)
+        if not regular(dx1, nx):
+            return broken(W)
+    return 0
+
+
+@inner
+def pass_on(P: Ints, W: Array) -> None:
+    """The end of a step is the start of the next."""
+    nx = P[STATES]
+    copy(row(P, W, X1), row(P, W, X0), nx)
+    copy(row(P, W, DX1), row(P, W, DX0), nx)
+    if P[KIND] == ETD:
+        copy(row(P, W, Y1), row(P, W, Y0), P[SLOW] + P[STIFF] * P[JOINTS])
+        copy(row(P, W, N1), row(P, W, N0), P[SLOW] + P[FORCED] * P[JOINTS])
+
+
+@inner
+def stop(P: Ints, F: Array, K: Array, W: Array, R: Array, code: int) -> int:
+    """X0 and TIME at the event just found, kept as a node; its code."""
+    te, x, dx = W[EVENT], row(P, W, X0), row(P, W, DX0)
+    copy(row(P, W, XE), x, P[STATES])
+    W[TIME] = te
+    if W[EVERY] > 0.0:
+        flow(P, F, K, W, left(te), x, dx)
+        if not node(P, W, R, te, x, dx):
+            return FULL
+    return code
+
+
+@unit
+def through(P: Ints, F: Array, K: Array, W: Array, t_next: float, R: Array) -> int:
+    """From X0 at TIME to t_next, over which all is smooth; a code, 0 at t_next."""
+    t0 = t = W[TIME]
+    every, skipped, steps, h = int(W[EVERY]), 0, 0, F[H]
+    W[LIMIT] = left(t_next)
+    begin(P, F, K, W, t)
+    if every > 0 and not node(P, W, R, t, row(P, W, X0), row(P, W, DX0)):
+        return FULL
+    if P[KIND] == DOP853:
+        count, h = 0.0, initial_step(P, F, K, W, t, t_next)
+    else:
+        count = max(1.0, np.ceil((t_next - t0) / h - LANDING))
+    while t < t_next:
+        steps += 1
+        if P[KIND] == DOP853:
+            code = adaptive(P, F, K, W, t, t_next, h)
+            t1, h = W[REACHED], W[TRY]
+        else:
+            t1 = t0 + steps * h if steps < count else t_next
+            code = fixed(P, F, K, W, t, t1, int(steps >= count))
+        if code != 0 or t1 <= t:
+            return code if code != 0 else STEP_FAILED
+        code = event(P, F, K, W, t, t1)
+        if code != 0:
+            return stop(P, F, K, W, R, code)
+        skipped += 1
+        if every > 0 and (t1 >= t_next or skipped >= every):
+            if not nodes(P, F, K, W, R, t, t1):
+                return FULL
+            skipped = 0
+        pass_on(P, W)
+        W[TIME] = t = t1
+    return 0
