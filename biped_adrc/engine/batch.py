@@ -38,7 +38,7 @@ STORE = 1_000_000
 
 @dataclass(frozen=True)
 class Case:
-    """One walk to be made: from (q, v) (n,) at the start of single support `mode.step`, for some foot strikes."""
+    """One walk to be made: from (q, v) (n,) at the start of single support `mode.step`, for some strikes."""
 
     walker: Walker
     q: Array

@@ -6,6 +6,7 @@ import hashlib
 import platform
 import types
 from functools import lru_cache
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -68,8 +69,6 @@ def skeleton(tree: Any) -> str:
 @lru_cache(maxsize=1)
 def versions_text() -> str:
     """The versions of what makes code, this package's own generator, and the processor."""
-    import casadi
-    from importlib.metadata import version
 
     from biped_adrc.engine.machine import processor
 
@@ -81,7 +80,7 @@ def versions_text() -> str:
     ]
     return "\n".join(
         [
-            *(platform.python_version(), np.__version__, casadi.__version__, version("llvmlite")),
+            *(platform.python_version(), np.__version__, version("casadi"), version("llvmlite")),
             *(processor(), *(path.read_text(encoding="utf-8") for path in own)),
         ]
     )

@@ -42,9 +42,8 @@ class Structure(NamedTuple):
 
 def without_zeros(robot: Structure, K: PlantArrays) -> PlantArrays:
     """The numbers with a plain 0 for those that are zero by make, whose terms then vanish."""
-    kept = (
-        np.where(mask, x, 0.0) if mask.ndim else x for x, mask in zip(K, robot.present, strict=True)
-    )
+    pairs: Any = zip(K, robot.present, strict=True)
+    kept: Any = [np.where(mask, x, 0.0) if mask.ndim else x for x, mask in pairs]
     return PlantArrays(*kept)
 
 

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from biped_adrc.engine.native_source import Unfit, composed
-from biped_adrc.engine.store import forget, load_source
+from biped_adrc.engine.store import forget, load_source, seal
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
@@ -113,15 +113,18 @@ def _compiled(text: str) -> Any:
     decorate = cfunc(types.void(pointer, pointer, pointer), cache=True, error_model="numpy")
     module = load_source(text)
     try:
-        return decorate(module.entry)
+        made = decorate(module.entry)
     except NumbaError as error:
         raise Unfit(_reason(error)) from error
     except Exception:  # numba does not say what it raises for machine code that is damaged
         forget(module)
-    try:
-        return decorate(load_source(text).entry)
-    except Exception as error:
-        raise Unfit(_reason(error)) from error
+        module = load_source(text)
+        try:
+            made = decorate(module.entry)
+        except Exception as error:
+            raise Unfit(_reason(error)) from error
+    seal(module)
+    return made
 
 
 def _reason(error: Exception) -> str:

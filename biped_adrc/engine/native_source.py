@@ -1,4 +1,4 @@
-"""The text of a law and of all that it reaches: functions, NamedTuples and constants, each under its own name."""
+"""The text of a law and of all that it reaches: functions, NamedTuples and constants, each under its name."""
 
 from __future__ import annotations
 

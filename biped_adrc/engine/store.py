@@ -1,7 +1,8 @@
 """Generated modules on disk: one folder per hash of the source and of what compiles it.
 
 Files are written beside and moved into place, so several processes may make the same one. What cannot be
-written is kept in a temporary folder; what is damaged is written again. numba keeps its machine code beside.
+written is kept in a temporary folder; what is damaged is written again. numba keeps its machine code beside;
+`seal` adds a checksum to each of its files, and those without the right one are removed before they are read.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import platform
 import shutil
 import sys
 import tempfile
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
@@ -23,6 +25,9 @@ from biped_adrc.files import write_text
 
 VARIABLE = "BIPED_ADRC_CACHE"
 """Environment variable: the folder of generated modules, by default biped_adrc in the user's cache."""
+
+MARK = ".sha256"
+"""Ending of the file with the checksum of another."""
 
 
 def cache_folder() -> Path:
@@ -57,6 +62,7 @@ def load_source(source: str) -> ModuleType:
         path = _written(cache_folder() / key / "kernels.py", source)
     except (OSError, OutputError):
         path = _written(_temporary() / key / "kernels.py", source)
+    _remove_unsealed(path.parent)
     spec = importlib.util.spec_from_file_location(f"biped_adrc_kernels_{key}", path)
     assert spec is not None
     assert spec.loader is not None
@@ -64,6 +70,32 @@ def load_source(source: str) -> ModuleType:
     sys.modules[spec.name] = module  # numba finds the module of its machine code by name
     spec.loader.exec_module(module)
     return module
+
+
+def seal(module: ModuleType) -> None:
+    """Note the checksums of what numba has written for a module, once it is compiled."""
+    for path in _machine_code(Path(str(module.__file__)).parent):
+        check = _checksum(path)
+        mark = path.with_name(path.name + MARK)
+        if not (mark.is_file() and mark.read_text() == check):
+            with suppress(OSError, OutputError):
+                write_text(mark, check)
+
+
+def _remove_unsealed(folder: Path) -> None:
+    for path in _machine_code(folder):
+        mark = path.with_name(path.name + MARK)
+        with suppress(OSError):
+            if not (mark.is_file() and mark.read_text() == _checksum(path)):
+                path.unlink()
+
+
+def _machine_code(folder: Path) -> list[Path]:
+    return [path for path in (folder / "__pycache__").glob("*.nb[ic]") if path.is_file()]
+
+
+def _checksum(path: Path) -> str:
+    return hashlib.sha256(path.name.encode() + path.read_bytes()).hexdigest()
 
 
 def forget(module: ModuleType) -> None:

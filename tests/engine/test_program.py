@@ -73,7 +73,9 @@ def test_the_terms_of_every_robot_are_pinocchio_s(robot):
 def test_terms_and_impact_at_ten_thousand_states(robot):
     biped = ba.Biped.load(robot)
     code, walker = CompiledBiped.of(biped), Walker(biped, Passive())
-    strike = evaluator(compiled(walker, np.zeros(2 * biped.n)), "strike", 2 + 2 * biped.n, 2 * biped.n + 1)
+    strike = evaluator(
+        compiled(walker, np.zeros(2 * biped.n)), "strike", 2 + 2 * biped.n, 2 * biped.n + 1
+    )
     random = np.random.default_rng(12)
     for _ in range(COUNT):
         q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)

@@ -68,6 +68,40 @@ def test_a_damaged_module_is_written_again(cache):
     assert path.read_text() == source
 
 
+def test_a_flipped_bit_in_numba_s_machine_code_is_noticed(cache):
+    """numba itself would run it."""
+    lines = (
+        "from biped_adrc.engine.native import native_law\n"
+        "from biped_adrc.disturbances.pulse import pulse_torque\n"
+        "from biped_adrc import TorquePulse\n"
+        "import numpy as np\n"
+        "k, q = TorquePulse([1.0, 2.0]).parameters, np.zeros(2)\n"
+        "law = native_law(pulse_torque, (k, 0.0, 1, 0.0, q, q), 2)\n"
+        "print(law.keep.cache_hits)\n"
+    )
+    folder = cache / "flipped"
+    environment = {**os.environ, VARIABLE: str(folder)}
+
+    def hits():
+        found = subprocess.run(
+            [sys.executable, "-c", lines],
+            capture_output=True,
+            text=True,
+            check=True,
+            env=environment,
+            timeout=120,
+        )
+        return found.stdout.strip()
+
+    cold, warm = hits(), hits()
+    (code,) = folder.glob("*/__pycache__/*.nbc")
+    data = bytearray(code.read_bytes())
+    data[len(data) // 2] ^= 1
+    code.write_bytes(bytes(data))
+    assert hits() == cold != warm
+    assert hits() == warm
+
+
 def test_what_cannot_be_written_is_kept_elsewhere(tmp_path, monkeypatch):
     blocked = tmp_path / "file"
     blocked.write_text("no folder")

@@ -7,7 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
 
-from biped_adrc.engine.store import forget, load_source
+from biped_adrc.engine.store import forget, load_source, seal
 
 FILES = ("layout", "call", "laws", "steps", "dop853", "events", "segment", "arc", "walk")
 """In the order in which they need each other."""
@@ -25,6 +25,7 @@ def kernels() -> ModuleType:
         forget(module)
         module = load_source(text)
         module.compile_all()
+    seal(module)
     return module
 
 
