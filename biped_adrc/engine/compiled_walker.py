@@ -78,7 +78,7 @@ def _plan(
     drops = np.array([(d.step, d.height) for d in walker.steps_down]).reshape(-1, 2)
     return plan(
         Code(*(program.address(name) for name in Code._fields)),
-        Sizes(n, nx, p, nx - stiff * p, stiff),
+        Sizes(n, nx, p, nx - stiff * p, stiff, 2 * n if walker.sampled else nx),
         Scene(walker.lowest_hip, walker.max_step_time, LEAST_STEP, drops),
         _push(walker.disturbance, n),
         clock,

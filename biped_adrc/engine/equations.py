@@ -1,13 +1,14 @@
 """The equations of a walker on symbols, one straight-line function each, from the laws' own lines.
 
     flow    (t, step, t_start, x, zeta) -> x'            (10); between ticks the torque is held
-    tick    (t, step, t_start, x, zeta) -> x             the controller's step in sampled time
+    tick    (t, step, t_start, x, zeta) -> x, q''        the controller's step in sampled time
     strike  (t, step, x) -> x+                           (7), (8), relabelling, and the controller's jump
     watch   (q) -> clearance, x of the swing foot, height of the hip
     terms   (q, v) -> D, Omega, kappa, xi, ... of the nominal model, (11)-(15)
     accelerate (q, v, force) -> q'',  ground (q, v, a) -> F
 
-flow, tick and strike add the least pivot of the matrices inverted by the controller.
+flow, tick and strike add, after x, the least pivot of the matrices inverted by the controller. With coordinates
+for the exponential method there are `to`, `back`, `remainder` and the product `turn` with its matrices.
 """
 
 from __future__ import annotations
@@ -133,6 +134,7 @@ class Equations:
             found |= {"tick": self.tick}
         if self.make.split is not None:
             found |= {"to": self.to, "back": self.back, "remainder": self.remainder}
+            found |= {"turn": self.turn}
         return found
 
     # -- parts -------------------------------------------------------------------------------------
@@ -214,12 +216,15 @@ class Equations:
         return self.given(at, m.v, a, ds)
 
     def tick(self) -> Function:
-        """x after the controller has acted; without a discrete law its state stays."""
+        """x after the controller has acted, and q''; without a discrete law its state stays."""
         at, laws = self.at(), self.make.laws
         s = self.law(at, "correct", at.s) if laws.correct is not None else at.s
         u = self.saturated(self.law(at, "output", s))
         s = self.law(at, "predict", s, u) if laws.predict is not None else s
-        return self.given(at, at.m.q, at.m.v, s, u)
+        m = at.m
+        a = self.acceleration(m.terms, m.q, m.v, self.force(u, at.zeta))
+        out = column(m.q, m.v, s, u, at.trace.solver.least, a)
+        return Function(self.K, at.inp.symbol, out, tuple(at.trace.calls))
 
     def strike(self) -> Function:
         """x after impact, relabelling and the controller's jump."""
@@ -279,6 +284,13 @@ class Equations:
         w, E = self._coordinates(given[0])
         N = at.trace(split.remainder)(k, w, E, a, m.terms.kappa @ u, ds)
         return self.given(at, *N)
+
+    def turn(self) -> Function:
+        """M E, for a matrix in place of K."""
+        assert self.make.split is not None
+        k, p = len(self.make.split.A), self.make.robot.p
+        M, E = Vector("M", k * k), Vector("E", k * p)
+        return Function(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
 
     def watch(self) -> Function:
         """What the guards look at."""

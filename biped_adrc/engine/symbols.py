@@ -1,8 +1,8 @@
-"""Laws on symbols: run once on CasADi's scalars in NumPy's object arrays, a law leaves an expression of what it did.
+"""Laws on symbols: run once on CasADi's scalars in NumPy's object arrays, a law leaves an expression.
 
-A law sees copies of `np`, `math` and `solve` that make no float arrays and decide nothing by the numbers. Numbers
-of type int decide, and are part of the expression's structure; floats are symbols, to be given at run time. A
-law that branches on a symbol raises `Untraceable`.
+A law sees copies of `np`, `math` and `solve` that make no float arrays and decide nothing by the numbers.
+Numbers of type int decide, and are part of the expression's structure; floats are symbols, to be given at run
+time. A law that branches on a symbol raises `Untraceable`.
 """
 
 from __future__ import annotations
@@ -142,16 +142,17 @@ def solve_positive(A: Any, B: Any, what: str) -> Any:
     n, columns = len(A), B.reshape(len(A), -1).copy()
     L = np.full((n, n), 0.0, dtype=object)
     d: list[Any] = []
+    inverse: list[Any] = []
     for j in range(n):
-        rest = A[j, j] - sum(L[j, k] * L[j, k] * d[k] for k in range(j))
-        d.append(rest)
+        d.append(A[j, j] - sum(L[j, k] * L[j, k] * d[k] for k in range(j)))
+        inverse.append(1.0 / d[j])
         for i in range(j + 1, n):
-            L[i, j] = (A[i, j] - sum(L[i, k] * L[j, k] * d[k] for k in range(j))) / rest
+            L[i, j] = (A[i, j] - sum(L[i, k] * L[j, k] * d[k] for k in range(j))) * inverse[j]
     for i in range(n):
         for k in range(i):
             columns[i] = columns[i] - L[i, k] * columns[k]
     for i in range(n):
-        columns[i] = columns[i] / d[i]
+        columns[i] = columns[i] * inverse[i]
     for i in reversed(range(n)):
         for k in range(i + 1, n):
             columns[i] = columns[i] - L[k, i] * columns[k]
@@ -169,12 +170,14 @@ class Solver:
         if n == 0:
             return np.full(np.shape(B), 0.0, dtype=object)
         rows = [list(a) + list(b) for a, b in zip(A, B.reshape(n, -1), strict=True)]
+        inverse: list[Any] = []
         for j in range(n):
             for i in range(j + 1, n):
                 rows[j], rows[i] = _larger_first(rows[j], rows[i], j)
             self.pivots.append(abs(rows[j][j]))
+            inverse.append(1.0 / rows[j][j])
             for i in range(j + 1, n):
-                factor = rows[i][j] / rows[j][j]
+                factor = rows[i][j] * inverse[j]
                 rows[i] = [
                     a - factor * b if c > j else 0.0 for c, (a, b) in _pairs(rows[i], rows[j])
                 ]
@@ -182,7 +185,7 @@ class Solver:
         for i in reversed(range(n)):
             for c in range(X.shape[1]):
                 known = sum(rows[i][k] * X[k, c] for k in range(i + 1, n))
-                X[i, c] = (rows[i][n + c] - known) / rows[i][i]
+                X[i, c] = (rows[i][n + c] - known) * inverse[i]
         return X.reshape(B.shape)
 
     @property

@@ -1,4 +1,4 @@
-"""Sampled control in plain Python on the compiled plant: a call of the controller per tick, the flow between compiled.
+"""Sampled control in plain Python on the compiled plant: the controller is called once per tick.
 
 Between ticks the plant is x = (q, q', u) with the torque held; the controller's own state is kept here and goes
 back into the states of the trajectory.

@@ -76,6 +76,7 @@ def tick(K, inp, out):
     out[2] = inp[5] + 1.0
     out[3] = -K[7] * inp[4] + inp[0] + 0.01 * inp[1]
     out[4] = math.inf
+    out[5] = K[0] * math.sin(inp[3] + 0.08) - 0.1 * inp[4] + out[3] + inp[7]
 
 
 def strike(K, inp, out):
@@ -112,6 +113,11 @@ def remainder(K, inp, out):
     out[3] = math.inf
 
 
+def turn(M, E, out):
+    for i in range(2):
+        out[i] = M[2 * i] * E[0] + M[2 * i + 1] * E[1]
+
+
 def pulse(K, inp, out):
     """K = (step, start, stop, amplitude) since the start of that step, or of the run for step 0."""
     origin = inp[2] if K[0] > 0.0 else 0.0
@@ -120,7 +126,7 @@ def pulse(K, inp, out):
 
 
 SIGNATURE = types.void(*(types.CPointer(types.float64),) * 3)
-LAWS = (flow, held, tick, strike, watch, to, back, remainder, pulse)
+LAWS = (flow, held, tick, strike, watch, to, back, remainder, turn, pulse)
 
 
 @pytest.fixture(scope="module")
@@ -144,7 +150,7 @@ class Wheel(hybrid.HybridSystem):
     sampled: hybrid.Clock | None = None
 
     def call(self, law, size, *numbers):
-        out = np.zeros(size + 1)
+        out = np.zeros(size + 2)
         law(self.K, np.concatenate([np.atleast_1d(x) for x in numbers]), out)
         if not np.all(np.isfinite(out[:size])):
             kind = SingularError if out[size] == 0.0 else NotFiniteError

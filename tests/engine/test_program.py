@@ -132,7 +132,7 @@ def check_walker(walker, gait, count):
                 "watch": evaluator(program, "watch", n, 3),
             }
             if walker.sampled:
-                call["tick"] = evaluator(program, "tick", 3 + nx + n, nx + 1)
+                call["tick"] = evaluator(program, "tick", 3 + nx + n, nx + 1 + n)
         zeta = 30.0 * random.normal(size=n)
         pushed = replace(walker, disturbance=ba.TorqueStep(zeta))
         close(call["flow"](0.1, 3.0, 0.05, x, zeta), pushed.flow(0.1, x, mode))

@@ -15,6 +15,7 @@ from biped_adrc.engine.kernels.layout import (
     DROP,
     DROPS,
     DROPS_AT,
+    DX0,
     FLOW,
     FOOT_STRIKE,
     FOOT_X,
@@ -32,6 +33,7 @@ from biped_adrc.engine.kernels.layout import (
     PARTS_AT,
     REMAINDER,
     SINGULAR,
+    SLOPED,
     SLOW,
     START,
     STATES,
@@ -65,19 +67,29 @@ def copy(x: Array, out: Array, size: int) -> None:
 @inner
 def finite(x: Array, size: int) -> bool:
     """Whether the sum of squares is finite."""
-    total = 0.0
-    for i in range(size):
-        total += x[i] * x[i]
-    return total < math.inf
+    a = b = c = d = 0.0
+    for i in range(0, size - 3, 4):
+        a += x[i] * x[i]
+        b += x[i + 1] * x[i + 1]
+        c += x[i + 2] * x[i + 2]
+        d += x[i + 3] * x[i + 3]
+    for i in range(size - size % 4, size):
+        a += x[i] * x[i]
+    return a + b + c + d < math.inf
 
 
 @inner
 def regular(dx: Array, size: int) -> bool:
     """Whether every number is finite, however large."""
-    total = 0.0
-    for i in range(size):
-        total += 0.0 * dx[i]
-    return total == 0.0
+    a = b = c = d = 0.0
+    for i in range(0, size - 3, 4):
+        a += 0.0 * dx[i]
+        b += 0.0 * dx[i + 1]
+        c += 0.0 * dx[i + 2]
+        d += 0.0 * dx[i + 3]
+    for i in range(size - size % 4, size):
+        a += 0.0 * dx[i]
+    return a + b + c + d == 0.0
 
 
 @inner
@@ -122,12 +134,17 @@ def flow(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array, dx: Array) -
 
 @inner
 def act(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array) -> int:
-    """x after a tick at t, or as it was where the tick gives no number."""
-    out = row(P, W, OUT)
+    """x after a tick at t, and row DX0 its slope; x as it was where the tick gives no number."""
+    n, nx, out, dx = P[COORDINATES], P[STATES], row(P, W, OUT), row(P, W, DX0)
     evaluate(P, F, K, W, TICK, t, x, out)
-    if not finite(out, P[STATES]):
+    if not finite(out, nx):
         return broken(W)
-    copy(out, x, P[STATES])
+    copy(out, x, nx)
+    copy(shift(x, n), dx, n)
+    copy(shift(out, nx + 1), shift(dx, n), n)
+    for i in range(2 * n, nx):
+        dx[i] = 0.0
+    W[SLOPED] = 1.0
     return 0
 
 

@@ -9,14 +9,17 @@ from __future__ import annotations
 
 # P: addresses
 FLOW, TICK, STRIKE, WATCH, TO, BACK, REMAINDER = 0, 1, 2, 3, 4, 5, 6
+TURN = 7
 # P: sizes n, nx, p, nw, k, the forced rows of E, and the levels of halving
-COORDINATES, STATES, JOINTS, SLOW, STIFF, FORCED, LEVELS = 7, 8, 9, 10, 11, 12, 13
+COORDINATES, STATES, JOINTS, SLOW, STIFF, FORCED, LEVELS = 8, 9, 10, 11, 12, 13, 14
 # P: method, clock, and how many drops, switching times and parts of the disturbance there are
-KIND, RESTART, DROPS, SWITCHES, PARTS = 14, 15, 16, 17, 18
+KIND, RESTART, DROPS, SWITCHES, PARTS = 15, 16, 17, 18, 19
 # P: where forced rows and parts begin in P; drops, switching times and weights in F; length of a work row
-ROWS_AT, PARTS_AT, DROPS_AT, SWITCHES_AT, WEIGHTS_AT = 19, 20, 21, 22, 23
-WIDTH = 24
-P_HEAD = 25
+ROWS_AT, PARTS_AT, DROPS_AT, SWITCHES_AT, WEIGHTS_AT = 20, 21, 22, 23, 24
+WIDTH = 25
+# P: how many of the first states flow; the others are held
+MOVING = 26
+P_HEAD = 27
 # F
 PERIOD, T_FIRST, LOWEST_HIP, LONGEST, LEAST_STEP, H, RTOL, ATOL, MAX_STEP = (
     0,
@@ -56,7 +59,9 @@ TIME, STEP, START, END, FIRED, EVERY, COUNT, ARMED, VALUES, ARC = 0, 1, 2, 3, 4,
 DROP, LIMIT, ZERO_PIVOT, EVENT = 12, 13, 14, 15
 # W only: rows of R; time reached and next step to try; time after the sub-steps, end and witness of the bracket
 ROOM, REACHED, TRY, LANDED, FAR, FAR_VALUE = 16, 17, 18, 19, 20, 21
-HEAD = 22
+# W only: whether row DX0 has the slope at row X0 already
+SLOPED = 22
+HEAD = 23
 
 # rows of W, after the head in row 0
 INP, OUT, ZETA, PART, AFTER, TRIED = 1, 2, 3, 4, 5, 6

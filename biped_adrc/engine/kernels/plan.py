@@ -52,6 +52,7 @@ def plan(code: Code, sizes: Sizes, scene: Scene, push: Push, clock: Clock, metho
     P[: len(code)] = code
     P[layout.COORDINATES], P[layout.STATES], P[layout.JOINTS] = sizes.n, sizes.nx, sizes.p
     P[layout.SLOW], P[layout.STIFF] = sizes.nw, sizes.k
+    P[layout.MOVING] = sizes.moving or sizes.nx
     P[layout.FORCED], P[layout.LEVELS] = len(method.rows), len(method.phi)
     P[layout.KIND], P[layout.RESTART] = method.kind, clock.restart
     P[layout.DROPS], P[layout.SWITCHES] = len(scene.drops), len(push.switches)
@@ -88,7 +89,7 @@ def _check(code: Code, sizes: Sizes, push: Push, clock: Clock, method: Method) -
             f"the matrices have shape {phi.shape}, expected (levels, 6, {k}, {k}), k > 0"
         )
     needed = {"flow": True, "watch": True, "strike": True, "tick": clock.period > 0.0}
-    needed |= dict.fromkeys(("to", "back", "remainder"), method.kind == layout.ETD)
+    needed |= dict.fromkeys(("to", "back", "remainder", "turn"), method.kind == layout.ETD)
     missing = [name for name, is_needed in needed.items() if is_needed and not getattr(code, name)]
     if missing:
         raise InputError(f"no address of {', '.join(missing)}, which this method and clock call")

@@ -38,12 +38,14 @@ from biped_adrc.engine.kernels.layout import (
     LANDED,
     LANDING,
     LIMIT,
+    MOVING,
     N0,
     N1,
     REACHED,
     RK4,
     ROOM,
     SAME_STEP,
+    SLOPED,
     SLOW,
     STATES,
     STEP_FAILED,
@@ -102,14 +104,15 @@ def begin(P: Ints, F: Array, K: Array, W: Array, t: float) -> None:
     if P[KIND] == ETD:
         split(P, K, x, y)
         remainder(P, F, K, W, t, y, row(P, W, N0))
-    if P[KIND] != ETD or W[EVERY] > 0.0:
+    if (P[KIND] != ETD or W[EVERY] > 0.0) and W[SLOPED] == 0.0:
         flow(P, F, K, W, t, x, row(P, W, DX0))
+    W[SLOPED] = 0.0
 
 
 @unit
 def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int) -> int:
     """X1 and what the next step starts from, at t1; none follows the last before a break. A status."""
-    nx, sloped, x1, y1 = P[STATES], W[EVERY] > 0.0, row(P, W, X1), row(P, W, Y1)
+    sloped, x1, y1 = W[EVERY] > 0.0, row(P, W, X1), row(P, W, Y1)
     if P[KIND] == RK4:
         classical(P, F, K, W, t, row(P, W, X0), row(P, W, DX0), t1 - t, x1)
         sloped = sloped or last == 0
@@ -120,7 +123,7 @@ def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int)
         halve(P, F, K, W, -1, t, t1, t1, 0.0)
         now = W[LANDED]
         classical(P, F, K, W, now, row(P, W, XB), row(P, W, DXB), t1 - now, x1)
-    if not finite(x1, nx):
+    if not finite(x1, P[MOVING]):
         return broken(W)
     if P[KIND] == ETD and last == 0:
         N = row(P, W, N1)
@@ -130,7 +133,7 @@ def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int)
     if sloped:
         dx1 = row(P, W, DX1)
         flow(P, F, K, W, t1, x1, dx1)
-        if not regular(dx1, nx):
+        if not regular(dx1, P[MOVING]):
             return broken(W)
     return 0
 

@@ -7,7 +7,7 @@ is left below the last level by one classical step, which is stable there.
 
 from __future__ import annotations
 
-from biped_adrc.engine.kernels.call import Ints, inner, shift, unit
+from biped_adrc.engine.kernels.call import Ints, call, inner, shift, unit
 from biped_adrc.engine.kernels.laws import copy, flow, join, remainder, row, watch
 from biped_adrc.engine.kernels.layout import (
     DXB,
@@ -28,6 +28,7 @@ from biped_adrc.engine.kernels.layout import (
     LEVELS,
     MATRICES,
     MIDDLE,
+    MOVING,
     N0,
     N_SUB,
     NA,
@@ -39,6 +40,7 @@ from biped_adrc.engine.kernels.layout import (
     STATES,
     STIFF,
     TRIED,
+    TURN,
     WEIGHTS_AT,
     XB,
     Y0,
@@ -56,18 +58,20 @@ def classical(
     P: Ints, F: Array, K: Array, W: Array, t: float, x: Array, dx: Array, h: float, out: Array
 ) -> None:
     """out = one step of length h from (t, x) with the slope dx."""
-    nx, stage = P[STATES], row(P, W, STAGE)
+    m, rest, stage = P[MOVING], P[STATES] - P[MOVING], row(P, W, STAGE)
     k2, k3, k4 = row(P, W, K2), row(P, W, K3), row(P, W, K4)
-    for i in range(nx):
+    copy(shift(x, m), shift(stage, m), rest)
+    for i in range(m):
         stage[i] = x[i] + 0.5 * h * dx[i]
     flow(P, F, K, W, t + 0.5 * h, stage, k2)
-    for i in range(nx):
+    for i in range(m):
         stage[i] = x[i] + 0.5 * h * k2[i]
     flow(P, F, K, W, t + 0.5 * h, stage, k3)
-    for i in range(nx):
+    for i in range(m):
         stage[i] = x[i] + h * k3[i]
     flow(P, F, K, W, t + h, stage, k4)
-    for i in range(nx):
+    copy(shift(x, m), shift(out, m), rest)
+    for i in range(m):
         slopes = dx[i] + 2.0 * (k2[i] + k3[i]) + k4[i]
         out[i] = x[i] + (h / 6.0) * slopes
 
@@ -81,13 +85,8 @@ def matrix(P: Ints, F: Array, level: int, which: int) -> Array:
 @inner
 def turn(P: Ints, M: Array, y: Array, out: Array) -> None:
     """E of out = M E of y."""
-    k, p, nw = P[STIFF], P[JOINTS], P[SLOW]
-    for i in range(k):
-        for c in range(p):
-            total = 0.0
-            for j in range(k):
-                total += M[i * k + j] * y[nw + j * p + c]
-            out[nw + i * p + c] = total
+    nw = P[SLOW]
+    call(P[TURN], M, shift(y, nw), shift(out, nw))
 
 
 @inner

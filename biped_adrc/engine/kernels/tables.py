@@ -35,7 +35,7 @@ class Code(NamedTuple):
     flow: int
     """(t, step, t_start, x, zeta) -> (dx, pivot); in sampled time only q and v flow."""
     tick: int
-    """(t, step, t_start, x, zeta) -> (x after the tick, pivot), in sampled time."""
+    """(t, step, t_start, x, zeta) -> (x after the tick, pivot, q''), in sampled time."""
     strike: int
     """(t, step, x) -> (x+, pivot); step is that of the new single support."""
     watch: int
@@ -46,16 +46,22 @@ class Code(NamedTuple):
     """y -> x."""
     remainder: int = 0
     """(t, step, t_start, y, zeta) -> (N_w, N_E, pivot), N_E (r, p) in the forced rows only."""
+    turn: int = 0
+    """For a matrix M (k, k) in place of K: E -> M E."""
 
 
 class Sizes(NamedTuple):
-    """n coordinates, nx states, p joints, nw and (k, p) numbers of y = (w, E)."""
+    """n coordinates, nx states, p joints, nw and (k, p) numbers of y = (w, E).
+
+    moving: how many of the first states flow, all for 0; the others are held between ticks.
+    """
 
     n: int
     nx: int
     p: int
     nw: int = 0
     k: int = 0
+    moving: int = 0
 
 
 class Scene(NamedTuple):
