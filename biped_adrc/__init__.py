@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from biped_adrc.analysis.to_ss import to_ss
     from biped_adrc.analysis.zero_report import zero_report
     from biped_adrc.control.adrc import ADRCController
-    from biped_adrc.control.base import Controller, Measurement
+    from biped_adrc.control.base import Controller, ControllerLaws, Measurement
     from biped_adrc.control.finite_time import FiniteTimeController
     from biped_adrc.control.npd import NPDController
     from biped_adrc.control.output_npd import OutputNPDController
@@ -22,11 +22,12 @@ if TYPE_CHECKING:
     from biped_adrc.control.reference_reset import ReferenceReset
     from biped_adrc.control.stride import StrideGains, StridePI
     from biped_adrc.control.tracking import TABLE_II, Gains
-    from biped_adrc.disturbances.base import Disturbance
+    from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw
     from biped_adrc.disturbances.hip_force import HipForce
     from biped_adrc.disturbances.pulse import TorquePulse
     from biped_adrc.disturbances.sine import TorqueSine
     from biped_adrc.disturbances.step import TorqueStep
+    from biped_adrc.engine.batch import Case, simulate_many
     from biped_adrc.errors import BipedError
     from biped_adrc.gait.constraint import VirtualConstraint
     from biped_adrc.gait.conventions import convention
@@ -64,10 +65,13 @@ _HOMES = {
     "Adaptive": "hybrid.integrators",
     "Biped": "model.biped",
     "BipedError": "errors",
+    "Case": "engine.batch",
     "ContinuousTime": "walker",
     "Controller": "control.base",
+    "ControllerLaws": "control.base",
     "DesignedGait": "studies.gait_design",
     "Disturbance": "disturbances.base",
+    "DisturbanceLaw": "disturbances.base",
     "Exponential": "hybrid.exponential",
     "FiniteTimeController": "control.finite_time",
     "FunctionOutputs": "gait.outputs",
@@ -122,6 +126,7 @@ _HOMES = {
     "load_walk": "studies.runs",
     "passive_walk": "studies.passive_walk",
     "simulate": "hybrid.simulator",
+    "simulate_many": "engine.batch",
     "stride_response": "analysis.stride_gain",
     "to_ss": "analysis.to_ss",
     "walk": "studies.walk",
@@ -136,10 +141,13 @@ __all__ = [
     "Adaptive",
     "Biped",
     "BipedError",
+    "Case",
     "ContinuousTime",
     "Controller",
+    "ControllerLaws",
     "DesignedGait",
     "Disturbance",
+    "DisturbanceLaw",
     "Exponential",
     "FiniteTimeController",
     "FunctionOutputs",
@@ -191,6 +199,7 @@ __all__ = [
     "load_walk",
     "passive_walk",
     "simulate",
+    "simulate_many",
     "stride_response",
     "to_ss",
     "walk",
