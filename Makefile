@@ -4,6 +4,8 @@ PYTHON ?= python3
 OUT ?= out
 ARGS ?=
 BIN := .venv/bin
+BENCHMARKS := engine/calls engine/paper_run engine/sampled engine/batches engine/growth engine/compiling \
+  peers/plant peers/closed_loop pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
 .PHONY: reproduce test docs pictures results verification dev lint format types imports bench clean
@@ -46,9 +48,12 @@ types: .venv/.dev
 imports: .venv/.dev
 	$(BIN)/lint-imports
 
+# tables on the screen and JSON in $(OUT)/benchmarks, in about 10 minutes; ARGS=--quick for a look. Peers that are
+# not installed (pip install '.[bench]') are rows that say so
 bench: .venv/.core
-	$(BIN)/python benchmarks/step_timing.py
-	$(BIN)/python benchmarks/gait_design.py $(OUT)
+	set -e; for script in $(BENCHMARKS); do \
+	  $(BIN)/python benchmarks/$$script.py $(OUT)/benchmarks $(ARGS); done
+	$(BIN)/python benchmarks/gait_design.py $(OUT)/benchmarks --limit 30
 
 .venv/.made:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \

@@ -2,9 +2,13 @@
 
 Run: python benchmarks/peers/closed_loop.py [OUT] [--quick]
 
-Smooth: one single support from the gait's start, restarted, with no impact. All at rtol 1e-6 and atol 1e-9 on
-the same right-hand sides. Error: largest difference of an angle at 20 instants to the package's exponential
-method at 0.05 ms, which CVODE at 1e-10 and Radau at 1e-8 confirm to 5e-10 rad.
+Smooth: one single support from the gait's start, restarted, with no impact and no push. All at rtol 1e-6 and
+atol 1e-9 on the same right-hand sides, in Python and compiled; the package's own engine watches its guards
+besides. Error: largest difference of an angle at 20 instants to the package's exponential method at 0.05 ms,
+which CVODE at 1e-10 and Radau at 1e-8 confirm to 5e-10 rad.
+
+"CVODE in C" is CVODE's library on the compiled right-hand side with no Python between them. "Estimate" is
+scikit-sundae's wall time on it with the Python of its calls taken off.
 """
 
 from __future__ import annotations
@@ -20,6 +24,8 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+from cvode_rows import IN_C, IN_PYTHON, estimate, in_c
+from engine_arcs import arcs, program_of, right_hand_side
 from report import Table, arguments, microseconds, rounds
 from solvers import (
     Flow,
@@ -36,7 +42,7 @@ from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.types import Array
 
 DURATION, INSTANTS, RESTARTS = 0.4, 20, 25  # [s] of each restart, and how many of them
-BUDGET = 15.0  # [s] for the restarts of one solver
+BUDGET = 4.0  # [s] for the restarts of one solver
 FINE = 5e-5  # [s], step of the reference
 SAME = 1e-9
 """Largest relative difference of a peer's x' to the package's, dimensionless."""
@@ -47,14 +53,17 @@ class Run(NamedTuple):
 
     watched: Callable[[], Array]
     """Given up when it takes too long; for the first time."""
-    bare: Callable[[], Array]
+    bare: Callable[[], object]
     """As it is timed, with nothing between solver and right-hand side."""
 
 
 def right_hand_sides(walker: ba.Walker) -> dict[str, Flow]:
     """f(t, x) -> x' by name, one for each engine; every solver runs on each of them."""
     mode = ba.Mode()
-    return {"Python": lambda t, x: walker.flow(t, x, mode)}
+    return {
+        "Python": lambda t, x: walker.flow(t, x, mode),
+        "compiled": right_hand_side(walker, program_of(walker)),
+    }
 
 
 def check(name: str, f: Flow, g: Flow, x: Array, samples: int = 100) -> float:
@@ -75,15 +84,23 @@ def runs(walker: ba.Walker, x: Array, times: Array, table: Table) -> dict[str, R
     solvers = dict(scipy_solvers())
     sides = right_hand_sides(walker)
     try:
-        solvers["CVODE (scikit-sundae)"] = cvode()
+        solvers[IN_PYTHON] = cvode()
     except ModuleNotFoundError:
-        table.missing("CVODE (scikit-sundae)")
+        table.missing(IN_PYTHON)
     for side, f in sides.items():
         check(side, sides["Python"], f, x)
         for solver, solve in solvers.items():
             todo = (partial(solve, g, x, times) for g in (patient(f), f))
             found[f"{solver}, {side}"] = Run(*todo)
-    return found | casadi_runs(walker, x, times, sides["Python"])
+    try:
+        found[IN_C] = Run(*2 * [in_c(walker, x, times)])
+    except ModuleNotFoundError:
+        table.missing(IN_C)
+    own = {
+        f"biped_adrc, {name}": Run(one.states, one.run)
+        for name, one in arcs(walker, x, times).items()
+    }
+    return own | found | casadi_runs(walker, x, times, sides["Python"])
 
 
 def reference(walker: ba.Walker, x: Array, times: Array) -> Array:
@@ -134,6 +151,9 @@ def main() -> None:
         wall, cpu, restarts = seconds[name]
         rates = {"per_wall_s": DURATION / wall, "per_CPU_s": DURATION / cpu}
         table.add(name, **rates, error_of_q=error, restarts=restarts)
+        if name == f"{IN_PYTHON}, compiled":
+            rate = DURATION / estimate(walker, x, times, wall)
+            table.add(f"{name}, estimate without Python", per_wall_s=rate, error_of_q=error)
     table.finish(asked.out)
 
 

@@ -28,6 +28,7 @@ from biped_adrc.types import Array
 
 DURATION = 1.0  # [s] of each restart
 PEERS = {
+    "biped_adrc, compiled": ("compiled_chain", "CompiledChain"),
     "MuJoCo": ("mujoco_chain", "MuJoCoChain"),
     "Drake": ("drake_chain", "DrakeChain"),
     "CasADi": ("casadi_chain", "CasADiChain"),

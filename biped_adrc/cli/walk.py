@@ -51,9 +51,7 @@ AsPrinted = Annotated[
     bool, typer.Option("--as-printed", help="Drop h' Theta'' from (20) and (28), as printed.")
 ]
 Friction = Annotated[bool, typer.Option("--friction", help="Add the robot's joint friction.")]
-Method = Annotated[
-    str | None, typer.Option(help="rk4, exponential, feedback, adaptive or stiff.")
-]
+Method = Annotated[str | None, typer.Option(help="rk4, exponential, feedback, adaptive or stiff.")]
 Engine = Annotated[str, typer.Option(help="pinocchio, or compiled: the same walk, much faster.")]
 StepSize = Annotated[float | None, typer.Option(help="Step of rk4 and exponential [s].")]
 Out = Annotated[

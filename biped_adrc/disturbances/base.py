@@ -145,9 +145,7 @@ class Windowed(Disturbance):
         return tuple((self.step or 0, float(s)) for s in ends if math.isfinite(s))
 
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
-        return tuple(
-            s if at == 0 else t_start + s for at, s in self.switches if at in (0, step)
-        )
+        return tuple(s if at == 0 else t_start + s for at, s in self.switches if at in (0, step))
 
 
 @dataclass(frozen=True)

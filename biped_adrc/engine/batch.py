@@ -69,6 +69,8 @@ class Walked:
     """[s]"""
     engine: str
     """What ran."""
+    t_start: float = 0.0
+    """[s]"""
 
     @property
     def impacts(self) -> int:
@@ -78,7 +80,7 @@ class Walked:
     @property
     def durations(self) -> Array:
         """(M,) of the single supports that ended in a strike, from the start of the run [s]."""
-        return np.diff(self.times, prepend=0.0)
+        return np.diff(self.times, prepend=self.t_start)
 
 
 def simulate_many(
@@ -89,8 +91,8 @@ def simulate_many(
     """The walks in the order of their cases, made in parallel threads and handed over as they come.
 
     threads: number of cores without. `cases` may be a generator, of which a few are taken ahead. progress is
-    told how many are done. A fall or a NaN ends its own run, with a status. Raises InputError for a case whose
-    parts do not fit together.
+    told how many are done. A fall, a NaN or a part in Python that raises ends its own run, with a status.
+    Raises InputError for a case whose parts do not fit together.
     """
     count = threads if threads is not None else os.cpu_count() or 1
     if count < 1:
@@ -127,10 +129,22 @@ def _told(walked: Walked, done: int, progress: Callable[[int], None] | None) -> 
 def run_case(case: Case) -> Callable[[], Walked]:
     """What carries a case out, in any thread; parts of Python's and Pinocchio's are touched here only."""
     try:
-        x = case.walker.initial_state(case.q, case.v, case.mode)
-    except (NotFiniteError, SingularError) as error:
-        return _ended(case, error)
-    check_start(x, 0.0, case.t_end, (FOOT_STRIKE, case.impacts), 1)
+        return _prepared(case)
+    except NotFiniteError as error:
+        return _ended(case, Status.NOT_FINITE, str(error))
+    except SingularError as error:
+        return _ended(case, Status.SINGULAR, str(error))
+    except InputError:
+        raise
+    except Exception as error:  # whatever a controller or a disturbance in plain Python may raise
+        return _ended(case, Status.RAISED, f"{type(error).__name__}: {error}")
+
+
+def _prepared(case: Case) -> Callable[[], Walked]:
+    x = case.walker.initial_state(case.q, case.v, case.mode)
+    if case.impacts < 1:
+        raise InputError(f"the case asks for {case.impacts} impacts, expected at least 1")
+    check_start(x, case.mode.start, case.t_end, (FOOT_STRIKE, case.impacts), 1)
     n, p = case.walker.plant.n, case.walker.plant.p
     size = len(x) - 2 * n - (p if case.walker.sampled else 0)
     try:
@@ -141,11 +155,10 @@ def run_case(case: Case) -> Callable[[], Walked]:
     return lambda: _compiled(compiled, case, x)
 
 
-def _ended(case: Case, error: BipedError) -> Callable[[], Walked]:
-    status = Status.SINGULAR if isinstance(error, SingularError) else Status.NOT_FINITE
-    x = np.concatenate((case.q, case.v))
+def _ended(case: Case, status: Status, detail: str) -> Callable[[], Walked]:
+    x, start = np.concatenate((case.q, case.v)), case.mode.start
     none = np.zeros((0, len(x)))
-    walked = Walked(status, str(error), np.zeros(0), none, x, case.mode.start, COMPILED)
+    walked = Walked(status, detail, np.zeros(0), none, x, start, COMPILED, start)
     return lambda: walked
 
 
@@ -154,7 +167,7 @@ def _compiled(compiled: CompiledWalker, case: Case, x: Array) -> Walked:
     s = plan.start(x, case.mode.start, case.mode.step, case.mode.start, case.t_end)
     strikes = np.zeros((case.impacts, 1 + 2 * nx))
     code, made = kernels().stride(plan.P, plan.F, compiled.K, plan.work(), s, case.impacts, strikes)
-    return _walked(plan, code, made, s, strikes)
+    return _walked(plan, code, made, s, strikes, case.mode)
 
 
 def _in_python(case: Case, x: Array, reason: BipedError) -> Walked:
@@ -193,6 +206,7 @@ def _in_python(case: Case, x: Array, reason: BipedError) -> Walked:
         run.final_state,
         run.t_end,
         str(run.settings.get("engine", PINOCCHIO)),
+        case.mode.start,
     )
 
 
@@ -217,10 +231,10 @@ class Strides:
         s = plan.start(x, mode.start, mode.step, mode.start, mode.start + self.t_end)
         strikes = np.zeros((1, 1 + 2 * nx))
         code, made = kernels().stride(plan.P, plan.F, self.compiled.K, plan.work(), s, 1, strikes)
-        return _walked(plan, code, made, s, strikes)
+        return _walked(plan, code, made, s, strikes, mode)
 
 
-def _walked(plan: Plan, code: int, made: int, s: Array, strikes: Array) -> Walked:
+def _walked(plan: Plan, code: int, made: int, s: Array, strikes: Array, mode: Mode) -> Walked:
     return Walked(
         STATUS[code],
         "",
@@ -229,4 +243,5 @@ def _walked(plan: Plan, code: int, made: int, s: Array, strikes: Array) -> Walke
         s[layout.HEAD :].copy(),
         float(s[layout.TIME]),
         COMPILED,
+        mode.start,
     )

@@ -24,6 +24,7 @@ from biped_adrc.engine.kernels.tables import (
 )
 from biped_adrc.engine.native import NativeLaw, flatten, native_law
 from biped_adrc.engine.program import NotCompiled, Program
+from biped_adrc.errors import InputError
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.split import SplitLaws
@@ -136,5 +137,8 @@ def _address(law: DisturbanceLaw, n: int) -> int:
     key = law.torque, skeleton(law.parameters), n
     if key not in _NATIVE:
         q = np.zeros(n)
-        _NATIVE[key] = native_law(law.torque, (law.parameters, 0.0, 1, 0.0, q, q), n)
+        try:
+            _NATIVE[key] = native_law(law.torque, (law.parameters, 0.0, 1, 0.0, q, q), n)
+        except InputError as reason:
+            raise NotCompiled(str(reason)) from reason
     return _NATIVE[key].address

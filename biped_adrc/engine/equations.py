@@ -8,7 +8,7 @@
     accelerate (q, v, force) -> q'',  ground (q, v, a) -> F
 
 flow, tick and strike add, after x, the least pivot of the matrices inverted by the controller. With coordinates
-for the exponential method there are `to`, `back`, `remainder` and the product `turn` with its matrices.
+for the exponential method there are `to`, `back` and `remainder`.
 """
 
 from __future__ import annotations
@@ -134,7 +134,6 @@ class Equations:
             found |= {"tick": self.tick}
         if self.make.split is not None:
             found |= {"to": self.to, "back": self.back, "remainder": self.remainder}
-            found |= {"turn": self.turn}
         return found
 
     # -- parts -------------------------------------------------------------------------------------
@@ -284,13 +283,6 @@ class Equations:
         w, E = self._coordinates(given[0])
         N = at.trace(split.remainder)(k, w, E, a, m.terms.kappa @ u, ds)
         return self.given(at, *N)
-
-    def turn(self) -> Function:
-        """M E, for a matrix in place of K."""
-        assert self.make.split is not None
-        k, p = len(self.make.split.A), self.make.robot.p
-        M, E = Vector("M", k * k), Vector("E", k * p)
-        return Function(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
 
     def watch(self) -> Function:
         """What the guards look at."""

@@ -52,7 +52,12 @@ OPERATIONS: dict[int, Line] = {
         )
     },
 }
-COMPARISONS: dict[int, Line] = {ca.OP_LT: _compare("olt"), ca.OP_LE: _compare("ole")}
+COMPARISONS: dict[int, Line] = {
+    ca.OP_LT: _compare("olt"),
+    ca.OP_LE: _compare("ole"),
+    ca.OP_EQ: _compare("oeq"),
+    ca.OP_NE: _compare("une"),
+}
 ONE: tuple[str, ...] = ("llvm.fabs.f64", "llvm.sqrt.f64", "sin", "cos", "tan", "exp", "log")
 ONE += ("sinh", "cosh", "tanh", "asin", "acos", "atan")
 TWO = ("llvm.minimum.f64", "llvm.maximum.f64", "pow")

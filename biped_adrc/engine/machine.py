@@ -36,6 +36,8 @@ class Text(NamedTuple):
 
     text: str
     needs: tuple[str, ...] = ()
+    vectors: bool = False
+    """Whether to look for operations that go together in vectors, which takes its time."""
 
 
 def machine(
@@ -49,7 +51,7 @@ def machine(
         found = stored(key)
         if found is None:
             made = text()
-            found = made.needs, compiled(made.text)
+            found = made.needs, compiled(made.text, made.vectors)
             keep(key, *found)
         needs, code = found
         for need in needs:
@@ -80,7 +82,7 @@ def target() -> Any:
     )
 
 
-def compiled(text: str) -> bytes:
+def compiled(text: str, vectors: bool = False) -> bytes:
     """Object code of a module in LLVM's language."""
     from llvmlite import binding
 
@@ -89,7 +91,7 @@ def compiled(text: str) -> bytes:
     module.triple, module.data_layout = machine.triple, str(machine.target_data)
     module.verify()
     tuning = binding.create_pipeline_tuning_options(speed_level=3)
-    tuning.slp_vectorization = True
+    tuning.slp_vectorization = vectors
     builder = binding.create_pass_builder(machine, tuning)
     builder.getModulePassManager().run(module, builder)
     return bytes(machine.emit_object(module))

@@ -8,7 +8,12 @@ taken to the coordinates by A. In double support q_e = (q_s, p_e), and with J_m 
 
     D_e = (D_s, J_m'; J_m, m 1),   E_2 = (J_2, 1)                    (2), (4)
 
-and the plastic impact (7) is solved by F_2 = -(E_2 D_e^-1 E_2')^-1 E_2 q_e-'.
+and after the plastic impact (7) the swing foot stands, q_e+' = N q+' with N = (1; -J_2), E_2 N = 0. N' takes
+the impulse F_2 out of (7):
+
+    N' D_e N q+' = N' D_e (q-'; 0) = (D_s - J_2' J_m) q-'
+
+N' D_e N is the inertia about the swing foot; D_e itself is singular for a robot whose mass is in one point.
 """
 
 from __future__ import annotations
@@ -102,16 +107,11 @@ def ground_reaction(robot: Structure, K: PlantArrays, q: Any, v: Any, a: Any) ->
 
 def impact(robot: Structure, K: PlantArrays, q: Any, v: Any) -> tuple[Any, Any]:
     """(q, q')+ of (8), relabelled."""
-    n = robot.n
     t = turned(robot, q)
     D, _ = inertia_and_bias(robot, K, q, v)
-    D_e, E = np.full((n + 2, n + 2), 0.0, dtype=object), np.full((2, n + 2), 0.0, dtype=object)
-    D_e[:n, :n], D_e[n:, :n] = D, jacobian(robot, t, K.w_re, K.w_im)
-    D_e[:n, n:] = D_e[n:, :n].T
-    D_e[n, n] = D_e[n + 1, n + 1] = K.mass
-    E[:, :n] = jacobian(robot, t, K.foot_re, K.foot_im)
-    E[0, n] = E[1, n + 1] = 1.0
-    X = solve_positive(D_e, E.T, "D_e")
-    F = solve_positive(E @ X, -(E[:, :n] @ v), "E_2 D_e^-1 E_2'")
-    v_plus = v + (X @ F)[:n]
+    J_m = jacobian(robot, t, K.w_re, K.w_im)
+    J_2 = jacobian(robot, t, K.foot_re, K.foot_im)
+    before = D - J_2.T @ J_m
+    after = before - J_m.T @ J_2 + K.mass * (J_2.T @ J_2)
+    v_plus = solve_positive(after, before @ v, "N' D_e N")
     return robot.R @ q + robot.offset, robot.R @ v_plus

@@ -19,6 +19,7 @@ from biped_adrc.engine.equations import Equations, Make, Numbers
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import Machine, Text, machine
+from biped_adrc.engine.product import product
 from biped_adrc.engine.robot import Robot, robot_of
 from biped_adrc.engine.symbols import Untraceable, floats
 from biped_adrc.errors import InputError
@@ -64,6 +65,9 @@ class Program:
 
     def address(self, name: str) -> int:
         """Where a function is, 0 for one that this walker has not."""
+        split = self.make.split
+        if name == "turn" and split is not None:
+            return product(len(split.A), self.make.robot.p).addresses[name]
         return self.machine.addresses.get(name, 0)
 
 
@@ -79,9 +83,15 @@ def laws_of(controller: Controller) -> ControllerLaws:
 
 
 def _common(plant: Robot, model: Robot | None) -> Any:
-    """The plant's make, with every term that it or the model has."""
+    """The plant's make, with every term that it or the model has. Raises NotCompiled for another tree."""
     if model is None:
         return plant.structure
+    one, other = plant.structure, model.structure
+    if one.p != other.p or not np.array_equal(one.A, other.A):
+        raise NotCompiled(
+            "the links of the model are joined otherwise than those of the plant; the run goes on in Python on "
+            "the compiled plant"
+        )
     present = tuple(
         a | b for a, b in zip(plant.structure.present, model.structure.present, strict=True)
     )
@@ -131,7 +141,10 @@ def _machine(make: Make, numbers: Numbers) -> Machine:
             of_walker = make.laws._replace(parameters=numbers.k)
             return link(of_walker, law, make.robot.n, make.robot.p, make.size)
 
-        _MACHINES[key] = machine(key, names, lambda: traced(make, numbers, linked), linked)
+        try:
+            _MACHINES[key] = machine(key, names, lambda: traced(make, numbers, linked), linked)
+        except InputError as reason:
+            raise NotCompiled(str(reason)) from reason
     return _MACHINES[key]
 
 

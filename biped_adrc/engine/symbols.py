@@ -79,8 +79,9 @@ def _binary(name: str, reflected: bool) -> Callable[[Scalar, Any], Any]:
 for _name in ("add", "sub", "mul", "truediv"):
     setattr(Scalar, f"__{_name}__", _binary(_name, False))
     setattr(Scalar, f"__r{_name}__", _binary(_name, True))
-for _name in ("lt", "le", "gt", "ge"):
+for _name in ("lt", "le", "gt", "ge", "eq", "ne"):
     setattr(Scalar, f"__{_name}__", _binary(_name, False))
+Scalar.__hash__ = object.__hash__  # type: ignore[method-assign]
 
 FUNCTIONS = {
     **{name: name for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "sinh", "cosh", "tanh")},
@@ -259,6 +260,7 @@ class Tracer:
             copy = types.FunctionType(
                 law.__code__, scope, law.__name__, law.__defaults__, law.__closure__
             )
+            copy.__kwdefaults__ = law.__kwdefaults__
             self._copies[law] = copy
             for name in names_of(law.__code__):
                 if name in scope:

@@ -90,21 +90,22 @@ class TickByTick:
         while True:
             nodes = _Nodes()
             try:
-                code, vector, s = self._arc(vector, s, mode, t0, t_end, nodes)
-                status = Status.COMPLETED if code == layout.STRUCK else STATUS[code]
+                with np.errstate(over="ignore", invalid="ignore"):  # ends as the status NOT_FINITE
+                    code, vector, s = self._arc(vector, s, mode, t0, t_end, nodes)
+                    t, x = float(vector[layout.TIME]), self._whole(vector, s)
+                    struck = self.walker.struck(t, x, mode) if code == layout.STRUCK else None
+                status = Status.COMPLETED if struck is not None else STATUS[code]
             except (NotFiniteError, SingularError) as error:
-                code, detail = -1, str(error)
+                struck, detail = None, str(error)
                 singular = isinstance(error, SingularError)
                 status = Status.SINGULAR if singular else Status.NOT_FINITE
                 if not nodes.rows:
                     nodes.add(_single(vector), s)
-            t = float(vector[layout.TIME])
-            x = self._whole(vector, s)
-            if code != layout.STRUCK:
+            if struck is None:
                 guard = TERMINAL.get(status)
                 arcs.append(nodes.arc(mode, None if guard is None else Event(guard, t, x, None), n))
                 break
-            after, next_mode = self.walker.struck(t, x, mode)
+            after, next_mode = struck
             arcs.append(nodes.arc(mode, Event(FOOT_STRIKE, t, x, after), n))
             mode, s = next_mode, after[2 * n : len(after) - p]
             vector = self._after(vector, after, mode)

@@ -28,8 +28,12 @@ HEAVIER = {"torso": 1.2, "thigh": 1.15}
 POLICIES = ("none", "relabel", "measured", "model")
 FULL_ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
 FULL_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
-ETD_STEP = 5e-4
-"""[s], for runs whose ADRC error is compared with NPD's."""
+ETD_STEP = 2e-4
+"""[s], for compiled runs whose ADRC error is compared with NPD's."""
+HEADLINE_STEP = 1e-3
+"""[s], of the headline runs."""
+CONVERGED_STEP = 1e-4
+"""[s], of the headline runs again, to show what the step does to them."""
 
 
 @dataclass(frozen=True)
@@ -87,8 +91,12 @@ def base_runs(plan: Plan) -> dict[str, Run]:
     """Runs by name; each returns an Outcome. Names end in the controller."""
     runs: dict[str, Run] = {}
     for c in BOTH:
-        h = ETD_STEP if c == "ADRC" else None
-        run = Run(c, preset=plan.preset, h=h)
+        run = Run(c, preset=plan.preset)
+        if c == "ADRC":
+            run = replace(run, method="feedback", h=ETD_STEP)
+        again = pushed_run(plan, c)
+        runs[f"compiled push {c}"] = again
+        runs[f"converged push {c}"] = replace(again, h=CONVERGED_STEP, store_every=10)
         for preset in plan.presets:
             runs[f"nominal {preset} {c}"] = Run(c, preset=preset, h=1e-3)
         runs[f"sine {c}"] = replace(run, pushes=(SINE,), first_step=17, impacts=9)
@@ -99,7 +107,13 @@ def base_runs(plan: Plan) -> dict[str, Run]:
         runs[f"heavier, masses and inertias {c}"] = replace(heavier, inertia=HEAVIER)
     if not plan.quick:
         runs |= literal_runs(plan)
-    return {name: replace(run, store_every=2, engine=COMPILED) for name, run in runs.items()}
+    return {name: replace(run, engine=COMPILED) for name, run in runs.items()}
+
+
+def pushed_run(plan: Plan, controller: str) -> Run:
+    """A headline run: the paper's, with its push."""
+    method = "feedback" if controller == "ADRC" else "rk4"
+    return Run(controller, preset=plan.preset, pushes=plan.pushes, method=method, h=HEADLINE_STEP)
 
 
 def literal_runs(plan: Plan) -> dict[str, Run]:
@@ -161,16 +175,7 @@ def recipe_result(preset: str, controller: str) -> RecipeResult:
 def tasks(plan: Plan) -> dict[str, Task]:
     """Everything to compute, by name, the longest first; each in its own process."""
     adrc, npd = Run("ADRC", preset=plan.preset), Run("NPD", preset=plan.preset)
-    pushed = {
-        c: Run(
-            c,
-            preset=plan.preset,
-            pushes=plan.pushes,
-            h=ETD_STEP if c == "ADRC" else 1e-3,
-            store_every=2 if c == "ADRC" else 1,
-        )
-        for c in BOTH
-    }
+    pushed = {c: pushed_run(plan, c) for c in BOTH}
     out: dict[str, Task] = {}
     if not plan.quick:
         remembering = replace(adrc, reset="measured")

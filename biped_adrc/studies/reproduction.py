@@ -103,6 +103,7 @@ def _checks(plan: Plan, results: dict[str, Any], cells: list[Cell]) -> list[Chec
     return (
         verdicts.consistency_checks(plan, results)
         + verdicts.push_checks(results)
+        + verdicts.engine_checks(results)
         + verdicts.map_checks(cells)
         + verdicts.multiplier_checks(results)
         + verdicts.recipe_checks(plan, results)

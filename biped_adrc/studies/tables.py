@@ -55,13 +55,14 @@ def _row(o: Outcome) -> list[Any]:
         max((s.friction for s in steps), default=None),
         max((s.impulse_ratio for s in steps), default=None),
         o.method,
+        o.engine,
     ]
 
 
 def _runs(r: Results) -> dict[str, Any]:
     columns = ["run", "controller", "preset", "status", "impacts", "peak error [rad]"]
     columns += ["rms error [rad]", "peak torque [N m]", "median step [s]", "friction needed"]
-    columns += ["impulse ratio", "method"]
+    columns += ["impulse ratio", "method", "engine"]
     named = {k: v for k, v in r.items() if isinstance(v, Outcome) and not k.startswith("reset")}
     heads = {f"push {c}": r[f"headline {c}"].outcome for c in BOTH}
     rows = [[name, *_row(o)] for name, o in {**heads, **named}.items()]

@@ -116,6 +116,21 @@ def push_checks(r: Results) -> list[Check]:
     return found
 
 
+def engine_checks(r: Results) -> list[Check]:
+    """The two engines on the headline runs, at equal method and step: states at all impacts."""
+    checks = []
+    for c in BOTH:
+        one, other = r[f"headline {c}"].outcome, r[f"compiled push {c}"]
+        same = one.x_minus.shape == other.x_minus.shape
+        n = one.run.biped().n
+        gap = np.abs(one.x_minus - other.x_minus)[:, : 2 * n] if same else np.array([np.inf])
+        name = (
+            f"{c} under the push: compiled against Pinocchio, (q, q') at the impacts [rad, rad/s]"
+        )
+        checks.append(at_most(name, "law", float(np.max(gap)), 1e-6))
+    return checks
+
+
 def map_counts(cells: list[Any]) -> dict[str, dict[str, int]]:
     """Verdicts by torque limit."""
     counts: dict[str, Counter[str]] = {}

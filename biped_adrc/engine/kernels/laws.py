@@ -1,6 +1,7 @@
 """The laws of a run, called by address: flow, tick, strike, witnesses, and the disturbance's torque.
 
-A row that a law fills ends with its least pivot; where that is exactly zero the run is noted as singular.
+A row that a law fills ends with its least pivot; where that is exactly zero the run is noted as singular and
+the row is no number, even where a torque limit has made one of it.
 """
 
 from __future__ import annotations
@@ -123,7 +124,7 @@ def evaluate(
     copy(zeta, shift(inp, 3 + nx), n)
     call(P[law], K, inp, out)
     if out[nx] == 0.0:
-        W[ZERO_PIVOT] = 1.0
+        W[ZERO_PIVOT], out[0] = 1.0, math.nan
 
 
 @inner
@@ -162,7 +163,7 @@ def remainder(P: Ints, F: Array, K: Array, W: Array, t: float, y: Array, N: Arra
     copy(zeta, shift(inp, 3 + ny), n)
     call(P[REMAINDER], K, inp, N)
     if N[P[SLOW] + P[FORCED] * P[JOINTS]] == 0.0:
-        W[ZERO_PIVOT] = 1.0
+        W[ZERO_PIVOT], N[0] = 1.0, math.nan
 
 
 @inner
@@ -184,8 +185,10 @@ def jump(P: Ints, K: Array, W: Array, x: Array, out: Array) -> int:
     inp[0], inp[1] = W[TIME], W[STEP] + 1.0
     copy(x, shift(inp, 2), nx)
     call(P[STRIKE], K, inp, out)
+    if out[nx] == 0.0:
+        return SINGULAR
     if not finite(out, nx):
-        return SINGULAR if out[nx] == 0.0 else NOT_FINITE
+        return NOT_FINITE
     W[STEP] += 1.0
     W[START] = W[ARC] = W[TIME]
     return 0

@@ -1,0 +1,277 @@
+"""Batches: each run by itself, in order, the same whatever runs beside it."""
+
+import gc
+import threading
+from dataclasses import dataclass, replace
+from itertools import count, islice
+
+import numpy as np
+import psutil
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.base import Controller, ControllerLaws
+from biped_adrc.control.npd import npd_output
+from biped_adrc.engine.batch import AHEAD, Case, simulate_many
+from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.simulate import simulate
+from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.walker import FOOT_STRIKE, Mode
+
+FALL = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
+
+
+@dataclass(frozen=True)
+class Raising(Controller):
+    """Without laws; raises after 0.1 s, or where `at_once` in its first instant."""
+
+    npd: ba.NPDController
+    error: type | None = None
+    at_once: bool = False
+
+    def output(self, s, m):
+        if self.error is not None and (self.at_once or m.t > 0.1):
+            raise self.error("what the controller says")
+        return self.npd.output(s, m)
+
+
+def rooted(k, s, m):
+    """NaN after 0.1 s."""
+    return npd_output(k, s, m) * np.sqrt(0.1 - m.t)
+
+
+@dataclass(frozen=True)
+class Rooted(Controller):
+    npd: ba.NPDController
+
+    def output(self, s, m):
+        return rooted(self.npd.parameters, s, m)
+
+    @property
+    def laws(self):
+        return ControllerLaws(self.npd.parameters, rooted)
+
+
+@pytest.fixture(scope="module")
+def npd(gait):
+    return ba.NPDController(gait.constraint)
+
+
+@pytest.fixture(scope="module")
+def plain(biped, gait, npd):
+    q, v = gait.start(biped)
+    return Case(ba.Walker(biped, npd), q, v, ba.RK4(2e-3), 2)
+
+
+@pytest.fixture(scope="module")
+def mixed(biped, gait, npd, plain):
+    """Robots, methods, time bases, starts and ends of all kinds."""
+    walker = plain.walker
+    adrc = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(300.0))
+    heavy = biped.with_errors(mass={"torso": 1.05})
+    ticks = ba.SampledTime(1e-3)
+    compass = ba.Biped.load("compass")
+    cycle = passive_cycle(compass)
+    passive = ba.Walker(compass, ba.Passive(), slope=cycle.slope)
+    made = {
+        "plain": plain,
+        "late": replace(plain, mode=Mode(3, 0.7)),
+        "falls": replace(plain, walker=replace(walker, disturbance=FALL)),
+        "sampled": replace(plain, walker=replace(walker, controller=adrc, timing=ticks)),
+        "nan": replace(plain, walker=replace(walker, controller=Rooted(npd))),
+        "exponential": replace(
+            plain, walker=ba.Walker(heavy, adrc, model=biped), method=ba.Exponential(1e-3)
+        ),
+        "python": replace(plain, walker=replace(walker, controller=Raising(npd)), impacts=1),
+        "stalls": replace(plain, walker=replace(walker, max_step_time=0.3)),
+        "passive": Case(passive, cycle.q_plus, cycle.v_plus, ba.Adaptive(1e-9, 1e-9), 2),
+        "pushed": replace(
+            plain, walker=replace(walker, disturbance=ba.HipForce(biped, (-1.0, 0.0))), impacts=1
+        ),
+    }
+    return made
+
+
+def same(one, other):
+    assert (one.status, one.detail, one.engine) == (other.status, other.detail, other.engine)
+    assert (one.t_end, one.t_start) == (other.t_end, other.t_start)
+    for name in ("times", "x_minus", "final_state", "durations"):
+        assert np.array_equal(getattr(one, name), getattr(other, name)), name
+
+
+def test_the_number_of_threads_changes_no_bit(mixed):
+    cases = [*mixed.values(), *mixed.values()]
+    alone = list(simulate_many(cases, threads=1))
+    assert len(alone) == len(cases)
+    for threads in (2, 3):
+        for one, other in zip(alone, simulate_many(cases, threads=threads), strict=True):
+            same(one, other)
+    for first, again in zip(alone, alone[len(mixed) :], strict=False):
+        same(first, again)
+
+
+def test_every_run_of_a_batch_is_the_single_run(mixed):
+    for case, walked in zip(mixed.values(), simulate_many(mixed.values()), strict=True):
+        walker, mode = case.walker, case.mode
+        x0 = walker.initial_state(case.q, case.v, mode)
+        run = simulate(
+            walker,
+            x0,
+            mode,
+            case.method,
+            t_end=case.t_end,
+            t0=mode.start,
+            impacts=case.impacts,
+        )
+        events = run.events(FOOT_STRIKE)
+        assert walked.status is run.status
+        assert walked.engine == run.settings["engine"]
+        assert walked.impacts == len(events)
+        assert np.array_equal(walked.times, [event.t for event in events])
+        for found, event in zip(walked.x_minus, events, strict=True):
+            assert np.array_equal(found, event.x_minus)
+        if walked.engine == "compiled":
+            assert np.array_equal(walked.final_state, run.final_state)
+        assert walked.t_end == run.t_end
+        assert walked.t_start == mode.start
+
+
+def test_a_start_without_numbers_ends_its_own_run(plain):
+    walked = list(simulate_many([plain, replace(plain, v=plain.v * np.nan), plain]))
+    assert [w.status.name for w in walked] == ["COMPLETED", "NOT_FINITE", "COMPLETED"]
+    assert "expected finite" in walked[1].detail
+    assert walked[1].impacts == 0
+
+
+def test_what_each_run_leaves(mixed):
+    walked = dict(zip(mixed, simulate_many(mixed.values()), strict=True))
+    completed = {name for name, w in walked.items() if w.status is ba.Status.COMPLETED}
+    assert completed == {*mixed} - {"falls", "nan", "stalls"}
+    assert walked["falls"].status is ba.Status.FELL
+    assert walked["nan"].status is ba.Status.NOT_FINITE
+    assert walked["stalls"].status is ba.Status.STALLED
+    assert {n for n, w in walked.items() if w.engine != "compiled"} == {"python", "pushed"}
+    for w in walked.values():
+        assert np.all(np.isfinite(w.final_state))
+    late, plain = walked["late"], walked["plain"]
+    assert np.allclose(late.durations, plain.durations, rtol=0.0, atol=1e-12)
+    assert np.allclose(late.times, plain.times + 0.7, rtol=0.0, atol=1e-12)
+    assert walked["stalls"].durations.shape == (0,)
+    assert walked["stalls"].x_minus.shape == (0, 10)
+
+
+@pytest.mark.parametrize("at_once", [False, True])
+@pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
+def test_a_controller_that_raises_ends_its_own_run(plain, npd, sampled, at_once):
+    time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
+    ends = {
+        NotFiniteError: ba.Status.NOT_FINITE,
+        ba.errors.SingularError: ba.Status.SINGULAR,
+        ZeroDivisionError: ba.Status.RAISED,
+        ba.errors.SimulationError: ba.Status.RAISED,
+    }
+    cases = [plain]
+    for error in ends:
+        controller = Raising(npd, error, at_once)
+        walker = replace(plain.walker, controller=controller, timing=time)
+        cases += [replace(plain, walker=walker), plain]
+    walked = list(simulate_many(cases, threads=2))
+    assert [w.status for w in walked[1::2]] == [*ends.values()]
+    assert all("what the controller says" in w.detail for w in walked[1::2])
+    assert walked[5].detail == "ZeroDivisionError: what the controller says"
+    assert all(w.status is ba.Status.COMPLETED for w in walked[::2])
+
+
+def test_a_case_that_does_not_fit_is_an_error(plain):
+    wrong = replace(plain, method=ba.Exponential())
+    with pytest.raises(InputError, match="exponential method needs"):
+        list(simulate_many([plain, wrong, plain]))
+    with pytest.raises(InputError, match="0 impacts"):
+        list(simulate_many([replace(plain, impacts=0)]))
+    with pytest.raises(InputError, match="0 threads"):
+        simulate_many([plain], threads=0)
+    assert list(simulate_many([])) == []
+
+
+def test_cases_are_taken_as_they_are_needed(plain):
+    taken = []
+
+    def endless():
+        for k in count():
+            taken.append(k)
+            yield replace(plain, impacts=1)
+
+    walks = simulate_many(endless(), threads=2)
+    assert taken == []
+    for k in range(1, 6):
+        next(walks)
+        assert k <= len(taken) <= k + 2 * AHEAD
+    walks.close()
+    assert len(taken) <= 5 + 2 * AHEAD
+
+
+def test_progress_counts_what_is_handed_over(plain):
+    told = []
+    for k, _ in enumerate(simulate_many([plain] * 7, threads=2, progress=told.append), start=1):
+        assert told == [*range(1, k + 1)]
+    assert told == [*range(1, 8)]
+
+
+def test_an_abandoned_batch_leaves_no_thread(plain):
+    before = {*threading.enumerate()}
+    walks = simulate_many((replace(plain, impacts=3) for _ in range(100)), threads=3)
+    assert len(list(islice(walks, 2))) == 2
+    assert {*threading.enumerate()} - before
+    del walks
+    gc.collect()
+    assert not {*threading.enumerate()} - before
+
+    def failing():
+        yield plain
+        raise KeyError("the cases")
+
+    with pytest.raises(KeyError, match="the cases"):
+        list(simulate_many(failing(), threads=2))
+    assert not {*threading.enumerate()} - before
+
+
+def test_memory_stays_flat(plain):
+    """Work rows kept of 2000 runs would be four times the bound."""
+    walker = replace(plain.walker, max_step_time=0.004)
+    tiny = replace(plain, walker=walker, impacts=1)
+    x0 = walker.initial_state(plain.q, plain.v)
+    work = CompiledWalker.of(walker, plain.method, len(x0) - 10).plan.work()
+    process = psutil.Process()
+
+    def walk(number):
+        ends = {w.status for w in simulate_many((tiny for _ in range(number)), threads=2)}
+        assert ends == {ba.Status.STALLED}
+
+    walk(200)
+    gc.collect()
+    before = process.memory_info().rss
+    walk(2000)
+    gc.collect()
+    assert process.memory_info().rss - before < 500 * work.nbytes
+
+
+def test_memory_stays_flat_over_robots_and_gains(biped, gait, plain):
+    """Every case has numbers of its own; what is remembered of them is bounded."""
+    process = psutil.Process()
+
+    def cases(number):
+        for k in range(number):
+            torso = biped.with_errors(mass={"torso": 1.0 + 1e-4 * (k % 7)})
+            npd = ba.NPDController(gait.constraint, ba.Gains(4000.0 + k, 50.0))
+            push = ba.TorquePulse((0.1 * k, 0.0, 0.0, 0.0, 0.0), 1, 1e-4 * (1 + k % 30), 0.1)
+            walker = ba.Walker(torso, npd, push, model=biped, max_step_time=0.004)
+            yield replace(plain, walker=walker, impacts=1)
+
+    assert len(list(simulate_many(cases(100), threads=2))) == 100
+    gc.collect()
+    before = process.memory_info().rss
+    for _ in simulate_many(cases(200), threads=2):
+        pass
+    gc.collect()
+    assert process.memory_info().rss - before < 10e6

@@ -1,0 +1,303 @@
+"""Controllers in plain Python on the compiled plant, against the Python engine."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.base import Controller, ControllerLaws
+from biped_adrc.control.npd import npd_output
+from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw
+from biped_adrc.disturbances.pulse import pulse_torque
+from biped_adrc.engine.choice import simulate_by
+from biped_adrc.engine.simulate import simulate
+from biped_adrc.errors import NotFiniteError, SingularError
+from biped_adrc.walker import FOOT_STRIKE, Mode
+
+SHARP, TICKS = 1e-11, 1e-10
+PLANT = "compiled plant"
+
+
+@dataclass(frozen=True)
+class InPython(Controller):
+    """NPD, and from `after` [s] on `factor` times its torque; with a state that counts ticks."""
+
+    npd: ba.NPDController
+    after: float = np.inf
+    factor: float = 1.0
+
+    def initial_state(self, m):
+        return np.zeros(1)
+
+    def output(self, s, m):
+        u = self.npd.output(s, m)
+        return u if m.t < self.after else self.factor * u
+
+    def predict(self, s, m, u):
+        return s + 1.0
+
+    def jump(self, s, after, swap):
+        return s + 0.5
+
+
+@dataclass(frozen=True)
+class WithoutState(Controller):
+    npd: ba.NPDController
+
+    def output(self, s, m):
+        return self.npd.output(s, m)
+
+
+@dataclass(frozen=True)
+class Falling(Disturbance):
+    """A torque that is written as a method alone."""
+
+    def torque(self, t, step, t_start, q, v):
+        return np.array((3.0, 0.0, -2.0, 0.0, 1.0)) * np.exp(-t)
+
+
+def runs(walker, gait, method, impacts=2, t_end=4.0, mode=None, every=1, t0=None):
+    mode = Mode() if mode is None else mode
+    x0 = walker.initial_state(*gait.start(walker.nominal), mode)
+    stop = None if impacts is None else (FOOT_STRIKE, impacts)
+    t0 = mode.start if t0 is None else t0
+    same = {"t_end": t_end, "t0": t0, "store_every": every}
+    python = ba.simulate(walker, x0, mode, method, stop_after=stop, **same)
+    return python, simulate(walker, x0, mode, method, impacts=impacts, **same)
+
+
+def near(found, expected, tolerance):
+    gap = np.abs(found - expected)
+    scale = np.maximum(1.0, np.max(np.abs(expected), axis=0, initial=0.0))
+    assert np.all(gap <= tolerance * scale), np.max(gap / scale)
+
+
+def same(python, partly, tolerance, why):
+    assert partly.status is python.status, (partly.detail, python.detail)
+    assert partly.settings["engine"] == PLANT
+    assert why in partly.settings["why"]
+    assert "on the compiled plant" in partly.settings["why"]
+    assert len(partly.arcs) == len(python.arcs)
+    for found, expected in zip(partly.arcs, python.arcs, strict=True):
+        assert found.mode.step == expected.mode.step
+        assert found.t.shape == expected.t.shape
+        for name in ("t", "x", "dx"):
+            near(getattr(found, name), getattr(expected, name), tolerance)
+        assert (found.event is None) == (expected.event is None)
+        if expected.event is not None:
+            assert found.event.guard == expected.event.guard
+            near(found.event.x_minus, expected.event.x_minus, tolerance)
+            assert (found.event.x_plus is None) == (expected.event.x_plus is None)
+            if expected.event.x_plus is not None:
+                near(found.event.x_plus, expected.event.x_plus, tolerance)
+
+
+@pytest.fixture
+def python(gait):
+    return InPython(ba.NPDController(gait.constraint))
+
+
+@pytest.fixture
+def ticked(biped, python):
+    return ba.Walker(biped, python, timing=ba.SampledTime(1e-3), torque_limit=120.0)
+
+
+@pytest.mark.parametrize("restart", [True, False])
+def test_tick_by_tick(gait, ticked, restart):
+    """With a state of its own, sub-steps that do not divide the period, and a late start."""
+    walker = replace(ticked, timing=ba.SampledTime(1e-3, restart))
+    late = {"mode": Mode(3, 0.41237), "every": 2}
+    runs_ = runs(walker, gait, ba.RK4(4e-4), **late)
+    same(*runs_, TICKS, "controller InPython has no laws")
+    s = runs_[1].final_state[10]
+    assert s > 800.0
+    assert s % 1.0 == 0.0
+
+
+def test_tick_by_tick_with_other_methods_pushes_and_ground(biped, gait, ticked):
+    push = ba.TorquePulse((30.0, 0.0, -10.0, 5.0, 3.0), 1, 0.1003, 0.1007)
+    walker = replace(ticked, disturbance=push, steps_down=(ba.StepDown(1, 0.002),))
+    same(*runs(walker, gait, ba.RK4(1e-3)), TICKS, "InPython")
+    same(*runs(walker, gait, ba.Adaptive(1e-9, 1e-9), impacts=1), TICKS, "InPython")
+    heavy = biped.with_errors(mass={"torso": 1.05})
+    walker = replace(ticked, plant=heavy, model=biped, slope=0.02)
+    same(*runs(walker, gait, ba.RK4(1e-3), impacts=1), TICKS, "InPython")
+
+
+def test_tick_by_tick_within_a_single_support(gait, ticked):
+    late = {"mode": Mode(2, 0.1), "t0": 0.2, "t_end": 0.71237, "impacts": None}
+    same(*runs(ticked, gait, ba.RK4(3e-4), **late), TICKS, "InPython")
+
+
+def test_tick_by_tick_to_every_end(gait, ticked):
+    push = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
+    for status, (walker, t_end) in {
+        ba.Status.FELL: (replace(ticked, disturbance=push), 4.0),
+        ba.Status.STALLED: (replace(ticked, max_step_time=0.3), 4.0),
+        ba.Status.TIME_OUT: (ticked, 0.7),
+    }.items():
+        python, partly = runs(walker, gait, ba.RK4(1e-3), t_end=t_end)
+        assert python.status is status
+        same(python, partly, 1e-9, "InPython")
+
+
+@pytest.mark.parametrize("method", [ba.RK4(2e-3), ba.Stiff(1e-6, 1e-6)], ids=["RK4", "stiff"])
+def test_in_continuous_time(biped, gait, method):
+    npd = ba.NPDController(gait.constraint)
+    walker = ba.Walker(biped, WithoutState(npd), torque_limit=90.0)
+    if isinstance(method, ba.RK4):
+        same(*runs(walker, gait, method), SHARP, "controller WithoutState has no laws")
+        return
+    python, partly = runs(replace(walker, controller=npd), gait, method)
+    assert "method Stiff has no compiled form" in partly.settings["why"]
+    near(partly.before(FOOT_STRIKE), python.before(FOOT_STRIKE), 1e-6)
+
+
+@pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
+def test_disturbances_without_laws(biped, gait, sampled):
+    time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
+    tolerance = TICKS if sampled else SHARP
+    npd = ba.NPDController(gait.constraint)
+    hip = ba.HipForce(biped, (-2.0, 0.0))
+    for push, name in ((hip, "HipForce"), (Falling(), "Falling"), (Falling() + hip, "Sum")):
+        walker = ba.Walker(biped, npd, push, time)
+        why = f"disturbance {name} has no laws"
+        same(*runs(walker, gait, ba.RK4(2e-3), impacts=1), tolerance, why)
+
+
+@pytest.mark.parametrize("loop", ["stride", "reset"])
+def test_outer_loops(biped, gait, loop):
+    adrc = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(300.0))
+    controller, name = {
+        "stride": (
+            ba.StridePI.on_gait(adrc, gait, biped, ba.StrideGains(-0.1, -0.02)),
+            "StridePI",
+        ),
+        "reset": (ba.ReferenceReset(adrc), "ReferenceReset"),
+    }[loop]
+    walker = ba.Walker(biped, controller)
+    why = f"controller {name} has no laws"
+    same(*runs(walker, gait, ba.Exponential(2e-3)), SHARP, why)
+    ticked = replace(walker, timing=ba.SampledTime(1e-3), torque_limit=150.0)
+    same(*runs(ticked, gait, ba.RK4(1e-3)), TICKS, why)
+
+
+# -- what goes wrong in Python ---------------------------------------------------------------------
+@pytest.mark.parametrize("factor", [np.nan, np.inf, 1e300])
+@pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
+def test_torques_without_numbers(biped, gait, python, sampled, factor):
+    broken = replace(python, after=0.1, factor=factor)
+    walker = ba.Walker(biped, broken if sampled else Stateless(broken))
+    if sampled:
+        walker = replace(walker, timing=ba.SampledTime(1e-3))
+    python, partly = runs(walker, gait, ba.RK4(2e-3))
+    assert python.status is ba.Status.NOT_FINITE
+    assert partly.status is ba.Status.NOT_FINITE
+    if factor != 1e300:  # where the state overflows later, what is named differs in its last digits
+        assert partly.detail == python.detail
+    assert partly.t_end == python.t_end
+    near(partly.final_state, python.final_state, TICKS)
+
+
+@dataclass(frozen=True)
+class Stateless(Controller):
+    inner: InPython
+
+    def output(self, s, m):
+        return self.inner.output(s, m)
+
+
+def test_an_overflow_in_a_controller_is_no_warning(gait, ticked, python):
+    """As in the Python engine, it ends the run with its status."""
+    broken = replace(python, after=0.1, factor=np.float64(1e308))
+    walker = replace(ticked, controller=broken, torque_limit=None)
+    python, partly = runs(walker, gait, ba.RK4(1e-3))
+    assert python.status is ba.Status.NOT_FINITE
+    assert partly.status is ba.Status.NOT_FINITE
+    assert python.t_end == partly.t_end
+
+
+@dataclass(frozen=True)
+class Jumping(InPython):
+    """Raises at its first impact."""
+
+    raises: type = NotFiniteError
+
+    def jump(self, s, after, swap):
+        raise self.raises("the jump")
+
+
+@pytest.mark.parametrize(
+    ("raises", "status"),
+    [(NotFiniteError, ba.Status.NOT_FINITE), (SingularError, ba.Status.SINGULAR)],
+)
+def test_a_jump_that_raises_ends_the_run_with_its_status(gait, ticked, raises, status):
+    npd = ba.NPDController(gait.constraint)
+    walker = replace(ticked, controller=Jumping(npd, raises=raises))
+    python, partly = runs(walker, gait, ba.RK4(1e-3))
+    assert python.status is status
+    assert partly.status is status
+    assert partly.detail == python.detail == "the jump"
+    assert partly.events() == python.events() == ()
+    assert np.all(np.isfinite(partly.final_state))
+    assert abs(partly.t_end - python.t_end) <= 1e-3
+
+
+def test_an_exception_of_the_controller_s_own_comes_out(gait, ticked):
+    npd = ba.NPDController(gait.constraint)
+    walker = replace(ticked, controller=Jumping(npd, raises=KeyError))
+    with pytest.raises(KeyError, match="the jump"):
+        runs(walker, gait, ba.RK4(1e-3))
+    x0 = walker.initial_state(*gait.start(walker.plant))
+    with pytest.raises(KeyError, match="the jump"):
+        simulate(walker, x0, Mode(), ba.RK4(1e-3), t_end=4.0, impacts=1)
+
+
+# -- laws that cannot be compiled ------------------------------------------------------------------
+branching = lambda k, s, m: npd_output(k, s, m) * (1.0 if m.t < 0.1 else 0.9)  # noqa: E731
+pulsing = lambda k, t, step, t_start, q, v: pulse_torque(k, t, step, t_start, q, v)  # noqa: E731
+
+
+@dataclass(frozen=True)
+class Sourceless(WithoutState):
+    """Its law branches, so that it is no expression, and has no source that numba could take."""
+
+    def output(self, s, m):
+        return branching(self.npd.parameters, s, m)
+
+    @property
+    def laws(self):
+        return ControllerLaws(self.npd.parameters, branching)
+
+
+@dataclass(frozen=True)
+class SourcelessPulse(ba.TorquePulse):
+    @property
+    def laws(self):
+        return (DisturbanceLaw(self.parameters, pulsing, self.switches),)
+
+
+@pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
+def test_laws_that_cannot_be_compiled_run_in_python(biped, gait, sampled):
+    time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
+    npd = ba.NPDController(gait.constraint)
+    pulse = SourcelessPulse((3.0, 0.0, 0.0, 1.0, 0.0), 1, 0.1003, 0.2)
+    for walker in (
+        ba.Walker(biped, Sourceless(npd), timing=time),
+        ba.Walker(biped, npd, pulse, timing=time),
+    ):
+        why = "cannot be compiled: a lambda has no source"
+        same(*runs(walker, gait, ba.RK4(2e-3), impacts=1), TICKS, why)
+
+
+def test_progress_and_the_engine_asked_for(gait, ticked):
+    x0 = ticked.initial_state(*gait.start(ticked.plant))
+    told = []
+    more = {"t_end": 4.0, "impacts": 2, "progress": lambda t, n: told.append((t, n))}
+    run = simulate_by("compiled", ticked, x0, Mode(), ba.RK4(1e-3), **more)
+    assert run.settings["engine"] == PLANT
+    assert [n for _, n in told] == [1, 2]
+    assert [t for t, _ in told] == [event.t for event in run.events(FOOT_STRIKE)]
+    run = simulate_by("pinocchio", ticked, x0, Mode(), ba.RK4(1e-3), t_end=0.01)
+    assert run.settings["engine"] == "pinocchio"

@@ -1,0 +1,147 @@
+"""Return maps on the compiled engine against those on Pinocchio."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.return_map import ReturnMap
+from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.walker import Mode
+
+
+def maps(walker, method, **more):
+    """The compiled map and Pinocchio's."""
+    return [ReturnMap(walker, method, engine=e, **more) for e in ("compiled", "pinocchio")]
+
+
+def section(gait, walker, seed=2, size=1e-3):
+    """A point near the gait's own passage; controller's states as they start there."""
+    random = np.random.default_rng(seed)
+    q, v = gait.q_minus, gait.v_minus
+    x = walker.initial_state(q, v)
+    x[: len(q) * 2] += size * random.normal(size=2 * len(q))
+    return x
+
+
+@pytest.fixture(scope="module")
+def npd(biped, gait):
+    return ba.Walker(biped, ba.NPDController(gait.constraint))
+
+
+@pytest.fixture(scope="module")
+def adrc(biped, gait):
+    observer = ba.GPIObserver.from_bandwidth(300.0)
+    policy = ba.ResetPolicy.RELABEL
+    return ba.Walker(biped, ba.ADRCController(gait.constraint, observer, reset=policy))
+
+
+def test_value_jacobian_and_fixed_point(gait, npd):
+    compiled, python = maps(npd, ba.RK4(5e-3))
+    assert compiled.ran == "compiled"
+    assert python.ran == "pinocchio"
+    s = compiled.project(section(gait, npd))
+    assert np.max(np.abs(compiled(s) - python(s))) < 1e-10
+    J, expected = compiled.jacobian(s), python.jacobian(s)
+    assert np.max(np.abs(J - expected)) < 1e-6 * np.max(np.abs(expected))
+    orbit = compiled.fixed_point(section(gait, npd, size=1e-4))
+    assert orbit.residual < 1e-9
+    assert orbit.stable
+    again = python(python.project(orbit.x_minus))
+    assert np.max(np.abs(again - python.project(orbit.x_minus))) < 1e-8
+
+
+def test_an_observer_s_states_are_coordinates(gait, adrc):
+    """RELABEL keeps them over the impact, so P depends on them; without them it starts them anew."""
+    compiled, python = maps(adrc, ba.Exponential(2e-3))
+    assert compiled.ran == "compiled"
+    x = section(gait, adrc)
+    s = compiled.project(x)
+    assert s.shape == (9 + 12,)
+    value = compiled(s)
+    assert np.max(np.abs(value - python(s)) / np.maximum(1.0, np.abs(value))) < 1e-6
+    moved = s.copy()
+    moved[9:13] += 1e-3
+    assert np.max(np.abs(compiled(moved) - value)) > 1e-9
+    J = compiled.jacobian(s)
+    assert J.shape == (21, 21)
+    column = 10
+    d = compiled.difference * np.eye(21)[column]
+    difference = (python(s + d) - python(s - d)) / (2.0 * compiled.difference)
+    assert np.max(np.abs(J[:, column] - difference)) < 1e-2 * max(1.0, np.max(np.abs(difference)))
+    bare, bare_python = maps(adrc, ba.Exponential(2e-3), controller_states=False)
+    s = bare.project(x)
+    assert s.shape == (9,)
+    assert np.max(np.abs(bare(s) - bare_python(s))) < 1e-6
+
+
+@pytest.mark.parametrize("restart", [True, False])
+def test_sampled_control_with_its_held_torque(gait, npd, restart):
+    walker = replace(npd, timing=ba.SampledTime(2e-3, restart))
+    compiled, python = maps(walker, ba.RK4(2e-3))
+    assert compiled.ran == "compiled"
+    s = compiled.project(section(gait, walker))
+    assert s.shape == (9 + 4,)
+    assert np.max(np.abs(compiled(s) - python(s))) < 1e-9
+
+
+@pytest.mark.parametrize("robot", ["compass", "rimless_wheel"])
+def test_robots_without_motors(robot):
+    biped = ba.Biped.load(robot)
+    known = passive_cycle(biped)
+    walker = ba.Walker(biped, ba.Passive(), slope=known.slope, max_step_time=known.max_step_time)
+    compiled, python = maps(walker, ba.Adaptive(1e-11, 1e-11), pitch=np.pi)
+    assert compiled.ran == "compiled"
+    start = walker.initial_state(known.q_plus, known.v_plus)
+    x = python.next_strike(walker, start, Mode()).x_minus
+    s = compiled.project(x)
+    assert np.max(np.abs(compiled(s) - python(s))) < 1e-8
+    orbit = compiled.fixed_point(x)
+    assert orbit.stable
+    if (
+        robot == "rimless_wheel"
+    ):  # McGeer: the rate is multiplied by cos 45 degrees, squared for energy
+        assert orbit.multipliers[0].real == pytest.approx(0.5, abs=1e-6)
+
+
+def test_bits_do_not_depend_on_how_many_points_there_are(gait, npd):
+    P = ReturnMap(npd, ba.RK4(5e-3))
+    points = [P.project(section(gait, npd, seed)) for seed in range(5)]
+    together = P.images(points)
+    for s, image in zip(points, together, strict=True):
+        assert np.array_equal(P(s), image)
+
+
+def test_parts_without_compiled_form_are_mapped_by_pinocchio(biped, gait, npd):
+    walker = replace(npd, disturbance=ba.HipForce(biped, (-1.0, 0.0)))
+    compiled, python = maps(walker, ba.RK4(5e-3))
+    assert compiled.ran == "pinocchio"
+    s = compiled.project(section(gait, walker))
+    assert np.array_equal(compiled(s), python(s))
+    called = []
+
+    def mapper(function, points):
+        called.append(len(points))
+        return map(function, points)
+
+    compiled.images([s, s], mapper)
+    assert called == [2]
+
+
+def test_no_return_is_said_by_either_engine(gait, npd):
+    walker = replace(npd, disturbance=ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 2, 0.1))
+    for P in maps(walker, ba.RK4(5e-3)):
+        with pytest.raises(
+            SimulationError, match=r"no return to the section: FELL, the robot fell"
+        ):
+            P(P.project(section(gait, walker)))
+    with pytest.raises(InputError, match="engine 'jax' is unknown"):
+        ReturnMap(npd, ba.RK4(), engine="jax")
+
+
+def test_a_method_that_does_not_fit_is_refused(npd):
+    P = ReturnMap(npd, ba.Exponential())
+    with pytest.raises(InputError, match="exponential method needs"):
+        P.ran  # noqa: B018

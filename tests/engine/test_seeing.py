@@ -1,0 +1,133 @@
+"""Signals of compiled runs: the compiled columns against those that Python computes from the same states."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.signals import signals
+from biped_adrc.engine.seeing import see
+from biped_adrc.engine.simulate import simulate
+from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.walker import Mode
+
+EXACT = 1e-10
+"""Of each column's largest number."""
+PUSH = ba.TorqueSine((5.0, 0.0, -3.0, 2.0, 1.0), 1, 0.05, 0.3, frequency=7.0) + ba.TorquePulse(
+    (30.0, 0.0, -10.0, 5.0, 3.0), 1, 0.1003, 0.1007
+)
+
+
+def walked(walker, gait, impacts=2, every=1):
+    x0 = walker.initial_state(*gait.start(walker.nominal))
+    method = ba.RK4(2e-3) if walker.sampled or not x0[10:].size else ba.Exponential(2e-3)
+    return simulate(walker, x0, Mode(), method, t_end=4.0, impacts=impacts, store_every=every)
+
+
+def in_python(walker, trajectory, reference):
+    bare = replace(trajectory, settings={**trajectory.settings, "engine": "pinocchio"})
+    return signals(walker, bare, reference)
+
+
+def compare(walker, trajectory, reference):
+    assert trajectory.settings["engine"] == "compiled"
+    columns = see(walker, trajectory, reference)
+    expected = in_python(walker, trajectory, reference)
+    assert len(columns) == len(fields(expected))
+    for field, found in zip(fields(expected), columns, strict=True):
+        column = getattr(expected, field.name)
+        assert found.shape == column.shape, field.name
+        assert np.array_equal(np.isnan(found), np.isnan(column)), field.name
+        sized = (
+            expected.q if field.name == "error" else column
+        )  # q_b - q_d on the gait is round-off
+        size = np.max(np.abs(sized), initial=0.0, where=~np.isnan(sized))
+        gap = np.max(np.abs(found - column), initial=0.0, where=~np.isnan(column))
+        assert gap <= EXACT * size, (field.name, gap, size)
+    return expected
+
+
+def controllers(gait):
+    adrc = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(300.0))
+    second_order = replace(adrc, observer=ba.GPIObserver.from_bandwidth(300.0, 0))
+    return {"NPD": ba.NPDController(gait.constraint), "ADRC": adrc, "ADRC, m = 0": second_order}
+
+
+@pytest.mark.parametrize("name", ["NPD", "ADRC", "ADRC, m = 0"])
+@pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
+def test_columns(biped, gait, name, sampled):
+    time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
+    walker = ba.Walker(biped, controllers(gait)[name], PUSH, time, torque_limit=80.0)
+    s = compare(walker, walked(walker, gait), gait.constraint)
+    assert np.all(np.isnan(s.xi_estimate)) == (name == "NPD")
+    assert np.max(np.abs(s.zeta)) >= 30.0
+    assert np.max(s.foothold) > 0.3
+    assert np.max(np.abs(s.u)) <= 80.0
+
+
+@pytest.mark.parametrize("name", ["NPD", "ADRC"])
+def test_columns_on_a_slope_with_a_wrong_model_and_friction(biped, gait, name):
+    rough = ba.Biped.load("rabbit", friction=True).with_errors(mass={"torso": 1.05})
+    walker = ba.Walker(rough, controllers(gait)[name], model=biped, slope=0.02)
+    walker = replace(walker, steps_down=(ba.StepDown(1, 0.002),))
+    s = compare(walker, walked(walker, gait, every=5), gait.constraint)
+    assert np.min(s.foothold_height) < -0.002
+
+
+def test_columns_of_a_run_that_falls(biped, gait):
+    push = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
+    walker = ba.Walker(biped, controllers(gait)["NPD"], push)
+    run = walked(walker, gait)
+    assert run.status is ba.Status.FELL
+    compare(walker, run, gait.constraint)
+
+
+def test_columns_for_another_reference(biped, gait):
+    other = ba.load_gait("v0.6", biped).constraint
+    walker = ba.Walker(biped, controllers(gait)["NPD"])
+    run = walked(walker, gait, impacts=1)
+    s, own = compare(walker, run, other), compare(walker, run, gait.constraint)
+    assert np.max(np.abs(s.error)) > 10.0 * np.max(np.abs(own.error))
+    assert np.array_equal(s.u, own.u)
+
+
+def test_signals_of_a_compiled_run_are_those_seen(biped, gait, monkeypatch):
+    walker = ba.Walker(biped, controllers(gait)["NPD"])
+    run = walked(walker, gait, impacts=1)
+    columns = see(walker, run, gait.constraint)
+    monkeypatch.setattr("biped_adrc.analysis.signals._row", None)
+    s = signals(walker, run, gait.constraint)
+    for field, column in zip(fields(s), columns, strict=True):
+        assert np.array_equal(getattr(s, field.name), column, equal_nan=True)
+
+
+def test_what_has_no_compiled_form_is_left_to_python(biped, gait):
+    """Another kind of reference, or a robot that has none to track."""
+    walker = ba.Walker(biped, controllers(gait)["NPD"])
+    run = walked(walker, gait, impacts=1)
+    flat = ba.TimeReference(lambda t: (np.zeros(4), np.zeros(4), np.zeros(4)))
+    assert see(walker, run, flat) is None
+    assert np.array_equal(signals(walker, run, flat).error, signals(walker, run, flat).q[:, :4])
+    compass = ba.Biped.load("compass")
+    known = passive_cycle(compass)
+    passive = ba.Walker(compass, ba.Passive(), slope=known.slope)
+    x0 = passive.initial_state(known.q_plus, known.v_plus)
+    run = simulate(passive, x0, Mode(), ba.RK4(5e-3), t_end=2.0, impacts=1)
+    nothing = ba.TimeReference(lambda t: (np.zeros(0), np.zeros(0), np.zeros(0)))
+    s = signals(passive, run, nothing)
+    energy = s.kinetic + s.potential
+    assert s.u.shape == (len(s.t), 0)
+    assert np.ptp(energy) < 1e-6 * np.max(np.abs(energy))
+
+
+def test_the_power_of_the_motors_is_the_energy_s_rate(biped, gait):
+    """From columns alone: d(T + V)/dt = q_b' u + q' zeta, whatever made them."""
+    walker = ba.Walker(biped, controllers(gait)["ADRC"], PUSH)
+    x0 = walker.initial_state(*gait.start(biped))
+    run = simulate(walker, x0, Mode(), ba.RK4(2.5e-4), t_end=0.04)
+    s = signals(walker, run, gait.constraint)
+    power = np.sum(s.v[:, :4] * s.u, axis=1) + np.sum(s.v * s.zeta, axis=1)
+    gained = np.diff(s.kinetic + s.potential)
+    work = np.diff(s.t) * 0.5 * (power[1:] + power[:-1])
+    assert np.max(np.abs(gained - work)) < 1e-5 * np.max(np.abs(power))

@@ -1,0 +1,531 @@
+"""Compiled runs against the Python engine's: the same arcs, nodes, events and statuses."""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.base import Controller, ControllerLaws
+from biped_adrc.control.npd import NPDParameters, npd_output
+from biped_adrc.engine import program
+from biped_adrc.engine.choice import simulate_by
+from biped_adrc.engine.fingerprint import law_text, skeleton
+from biped_adrc.engine.robot import robot_of
+from biped_adrc.engine.simulate import simulate
+from biped_adrc.engine.symbols import Untraceable, Vector
+from biped_adrc.errors import InputError
+from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.hybrid import simulator
+from biped_adrc.linear import solve
+from biped_adrc.walker import FOOT_STRIKE, Mode
+
+SHARP = 1e-11
+"""What sums in another order leave, where no step is chosen and nothing is amplified."""
+TICKS = 1e-10
+"""The same where the observer's or the controller's differences are held over a tick."""
+LANDED = 1e-6
+"""Methods that land on an event, or choose their steps, in ways of their own."""
+PULSE = (30.0, 0.0, -10.0, 5.0, 3.0)
+
+
+def npd(gait, **more):
+    return ba.NPDController(gait.constraint, **more)
+
+
+def adrc(gait, bandwidth=300.0, **more):
+    return ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(bandwidth), **more)
+
+
+CONTROLLERS = {"NPD": npd, "ADRC": adrc}
+
+
+def runs(
+    walker, gait, method, impacts=2, t_end=4.0, mode=None, t0=None, start=None, every=1, x0=None
+):
+    """The run of either engine."""
+    mode = Mode() if mode is None else mode
+    t0 = mode.start if t0 is None else t0
+    if x0 is None:
+        q, v = gait.start(walker.nominal) if start is None else start
+        x0 = walker.initial_state(q, v, mode)
+    stop = None if impacts is None else (FOOT_STRIKE, impacts)
+    same = {"t_end": t_end, "t0": t0, "store_every": every}
+    python = simulator.simulate(walker, x0, mode, method, stop_after=stop, **same)
+    return python, simulate(walker, x0, mode, method, impacts=impacts, **same)
+
+
+def near(found, expected, tolerance):
+    gap = np.abs(found - expected)
+    scale = np.maximum(1.0, np.max(np.abs(expected), axis=0, initial=0.0))
+    assert np.all(gap <= tolerance * scale), np.max(gap / scale)
+
+
+def same_events(python, compiled, tolerance, engine="compiled"):
+    assert compiled.status is python.status, (compiled.status, compiled.detail, python.detail)
+    assert compiled.settings["engine"] == engine
+    assert compiled.settings["method"] == python.settings["method"]
+    assert len(compiled.arcs) == len(python.arcs)
+    for found, expected in zip(compiled.arcs, python.arcs, strict=True):
+        assert found.mode.step == expected.mode.step
+        assert abs(found.mode.start - expected.mode.start) <= tolerance
+        if expected.event is None:
+            assert found.event is None
+            continue
+        assert found.event.guard == expected.event.guard
+        assert abs(found.event.t - expected.event.t) <= tolerance
+        near(found.event.x_minus, expected.event.x_minus, tolerance)
+        assert (found.event.x_plus is None) == (expected.event.x_plus is None)
+        if expected.event.x_plus is not None:
+            near(found.event.x_plus, expected.event.x_plus, tolerance)
+
+
+def same(python, compiled, tolerance, engine="compiled"):
+    same_events(python, compiled, tolerance, engine)
+    for found, expected in zip(compiled.arcs, python.arcs, strict=True):
+        assert found.t.shape == expected.t.shape
+        near(found.t, expected.t, tolerance)
+        near(found.x, expected.x, tolerance)
+        near(found.dx, expected.dx, tolerance)
+
+
+# -- methods and time bases ------------------------------------------------------------------------
+@pytest.mark.parametrize("controller", CONTROLLERS)
+def test_classical_steps(biped, gait, controller):
+    walker = ba.Walker(biped, CONTROLLERS[controller](gait))
+    same(*runs(walker, gait, ba.RK4(2e-3)), SHARP)
+
+
+@pytest.mark.parametrize("feedback", [False, True])
+def test_exponential_steps_with_table_one(biped, gait, feedback):
+    """They land on an impact by halving here and by one shorter step there."""
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint))
+    same(*runs(walker, gait, ba.Exponential(1e-3, feedback), impacts=1), LANDED)
+
+
+def test_exponential_steps_past_a_switch_and_a_limit(biped, gait):
+    push = ba.TorquePulse(PULSE, 1, 0.1003, 0.1607)
+    walker = ba.Walker(biped, adrc(gait), push, torque_limit=60.0)
+    same(*runs(walker, gait, ba.Exponential(1e-3), impacts=1), LANDED)
+
+
+@pytest.mark.parametrize("controller", CONTROLLERS)
+def test_adaptive_steps(biped, gait, controller):
+    """Round-off decides the last steps, so nodes are not compared."""
+    walker = ba.Walker(biped, CONTROLLERS[controller](gait))
+    same_events(*runs(walker, gait, ba.Adaptive(1e-9, 1e-9)), LANDED)
+
+
+@pytest.mark.parametrize("restart", [True, False])
+@pytest.mark.parametrize("controller", CONTROLLERS)
+def test_ticks(biped, gait, controller, restart):
+    """Sub-steps do not divide the period; a run that starts late has its clock from there."""
+    time = ba.SampledTime(1e-3, restart)
+    walker = ba.Walker(biped, CONTROLLERS[controller](gait), timing=time, torque_limit=120.0)
+    python, compiled = runs(walker, gait, ba.RK4(4e-4), 2, mode=Mode(3, 0.41237))
+    same(python, compiled, TICKS)
+    origin = compiled.arcs[1].mode.start if restart else 0.41237
+    ticks = (compiled.arcs[1].t - origin) / 1e-3
+    assert np.any(np.abs(ticks - np.round(ticks)) < 1e-9)
+
+
+def test_ticks_with_table_one_and_steps_longer_than_the_period(biped, gait):
+    time = ba.SampledTime(1e-3)
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint), timing=time)
+    same(*runs(walker, gait, ba.RK4(5e-3)), 1e-7)
+
+
+def test_adaptive_steps_between_ticks(biped, gait):
+    walker = ba.Walker(biped, adrc(gait), timing=ba.SampledTime(2e-3))
+    same(*runs(walker, gait, ba.Adaptive(1e-9, 1e-9), impacts=1), TICKS)
+
+
+def test_a_run_that_begins_within_a_single_support(biped, gait):
+    walker = ba.Walker(biped, npd(gait), max_step_time=0.5)
+    late = {"mode": Mode(2, 0.2), "t0": 0.3, "t_end": 0.9, "impacts": None}
+    same(*runs(walker, gait, ba.RK4(2e-3), **late), SHARP)
+    ticks = replace(walker, timing=ba.SampledTime(1e-3, restart=False))
+    same(*runs(ticks, gait, ba.RK4(1e-3), **late), TICKS)
+
+
+@pytest.mark.parametrize(("h", "every"), [(2e-3, 3), (1e-3, 7), (5e-3, 1)])
+def test_nodes_that_are_kept(biped, gait, h, every):
+    """Of steps longer than the resolution also points inside, with the slope there."""
+    walker = ba.Walker(biped, npd(gait), ba.TorquePulse(PULSE, 1, 0.1003, 0.1007))
+    python, compiled = runs(walker, gait, ba.RK4(h), impacts=1, every=every)
+    if h <= 2e-3:
+        same(python, compiled, SHARP)
+    else:
+        same_events(python, compiled, SHARP)
+        near(compiled.arcs[0].x, python.arcs[0].x, SHARP)
+        near(compiled.arcs[0].dx, python.arcs[0].dx, 1e-2)  # differences over 1e-6 s there
+
+
+# -- disturbances, plants, ground ------------------------------------------------------------------
+SINE = ba.TorqueSine((5.0, 0.0, -3.0, 2.0, 1.0), 1, 0.05, 0.3, frequency=7.0)
+PUSHES = {
+    "inside one step": ba.TorquePulse(PULSE, 1, 0.1003, 0.1007),
+    "over an impact": ba.TorquePulse((10.0, 0.0, -10.0, 5.0, 3.0), None, 0.4, 0.6),
+    "sine": SINE,
+    "step": ba.TorqueStep((2.0, 0.0, 0.0, 1.0, -0.5), 2, 0.1),
+    "several": SINE
+    + ba.TorqueStep((1.0, 0.0, 0.0, 1.0, 0.5), 2, 0.1)
+    + ba.TorquePulse(PULSE, 1, 0.1003, 0.1007)
+    + ba.TorquePulse((0.0, 1.0, 0.0, 0.0, 0.0), None, 0.1005, 0.45),
+}
+
+
+@pytest.mark.parametrize("push", PUSHES)
+@pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
+def test_pushes(biped, gait, push, sampled):
+    time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
+    walker = ba.Walker(biped, npd(gait), PUSHES[push], time)
+    python, compiled = runs(walker, gait, ba.RK4(2e-3))
+    same(python, compiled, TICKS if sampled else SHARP)
+    assert np.max(np.abs(compiled.final_state - runs_free(biped, gait, time))) > 1e-6
+
+
+def runs_free(biped, gait, time):
+    """The end without a push, which has to be another."""
+    walker = ba.Walker(biped, npd(gait), timing=time)
+    x0 = walker.initial_state(*gait.start(biped))
+    return simulate(walker, x0, Mode(), ba.RK4(2e-3), t_end=4.0, impacts=2).final_state
+
+
+def test_a_plant_that_is_not_the_model_on_a_slope_and_under_a_limit(biped, gait):
+    plant = biped.with_errors(mass={"torso": 1.05}, inertia={"thigh": 1.2})
+    walker = ba.Walker(plant, adrc(gait), model=biped, slope=0.02, torque_limit=90.0)
+    same(*runs(walker, gait, ba.RK4(1e-3)), SHARP)
+    same(*runs(walker, gait, ba.Exponential(1e-3), impacts=1), LANDED)
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_friction_that_is_known_or_not(biped, gait, known):
+    rough = ba.Biped.load("rabbit", friction=True)
+    walker = ba.Walker(rough, npd(gait), model=None if known else biped)
+    same(*runs(walker, gait, ba.RK4(2e-3), impacts=1), SHARP)
+    ticks = replace(walker, timing=ba.SampledTime(2e-3))
+    same(*runs(ticks, gait, ba.RK4(2e-3), impacts=1), TICKS)
+
+
+def test_steps_down_add_up(biped, gait):
+    down = (ba.StepDown(2, 0.002), ba.StepDown(2, 0.001))
+    walker = ba.Walker(biped, adrc(gait), steps_down=down)
+    python, compiled = runs(walker, gait, ba.RK4(2e-3), impacts=3)
+    same(python, compiled, SHARP)
+    x, z = walker.plant.swing_foot(compiled.arcs[1].event.x_minus[:5])
+    assert x > 0.0
+    assert z == pytest.approx(-0.003, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "method", [ba.RK4(2e-3), ba.Adaptive(1e-10, 1e-10)], ids=["RK4", "adaptive"]
+)
+@pytest.mark.parametrize("robot", ["compass", "rimless_wheel", "simplest"])
+def test_robots_without_motors(robot, method):
+    """The rimless wheel has all its mass in one point: inertia matrices of double support are singular."""
+    biped = ba.Biped.load(robot)
+    known = passive_cycle(biped)
+    walker = ba.Walker(biped, ba.Passive(), slope=known.slope, max_step_time=known.max_step_time)
+    start = known.q_plus, known.v_plus
+    t_end = 9.0 * known.max_step_time
+    python, compiled = runs(walker, None, method, t_end=t_end, start=start)
+    tolerance = 1e-7 if robot == "simplest" else SHARP  # feet of 1e-7 of the mass
+    same_events(python, compiled, tolerance)
+    assert len(python.events(FOOT_STRIKE)) == 2
+
+
+@pytest.mark.parametrize("name", ["v0.4", "v0.5", "v0.6", "v0.7", "v0.8", "v0.9", "v1", "v1.1"])
+def test_gaits_by_speed(biped, name):
+    gait = ba.load_gait(name, biped)
+    same(*runs(ba.Walker(biped, npd(gait)), gait, ba.RK4(2e-3), impacts=1), SHARP)
+
+
+def test_another_preset():
+    biped = ba.Biped.load("rabbit", "tac2003")
+    gait = ba.load_gait("published", biped)
+    same(*runs(ba.Walker(biped, npd(gait)), gait, ba.RK4(2e-3)), SHARP)
+
+
+# -- how runs end ----------------------------------------------------------------------------------
+@pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
+def test_falls_stalls_and_time_outs(biped, gait, sampled):
+    time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
+    walker = ba.Walker(biped, npd(gait), timing=time)
+    push = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
+    ends = {
+        ba.Status.FELL: (replace(walker, disturbance=push), {}),
+        ba.Status.STALLED: (replace(walker, max_step_time=0.3), {}),
+        ba.Status.TIME_OUT: (walker, {"t_end": 0.7}),
+        ba.Status.COMPLETED: (walker, {"t_end": 0.7, "impacts": None}),
+    }
+    for status, (made, more) in ends.items():
+        python, compiled = runs(made, gait, ba.RK4(2e-3), **more)
+        assert python.status is status
+        same(python, compiled, 1e-9 if status is ba.Status.FELL else TICKS)
+
+
+def test_an_observer_too_fast_for_the_step_ends_without_numbers(biped, gait):
+    walker = ba.Walker(biped, adrc(gait, 1e5), torque_limit=150.0)
+    python, compiled = runs(walker, gait, ba.RK4(2e-3))
+    assert python.status is ba.Status.NOT_FINITE
+    assert compiled.status is ba.Status.NOT_FINITE
+    assert compiled.t_end == pytest.approx(python.t_end, abs=1e-12)
+    assert np.all(np.isfinite(compiled.final_state))
+    assert "after t = " in compiled.detail
+
+
+@dataclass(frozen=True)
+class Written(Controller):
+    """A law with NPD's parameters."""
+
+    law: object
+    k: object
+
+    def output(self, s, m):
+        return self.law(self.k, s, m)
+
+    @property
+    def laws(self):
+        return ControllerLaws(self.k, self.law)
+
+
+def written(gait, law, k=None):
+    return Written(law, npd(gait).parameters if k is None else k)
+
+
+def rooted(k, s, m):
+    """NaN after 0.1 s."""
+    return npd_output(k, s, m) * np.sqrt(0.1 - m.t)
+
+
+def closing(k, s, m):
+    """Singular from 0.05 s on, and larger than any limit just before."""
+    A = np.eye(1) * np.maximum(0.05 - m.t, 0.0)
+    return npd_output(k, s, m) + 1e-3 * solve(A, np.ones(1), "the matrix")[0]
+
+
+@pytest.mark.parametrize("limit", [None, 100.0])
+@pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
+def test_torques_without_numbers_and_singular_laws_under_a_limit(biped, gait, sampled, limit):
+    """A torque limit must not make a number of what is none."""
+    time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
+    for law, status in ((rooted, ba.Status.NOT_FINITE), (closing, ba.Status.SINGULAR)):
+        walker = ba.Walker(biped, written(gait, law), timing=time, torque_limit=limit)
+        python, compiled = runs(walker, gait, ba.RK4(2e-3))
+        assert python.status is status
+        assert compiled.status is status
+        assert compiled.t_end == python.t_end
+        near(compiled.final_state, python.final_state, TICKS)
+
+
+@dataclass(frozen=True)
+class Jumping(Written):
+    """With a state that its jump makes from `jumped`."""
+
+    jumped: object
+
+    def initial_state(self, m):
+        return np.zeros(1)
+
+    def flow(self, s, m, u):
+        return np.zeros(1)
+
+    def jump(self, s, after, swap):
+        return self.jumped(self.k, s, after, swap)
+
+    @property
+    def laws(self):
+        return ControllerLaws(self.k, self.law, flow=still, jump=self.jumped)
+
+
+def still(k, s, m, u):
+    return 0.0 * s
+
+
+def jump_to_nan(k, s, after, swap):
+    return s + np.sqrt(-1.0 - after.t)
+
+
+def jump_through_zero(k, s, after, swap):
+    A = np.eye(1) * np.maximum(-after.t, 0.0)
+    return solve(A, np.ones(1), "the jump")
+
+
+@pytest.mark.filterwarnings("ignore:invalid value")
+def test_jumps_without_numbers(biped, gait):
+    """Python's run goes on from a NaN and stops at the next flow; a singular jump ends it at the impact."""
+    k = npd(gait).parameters
+    for jump, status in (
+        (jump_to_nan, ba.Status.NOT_FINITE),
+        (jump_through_zero, ba.Status.SINGULAR),
+    ):
+        walker = ba.Walker(biped, Jumping(npd_output, k, jump))
+        x0 = walker.initial_state(*gait.start(biped))
+        run = simulate(walker, x0, Mode(), ba.RK4(2e-3), t_end=2.0, impacts=2)
+        assert run.status is status
+        assert run.events(FOOT_STRIKE) == ()
+        assert np.all(np.isfinite(run.final_state))
+
+
+# -- laws that look at numbers ---------------------------------------------------------------------
+def at_step_two(k, s, m):
+    u = npd_output(k, s, m)
+    return 0.9 * u if m.step == 2 else u
+
+
+def test_a_law_that_asks_whether_numbers_are_equal(biped, gait):
+    """It is no expression: taken for one it would never be equal."""
+    walker = ba.Walker(biped, written(gait, at_step_two))
+    same(*runs(walker, gait, ba.RK4(2e-3)), SHARP)
+
+
+def test_a_symbol_is_neither_equal_nor_unequal():
+    step = Vector("step", 1).take()
+    for ask in (
+        lambda: bool(step == 2),
+        lambda: bool(step != 1),
+        lambda: step in (2, 3),
+        lambda: np.array_equal(np.array([step, step]), np.ones(2)),
+    ):
+        with pytest.raises(Untraceable):
+            ask()
+
+
+def scaled(factor):
+    def law(k, s, m):
+        return factor * npd_output(k, s, m)
+
+    return law
+
+
+class Counted(NamedTuple):
+    """NPD's, and an int, which decides."""
+
+    npd: NPDParameters
+    count: int
+
+
+def by_count(k, s, m):
+    return (1.0 - 0.05 * k.count) * npd_output(k.npd, s, m)
+
+
+def test_what_a_law_has_around_it_is_part_of_it(biped, gait):
+    """Closures and ints with other values are other code."""
+    ends = []
+    for factor in (1.0, 0.9):
+        walker = ba.Walker(biped, written(gait, scaled(factor)))
+        python, compiled = runs(walker, gait, ba.RK4(2e-3), impacts=1)
+        same(python, compiled, SHARP)
+        ends.append(compiled.final_state)
+    assert np.max(np.abs(ends[0] - ends[1])) > 1e-3
+    for count in (0, 2):
+        k = Counted(npd(gait).parameters, count)
+        walker = ba.Walker(biped, written(gait, by_count, k))
+        same(*runs(walker, gait, ba.RK4(2e-3), impacts=1), SHARP)
+
+
+def keyword(u, *, factor=1.0):
+    return factor * u
+
+
+def with_keyword(k, s, m):
+    return keyword(npd_output(k, s, m))
+
+
+def test_the_fingerprint_sees_what_a_law_reaches(monkeypatch):
+    """Functions of modules, keyword defaults, and properties of parameters."""
+
+    def made(factor):
+        class Parameters(NamedTuple):
+            gain: float
+
+            @property
+            def twice(self):
+                return factor * self.gain
+
+        return Parameters(1.0)
+
+    before = law_text(through_module), law_text(with_keyword)
+    assert (law_text(through_module), law_text(with_keyword)) == before
+    monkeypatch.setattr(np_like, "halved", lambda u: 0.25 * u)
+    monkeypatch.setitem(keyword.__kwdefaults__, "factor", 0.9)
+    after = law_text(through_module), law_text(with_keyword)
+    assert all(one != other for one, other in zip(before, after, strict=True))
+    assert skeleton(made(2)) == skeleton(made(2))
+    assert skeleton(made(2)) != skeleton(made(3))
+
+
+def halved(u):
+    return 0.5 * u
+
+
+np_like = type(pytest)("laws_of_a_user")
+np_like.halved = halved
+
+
+def through_module(k, s, m):
+    return np_like.halved(npd_output(k, s, m))
+
+
+# -- what is refused, and what is used instead -----------------------------------------------------
+def test_a_method_that_does_not_fit_is_refused_as_in_python(biped, gait):
+    for walker in (
+        ba.Walker(biped, npd(gait)),
+        ba.Walker(biped, adrc(gait), timing=ba.SampledTime(1e-3)),
+    ):
+        x0 = walker.initial_state(*gait.start(biped))
+        with pytest.raises(InputError, match="exponential method needs"):
+            simulate(walker, x0, Mode(), ba.Exponential(), t_end=1.0)
+    with pytest.raises(InputError, match="positive duration"):
+        simulate(walker, x0, Mode(), ba.RK4(), t_end=0.0)
+    with pytest.raises(InputError, match="finite numbers"):
+        simulate(walker, x0 * np.nan, Mode(), ba.RK4(), t_end=1.0)
+    with pytest.raises(InputError, match="engine 'c' is unknown"):
+        simulate_by("c", walker, x0, Mode(), ba.RK4(), t_end=1.0)
+
+
+def test_a_model_of_another_tree_is_no_part_of_compiled_code(biped, gait, monkeypatch):
+    """The generated code joins the links of both as the plant's are."""
+    model = ba.Biped.load("rabbit", "tac2003")
+    walker = ba.Walker(biped, npd(gait), model=model)
+    right = robot_of(model)
+    other = replace(right, structure=right.structure._replace(A=right.structure.A[::-1]))
+    monkeypatch.setattr(program, "robot_of", lambda b: other if b is model else robot_of(b))
+    run = simulate(
+        walker, walker.initial_state(*gait.start(model)), Mode(), ba.RK4(2e-3), t_end=0.05
+    )
+    assert run.settings["engine"] == "compiled plant"
+    assert "joined otherwise" in run.settings["why"]
+
+
+def test_a_robot_that_is_no_planar_tree_is_simulated_with_pinocchio(biped, gait, monkeypatch):
+    def refuse(biped):
+        raise ba.errors.ModelError("no planar tree")
+
+    monkeypatch.setattr(program, "robot_of", refuse)
+    walker = ba.Walker(biped, npd(gait))
+    x0 = walker.initial_state(*gait.start(biped))
+    run = simulate_by("compiled", walker, x0, Mode(), ba.RK4(2e-3), t_end=0.05)
+    assert run.settings["engine"] == "pinocchio"
+    assert run.settings["why"] == "no planar tree; Pinocchio was used instead"
+
+
+def test_progress_is_told_as_in_python(biped, gait):
+    walker = ba.Walker(biped, npd(gait))
+    x0 = walker.initial_state(*gait.start(biped))
+    told = {"compiled": [], "pinocchio": []}
+    for engine, said in told.items():
+        simulate_by(
+            engine,
+            walker,
+            x0,
+            Mode(),
+            ba.RK4(2e-3),
+            t_end=4.0,
+            impacts=2,
+            progress=lambda t, n, said=said: said.append((round(t, 9), n)),
+        )
+    assert told["compiled"] == told["pinocchio"]
+    assert len(told["compiled"]) == 2
