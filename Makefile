@@ -4,8 +4,8 @@ PYTHON ?= python3
 OUT ?= out
 ARGS ?=
 BIN := .venv/bin
-BENCHMARKS := engine/calls engine/paper_run engine/sampled engine/batches engine/growth engine/compiling \
-  peers/plant peers/closed_loop pinocchio_calls
+BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine/batches engine/growth \
+  engine/compiling peers/plant peers/closed_loop pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
 .PHONY: reproduce test docs pictures results verification dev lint format types imports bench clean
@@ -53,7 +53,7 @@ imports: .venv/.dev
 bench: .venv/.core
 	set -e; for script in $(BENCHMARKS); do \
 	  $(BIN)/python benchmarks/$$script.py $(OUT)/benchmarks $(ARGS); done
-	$(BIN)/python benchmarks/gait_design.py $(OUT)/benchmarks --limit 30
+	$(BIN)/python benchmarks/gait_design.py $(OUT)/benchmarks --limit 10
 
 .venv/.made:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \

@@ -20,7 +20,7 @@ from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.walker import FOOT_STRIKE
 
 IN_PYTHON = {
-    "ADRC": (Exponential(1e-3, feedback=True), Exponential(5e-4)),
+    "ADRC": (Exponential(1e-3, feedback=True),),
     "NPD": (RK4(1e-3), Adaptive()),
 }
 """One method for each is enough for a quick look; a walk of the Python engine takes 10 to 40 s."""
