@@ -17,6 +17,10 @@ from biped_adrc.types import Array
 from biped_adrc.walker import Mode, Walker
 
 
+LONG = 2000
+"""Nodes from which on compiling pays off."""
+
+
 @dataclass(frozen=True)
 class Signals:
     """Rows are the stored nodes (K,); impacts and ticks repeat their time, before and after."""
@@ -82,10 +86,12 @@ class Signals:
 def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Signals:
     """Compute the signals of a walk; `reference` gives q_d (the controller's own, usually).
 
-    Where outer loops correct the reference, q_d is the corrected one. Of a compiled run they are compiled too.
+    Where outer loops correct the reference, q_d is the corrected one. Of a compiled run, and of a long one, they
+    are computed in compiled code where that can be had.
     """
     seen = None
-    if trajectory.settings.get("engine") == "compiled":
+    nodes = sum(len(arc.t) for arc in trajectory.arcs)
+    if trajectory.settings.get("engine") == "compiled" or nodes >= LONG:
         from biped_adrc.engine.seeing import see
 
         seen = see(walker, trajectory, reference)

@@ -14,6 +14,7 @@ from biped_adrc.engine.machine import Machine, Text, machine
 from biped_adrc.engine.observe import Observation, Seen, Watched, shapes
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.symbols import Untraceable, floats
+from biped_adrc.errors import ModelError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
@@ -32,7 +33,7 @@ def see(walker: Walker, trajectory: Trajectory, reference: Reference) -> list[Ar
             program.numbers, reference.parameters, np.array(walker.plant.phase, dtype=float)
         )
         code = _code(program.make, watched)
-    except (NotCompiled, Untraceable):
+    except (NotCompiled, Untraceable, ModelError):
         return None
     K = np.array([*floats(watched), 0.0])
     foot, columns = np.zeros(2), []

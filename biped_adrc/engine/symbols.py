@@ -140,7 +140,7 @@ def where(condition: Any, a: Any, b: Any) -> Any:
 
 def solve_positive(A: Any, B: Any, what: str) -> Any:
     """X with A X = B for a symmetric positive definite A, by A = L d L' without pivots."""
-    n, columns = len(A), B.reshape(len(A), -1).copy()
+    n, columns = len(A), B.reshape(len(A), -1).astype(object)
     L = np.full((n, n), 0.0, dtype=object)
     d: list[Any] = []
     inverse: list[Any] = []

@@ -12,6 +12,7 @@ prints one letter for both. Here B1 is the identity: the motors act on the joint
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -39,6 +40,14 @@ class Reduction(NamedTuple):
     """-D22^-1 Omega2 (n - p,) [rad/s^2]."""
 
 
+@lru_cache(maxsize=16)
+def identity(p: int) -> Array:
+    """(p, p), to be read only."""
+    one = np.eye(p)
+    one.setflags(write=False)
+    return one
+
+
 def reduce(D: Array, Omega: Array, p: int) -> Reduction:
     """(15) and (14) with xi~ = 0, for the first p coordinates actuated; p = 0 is a passive robot."""
     if p == 0:
@@ -53,7 +62,7 @@ def reduce(D: Array, Omega: Array, p: int) -> Reduction:
         A_N = -solve_positive(D[p:, p:], D[p:, :p], "D22")
         a_N = -solve_positive(D[p:, p:], Omega[p:], "D22")
     kappa_inverse = D[:p, :p] + D12 @ A_N
-    kappa = solve_positive(kappa_inverse, np.eye(p), "D11 - D12 D22^-1 D21")
+    kappa = solve_positive(kappa_inverse, identity(p), "D11 - D12 D22^-1 D21")
     xi = kappa @ -(Omega[:p] + D12 @ a_N)
     return Reduction(D, Omega, kappa, xi, kappa_inverse, A_N, a_N)
 

@@ -177,21 +177,19 @@ def tasks(plan: Plan) -> dict[str, Task]:
     adrc, npd = Run("ADRC", preset=plan.preset), Run("NPD", preset=plan.preset)
     pushed = {c: pushed_run(plan, c) for c in BOTH}
     out: dict[str, Task] = {}
+    for c in reversed(BOTH):
+        out[f"headline {c}"] = Task(f"{c} under the push", headline, (pushed[c],))
     if not plan.quick:
         remembering = replace(adrc, reset="measured")
-        out = {
-            "multipliers ADRC": Task("multipliers ADRC", poincare, (adrc,)),
-            "multipliers ADRC measured": Task(
-                "multipliers ADRC, reset measured", poincare, (remembering,)
-            ),
-        }
+        out["multipliers ADRC"] = Task("multipliers ADRC", poincare, (adrc,))
+        out["multipliers ADRC measured"] = Task(
+            "multipliers ADRC, reset measured", poincare, (remembering,)
+        )
     out |= {
         "multipliers NPD": Task("multipliers NPD", poincare, (npd,)),
         "numerics": Task("orders and (23)", numerics_laws, (plan.preset,)),
         "return map": Task("return map", return_map_samples, (npd,)),
     }
-    for c in BOTH:
-        out[f"headline {c}"] = Task(f"{c} under the push", headline, (pushed[c],))
     for preset in plan.presets:
         out[f"model {preset}"] = Task(f"laws of the model, {preset}", model_laws, (preset,))
         for c in BOTH:

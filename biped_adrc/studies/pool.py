@@ -42,6 +42,10 @@ def _ignore_interrupt() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
+PRELOADED = ("biped_adrc.studies.plan", "biped_adrc.studies.pictures", "biped_adrc.engine.batch")
+"""Imported once, before the workers are forked."""
+
+
 def run_tasks(
     tasks: Sequence[Task], workers: int | None = None, progress: TaskProgress | None = None
 ) -> list[Timed]:
@@ -54,9 +58,9 @@ def run_tasks(
             if progress is not None:
                 progress(i + 1, len(tasks), task.name)
         return results
-    pool = ProcessPoolExecutor(
-        workers, multiprocessing.get_context("forkserver"), initializer=_ignore_interrupt
-    )
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(list(PRELOADED))
+    pool = ProcessPoolExecutor(workers, context, initializer=_ignore_interrupt)
     processes: list[Any] = []
     try:
         futures = [pool.submit(_timed, task) for task in tasks]
