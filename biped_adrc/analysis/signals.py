@@ -16,7 +16,6 @@ from biped_adrc.model.reduction import disturbance_parts
 from biped_adrc.types import Array
 from biped_adrc.walker import Mode, Walker
 
-
 LONG = 2000
 """Nodes from which on compiling pays off."""
 
@@ -86,8 +85,8 @@ class Signals:
 def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Signals:
     """Compute the signals of a walk; `reference` gives q_d (the controller's own, usually).
 
-    Where outer loops correct the reference, q_d is the corrected one. Of a compiled run, and of a long one, they
-    are computed in compiled code where that can be had.
+    Where outer loops correct the reference, q_d is the corrected one. Of a compiled run, and of a long one,
+    they are computed in compiled code where that can be had.
     """
     seen = None
     nodes = sum(len(arc.t) for arc in trajectory.arcs)

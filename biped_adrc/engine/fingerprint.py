@@ -31,7 +31,7 @@ def law_text(law: Any, seen: set[Any] | None = None) -> str:
     if law in seen:
         return law.__qualname__
     seen.add(law)
-    names = sorted(names_of(law.__code__))
+    names = _names(law.__code__)
     used = {name: law.__globals__[name] for name in names if name in law.__globals__}
     closed = [cell.cell_contents for cell in law.__closure__ or ()]
     parts = [law.__qualname__, _code_text(law.__code__), constant_text(law.__defaults__)]
@@ -65,6 +65,12 @@ def _class_text(cls: type) -> str:
     return "\n".join([constant_text(cls), *methods])
 
 
+@lru_cache(maxsize=1024)
+def _names(code: types.CodeType) -> list[str]:
+    return sorted(names_of(code))
+
+
+@lru_cache(maxsize=1024)
 def _code_text(code: types.CodeType) -> str:
     inner = [_code_text(c) if isinstance(c, types.CodeType) else repr(c) for c in code.co_consts]
     return f"{code.co_code.hex()} {code.co_names} {code.co_varnames} {inner}"

@@ -76,13 +76,21 @@ class _Run:
     every: int
     progress: Progress | None
 
+    @property
+    def room(self) -> int:
+        """Nodes of an arc to make room for at first: those of a long single support, two at each tick."""
+        F, longest = self.compiled.plan.F, 0.6
+        shortest = F[layout.H] if self.compiled.plan.P[layout.KIND] != layout.DOP853 else 1e-3
+        ticks = longest / F[layout.PERIOD] if F[layout.PERIOD] > 0.0 else 0.0
+        return 64 + min(100_000, int(longest / shortest / max(1, self.every) + 2.0 * ticks))
+
     def from_(self, x: Array, mode: Mode, t0: float, t_end: float) -> Trajectory:
         """Arcs until enough impacts, the end, or a terminal status."""
         c = self.compiled
         s = c.plan.start(x, t0, mode.step, mode.start, t_end)
         arcs: list[Arc] = []
         while True:
-            found = run_arc(c.plan, c.K, s, self.every)
+            found = run_arc(c.plan, c.K, s, self.every, self.room)
             s = found.s
             if found.code != layout.STRUCK:
                 status = STATUS[found.code]

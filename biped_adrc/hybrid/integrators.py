@@ -11,9 +11,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
+import numpy as np
 from scipy.integrate import DOP853, RK45, OdeSolver, Radau
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, NotFiniteError, SingularError
 from biped_adrc.hybrid.system import HybridSystem, Mode, Split
 from biped_adrc.types import Array
 
@@ -128,13 +129,25 @@ class _SciPy(OneStepMethod):
     def steps(
         self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
+        last: NotFiniteError | SingularError | None = None
+
+        def tried(t: float, x: Array) -> Array:
+            nonlocal last
+            try:
+                dx, last = f(t, x), None
+            except (NotFiniteError, SingularError) as error:  # a step too long, which is rejected
+                dx, last = np.full_like(x, np.nan), last or error
+            return dx
+
         solver: OdeSolver = self._solver(
-            f, t, x, t_end, rtol=self.rtol, atol=self.atol, max_step=self.max_step
+            tried, t, x, t_end, rtol=self.rtol, atol=self.atol, max_step=self.max_step
         )
         t0, x0, dx0 = t, x, f(t, x)
         while solver.status == "running":
             message = solver.step()
             if solver.status == "failed":
+                if last is not None:
+                    raise last
                 raise StepFailed(f"{type(self).__name__} at t = {solver.t:.6g} s: {message}")
             x1 = solver.y.copy()
             dx1 = f(solver.t, x1)

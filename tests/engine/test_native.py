@@ -16,6 +16,7 @@ import biped_adrc as ba
 from biped_adrc import linear
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine import native
+from biped_adrc.engine import native_source as source
 from biped_adrc.engine.native import flatten, native_law
 from biped_adrc.engine.store import VARIABLE
 from biped_adrc.errors import InputError
@@ -277,7 +278,7 @@ def test_arguments_that_are_no_numbers_are_refused():
 
 
 def test_code_that_differs_from_python_is_refused(monkeypatch):
-    monkeypatch.setattr(native, "ENTRY", native.ENTRY.replace("({arguments})", "({arguments}) + 1"))
+    monkeypatch.setattr(source, "ENTRY", source.ENTRY.replace("({arguments})", "({arguments}) + 1"))
     with pytest.raises(InputError, match=r"the code gives .* Python"):
         native_law(doubled, (Pair(0.0, np.ones(1)), np.ones(3)), 3)
 

@@ -73,6 +73,7 @@ SLOPES = 32  # 13 rows of DOP853
 ROWS = 45
 
 RESOLUTION = 2e-3  # [s], longest stretch of a step without a look at the witnesses
+MOST_STEPS = 10_000_000  # of one segment; more of them are a method that cannot go on
 LANDING = 1e-9  # a last step longer than h by this fraction is still one step
 SAME_STEP = 1e-9  # relative difference below which two steps share their matrices
 XTOL, XRTOL = 1e-15, 9e-16  # [s] and relative, of the time of an event

@@ -38,6 +38,7 @@ from biped_adrc.engine.kernels.layout import (
     LANDED,
     LANDING,
     LIMIT,
+    MOST_STEPS,
     MOVING,
     N0,
     N1,
@@ -183,7 +184,7 @@ def through(P: Ints, F: Array, K: Array, W: Array, t_next: float, R: Array) -> i
         else:
             t1 = t0 + steps * h if steps < count else t_next
             code = fixed(P, F, K, W, t, t1, int(steps >= count))
-        if code != 0 or t1 <= t:
+        if code != 0 or t1 <= t or steps > MOST_STEPS:
             return code if code != 0 else STEP_FAILED
         code = event(P, F, K, W, t, t1)
         if code != 0:
