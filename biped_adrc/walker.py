@@ -152,7 +152,8 @@ class Walker(HybridSystem):
         return np.concatenate((m.q, m.v, s, *held))
 
     # -- laws ------------------------------------------------------------------------------------
-    def _saturate(self, u: Array) -> Array:
+    def saturate(self, u: Array) -> Array:
+        """u within the torque limit. Raises NotFiniteError."""
         if self.torque_limit is not None:
             u = np.minimum(np.maximum(u, -self.torque_limit), self.torque_limit)
         if not math.isfinite(u.dot(u)):
@@ -173,7 +174,7 @@ class Walker(HybridSystem):
         """Measurement, torque, force and acceleration at (t, x)."""
         q, v, s = self.split_state(x)
         m = self.measure(t, q, v, mode)
-        u = x[-self.plant.p :] if self.sampled else self._saturate(self.law.output(s, m))
+        u = x[-self.plant.p :] if self.sampled else self.saturate(self.law.output(s, m))
         zeta = self._external(t, q, v, mode)
         force = self._force(u, zeta)
         return Instant(m, s, u, zeta, force, self._acceleration(m, force))
@@ -211,7 +212,7 @@ class Walker(HybridSystem):
         """The controller's state and the torque to be held (p,) after a tick at (t, q, v)."""
         m = self.measure(t, q, v, mode)
         s = self.law.correct(s, m)
-        u = self._saturate(self.law.output(s, m))
+        u = self.saturate(self.law.output(s, m))
         return self.law.predict(s, m, u), u
 
     def clocks(self) -> tuple[Clock, ...]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 from dataclasses import dataclass, fields
 from functools import cached_property
-from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from biped_adrc.engine.equations import PlantEquations
 from biped_adrc.engine.fingerprint import hash_of, skeleton, versions_text
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import Machine, Text, machine
-from biped_adrc.engine.robot import Robot, robot_of
+from biped_adrc.engine.robot import REMEMBERED, Robot, robot_of
 from biped_adrc.engine.symbols import floats
 from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
@@ -52,6 +52,9 @@ class _Call:
         return self.out.copy()
 
 
+_MADE: dict[int, tuple[Biped, CompiledBiped]] = {}
+
+
 @dataclass(frozen=True)
 class CompiledBiped(Biped):
     """A Biped with `reduction`, `acceleration` and `ground_reaction` in machine code; make it with `of`."""
@@ -65,8 +68,14 @@ class CompiledBiped(Biped):
         Raises ModelError for a robot that is no planar tree of rigid links, or where the code differs from
         Pinocchio by more than 1e-11 relative.
         """
-        made = cls(**{f.name: getattr(biped, f.name) for f in fields(Biped)}, robot=robot_of(biped))
-        return made.checked(biped)
+        found = _MADE.get(id(biped))
+        if found is None or found[0] is not biped:
+            while len(_MADE) >= REMEMBERED:
+                _MADE.pop(next(iter(_MADE)))
+            given = {f.name: getattr(biped, f.name) for f in fields(Biped)}
+            found = biped, cls(**given, robot=robot_of(biped)).checked(biped)
+            _MADE[id(biped)] = found
+        return found[1]
 
     def checked(self, biped: Biped, samples: int = SAMPLES) -> CompiledBiped:
         """Itself, when its terms are Pinocchio's at random states and q'' obeys (1). Raises ModelError."""
@@ -101,32 +110,41 @@ class CompiledBiped(Biped):
             key, list(functions), lambda: Text(module_text({k: f() for k, f in functions.items()}))
         )
         K, n = np.array([*floats(robot.arrays), 0.0]), self.n
-        sizes = {"terms": (2 * n, self._cuts[-1]), "accelerate": (3 * n, n), "ground": (3 * n, 2)}
+        sizes = {
+            "terms": (2 * n, self._parts[0] * n),
+            "accelerate": (3 * n, n),
+            "ground": (3 * n, 2),
+        }
         return {name: _Call(code, name, K, *size) for name, size in sizes.items()}
 
     @cached_property
-    def _shapes(self) -> tuple[tuple[int, ...], ...]:
+    def _parts(self) -> tuple[Any, ...]:
+        """Where the parts of a `Reduction` are among the rows of n numbers that `terms` gives."""
         n, p = self.n, self.p
+        shapes = [(n, n), (n,), (p, p), (p,), (p, p), (n - p, p), (n - p,)]
         if p == 0:
-            return (n, n), (n,), (0, 0), (0,), (0, 0), (n, 0), (n,)
-        return (n, n), (n,), (p, p), (p,), (p, p), (n - p, p), (n - p,)
-
-    @cached_property
-    def _cuts(self) -> list[int]:
-        return np.cumsum([0, *(int(np.prod(shape)) for shape in self._shapes)]).tolist()
+            shapes = [(n, n), (n,), (0, 0), (0,), (0, 0), (n, 0), (n,)]
+        parts: list[Any] = []
+        row = 0
+        for shape in shapes:
+            if len(shape) == 1:
+                parts.append((row, slice(0, shape[0])))
+                row += 1
+            else:
+                parts.append((slice(row, row + shape[0]), slice(0, shape[1])))
+                row += max(shape[0], 1 if shape == (0, 0) else 0)
+        return (row, *parts)
 
     def reduction(self, q: Array, v: Array) -> Reduction:
-        call, n = self._calls["terms"], self.n
-        call.inp[:n], call.inp[n:] = self._angles(q), self._angles(v)
-        out = call()
-        return Reduction(*[out[part].reshape(shape) for part, shape in self._parts])
+        return self.reduction_at(self._angles(q), self._angles(v))
 
-    @cached_property
-    def _parts(self) -> list[tuple[slice, tuple[int, ...]]]:
-        cuts = self._cuts
-        return [
-            (slice(*ends), shape) for ends, shape in zip(pairwise(cuts), self._shapes, strict=True)
-        ]
+    def reduction_at(self, q: Array, v: Array) -> Reduction:
+        """`reduction` of angles and rates that are known to be n finite numbers."""
+        call, n = self._calls["terms"], self.n
+        call.inp[:n], call.inp[n:] = q, v
+        out = call().reshape(-1, n)
+        _, D, Omega, kappa, xi, inverse, A_N, a_N = self._parts
+        return Reduction(out[D], out[Omega], out[kappa], out[xi], out[inverse], out[A_N], out[a_N])
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         call, n = self._calls["accelerate"], self.n

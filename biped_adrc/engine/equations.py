@@ -318,13 +318,14 @@ class PlantEquations:
         return {"terms": self.terms, "accelerate": self.accelerate, "ground": self.ground}
 
     def terms(self) -> Function:
-        """Every number of a `Reduction`."""
+        """A `Reduction`, one part below the other in rows of n numbers."""
         K = self.numbers
         n, p = self.robot.n, self.robot.p
         inp = Vector("inp", 2 * n)
         q, v = inp.take(n), inp.take(n)
         D, Omega = mechanics.inertia_and_bias(self.robot, K, q, v)
-        return Function(self.K, inp.symbol, column(*Tracer()(reduce)(D, Omega, p)))
+        rows = [_rows(part, n) for part in Tracer()(reduce)(D, Omega, p)]
+        return Function(self.K, inp.symbol, column(*rows))
 
     def accelerate(self) -> Function:
         """q''."""
@@ -344,3 +345,11 @@ class PlantEquations:
         return Function(
             self.K, inp.symbol, column(mechanics.ground_reaction(self.robot, K, q, v, a))
         )
+
+
+def _rows(part: Any, n: int) -> Any:
+    """A vector or matrix in rows of n numbers, filled up with zeros."""
+    part = np.atleast_2d(part)
+    rows = np.full((len(part), n), 0.0, dtype=object)
+    rows[:, : part.shape[1]] = part
+    return rows

@@ -7,10 +7,13 @@ back into the states of the trajectory.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from biped_adrc.control.base import Measurement
+from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
@@ -127,20 +130,19 @@ class TickByTick:
         assert isinstance(time, SampledTime)
         n, plan, K = self.walker.plant.n, self.plant.plan, self.plant.K
         origin = float(vector[layout.TIME]) if time.restart else t_first
-        head, arc = layout.HEAD, kernels().arc
+        head, arc, act = layout.HEAD, kernels().arc, self._actor()
+        end, period, every = layout.HEAD + 2 * n, time.period, float(self.every)
         W, R = plan.work(), np.empty((8, 1 + 2 * plan.nx))
         while True:
             t = float(vector[layout.TIME])
-            k = round((t - origin) / time.period)
-            if t == origin + k * time.period:
-                x = vector[head:]
-                s, u = self.walker.acted(t, x[:n], x[n : 2 * n], s, mode)
-                vector[head + 2 * n :] = u
-            k = math.floor((t - origin) / time.period)
-            while origin + k * time.period <= t:
+            k = round((t - origin) / period)
+            if t == origin + k * period:
+                s, vector[end:] = act(t, vector[head:end].copy(), s, mode)
+            k = math.floor((t - origin) / period)
+            while origin + k * period <= t:
                 k += 1
-            vector[layout.END] = min(origin + k * time.period, t_end)
-            vector[layout.EVERY], vector[layout.COUNT] = self.every, 0.0
+            vector[layout.END] = min(origin + k * period, t_end)
+            vector[layout.EVERY], vector[layout.COUNT] = every, 0.0
             code = arc(plan.P, plan.F, K, W, vector, R)
             while code == layout.FULL:
                 R = np.empty((2 * len(R), R.shape[1]))
@@ -149,6 +151,25 @@ class TickByTick:
             nodes.add(R[: int(vector[layout.COUNT])].copy(), s)
             if code != layout.COMPLETED or vector[layout.TIME] >= t_end:
                 return code, vector, s
+
+    def _actor(self) -> Callable[[float, Array, Array, Mode], tuple[Array, Array]]:
+        """`Walker.acted` at (q, q') in one array (2 n,), of which the loops know that it is finite."""
+        walker, n, law, terms = (
+            self.walker,
+            self.walker.plant.n,
+            self.walker.law,
+            self.walker.nominal,
+        )
+        assert isinstance(terms, CompiledBiped)
+
+        def act(t: float, x: Array, s: Array, mode: Mode) -> tuple[Array, Array]:
+            q, v = x[:n], x[n:]
+            m = Measurement(t, mode.step, t - mode.start, q, v, terms.reduction_at(q, v))
+            s = law.correct(s, m)
+            u = walker.saturate(law.output(s, m))
+            return law.predict(s, m, u), u
+
+        return act
 
     def _whole(self, vector: Array, s: Array) -> Array:
         n, x = self.walker.plant.n, vector[layout.HEAD :]
