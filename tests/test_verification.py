@@ -16,7 +16,6 @@ from biped_adrc.model.robots import robot_names
 from biped_adrc.studies.verification import (
     frost_urdf,
     gaits,
-    hip,
     paper,
     passive,
     rabbit,
@@ -41,7 +40,6 @@ PARTS: dict[str, Maker] = {
     "other coordinates": frost_urdf.sense_rows,
     "multipliers of the compass": partial(gaits.robot_rows, "compass"),
     "multipliers of the simplest walker": partial(gaits.robot_rows, "simplest"),
-    "force at the hip": partial(hip.hip_rows, "NPD"),
     "design identified": partial(design_rows, "identified", 0.7),
     "design tac2003": partial(design_rows, "tac2003", 1.1),
 }
