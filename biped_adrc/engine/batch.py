@@ -221,6 +221,7 @@ class Strides:
         self, starts: Sequence[tuple[Array, Mode]], threads: int | None = None
     ) -> list[Walked]:
         """From every (x, mode), in their order."""
+        kernels()
         with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
             return list(pool.map(self.one, starts))
 

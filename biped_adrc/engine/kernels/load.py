@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from functools import lru_cache
 from pathlib import Path
+from threading import Lock
 from types import ModuleType
 
 from biped_adrc.engine.store import forget, load_source, seal
@@ -14,9 +15,17 @@ FILES = ("layout", "call", "laws", "steps", "dop853", "events", "segment", "arc"
 _OWN = "biped_adrc.engine.kernels"
 
 
-@lru_cache(maxsize=1)
+_LOCK = Lock()
+
+
 def kernels() -> ModuleType:
-    """The compiled module, with `arc`, `strike` and `stride`."""
+    """The compiled module, with `arc`, `strike` and `stride`; made once, by the first thread that asks."""
+    with _LOCK:
+        return _kernels()
+
+
+@lru_cache(maxsize=1)
+def _kernels() -> ModuleType:
     text = source()
     module = load_source(text)
     try:

@@ -1,0 +1,20 @@
+"""Several threads that ask for the loops at once, in a process where nothing is loaded yet."""
+
+import subprocess
+import sys
+
+LINES = """
+from concurrent.futures import ThreadPoolExecutor
+from biped_adrc.engine.kernels.load import kernels
+
+with ThreadPoolExecutor(8) as pool:
+    found = list(pool.map(lambda _: kernels(), range(32)))
+print(len(set(map(id, found))))
+"""
+
+
+def test_the_loops_are_made_once():
+    run = subprocess.run(
+        [sys.executable, "-c", LINES], capture_output=True, text=True, check=True, timeout=300
+    )
+    assert run.stdout.strip() == "1"
