@@ -29,7 +29,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"_?(asyncio|collections|pathlib|enum|abc|concurrent|functools|types|typing)\b.*"),
     (r"py:.*", r"(Figure|Axes|ArrayLike|NDArray|Path|Callable|Mapping|Sequence|Iterator|Iterable)"),
     (r"py:.*", r"StateSpace"),
-    (r"py:.*", r"(biped_adrc\.control\.adrc\.)?K"),  # a type variable
+    (r"py:.*", r"Ints"),  # an alias
     (r"py:.*", r"(.*\.)?_[A-Za-z]\w*"),  # private names in signatures
 ]
 

@@ -33,15 +33,15 @@ from biped_adrc.observers.gpi_sampled import (
 )
 from biped_adrc.types import Array
 
-K = TypeVar("K", bound=Chain)
+_K = TypeVar("_K", bound=Chain)
 
 
-class ADRCParameters(NamedTuple, Generic[K]):
+class ADRCParameters(NamedTuple, Generic[_K]):
     """h, the gains with the choice of loop, the observer's parameters, and `ResetPolicy.code`."""
 
     h: ConstraintParameters
     tracking: TrackingParameters
-    observer: K
+    observer: _K
     policy: int
 
 

@@ -104,6 +104,7 @@ def _in_order(
     cases: Iterator[Case], threads: int, progress: Callable[[int], None] | None
 ) -> Iterator[Walked]:
     waiting: deque[Future[Walked]] = deque()
+    kernels()  # here, so that no two threads compile at once
     with ThreadPoolExecutor(threads) as pool:
         try:
             done = 0

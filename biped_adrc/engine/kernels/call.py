@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 Ints = NDArray[np.int64]
 Rows = NDArray[np.float64]
-Function = TypeVar("Function", bound=Callable[..., Any])
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 njit: Any = numba.njit
@@ -40,14 +40,14 @@ def intrinsic(function: Callable[..., Any]) -> Any:
     return made(function)
 
 
-def kernel(function: Function) -> Function:
+def kernel(function: _Function) -> _Function:
     """Callable from Python without the GIL, with arrays, once `compile_all` has run."""
     made: Any = njit(nogil=True, error_model="numpy", cache=True)(function)
     KERNELS.append(made)
     return made
 
 
-def inner(function: Function) -> Function:
+def inner(function: _Function) -> _Function:
     """Compiled into the units and kernels that call it, and kept on disk with them."""
     return njit(
         nogil=True,
@@ -66,7 +66,7 @@ def _signature(function: Any, kinds: dict[str, Any]) -> tuple[list[Any], Any]:
     )
 
 
-def unit(function: Function) -> Function:
+def unit(function: _Function) -> _Function:
     """A C function with a symbol of its own, once `compile_all` has run; its annotations are its signature."""
     arguments, result = _signature(function, _POINTERS)
     signature = result(*arguments)
