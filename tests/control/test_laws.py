@@ -80,11 +80,7 @@ def measurements(biped, gait, count=5):
 
 CONTROLLERS = {
     "NPD": lambda c: ba.NPDController(c),
-    "NPD as printed": lambda c: ba.NPDController(c, solve_theta=False),
     "ADRC": lambda c: ba.ADRCController(c),
-    "ADRC with a gain for each joint": lambda c: ba.ADRCController(
-        c, GPIObserver.from_bandwidth(300.0, 0), ba.Gains([4e3, 5e3, 6e3, 7e3], 50.0)
-    ),
     "passive": lambda c: Passive(),
 }
 
