@@ -78,7 +78,7 @@ class Instant(NamedTuple):
 class Walker(HybridSystem):
     """torque_limit [N m] saturates every motor; the observer is fed the torque applied.
 
-    slope [rad]: of the ground, positive downhill. steps_down: where it falls off by steps.
+    slope [rad]: of the ground, positive downhill. ground_steps: where it falls off by steps.
     fall_height: the run ends as a fall when the hip is below this fraction of |p_hip| at q = 0.
     max_step_time [s]: a longer single support ends as stalled.
     """
@@ -92,7 +92,7 @@ class Walker(HybridSystem):
     fall_height: float = 0.35
     max_step_time: float = 2.0
     slope: float = 0.0
-    steps_down: tuple[StepDown, ...] = ()
+    ground_steps: tuple[StepDown, ...] = ()
 
     def __post_init__(self) -> None:
         if not abs(self.slope) < 0.5 * math.pi:
@@ -131,7 +131,9 @@ class Walker(HybridSystem):
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
         """What the controller is given at (t, q, v)."""
-        return Measurement(t, mode.step, t - mode.start, q, v, self.nominal.reduction(q, v))
+        model = self.nominal
+        body = model.body_terms(q, v) if self.law.needs_body else None
+        return Measurement(t, mode.step, t - mode.start, q, v, model.reduction(q, v), body)
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
         """x at the start of single support in (q, v). Raises InputError for a controller that does not fit."""
@@ -251,7 +253,7 @@ class Walker(HybridSystem):
 
     def drop(self, step: int) -> float:
         """How far the steps down of single support `step` lower the ground it ends on [m]."""
-        return sum((d.height for d in self.steps_down if d.step == step), 0.0)
+        return sum((d.height for d in self.ground_steps if d.step == step), 0.0)
 
     def clearance(self, q: Array, step: int | None = None) -> float:
         """Height of the swing foot above the ground [m], measured along the vertical.

@@ -20,7 +20,7 @@ HEIGHT = 0.015  # [m]
 def down(bare, published):
     """A step down at the end of the second single support."""
     law = ReferenceReset(ba.NPDController(continued(published.constraint)))
-    walker = ba.Walker(bare, law, steps_down=(StepDown(2, HEIGHT),))
+    walker = ba.Walker(bare, law, ground_steps=(StepDown(2, HEIGHT),))
     return ba.walk(walker, published, 10, METHOD)
 
 

@@ -32,7 +32,7 @@ class CompiledChain(Chain):
         super().__init__(biped)
         self.code = CompiledBiped.of(biped)
         self.walker = Walker(
-            biped, Passive(), fall_height=-FAR, max_step_time=FAR, steps_down=(StepDown(1, FAR),)
+            biped, Passive(), fall_height=-FAR, max_step_time=FAR, ground_steps=(StepDown(1, FAR),)
         )
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:

@@ -248,7 +248,7 @@ def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> Row | None:
     law, h = walker.controller, getattr(walker.controller, "reference", None)
     if type(law) is not NPDController or type(h) is not VirtualConstraint or not law.solve_theta:
         return None
-    if walker.steps_down:
+    if walker.ground_steps:
         return None
     if walker.sampled or walker.torque_limit is not None or walker.disturbance is not None:
         return None

@@ -11,12 +11,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.model.reduction import Reduction
+from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import ErrorSystem, Estimate
 from biped_adrc.types import Array
 
@@ -36,6 +36,8 @@ class Measurement(NamedTuple):
     """(n,) [rad/s]."""
     terms: Reduction
     """D, Omega, kappa, xi of the nominal model at (q, v)."""
+    body: BodyTerms | None = None
+    """G, C' q' and the ground's force of the nominal model, for a controller with `needs_body`."""
 
     @property
     def q_b(self) -> Array:
@@ -77,6 +79,9 @@ class ControllerLaws(NamedTuple):
 
 class Controller(ABC):
     """Base of all controllers."""
+
+    needs_body: ClassVar[bool] = False
+    """Whether `Measurement.body` has to be there."""
 
     @abstractmethod
     def output(self, s: Array, m: Measurement) -> Array:

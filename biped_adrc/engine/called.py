@@ -14,7 +14,7 @@ from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton
 from biped_adrc.engine.native import NativeLaw, native_law
 from biped_adrc.engine.symbols import Scalar, column
-from biped_adrc.model.reduction import Reduction
+from biped_adrc.model.reduction import BodyTerms, Reduction
 
 
 class Call(NamedTuple):
@@ -58,7 +58,8 @@ def examples(k: Any, field: str, n: int, p: int, size: int) -> tuple[Any, ...]:
         np.zeros((n - p, p)),
         np.zeros(n - p),
     )
-    m = Measurement(0.0, 1, 0.0, np.full(n, 0.1), np.full(n, 0.1), terms)
+    body = BodyTerms(np.zeros(n), np.zeros(n), np.zeros((2, n)), np.zeros(2))
+    m = Measurement(0.0, 1, 0.0, np.full(n, 0.1), np.full(n, 0.1), terms, body)
     rest: dict[str, tuple[Any, ...]] = {
         "flow": (np.zeros(p),),
         "predict": (np.zeros(p),),

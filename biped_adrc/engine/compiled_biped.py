@@ -21,7 +21,7 @@ from biped_adrc.engine.symbols import floats
 from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import EXACT
-from biped_adrc.model.reduction import Reduction
+from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.types import Array
 
 SAMPLES = 50
@@ -112,6 +112,7 @@ class CompiledBiped(Biped):
         K, n = np.array([*floats(robot.arrays), 0.0]), self.n
         sizes = {
             "terms": (2 * n, self._parts[0] * n),
+            "body": (2 * n, 4 * n + 2),
             "accelerate": (3 * n, n),
             "ground": (3 * n, 2),
         }
@@ -145,6 +146,12 @@ class CompiledBiped(Biped):
         out = call().reshape(-1, n)
         _, D, Omega, kappa, xi, inverse, A_N, a_N = self._parts
         return Reduction(out[D], out[Omega], out[kappa], out[xi], out[inverse], out[A_N], out[a_N])
+
+    def body_terms(self, q: Array, v: Array) -> BodyTerms:
+        call, n = self._calls["body"], self.n
+        call.inp[:n], call.inp[n:] = self._angles(q), self._angles(v)
+        out = call()
+        return BodyTerms(out[:n], out[n : 2 * n], out[2 * n : 4 * n].reshape(2, n), out[4 * n :])
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         call, n = self._calls["accelerate"], self.n

@@ -76,7 +76,7 @@ def _plan(
 ) -> Plan:
     n, p, nx = walker.plant.n, walker.plant.p, program.nx
     stiff = 0 if split is None else len(split.A)
-    drops = np.array([(d.step, d.height) for d in walker.steps_down]).reshape(-1, 2)
+    drops = np.array([(d.step, d.height) for d in walker.ground_steps]).reshape(-1, 2)
     return plan(
         Code(*(program.address(name) for name in Code._fields)),
         Sizes(n, nx, p, nx - stiff * p, stiff, 2 * n if walker.sampled else nx),

@@ -144,6 +144,13 @@ class Equations:
         terms: Reduction = trace(reduce)(*mechanics.inertia_and_bias(robot, K, q, v), robot.p)
         return terms
 
+    def measured(self, trace: Tracer, t: Any, step: Any, t_step: Any, q: Any, v: Any) -> Measurement:
+        """What the controller is given at (q, v)."""
+        robot, numbers = self.make.robot, self.numbers
+        K = numbers.plant if numbers.model is None else numbers.model
+        body = mechanics.body_terms(robot, K, q, v)
+        return Measurement(t, step, t_step, q, v, self.terms(trace, q, v), body)
+
     def acceleration(self, terms: Reduction | None, q: Any, v: Any, force: Any) -> Any:
         """q'' of the plant, with the nominal model's D and Omega where they are its own."""
         robot, numbers = self.make.robot, self.numbers
@@ -169,7 +176,7 @@ class Equations:
         q, v, s = x[:n], x[n : 2 * n], x[2 * n : 2 * n + size]
         u = x[2 * n + size :] if self.make.sampled else None
         trace = Tracer()
-        m = Measurement(t, step, t - start, q, v, self.terms(trace, q, v))
+        m = self.measured(trace, t, step, t - start, q, v)
         return At(inp, trace, m, s, u, inp.take(n))
 
     def saturated(self, u: Any) -> Any:
@@ -235,7 +242,7 @@ class Equations:
         q, v = mechanics.impact(robot, self.numbers.plant, q, v)
         trace = Tracer()
         if make.laws.jump is not None:
-            after = Measurement(t, step, 0.0 * t, q, v, self.terms(trace, q, v))
+            after = self.measured(trace, t, step, 0.0 * t, q, v)
             s = self.said(trace, "jump", self.numbers.k, s, after, robot.swap)
         out = column(q, v, s, u, trace.solver.least)
         return Function(self.K, inp.symbol, out, tuple(trace.calls))
@@ -315,7 +322,8 @@ class PlantEquations:
 
     def functions(self) -> dict[str, Callable[[], Function]]:
         """By name."""
-        return {"terms": self.terms, "accelerate": self.accelerate, "ground": self.ground}
+        names = ("terms", "body", "accelerate", "ground")
+        return {name: getattr(self, name) for name in names}
 
     def terms(self) -> Function:
         """A `Reduction`, one part below the other in rows of n numbers."""
@@ -326,6 +334,13 @@ class PlantEquations:
         D, Omega = mechanics.inertia_and_bias(self.robot, K, q, v)
         rows = [_rows(part, n) for part in Tracer()(reduce)(D, Omega, p)]
         return Function(self.K, inp.symbol, column(*rows))
+
+    def body(self) -> Function:
+        """A `BodyTerms`, one part after the other."""
+        n = self.robot.n
+        inp = Vector("inp", 2 * n)
+        body = mechanics.body_terms(self.robot, self.numbers, inp.take(n), inp.take(n))
+        return Function(self.K, inp.symbol, column(*body))
 
     def accelerate(self) -> Function:
         """q''."""

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from biped_adrc.engine.plant import PlantArrays
 from biped_adrc.engine.symbols import cos, sin, solve_positive
+from biped_adrc.model.reduction import BodyTerms
 from biped_adrc.types import Array
 
 
@@ -83,6 +84,18 @@ def inertia_and_bias(robot: Structure, K: PlantArrays, q: Any, v: Any) -> tuple[
         for j in range(i):
             D_s[i, j] = D_s[j, i]
     return D_s, A.T @ Omega
+
+
+def body_terms(robot: Structure, K: PlantArrays, q: Any, v: Any) -> BodyTerms:
+    """G, C' q' = dT/dq, and the force of the ground as F_a q'' + F_0."""
+    t, A, rate = turned(robot, q), robot.A, robot.A @ v
+    off = 1.0 - np.eye(robot.n)
+    C = (np.outer(t.c, t.c) + np.outer(t.s, t.s)) * off
+    S = (np.outer(t.c, t.s) - np.outer(t.s, t.c)) * off
+    turning = A.T @ (rate * ((K.W_re * S + K.W_im * C) @ rate))
+    G = A.T @ (K.gravity * (K.w_re * t.c - K.w_im * t.s))
+    F_0 = ground_reaction(robot, K, q, v, np.full(robot.n, 0.0, dtype=object))
+    return BodyTerms(G, turning, jacobian(robot, t, K.w_re, K.w_im), F_0)
 
 
 def point(t: Turned, re: Any, im: Any) -> tuple[Any, Any]:

@@ -164,7 +164,8 @@ class TickByTick:
 
         def act(t: float, x: Array, s: Array, mode: Mode) -> tuple[Array, Array]:
             q, v = x[:n], x[n:]
-            m = Measurement(t, mode.step, t - mode.start, q, v, terms.reduction_at(q, v))
+            body = terms.body_terms(q, v) if law.needs_body else None
+            m = Measurement(t, mode.step, t - mode.start, q, v, terms.reduction_at(q, v), body)
             s = law.correct(s, m)
             u = walker.saturate(law.output(s, m))
             return law.predict(s, m, u), u

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.model.contact import FloatingDynamics, Impact
 from biped_adrc.model.pinned import PinnedDynamics
-from biped_adrc.model.reduction import Reduction, reduce
+from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
 from biped_adrc.model.relabelling import relabelling
 from biped_adrc.model.reroot import reroot
 from biped_adrc.model.robots import RobotDescription, load_description
@@ -194,6 +194,13 @@ class Biped:
         """The split (11)-(15) at (q, q'): D, Omega, kappa, xi, and the unactuated rows."""
         D, Omega = self.pinned.inertia_and_bias(self._angles(q), self._angles(v))
         return reduce(D, Omega, self.p)
+
+    def body_terms(self, q: Array, v: Array) -> BodyTerms:
+        """G, C' q', and the force of the ground as F_a q'' + F_0."""
+        q, v = self._angles(q), self._angles(v)
+        F_0 = self.ground_reaction(q, v, np.zeros(self.n))
+        turning = self.pinned.coriolis(q, v).T @ v
+        return BodyTerms(self.pinned.gravity(q), turning, self.pinned.mass_jacobian(q), F_0)
 
     def friction_torque(self, v: Array) -> Array:
         """Joint friction (n,) [N m]: -viscous v - static tanh(v / STICTION_SPEED); zero if off."""

@@ -151,6 +151,11 @@ class PinnedDynamics:
         d = self.data
         return d.com[0][_XZ].copy(), d.vcom[0][_XZ].copy(), d.acom[0][_XZ].copy()
 
+    def mass_jacobian(self, q: Array) -> Array:
+        """m dp_com/dq_s (2, n) [kg m]."""
+        J = pin.jacobianCenterOfMass(self.model, self.data, self.T @ q).reshape(3, -1)
+        return self.mass * J[_XZ] @ self.T
+
     def bodies(self) -> tuple[Array, Array, Array]:
         """Of the bodies in Pinocchio's order: mass (n,), inertia about the COM (n,), and the rows A (n, n) of
         their absolute angles a = A q_s, counter-clockwise with x to the right and z up."""

@@ -40,6 +40,23 @@ class Reduction(NamedTuple):
     """-D22^-1 Omega2 (n - p,) [rad/s^2]."""
 
 
+class BodyTerms(NamedTuple):
+    """What few controllers need of the whole robot at one state, besides its `Reduction`.
+
+    With the momentum D_s q' = pi, (1) is pi' = C' q' - G + B_s u + zeta; the force of the ground is
+    F = F_a q'' + F_0, by Newton's law for the COM.
+    """
+
+    G: Array
+    """Gravity's part of Omega (n,) [N m]."""
+    turning: Array
+    """C' q' = dT/dq (n,) [N m], the motion's own part of pi'."""
+    F_a: Array
+    """(2, n) [N s^2]."""
+    F_0: Array
+    """(2,) [N]."""
+
+
 @lru_cache(maxsize=16)
 def identity(p: int) -> Array:
     """(p, p), to be read only."""

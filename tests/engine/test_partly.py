@@ -117,7 +117,7 @@ def test_tick_by_tick(gait, ticked, restart):
 
 def test_tick_by_tick_with_other_methods_pushes_and_ground(biped, gait, ticked):
     push = ba.TorquePulse((30.0, 0.0, -10.0, 5.0, 3.0), 1, 0.1003, 0.1007)
-    walker = replace(ticked, disturbance=push, steps_down=(ba.StepDown(1, 0.002),))
+    walker = replace(ticked, disturbance=push, ground_steps=(ba.StepDown(1, 0.002),))
     same(*runs(walker, gait, ba.RK4(1e-3)), TICKS, "InPython")
     same(*runs(walker, gait, ba.Adaptive(1e-9, 1e-9), impacts=1), TICKS, "InPython")
     heavy = biped.with_errors(mass={"torso": 1.05})

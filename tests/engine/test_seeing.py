@@ -70,7 +70,7 @@ def test_columns(biped, gait, name, sampled):
 def test_columns_on_a_slope_with_a_wrong_model_and_friction(biped, gait, name):
     rough = ba.Biped.load("rabbit", friction=True).with_errors(mass={"torso": 1.05})
     walker = ba.Walker(rough, controllers(gait)[name], model=biped, slope=0.02)
-    walker = replace(walker, steps_down=(ba.StepDown(1, 0.002),))
+    walker = replace(walker, ground_steps=(ba.StepDown(1, 0.002),))
     s = compare(walker, walked(walker, gait, every=5), gait.constraint)
     assert np.min(s.foothold_height) < -0.002
 

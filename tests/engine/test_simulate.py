@@ -209,9 +209,9 @@ def test_friction_that_is_known_or_not(biped, gait, known):
     same(*runs(ticks, gait, ba.RK4(2e-3), impacts=1), TICKS)
 
 
-def test_steps_down_add_up(biped, gait):
+def test_ground_steps_add_up(biped, gait):
     down = (ba.StepDown(2, 0.002), ba.StepDown(2, 0.001))
-    walker = ba.Walker(biped, adrc(gait), steps_down=down)
+    walker = ba.Walker(biped, adrc(gait), ground_steps=down)
     python, compiled = runs(walker, gait, ba.RK4(2e-3), impacts=3)
     same(python, compiled, SHARP)
     x, z = walker.plant.swing_foot(compiled.arcs[1].event.x_minus[:5])

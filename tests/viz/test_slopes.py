@@ -51,7 +51,7 @@ def walks() -> dict[str, Recording]:
     gait = ba.load_gait("published", biped)
     law = ba.NPDController(continued(gait.constraint))
     steps = tuple(StepDown(step, height) for step, height in DROPS.items())
-    down = ba.Walker(biped, ReferenceReset(law), steps_down=steps)
+    down = ba.Walker(biped, ReferenceReset(law), ground_steps=steps)
     return {
         "compass": passive_walk("compass", 4),
         "wheel": passive_walk("rimless_wheel", 5),
@@ -70,7 +70,7 @@ def feet(walk: Recording, i: int) -> tuple[str, str]:
 def ground(walk: Recording, i: int, x: float) -> float:
     """z of the ground that single support i + 1 starts on, at x [m]."""
     fallen = sum(height for step, height in DROPS.items() if step <= i)
-    return -math.tan(walk.walker.slope) * x - (fallen if walk.walker.steps_down else 0.0)
+    return -math.tan(walk.walker.slope) * x - (fallen if walk.walker.ground_steps else 0.0)
 
 
 @pytest.mark.parametrize("name", NAMES)
