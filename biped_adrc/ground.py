@@ -37,3 +37,24 @@ class StepDown:
                 f"the step down is {self.height} m high, expected a positive number; steps up are not "
                 "modelled"
             )
+
+    @property
+    def drop(self) -> float:
+        """How far the ground lies below the stance foot [m]."""
+        return self.height
+
+
+@dataclass(frozen=True)
+class StepUp:
+    """The ground on which single support `step` (from 1) ends lies `height` [m] above its stance foot.
+
+    The foot strikes it once it has been above; whether it clears the edge is not modelled.
+    """
+
+    step: int
+    height: float
+
+    @property
+    def drop(self) -> float:
+        """How far the ground lies below the stance foot [m], negative."""
+        return -self.height

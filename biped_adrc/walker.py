@@ -4,7 +4,8 @@
     (q, q')+ = R Delta(q-, q'-)                   at foot strike    (10)
 
 State x = (q, q', s) in continuous time, (q, q', s, u) in sampled time, where the held torque is part of
-the state. The controller's terms come from the nominal `model`, the motion from the `plant`.
+the state, and with sensors, motors or a meter what `hardware.held` has in front of u. The controller's terms
+come from the nominal `model`, the motion from the `plant`.
 """
 
 from __future__ import annotations
@@ -19,12 +20,18 @@ import numpy as np
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError, NotFiniteError
-from biped_adrc.ground import StepDown
+from biped_adrc.ground import StepDown, StepUp
+from biped_adrc.hardware import held
+from biped_adrc.hardware.held import Held, HeldParameters
+from biped_adrc.hardware.meter import Meter, metered
+from biped_adrc.hardware.motors import Motors, acting, limited, sent
+from biped_adrc.hardware.sensors import Sensors, sense
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, Guard, HybridSystem, Split
 from biped_adrc.linear import solve
 from biped_adrc.model.biped import Biped
 from biped_adrc.split import SplitLaws, error_laws, loop_laws
+from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
 
 FOOT_STRIKE = "foot_strike"
@@ -37,26 +44,6 @@ class Mode(NamedTuple):
 
     step: int = 1
     start: float = 0.0
-
-
-@dataclass(frozen=True)
-class ContinuousTime:
-    """The controller acts at every instant."""
-
-
-@dataclass(frozen=True)
-class SampledTime:
-    """The controller acts at ticks every `period` [s] and its torque is held in between.
-
-    restart: the clock restarts at impact; a free-running clock makes the return map depend on its phase.
-    """
-
-    period: float
-    restart: bool = True
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.period) and self.period > 0):
-            raise InputError(f"the sampling period is {self.period} s, expected a positive number")
 
 
 class Instant(NamedTuple):
@@ -78,7 +65,9 @@ class Instant(NamedTuple):
 class Walker(HybridSystem):
     """torque_limit [N m] saturates every motor; the observer is fed the torque applied.
 
-    slope [rad]: of the ground, positive downhill. ground_steps: where it falls off by steps.
+    slope [rad]: of the ground, positive downhill. ground_steps: where it falls or rises by steps.
+    sensors, motors, meter: what is between the controller and the plant; in sampled time only.
+    impact_gain (n,): v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
     fall_height: the run ends as a fall when the hip is below this fraction of |p_hip| at q = 0.
     max_step_time [s]: a longer single support ends as stalled.
     """
@@ -92,7 +81,11 @@ class Walker(HybridSystem):
     fall_height: float = 0.35
     max_step_time: float = 2.0
     slope: float = 0.0
-    ground_steps: tuple[StepDown, ...] = ()
+    ground_steps: tuple[StepDown | StepUp, ...] = ()
+    sensors: Sensors | None = None
+    motors: Motors | None = None
+    meter: Meter | None = None
+    impact_gain: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         if not abs(self.slope) < 0.5 * math.pi:
@@ -103,6 +96,18 @@ class Walker(HybridSystem):
         if self.model is not None and self.model.n != self.plant.n:
             raise InputError(
                 f"the model has {self.model.n} coordinates, the plant {self.plant.n}; they must agree"
+            )
+        hardware = {"sensors": self.sensors, "motors": self.motors, "a meter": self.meter}
+        given = [name for name, part in hardware.items() if part is not None]
+        if given and not self.sampled:
+            raise InputError(
+                f"{given[0]} work in sampled time, found {type(self.timing).__name__}; give "
+                "timing=SampledTime(period)"
+            )
+        gain = self.impact_gain
+        if gain and not (len(gain) == self.plant.n and all(math.isfinite(e) for e in gain)):
+            raise InputError(
+                f"the impact gain is {gain}, expected {self.plant.n} finite numbers, or none"
             )
 
     # -- parts -----------------------------------------------------------------------------------
@@ -123,11 +128,42 @@ class Walker(HybridSystem):
         """Whether a torque is held between ticks."""
         return isinstance(self.timing, SampledTime)
 
+    @cached_property
+    def held(self) -> HeldParameters | None:
+        """What is held between ticks; None in continuous time."""
+        time = self.timing
+        if not isinstance(time, SampledTime):
+            return None
+        return held.held_parameters(
+            self.plant.n,
+            self.plant.p,
+            time.period,
+            time.delay,
+            time.delay_known,
+            self.sensors,
+            self.motors,
+            self.meter,
+        )
+
+    @cached_property
+    def behind(self) -> int:
+        """How many numbers of x come after the controller's state."""
+        return 0 if self.held is None else self.held.sizes.total
+
+    def controller_size(self, x: Array | int) -> int:
+        """Numbers in s, from x or its length."""
+        length = x if isinstance(x, int) else len(x)
+        return length - 2 * self.plant.n - self.behind
+
     def split_state(self, x: Array) -> tuple[Array, Array, Array]:
         """q, v, s of x."""
         n = self.plant.n
-        end = len(x) - self.plant.p if self.sampled else len(x)
-        return x[:n], x[n : 2 * n], x[2 * n : end]
+        return x[:n], x[n : 2 * n], x[2 * n : len(x) - self.behind]
+
+    def held_at(self, x: Array) -> Held:
+        """What x holds between ticks, in sampled time."""
+        assert self.held is not None
+        return held.read(self.held.sizes, x[len(x) - self.behind :])
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
         """What the controller is given at (t, q, v)."""
@@ -150,8 +186,9 @@ class Walker(HybridSystem):
             raise NotFiniteError(
                 f"{type(self.controller).__name__}.output returned {u} at the start"
             )
-        held = [np.zeros(self.plant.p)] if self.sampled else []
-        return np.concatenate((m.q, m.v, s, *held))
+        if self.held is None:
+            return np.concatenate((m.q, m.v, s))
+        return np.concatenate((m.q, m.v, s, held.at_start(self.held, m.q, m.v, self.sensors)))
 
     # -- laws ------------------------------------------------------------------------------------
     def saturate(self, u: Array) -> Array:
@@ -176,7 +213,10 @@ class Walker(HybridSystem):
         """Measurement, torque, force and acceleration at (t, x)."""
         q, v, s = self.split_state(x)
         m = self.measure(t, q, v, mode)
-        u = x[-self.plant.p :] if self.sampled else self.saturate(self.law.output(s, m))
+        if self.sampled:
+            u = held.motor_torque(self.held_at(x).line)
+        else:
+            u = self.saturate(self.law.output(s, m))
         zeta = self._external(t, q, v, mode)
         force = self._force(u, zeta)
         return Instant(m, s, u, zeta, force, self._acceleration(m, force))
@@ -198,29 +238,54 @@ class Walker(HybridSystem):
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
         if self.sampled:
             q, v, _ = self.split_state(x)
-            dx = np.zeros_like(x)
+            dx, line = np.zeros_like(x), self.held_at(x).line
             n = self.plant.n
-            force = self._force(x[-self.plant.p :], self._external(t, q, v, mode))
+            force = self._force(held.motor_torque(line), self._external(t, q, v, mode))
             dx[:n], dx[n : 2 * n] = v, self.plant.acceleration(q, v, force)
+            if len(line.u_m):
+                assert self.held is not None
+                at, p = len(x) - self.held.sizes.p * (self.held.sizes.waiting + 2), self.plant.p
+                dx[at : at + p] = self.held.motors.speed * (line.u - line.u_m)
             return dx
         i = self.instant(t, x, mode)
         return np.concatenate((i.measurement.v, i.a, self.law.flow(i.s, i.measurement, i.u)))
 
-    def _tick(self, t: float, x: Array, mode: Mode) -> Array:
-        q, v, s = self.split_state(x)
-        return np.concatenate((q, v, *self.acted(t, q, v, s, mode)))
-
-    def acted(self, t: float, q: Array, v: Array, s: Array, mode: Mode) -> tuple[Array, Array]:
-        """The controller's state and the torque to be held (p,) after a tick at (t, q, v)."""
-        m = self.measure(t, q, v, mode)
+    def tick(self, t: float, x: Array, mode: Mode) -> Array:
+        """x after a tick of the control clock: sensors, controller, line of torques, meter."""
+        k = self.held
+        assert k is not None
+        (q, v, s), h, n = self.split_state(x), self.held_at(x), self.plant.n
+        w = sense(k.sensors, h.w, q, v) if k.sizes.sensors else h.w
+        m = self.measure(t, w[:n], w[n : 2 * n], mode) if k.sizes.sensors else self.measure(t, q, v, mode)
         s = self.law.correct(s, m)
         u = self.saturate(self.law.output(s, m))
-        return self.law.predict(s, m, u), u
+        if k.sizes.rate:
+            u = limited(k.motors, h.line, u)
+        line = sent(k.motors, h.line, u)
+        s = self.law.predict(s, m, acting(k.motors, line) if k.sizes.known else u)
+        g = h.g
+        if k.sizes.meter:
+            terms = self.nominal.reduction(q, v) if k.sizes.sensors else m.terms
+            zeta = self._external(t, q, v, mode)
+            g = metered(k.meter, g, q, v, held.motor_torque(line), zeta, terms)
+        return np.concatenate((q, v, s, held.written(Held(w, g, line))))
+
+    def _release(self, t: float, x: Array, mode: Mode) -> Array:
+        """The torque that waited for a part of the period acts."""
+        p, x = self.plant.p, x.copy()
+        x[-p:] = x[-2 * p : -p]
+        return x
 
     def clocks(self) -> tuple[Clock, ...]:
-        if isinstance(self.timing, SampledTime):
-            return (Clock("control", self.timing.period, self._tick, self.timing.restart),)
-        return ()
+        time = self.timing
+        if not isinstance(time, SampledTime):
+            return ()
+        assert self.held is not None
+        control = Clock("control", time.period, self.tick, time.restart)
+        if not self.held.sizes.waiting:
+            return (control,)
+        after = self.held.motors.fraction * time.period
+        return (control, Clock("motors", time.period, self._release, time.restart, after))
 
     def switching_times(self, mode: Mode) -> tuple[float, ...]:
         if self.disturbance is None:
@@ -238,11 +303,19 @@ class Walker(HybridSystem):
         """x+ after impact and relabelling, wherever the swing foot is."""
         q, v, s = self.split_state(x)
         impact = self.plant.impact(q, v)
-        mode = Mode(mode.step + 1, t)
-        after = self.measure(t, impact.q, impact.v, mode)
-        s = self.law.jump(s, after, self._swap)
-        held = [x[-self.plant.p :]] if self.sampled else []
-        return np.concatenate((impact.q, impact.v, s, *held)), mode
+        v_plus = impact.v if not self.impact_gain else impact.v * (1.0 + np.array(self.impact_gain))
+        mode, n, tail = Mode(mode.step + 1, t), self.plant.n, np.zeros(0)
+        seen = impact.q, v_plus
+        if self.held is not None:
+            h, expected = self.held_at(x), v_plus
+            if self.held.sizes.sensors:
+                expected = self.nominal.impact(h.w[:n], h.w[n : 2 * n]).v
+            h = held.after_impact(self.held, h, self._swap, impact.q, v_plus, expected)
+            tail = held.written(h)
+            if self.held.sizes.sensors:
+                seen = h.w[:n], h.w[n : 2 * n]
+        s = self.law.jump(s, self.measure(t, *seen, mode), self._swap)
+        return np.concatenate((impact.q, v_plus, s, tail)), mode
 
     @cached_property
     def _swap(self) -> Any:
@@ -252,8 +325,8 @@ class Walker(HybridSystem):
         return self.plant.relabelling[: self.plant.p]
 
     def drop(self, step: int) -> float:
-        """How far the steps down of single support `step` lower the ground it ends on [m]."""
-        return sum((d.height for d in self.ground_steps if d.step == step), 0.0)
+        """How far the steps of the ground in single support `step` lower where it ends [m]."""
+        return sum((d.drop for d in self.ground_steps if d.step == step), 0.0)
 
     def clearance(self, q: Array, step: int | None = None) -> float:
         """Height of the swing foot above the ground [m], measured along the vertical.

@@ -128,8 +128,7 @@ class ReturnMap:
         from biped_adrc.engine.compiled_walker import CompiledWalker
         from biped_adrc.engine.program import NotCompiled
 
-        n, p = self.walker.plant.n, self.walker.plant.p
-        size = states - 2 * n - (p if self.walker.sampled else 0)
+        size = self.walker.controller_size(states)
         try:
             walker = CompiledWalker.of(self.walker, self.method, size)
         except (NotCompiled, ModelError):

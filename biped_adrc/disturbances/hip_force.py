@@ -14,9 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.disturbances.base import Disturbance
+from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.link_point import LinkPoint, hip_point, wrench_torque
 from biped_adrc.types import Array
 
 
@@ -37,6 +38,21 @@ def hip_force(k: HipForceParameters, step: int) -> Array:
 def hip_torque(k: HipForceParameters, step: int, J: Array) -> Array:
     """zeta (n,) [N m] for J = dp_hip/dq (2, n) of the plant."""
     return J.T @ hip_force(k, step)
+
+
+class HipPushParameters(NamedTuple):
+    """F and its steps, and the hip in closed form."""
+
+    force: HipForceParameters
+    hip: LinkPoint
+
+
+def hip_push(
+    k: HipPushParameters, t: float, step: int, t_start: float, q: Array, v: Array
+) -> Array:
+    """zeta (n,) [N m]."""
+    F = hip_force(k.force, step)
+    return wrench_torque(k.hip, q, np.array([F[0], F[1], 0.0]))
 
 
 @dataclass(frozen=True)
@@ -74,3 +90,9 @@ class HipForce(Disturbance):
         """What the laws `hip_force` and `hip_torque` need."""
         first, last = self.steps or (0, 0)
         return HipForceParameters(np.array(self.force, dtype=float), first, last)
+
+    @cached_property
+    def laws(self) -> tuple[DisturbanceLaw, ...]:
+        return (
+            DisturbanceLaw(HipPushParameters(self.parameters, hip_point(self.biped)), hip_push),
+        )

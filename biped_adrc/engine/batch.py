@@ -146,8 +146,7 @@ def _prepared(case: Case) -> Callable[[], Walked]:
     if case.impacts < 1:
         raise InputError(f"the case asks for {case.impacts} impacts, expected at least 1")
     check_start(x, case.mode.start, case.t_end, (FOOT_STRIKE, case.impacts), 1)
-    n, p = case.walker.plant.n, case.walker.plant.p
-    size = len(x) - 2 * n - (p if case.walker.sampled else 0)
+    size = case.walker.controller_size(x)
     try:
         compiled = CompiledWalker.of(case.walker, case.method, size, case.mode.start)
     except (NotCompiled, ModelError) as reason:

@@ -59,13 +59,22 @@ class CompiledWalker:
         time = walker.timing
         clock = continuous_time()
         if isinstance(time, SampledTime):
-            clock = Clock(time.period, int(time.restart), t_first)
+            assert walker.held is not None
+            part = walker.held.motors.fraction * time.period if walker.held.sizes.waiting else 0.0
+            clock = Clock(time.period, int(time.restart), t_first, part)
         return cls(walker, program, _plan(walker, program, split, clock, made))
 
     @classmethod
     def held(cls, walker: Walker, method: OneStepMethod) -> CompiledWalker:
-        """The plant alone under a torque that is held; x = (q, q', u). Raises as `of`."""
-        bare = replace(walker, controller=Passive(), timing=SampledTime(1.0))
+        """The plant alone under a torque that is held; x = (q, q', u), with lag (q, q', u_m, u). Raises as `of`."""
+        bare = replace(
+            walker,
+            controller=Passive(),
+            timing=SampledTime(1.0),
+            sensors=None,
+            meter=None,
+            motors=None if walker.motors is None else replace(walker.motors, rate_limit=None),
+        )
         split, made = _method(bare, method)
         program = Program.of(bare, 0, split)
         return cls(bare, program, _plan(bare, program, split, continuous_time(), made))
@@ -76,15 +85,21 @@ def _plan(
 ) -> Plan:
     n, p, nx = walker.plant.n, walker.plant.p, program.nx
     stiff = 0 if split is None else len(split.A)
-    drops = np.array([(d.step, d.height) for d in walker.ground_steps]).reshape(-1, 2)
+    drops = np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2)
     return plan(
         Code(*(program.address(name) for name in Code._fields)),
-        Sizes(n, nx, p, nx - stiff * p, stiff, 2 * n if walker.sampled else nx),
+        Sizes(n, nx, p, nx - stiff * p, stiff, _moving(walker, nx)),
         Scene(walker.lowest_hip, walker.max_step_time, LEAST_STEP, drops),
         _push(walker.disturbance, n),
         clock,
         method,
     )
+
+
+def _moving(walker: Walker, nx: int) -> int:
+    """How many of the first states flow: all of them where the torque of the motors does."""
+    flows = walker.held is None or walker.held.sizes.lag
+    return nx if flows else 2 * walker.plant.n
 
 
 _MATRICES: dict[tuple[Any, ...], Method] = {}

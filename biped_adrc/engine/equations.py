@@ -1,7 +1,7 @@
 """The equations of a walker on symbols, one straight-line function each, from the laws' own lines.
 
     flow    (t, step, t_start, x, zeta) -> x'            (10); between ticks the torque is held
-    tick    (t, step, t_start, x, zeta) -> x, q''        the controller's step in sampled time
+    tick    (t, step, t_start, x, zeta) -> x, q''        sensors, controller, motors and meter at a tick
     strike  (t, step, x) -> x+                           (7), (8), relabelling, and the controller's jump
     watch   (q) -> clearance, x of the swing foot, height of the hip
     terms   (q, v) -> D, Omega, kappa, xi, ... of the nominal model, (11)-(15)
@@ -35,6 +35,18 @@ from biped_adrc.engine.symbols import (
     solve_positive,
     tanh,
 )
+from biped_adrc.hardware.held import (
+    Held,
+    HeldParameters,
+    HeldSizes,
+    after_impact,
+    motor_torque,
+    read,
+    written,
+)
+from biped_adrc.hardware.meter import metered
+from biped_adrc.hardware.motors import acting, limited, sent
+from biped_adrc.hardware.sensors import sense
 from biped_adrc.model.biped import STICTION_SPEED
 from biped_adrc.model.reduction import Reduction, reduce
 from biped_adrc.observers.base import Estimate
@@ -55,6 +67,10 @@ class Numbers(NamedTuple):
     tan_slope: float
     friction: tuple[Array, Array] | tuple[()]
     """Viscous [N m s] and static [N m] of the coordinates, empty without."""
+    held: HeldParameters | tuple[()] = ()
+    """Of what is held between ticks, empty in continuous time."""
+    impact_gain: Any = ()
+    """(n,) of v+, empty without."""
     split: Any = ()
     """Parameters of the split's laws, empty without."""
 
@@ -66,11 +82,24 @@ class Make(NamedTuple):
     laws: ControllerLaws
     size: int
     """Of the controller's state."""
-    sampled: bool
+    held: HeldSizes | None
+    """What is held between ticks, None in continuous time."""
     split: SplitLaws | None = None
     """Coordinates of the exponential method."""
+    gained: bool = False
+    """With an error of the impact map."""
     called: dict[str, str] = {}  # noqa: RUF012
     """Laws that are called because they branch on numbers, and the names of their functions."""
+
+    @property
+    def sampled(self) -> bool:
+        """Whether torques are held between ticks."""
+        return self.held is not None
+
+    @property
+    def nx(self) -> int:
+        """Numbers in a state."""
+        return 2 * self.robot.n + self.size + (0 if self.held is None else self.held.total)
 
 
 class Function(NamedTuple):
@@ -89,8 +118,15 @@ class At(NamedTuple):
     trace: Tracer
     m: Measurement
     s: Any
-    u: Any
+    held: Held | None
+    """In sampled time."""
     zeta: Any
+
+    @property
+    def u(self) -> Any:
+        """The torque on the joints, in sampled time."""
+        assert self.held is not None
+        return motor_torque(self.held.line)
 
 
 def count(example: Any) -> int:
@@ -124,8 +160,7 @@ class Equations:
     @property
     def nx(self) -> int:
         """Numbers in a state."""
-        robot = self.make.robot
-        return 2 * robot.n + self.make.size + (robot.p if self.make.sampled else 0)
+        return self.make.nx
 
     def functions(self) -> dict[str, Callable[[], Function]]:
         """By name, those that this make has."""
@@ -174,10 +209,10 @@ class Equations:
         t, step, start = inp.take(), inp.take(), inp.take()
         x, n = back(inp.take(self.nx)), robot.n
         q, v, s = x[:n], x[n : 2 * n], x[2 * n : 2 * n + size]
-        u = x[2 * n + size :] if self.make.sampled else None
+        held = None if self.make.held is None else read(self.make.held, x[2 * n + size :])
         trace = Tracer()
         m = self.measured(trace, t, step, t - start, q, v)
-        return At(inp, trace, m, s, u, inp.take(n))
+        return At(inp, trace, m, s, held, inp.take(n))
 
     def saturated(self, u: Any) -> Any:
         """u within the torque limit."""
@@ -214,22 +249,45 @@ class Equations:
         m, make = at.m, self.make
         if make.sampled:
             a = self.acceleration(m.terms, m.q, m.v, self.force(at.u, at.zeta))
-            still = np.full(make.size + make.robot.p, 0.0, dtype=object)
-            return self.given(at, m.v, a, still)
+            still = np.full(self.nx - 2 * len(m.v), 0.0, dtype=object)
+            return self.given(at, m.v, a, self.lagged(at, still))
         u = self.saturated(self.law(at, "output", at.s))
         a = self.acceleration(m.terms, m.q, m.v, self.force(u, at.zeta))
         ds = self.law(at, "flow", at.s, u) if make.size else at.s
         return self.given(at, m.v, a, ds)
 
+    def lagged(self, at: At, still: Any) -> Any:
+        """The slope of what is held, in which the motors' torque flows."""
+        sizes, held = self.make.held, at.held
+        if sizes is not None and held is not None and sizes.lag:
+            begin = len(still) - sizes.p * (sizes.waiting + 2)
+            speed = self.numbers.held.motors.speed  # type: ignore[union-attr]
+            still[begin : begin + sizes.p] = speed * (held.line.u - held.line.u_m)
+        return still
+
     def tick(self) -> Function:
         """x after the controller has acted, and q''; without a discrete law its state stays."""
-        at, laws = self.at(), self.make.laws
+        at, laws, k = self.at(), self.make.laws, self.numbers.held
+        true, held = at.m, at.held
+        assert held is not None and isinstance(k, HeldParameters)
+        w = at.trace(sense)(k.sensors, held.w, true.q, true.v) if k.sizes.sensors else held.w
+        if k.sizes.sensors:
+            n = k.sizes.n
+            seen = self.measured(at.trace, true.t, true.step, true.t_step, w[:n], w[n : 2 * n])
+            at = at._replace(m=seen)
         s = self.law(at, "correct", at.s) if laws.correct is not None else at.s
         u = self.saturated(self.law(at, "output", s))
-        s = self.law(at, "predict", s, u) if laws.predict is not None else s
-        m = at.m
-        a = self.acceleration(m.terms, m.q, m.v, self.force(u, at.zeta))
-        out = column(m.q, m.v, s, u, at.trace.solver.least, a)
+        if k.sizes.rate:
+            u = at.trace(limited)(k.motors, held.line, u)
+        line = sent(k.motors, held.line, u)
+        fed = acting(k.motors, line) if k.sizes.known else u
+        s = self.law(at, "predict", s, fed) if laws.predict is not None else s
+        u, g = motor_torque(line), held.g
+        if k.sizes.meter:
+            g = at.trace(metered)(k.meter, g, true.q, true.v, u, at.zeta, true.terms)
+        a = self.acceleration(true.terms, true.q, true.v, self.force(u, at.zeta))
+        x = (true.q, true.v, s, written(Held(w, g, line)))
+        out = column(*x, at.trace.solver.least, a)
         return Function(self.K, at.inp.symbol, out, tuple(at.trace.calls))
 
     def strike(self) -> Function:
@@ -238,14 +296,30 @@ class Equations:
         inp = Vector("inp", 2 + self.nx)
         t, step = inp.take(), inp.take()
         q, v, s = inp.take(robot.n), inp.take(robot.n), inp.take(make.size)
-        u = inp.take(robot.p if make.sampled else 0)
+        tail = inp.take(self.nx - 2 * robot.n - make.size)
         q, v = mechanics.impact(robot, self.numbers.plant, q, v)
-        trace = Tracer()
+        if self.make.gained:
+            v = v * (1.0 + self.numbers.impact_gain)
+        trace, seen = Tracer(), (q, v)
+        if make.held is not None:
+            tail, seen = self.held_after(trace, tail, q, v)
         if make.laws.jump is not None:
-            after = self.measured(trace, t, step, 0.0 * t, q, v)
+            after = self.measured(trace, t, step, 0.0 * t, *seen)
             s = self.said(trace, "jump", self.numbers.k, s, after, robot.swap)
-        out = column(q, v, s, u, trace.solver.least)
+        out = column(q, v, s, tail, trace.solver.least)
         return Function(self.K, inp.symbol, out, tuple(trace.calls))
+
+    def held_after(self, trace: Tracer, tail: Any, q: Any, v: Any) -> tuple[Any, tuple[Any, Any]]:
+        """What is held after an impact to (q, v), and what the controller sees of (q, v) there."""
+        k, robot = self.numbers.held, self.make.robot
+        assert isinstance(k, HeldParameters)
+        held, n, expected = read(k.sizes, tail), k.sizes.n, v
+        if k.sizes.sensors:
+            K = self.numbers.plant if self.numbers.model is None else self.numbers.model
+            _, expected = mechanics.impact(robot, K, held.w[:n], held.w[n : 2 * n])
+        held = trace(after_impact)(k, held, robot.swap, q, v, expected)
+        seen = (held.w[:n], held.w[n : 2 * n]) if k.sizes.sensors else (q, v)
+        return written(held), seen
 
     def _coordinates(self, y: Any) -> tuple[Any, Any]:
         """w and E of y."""

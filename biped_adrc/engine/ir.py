@@ -39,6 +39,7 @@ OPERATIONS: dict[int, Line] = {
     ca.OP_INV: lambda a: f"fdiv double 1.0, {a[0]}",
     ca.OP_FABS: _call("llvm.fabs.f64"),
     ca.OP_SQRT: _call("llvm.sqrt.f64"),
+    ca.OP_FLOOR: _call("llvm.floor.f64"),
     ca.OP_FMIN: _call("llvm.minimum.f64"),
     ca.OP_FMAX: _call("llvm.maximum.f64"),
     ca.OP_POW: _call("pow"),
@@ -58,7 +59,7 @@ COMPARISONS: dict[int, Line] = {
     ca.OP_EQ: _compare("oeq"),
     ca.OP_NE: _compare("une"),
 }
-ONE: tuple[str, ...] = ("llvm.fabs.f64", "llvm.sqrt.f64", "sin", "cos", "tan", "exp", "log")
+ONE: tuple[str, ...] = ("llvm.fabs.f64", "llvm.sqrt.f64", "llvm.floor.f64", "sin", "cos", "tan", "exp", "log")
 ONE += ("sinh", "cosh", "tanh", "asin", "acos", "atan")
 TWO = ("llvm.minimum.f64", "llvm.maximum.f64", "pow")
 DECLARATIONS = "\n".join(

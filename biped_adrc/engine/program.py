@@ -23,6 +23,10 @@ from biped_adrc.engine.product import product
 from biped_adrc.engine.robot import Robot, robot_of
 from biped_adrc.engine.symbols import Untraceable, floats
 from biped_adrc.errors import InputError
+from biped_adrc.hardware.held import after_impact, motor_torque, read, written
+from biped_adrc.hardware.meter import metered
+from biped_adrc.hardware.motors import acting, limited, sent
+from biped_adrc.hardware.sensors import sense
 from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
 from biped_adrc.walker import Walker
@@ -45,8 +49,7 @@ class Program:
     @property
     def nx(self) -> int:
         """Numbers in a state."""
-        robot = self.make.robot
-        return 2 * robot.n + self.make.size + (robot.p if self.make.sampled else 0)
+        return self.make.nx
 
     @classmethod
     def of(cls, walker: Walker, size: int, split: SplitLaws | None = None) -> Program:
@@ -56,8 +59,10 @@ class Program:
         """
         plant, laws = robot_of(walker.plant), laws_of(walker.law)
         model = None if walker.model is None else robot_of(walker.model)
+        sizes = None if walker.held is None else walker.held.sizes
+        gained = bool(walker.impact_gain)
         make = Make(
-            _common(plant, model), laws._replace(parameters=None), size, walker.sampled, split
+            _common(plant, model), laws._replace(parameters=None), size, sizes, split, gained
         )
         numbers = _numbers(walker, plant, model, laws, split)
         K = np.array([*floats(numbers), 0.0])
@@ -114,22 +119,27 @@ def _numbers(
         limit,
         math.tan(walker.slope),
         biped.friction_coefficients if biped.friction else (),
+        () if walker.held is None else walker.held,
+        np.array(walker.impact_gain, dtype=float) if walker.impact_gain else (),
         () if split is None else split.parameters,
     )
 
 
+HARDWARE = (sense, limited, sent, acting, metered, after_impact, read, written, motor_torque)
+"""Laws of what is between controller and plant."""
 _MACHINES: dict[str, Machine] = {}
 
 
 def _machine(make: Make, numbers: Numbers) -> Machine:
     split = () if make.split is None else make.split[3:]
-    laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split))
+    laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split, *HARDWARE))
     key = hash_of(
         "walker",
         skeleton(make.robot),
         laws,
         make.size,
-        make.sampled,
+        make.held,
+        make.gained,
         () if make.split is None else (make.split.A.shape, make.split.rows),
         skeleton(numbers),
         versions_text(),

@@ -28,7 +28,7 @@ def see(walker: Walker, trajectory: Trajectory, reference: Reference) -> list[Ar
         return None
     n, p, nx = walker.plant.n, walker.plant.p, trajectory.arcs[0].x.shape[1]
     try:
-        program = Program.of(walker, nx - 2 * n - (p if walker.sampled else 0))
+        program = Program.of(walker, walker.controller_size(nx))
         watched = Watched(
             program.numbers, reference.parameters, np.array(walker.plant.phase, dtype=float)
         )
@@ -119,7 +119,7 @@ _CODES: dict[str, Machine] = {}
 def _code(make: Make, watched: Watched) -> Machine:
     laws = "\n".join(law_text(law) for law in make.laws[1:])
     key = hash_of(
-        *("observe", skeleton(make.robot), laws, make.size, make.sampled),
+        *("observe", skeleton(make.robot), laws, make.size, make.held),
         *(skeleton(watched), versions_text()),
     )
     if key not in _CODES:

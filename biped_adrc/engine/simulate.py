@@ -48,9 +48,8 @@ def simulate(
     """
     stop_after = None if impacts is None else (FOOT_STRIKE, impacts)
     check_start(np.asarray(x0), t0, t_end, stop_after, store_every)
-    size = len(x0) - 2 * walker.plant.n - (walker.plant.p if walker.sampled else 0)
     try:
-        compiled = CompiledWalker.of(walker, method, size, t0)
+        compiled = CompiledWalker.of(walker, method, walker.controller_size(x0), t0)
     except NotCompiled as reason:
         return partly(
             walker,

@@ -87,6 +87,7 @@ FUNCTIONS = {
     **{name: name for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "sinh", "cosh", "tanh")},
     **{f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan")},
     "fabs": "fabs",
+    "floor": "floor",
     "sign": "sign",
 }
 """NumPy's names and CasADi's."""

@@ -221,7 +221,7 @@ def _until(split: Split, last: float) -> Split:
 
 
 def _ticks(clock: Clock, t_arc: float, t_first: float) -> float:
-    return t_arc if clock.restart else t_first
+    return (t_arc if clock.restart else t_first) + clock.offset
 
 
 def _tick(
@@ -230,7 +230,7 @@ def _tick(
     for clock in clocks:
         start = _ticks(clock, t_arc, t_first)
         k = round((t - start) / clock.period)
-        if t == start + k * clock.period:
+        if k >= 0 and t == start + k * clock.period:
             x = clock.update(t, x, mode)
     return x
 
@@ -242,7 +242,7 @@ def _next_break(
     times = [s for s in system.switching_times(mode) if s > t]
     for clock in system.clocks():
         start = _ticks(clock, t_arc, t_first)
-        k = math.floor((t - start) / clock.period)
+        k = max(0, math.floor((t - start) / clock.period))
         while start + k * clock.period <= t:
             k += 1
         times.append(start + k * clock.period)

@@ -57,13 +57,14 @@ class Guard:
 class Clock:
     """Ticks at t0 + k * period [s]; `update(t, x, mode)` returns x+.
 
-    t0 is the start of the arc, or of the run when `restart` is False.
+    t0 is `offset` [s] after the start of the arc, or of the run when `restart` is False.
     """
 
     name: str
     period: float
     update: Callable[[float, Array, Mode], Array]
     restart: bool = True
+    offset: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,8 @@ from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI
 from biped_adrc.disturbances.base import Disturbance, Sum
 from biped_adrc.disturbances.hip_force import HipForce
+from biped_adrc.disturbances.link import OnLink
+from biped_adrc.disturbances.noise import TorqueNoise
 from biped_adrc.gait.outputs import LinearOutputs
 from biped_adrc.observers.base import Observer
 from biped_adrc.observers.gpi import GPIObserver
@@ -27,6 +29,8 @@ DISTURBANCES = [
     ba.TorqueSine([1.0] * 5, start=0.1, stop=0.5, frequency=3.0),
     PULSE + ba.TorqueSine([1.0] * 5, frequency=2.0),
     HipForce(ba.Biped.load("rabbit"), (-3.0, 1.0), steps=(2, 3)),
+    TorqueNoise([1.0] * 5, start=0.1, stop=0.5, bandwidth=10.0, seed=1),
+    OnLink(ba.Biped.load("rabbit"), "right_shin", ba.TorquePulse([1.0, 2.0, 3.0], step=2)),
 ]
 OBSERVERS = [
     GPIObserver.from_poles(),

@@ -20,6 +20,8 @@ from biped_adrc.control.stride import (
 )
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.disturbances.hip_force import HipForce, hip_force, hip_torque
+from biped_adrc.disturbances.link import OnLink
+from biped_adrc.disturbances.noise import TorqueNoise
 from biped_adrc.gait.corrected import continued
 from biped_adrc.linear import solve
 from biped_adrc.observers.base import Estimate, Observer
@@ -153,7 +155,8 @@ def test_disturbances():
     pulse = ba.TorquePulse(amplitude, step=2, start=0.1, stop=0.2)
     total = pulse + ba.TorqueStep(amplitude, step=2, start=0.1)
     total += ba.TorqueSine(amplitude, start=0.3, frequency=5.0)
-    assert len(total.laws) == 3
+    total += TorqueNoise(amplitude, step=2, start=0.1, stop=0.3, bandwidth=10.0, seed=1, sines=4)
+    assert len(total.laws) == 4
     seen = 0
     for step in (1, 2, 3):
         for t in (1.0, 1.1, np.nextafter(1.2, 0.0), 1.2, 1.34):
@@ -173,6 +176,28 @@ def test_a_force_on_the_hip(biped):
         assert np.array_equal(expected, force.torque(0.0, step, 0.0, q, q))
         expected = agree(hip_force, force.parameters, step)
         assert np.array_equal(expected, force.resultant(0.0, step, 0.0))
+        (law,) = force.laws
+        expected = agree(law.torque, law.parameters, 0.0, step, 0.0, q, q)
+        assert np.max(np.abs(expected - force.torque(0.0, step, 0.0, q, q))) < 1e-13
+
+
+@pytest.mark.parametrize(
+    "wave",
+    [
+        ba.TorquePulse([3.0, -2.0, 1.0], step=2, start=0.1, stop=0.2),
+        ba.TorqueStep([3.0, -2.0, 1.0], step=2, start=0.1),
+        ba.TorqueSine([3.0, -2.0, 1.0], frequency=5.0),
+        TorqueNoise([3.0, -2.0, 1.0], bandwidth=10.0, seed=1, sines=4),
+    ],
+    ids=lambda wave: type(wave).__name__,
+)
+def test_a_force_on_a_link(biped, wave):
+    push, q = OnLink(biped, "right_shin", wave, (0.1, 0.2)), np.linspace(-1.0, 1.0, 5)
+    (law,) = push.laws
+    for step, t in ((1, 1.13), (2, 1.13), (3, 1.13)):
+        at = (t, step, 1.0, q, q)
+        assert np.array_equal(agree(law.torque, law.parameters, *at), push.torque(*at))
+    assert law.switches == wave.switches
 
 
 @pytest.mark.parametrize("w", [(0.4, 0.1, 0.02), (0.4, 9.0, 0.02), (0.0, 0.1, 0.02)])
@@ -219,7 +244,7 @@ def test_every_class_with_laws_is_tested_here():
     }
     assert found == {
         *("NPDController", "ADRCController", "Passive", "GPIObserver", "SampledGPIObserver"),
-        *("TorquePulse", "TorqueStep", "TorqueSine", "Sum"),
+        *("TorquePulse", "TorqueStep", "TorqueSine", "TorqueNoise", "OnLink", "HipForce", "Sum"),
     }
 
 
@@ -235,7 +260,14 @@ def test_what_has_no_law_says_so(gait):
 
     own = Own.from_poles()
     assert replace(ba.ADRCController(gait.constraint), observer=own).laws is None
-    assert (ba.TorquePulse([1.0] * 5) + HipForce(ba.Biped.load("rabbit"), (1.0, 0.0))).laws is None
+
+    class Brake(Disturbance):
+        """A torque of which nothing is known."""
+
+        def torque(self, t, step, t_start, q, v):
+            return -v
+
+    assert (ba.TorquePulse([1.0] * 5) + Brake()).laws is None
     assert (
         Controller.laws.fget(None)
         is Observer.laws.fget(None)

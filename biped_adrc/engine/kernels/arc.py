@@ -31,8 +31,10 @@ from biped_adrc.engine.kernels.layout import (
     FULL,
     GUARDS,
     HEAD,
+    JOINTS,
     LIMIT,
     PERIOD,
+    PERIOD_PART,
     RESTART,
     ROOM,
     START,
@@ -74,7 +76,21 @@ def next_break(P: Ints, F: Array, W: Array, t: float, start: float) -> float:
             s = F[at + 1] if F[at] == 0.0 else W[START] + F[at + 1]
             if t < s < first:
                 first = s
-    return min(first, next_tick(F, t, start)) if F[PERIOD] > 0.0 else first
+    if F[PERIOD] > 0.0:
+        first = min(first, next_tick(F, t, start))
+    if F[PERIOD_PART] > 0.0:
+        first = min(first, next_tick(F, t, start + F[PERIOD_PART]))
+    return first
+
+
+@inner
+def release(P: Ints, F: Array, W: Array, t: float, start: float) -> None:
+    """Where a part of the period has passed since a tick, the waiting torque acts."""
+    begin = start + F[PERIOD_PART]
+    if t >= begin and is_tick(F, t, begin):
+        x, nx, p = row(P, W, X0), P[STATES], P[JOINTS]
+        for i in range(p):
+            x[nx - p + i] = x[nx - 2 * p + i]
 
 
 @inner
@@ -88,6 +104,8 @@ def travel(P: Ints, F: Array, K: Array, W: Array, R: Array) -> int:
             code = act(P, F, K, W, t, row(P, W, X0))
             if code != 0:
                 return code
+        if F[PERIOD_PART] > 0.0:
+            release(P, F, W, t, start)
         code = through(P, F, K, W, next_break(P, F, W, t, start), R)
         if code != 0:
             return code

@@ -27,6 +27,7 @@ from biped_adrc.engine.kernels.layout import (
     LIMIT,
     LONGEST,
     LOWEST_HIP,
+    MOVING,
     NOT_FINITE,
     OUT,
     PART,
@@ -145,7 +146,7 @@ def act(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array) -> int:
     copy(shift(out, nx + 1), shift(dx, n), n)
     for i in range(2 * n, nx):
         dx[i] = 0.0
-    W[SLOPED] = 1.0
+    W[SLOPED] = 1.0 if P[MOVING] == 2 * n else 0.0
     return 0
 
 

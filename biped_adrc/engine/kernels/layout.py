@@ -32,7 +32,8 @@ PERIOD, T_FIRST, LOWEST_HIP, LONGEST, LEAST_STEP, H, RTOL, ATOL, MAX_STEP = (
     7,
     8,
 )
-F_HEAD = 9
+PERIOD_PART = 9  # [s] after a tick, at which the waiting torque acts
+F_HEAD = 10
 
 # kinds of method
 RK4, DOP853, ETD = 0, 1, 2

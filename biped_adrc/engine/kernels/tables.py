@@ -92,6 +92,8 @@ class Clock(NamedTuple):
     period: float
     restart: int
     t_first: float
+    part: float = 0.0
+    """[s] after each tick at which the waiting torque acts, 0 for none."""
 
 
 class Method(NamedTuple):

@@ -1,0 +1,123 @@
+"""What a walker holds between ticks, behind the controller's state: x = (q, q', s, w, g, queue, u_m, waiting, u).
+
+w is the sensors' state, g the meter's, the rest the line of torques on their way to the motors; each is empty
+where the walker has no such part. u_m alone flows.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from biped_adrc.hardware import meter
+from biped_adrc.hardware.meter import Meter
+from biped_adrc.hardware.motors import IDEAL, Line, Motors, relabelled, whole_and_part
+from biped_adrc.hardware.sensors import Sensors, sensed_impact, sensor_state
+from biped_adrc.types import Array
+
+
+class HeldSizes(NamedTuple):
+    """n coordinates, p joints, and what is held: numbers in w and g, torques in the queue, and 0 or 1."""
+
+    n: int
+    p: int
+    sensors: int = 0
+    meter: int = 0
+    queue: int = 0
+    lag: int = 0
+    waiting: int = 0
+    rate: int = 0
+    """1 with a rate limit."""
+    known: int = 0
+    """1 when the controller knows the delay."""
+
+    @property
+    def total(self) -> int:
+        """Numbers held."""
+        return self.sensors + self.meter + self.p * (self.queue + self.lag + self.waiting + 1)
+
+
+class HeldParameters(NamedTuple):
+    """Of sensors, motors and meter, () for none; and the sizes."""
+
+    sensors: Any
+    motors: Any
+    meter: Any
+    sizes: HeldSizes
+
+
+class Held(NamedTuple):
+    """What is held at one instant."""
+
+    w: Array
+    g: Array
+    line: Line
+
+
+def held_parameters(
+    n: int,
+    p: int,
+    period: float,
+    delay: float,
+    known: bool,
+    sensors: Sensors | None,
+    motors: Motors | None,
+    metered: Meter | None,
+) -> HeldParameters:
+    """For ticks every `period` [s] and torques that act `delay` [s] after them."""
+    motors = IDEAL if motors is None else motors
+    queue, fraction = whole_and_part(delay, period)
+    sizes = HeldSizes(
+        n,
+        p,
+        0 if sensors is None else sensors.size(n),
+        0 if metered is None else meter.SIZE,
+        queue,
+        int(motors.lag > 0.0),
+        int(fraction > 0.0),
+        int(motors.rate_limit is not None),
+        int(known and delay > 0.0),
+    )
+    return HeldParameters(
+        () if sensors is None else sensors.parameters(n, p, period),
+        motors.parameters(period, fraction),
+        () if metered is None else metered.parameters(period),
+        sizes,
+    )
+
+
+def read(k: HeldSizes, tail: Array) -> Held:
+    """The parts of what follows the controller's state."""
+    at, parts = 0, []
+    for size in (k.sensors, k.meter, k.queue * k.p, k.lag * k.p, k.waiting * k.p, k.p):
+        parts.append(tail[at : at + size])
+        at += size
+    return Held(parts[0], parts[1], Line(parts[2], parts[3], parts[4], parts[5]))
+
+
+def written(held: Held) -> Array:
+    """The parts in one vector."""
+    return np.concatenate((held.w, held.g, *held.line))
+
+
+def motor_torque(line: Line) -> Array:
+    """The torque on the joints (p,) [N m]."""
+    return line.u_m if len(line.u_m) > 0 else line.u
+
+
+def at_start(k: HeldParameters, q: Array, v: Array, sensors: Sensors | None) -> Array:
+    """What is held at the start of a run in (q, v): no torque, and a first look."""
+    sizes = k.sizes
+    w = np.zeros(0) if sensors is None else sensor_state(k.sensors, q, v, sensors.start)
+    return np.concatenate((w, np.zeros(sizes.total - sizes.sensors)))
+
+
+def after_impact(
+    k: HeldParameters, held: Held, swap: Array, q: Array, v: Array, v_model: Array
+) -> Held:
+    """What is held after an impact to (q, v); v_model is the rate that the controller expects there."""
+    w = held.w
+    if k.sizes.sensors > 0:
+        w = sensed_impact(k.sensors, w, q, v, v_model)
+    return Held(w, held.g, relabelled(held.line, swap))

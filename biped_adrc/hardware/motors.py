@@ -1,0 +1,118 @@
+"""Motors, in sampled time: rate limit, delay and lag between the torque asked for and the one that acts.
+
+    u_k in [u_(k-1) - rate T, u_(k-1) + rate T]        at the tick
+    u acts from t_k + delay on                          delay = (j + f) T, 0 <= f < 1
+    tau u_m' = u - u_m                                  torque of the motor
+
+What waits to act is held: j torques in a queue, and one more until t_k + f T where f > 0. At impact all of them
+are relabelled with the joints, and, where the clock restarts, what is waiting for a fraction of a period is
+replaced.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+
+WHOLE = 1e-9
+"""A delay that differs from whole periods by less than this fraction is one of whole periods."""
+
+
+class MotorParameters(NamedTuple):
+    """Largest change of torque in a period [N m], infinite without limit; 1 / tau [1/s]; f."""
+
+    change: float
+    speed: float
+    fraction: float
+
+
+class Line(NamedTuple):
+    """The torques of one instant, each (p,) [N m]; empty for what this walker has not."""
+
+    queue: Array
+    """(j p,), the oldest first."""
+    u_m: Array
+    """Of the motor; empty without lag."""
+    waiting: Array
+    """Acts from t_k + f T on."""
+    u: Array
+    """Asked of the motor now."""
+
+
+def limited(k: MotorParameters, line: Line, u: Array) -> Array:
+    """u within the rate limit, after the last torque that was sent."""
+    p = len(line.u)
+    last = line.u
+    if len(line.waiting) > 0:
+        last = line.waiting
+    if len(line.queue) > 0:
+        last = line.queue[len(line.queue) - p :]
+    return np.minimum(np.maximum(u, last - k.change), last + k.change)
+
+
+def sent(k: MotorParameters, line: Line, u: Array) -> Line:
+    """The line after a tick that sends u."""
+    p, queue = len(line.u), line.queue
+    next_one = u
+    if len(queue) > 0:
+        next_one = queue[:p]
+        queue = np.concatenate((queue[p:], u))
+    if len(line.waiting) > 0:
+        return Line(queue, line.u_m, next_one, line.u)
+    return Line(queue, line.u_m, line.waiting, next_one)
+
+
+def acting(k: MotorParameters, line: Line) -> Array:
+    """Mean of the torque asked of the motors until the next tick, as a controller that knows the delay has it."""
+    if len(line.waiting) > 0:
+        return k.fraction * line.u + (1.0 - k.fraction) * line.waiting
+    return line.u
+
+
+def relabelled(line: Line, swap: Array) -> Line:
+    """The line after an impact; swap (p,) relabels the joints."""
+    p = len(line.u)
+    queue = line.queue
+    if len(queue) > 0:
+        queue = queue.reshape(-1, p)[:, swap].ravel()
+    u_m = line.u_m[swap] if len(line.u_m) > 0 else line.u_m
+    waiting = line.waiting[swap] if len(line.waiting) > 0 else line.waiting
+    return Line(queue, u_m, waiting, line.u[swap])
+
+
+@dataclass(frozen=True)
+class Motors:
+    """rate_limit [N m/s], None for none; lag: time constant tau [s], 0 for none. Raises InputError."""
+
+    rate_limit: float | None = None
+    lag: float = 0.0
+
+    def __post_init__(self) -> None:
+        rate = self.rate_limit
+        if rate is not None and not (math.isfinite(rate) and rate > 0.0):
+            raise InputError(f"the motors' rate_limit is {rate} N m/s, expected a positive number")
+        if not (math.isfinite(self.lag) and self.lag >= 0.0):
+            raise InputError(f"the motors' lag is {self.lag} s, expected zero or a positive number")
+
+    def parameters(self, period: float, fraction: float) -> MotorParameters:
+        """What the laws need, for ticks every `period` [s] and the delay's part f of a period."""
+        change = math.inf if self.rate_limit is None else self.rate_limit * period
+        return MotorParameters(change, 0.0 if self.lag == 0.0 else 1.0 / self.lag, fraction)
+
+
+IDEAL = Motors()
+"""No limit, no lag."""
+
+
+def whole_and_part(delay: float, period: float) -> tuple[int, float]:
+    """j and f of a delay [s]."""
+    periods = delay / period
+    j = math.floor(periods + WHOLE)
+    f = periods - j
+    return (j, f) if f > WHOLE else (j, 0.0)

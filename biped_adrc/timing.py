@@ -1,0 +1,41 @@
+"""When the controller acts: at every instant, or at ticks."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from biped_adrc.errors import InputError
+
+LONGEST_DELAY = 100
+"""Periods; more torques on their way than this are a mistake of units."""
+
+
+@dataclass(frozen=True)
+class ContinuousTime:
+    """The controller acts at every instant."""
+
+
+@dataclass(frozen=True)
+class SampledTime:
+    """The controller acts at ticks every `period` [s] and its torque is held in between.
+
+    restart: the clock restarts at impact; a free-running clock makes the return map depend on its phase.
+    delay [s]: from a tick to the instant at which its torque begins to act, for the computation.
+    delay_known: the controller's observer is fed with the torque that acts until the next tick, instead of the
+    one just asked for. Raises InputError for a period that is not positive or a delay that is negative.
+    """
+
+    period: float
+    restart: bool = True
+    delay: float = 0.0
+    delay_known: bool = False
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.period) and self.period > 0):
+            raise InputError(f"the sampling period is {self.period} s, expected a positive number")
+        if not 0.0 <= self.delay <= LONGEST_DELAY * self.period:
+            raise InputError(
+                f"the computation delay is {self.delay} s, expected 0 to {LONGEST_DELAY} periods of "
+                f"{self.period} s"
+            )
