@@ -1,7 +1,7 @@
 """Sampled control in plain Python on the compiled plant: the controller is called once per tick.
 
-Between ticks the plant is x = (q, q', u) with the torque held; the controller's own state is kept here and goes
-back into the states of the trajectory.
+Between ticks the plant is (q, q', u) with the torque held, or (q, q', u_m, u) where the motors lag; the rest of x,
+the controller's own state first, is kept here and goes back into the states of the trajectory.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import CompiledBiped
@@ -26,37 +27,57 @@ from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Mode, SampledTime, Walker
 
+Update = Callable[[float, Array, Mode], Array]
+"""Of a clock: x+ at (t, x, mode)."""
+Act = Callable[[Update, float, Array, Array, Mode], tuple[Array, Array]]
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """The guards that end a run, by status."""
 
 
 class _Nodes:
-    """Of one arc, tick by tick: rows (t, x, x') of the plant, and the controller's state, which is held."""
+    """Of one arc, tick by tick: rows (t, x, x') of the plant, and the rest of the state, which is held."""
 
     def __init__(self) -> None:
         self.rows: list[Array] = []
         self.states: list[Array] = []
 
-    def add(self, rows: Array, s: Array) -> None:
+    def add(self, rows: Array, kept: Array) -> None:
         """Nodes between two ticks."""
         self.rows.append(rows)
-        self.states.append(s)
+        self.states.append(kept)
 
-    def arc(self, mode: Mode, event: Event | None, n: int) -> Arc:
-        """All of them, with states (q, q', s, u)."""
+    def arc(self, mode: Mode, event: Event | None, places: Places) -> Arc:
+        """All of them, with whole states."""
         rows = np.vstack(self.rows)
-        counts = [len(part) for part in self.rows]
-        s = np.repeat(np.array(self.states), counts, axis=0)
+        kept = np.repeat(np.array(self.states), [len(part) for part in self.rows], axis=0)
         nx = (rows.shape[1] - 1) // 2
-        x, dx = rows[:, 1 : 1 + nx], rows[:, 1 + nx :]
-        end = 2 * n
-        return Arc(
-            mode,
-            rows[:, 0].copy(),
-            np.hstack((x[:, :end], s, x[:, end:])),
-            np.hstack((dx[:, :end], np.zeros_like(s), dx[:, end:])),
-            event,
-        )
+        x = places.whole(rows[:, 1 : 1 + nx], kept)
+        dx = places.whole(rows[:, 1 + nx :], np.zeros_like(kept))
+        return Arc(mode, rows[:, 0].copy(), x, dx, event)
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where in x what flows between ticks is, and where the rest."""
+
+    flowing: NDArray[np.int_]
+    kept: NDArray[np.int_]
+
+    @classmethod
+    def of(cls, walker: Walker, length: int) -> Places:
+        """For states of `length` numbers."""
+        assert walker.held is not None
+        sizes, n = walker.held.sizes, walker.plant.n
+        motors = length - sizes.p * (sizes.waiting + 2) if sizes.lag else length
+        parts = (range(2 * n), range(motors, min(motors + sizes.p, length)))
+        flowing = np.array([*parts[0], *parts[1], *range(length - sizes.p, length)])
+        return cls(flowing, np.setdiff1d(np.arange(length), flowing))
+
+    def whole(self, flowing: Array, kept: Array) -> Array:
+        """x, or rows of them."""
+        x = np.empty((*kept.shape[:-1], len(self.flowing) + len(self.kept)))
+        x[..., self.flowing], x[..., self.kept] = flowing, kept
+        return x
 
 
 @dataclass(frozen=True)
@@ -83,19 +104,17 @@ class TickByTick:
         progress: Progress | None,
     ) -> Trajectory:
         """Arcs until enough impacts, the end or a terminal status."""
-        n, p = self.walker.plant.n, self.walker.plant.p
-        s = x0[2 * n : len(x0) - p]
-        vector = self.plant.plan.start(
-            np.concatenate((x0[: 2 * n], x0[-p:])), t0, mode.step, mode.start, t_end
-        )
+        places = Places.of(self.walker, len(x0))
+        s = x0[places.kept]
+        vector = self.plant.plan.start(x0[places.flowing], t0, mode.step, mode.start, t_end)
         arcs: list[Arc] = []
         status, detail = Status.COMPLETED, ""
         while True:
             nodes = _Nodes()
             try:
                 with np.errstate(over="ignore", invalid="ignore"):  # ends as the status NOT_FINITE
-                    code, vector, s = self._arc(vector, s, mode, t0, t_end, nodes)
-                    t, x = float(vector[layout.TIME]), self._whole(vector, s)
+                    code, vector, s = self._arc(vector, s, places, mode, t0, t_end, nodes)
+                    t, x = float(vector[layout.TIME]), places.whole(vector[layout.HEAD :], s)
                     struck = self.walker.struck(t, x, mode) if code == layout.STRUCK else None
                 status = Status.COMPLETED if struck is not None else STATUS[code]
             except (NotFiniteError, SingularError) as error:
@@ -106,12 +125,14 @@ class TickByTick:
                     nodes.add(_single(vector), s)
             if struck is None:
                 guard = TERMINAL.get(status)
-                arcs.append(nodes.arc(mode, None if guard is None else Event(guard, t, x, None), n))
+                arcs.append(
+                    nodes.arc(mode, None if guard is None else Event(guard, t, x, None), places)
+                )
                 break
             after, next_mode = struck
-            arcs.append(nodes.arc(mode, Event(FOOT_STRIKE, t, x, after), n))
-            mode, s = next_mode, after[2 * n : len(after) - p]
-            vector = self._after(vector, after, mode)
+            arcs.append(nodes.arc(mode, Event(FOOT_STRIKE, t, x, after), places))
+            mode, s = next_mode, after[places.kept]
+            vector = self._after(vector, after[places.flowing], mode)
             if progress is not None:
                 progress(t, len(arcs))
             if impacts is not None and len(arcs) >= impacts:
@@ -123,25 +144,35 @@ class TickByTick:
         return Trajectory(tuple(arcs), status, detail, {"method": label})
 
     def _arc(
-        self, vector: Array, s: Array, mode: Mode, t_first: float, t_end: float, nodes: _Nodes
+        self,
+        vector: Array,
+        s: Array,
+        places: Places,
+        mode: Mode,
+        t_first: float,
+        t_end: float,
+        nodes: _Nodes,
     ) -> tuple[int, Array, Array]:
         """Tick, flow, tick, to the first event or the end."""
         time = self.walker.timing
         assert isinstance(time, SampledTime)
-        n, plan, K = self.walker.plant.n, self.plant.plan, self.plant.K
+        plan, K = self.plant.plan, self.plant.K
         origin = float(vector[layout.TIME]) if time.restart else t_first
-        head, arc, act = layout.HEAD, kernels().arc, self._actor()
-        end, period, every = layout.HEAD + 2 * n, time.period, float(self.every)
+        head, arc, act = layout.HEAD, kernels().arc, self._actor(places)
+        clocks = [(origin + clock.offset, clock.update) for clock in self.walker.clocks()]
+        period, every = time.period, float(self.every)
         W, R = plan.work(), np.empty((8, 1 + 2 * plan.nx))
         while True:
-            t = float(vector[layout.TIME])
-            k = round((t - origin) / period)
-            if t == origin + k * period:
-                s, vector[end:] = act(t, vector[head:end].copy(), s, mode)
-            k = math.floor((t - origin) / period)
-            while origin + k * period <= t:
-                k += 1
-            vector[layout.END] = min(origin + k * period, t_end)
+            t, end = float(vector[layout.TIME]), t_end
+            for first, update in clocks:
+                k = max(0, round((t - first) / period))
+                if t == first + k * period:
+                    vector[head:], s = act(update, t, vector[head:], s, mode)
+                k = max(0, math.floor((t - first) / period))
+                while first + k * period <= t:
+                    k += 1
+                end = min(end, first + k * period)
+            vector[layout.END] = end
             vector[layout.EVERY], vector[layout.COUNT] = every, 0.0
             code = arc(plan.P, plan.F, K, W, vector, R)
             while code == layout.FULL:
@@ -152,37 +183,38 @@ class TickByTick:
             if code != layout.COMPLETED or vector[layout.TIME] >= t_end:
                 return code, vector, s
 
-    def _actor(self) -> Callable[[float, Array, Array, Mode], tuple[Array, Array]]:
-        """`Walker.acted` at (q, q') in one array (2 n,), of which the loops know that it is finite."""
-        walker, n, law, terms = (
-            self.walker,
-            self.walker.plant.n,
-            self.walker.law,
-            self.walker.nominal,
-        )
-        assert isinstance(terms, CompiledBiped)
+    def _actor(self, places: Places) -> Act:
+        """A clock's update on the two parts of x; without hardware a tick takes a shorter way."""
+        walker, n, p = self.walker, self.walker.plant.n, self.walker.plant.p
 
-        def act(t: float, x: Array, s: Array, mode: Mode) -> tuple[Array, Array]:
-            q, v = x[:n], x[n:]
+        def act(
+            update: Update, t: float, flowing: Array, kept: Array, mode: Mode
+        ) -> tuple[Array, Array]:
+            x = update(t, places.whole(flowing, kept), mode)
+            return x[places.flowing], x[places.kept]
+
+        law, terms = walker.law, walker.nominal
+        assert isinstance(terms, CompiledBiped) and walker.held is not None
+
+        def plain(
+            update: Update, t: float, flowing: Array, s: Array, mode: Mode
+        ) -> tuple[Array, Array]:
+            q, v = flowing[:n].copy(), flowing[n : 2 * n].copy()
             body = terms.body_terms(q, v) if law.needs_body else None
             m = Measurement(t, mode.step, t - mode.start, q, v, terms.reduction_at(q, v), body)
             s = law.correct(s, m)
             u = walker.saturate(law.output(s, m))
-            return law.predict(s, m, u), u
+            flowing[2 * n :] = u
+            return flowing, law.predict(s, m, u)
 
-        return act
-
-    def _whole(self, vector: Array, s: Array) -> Array:
-        n, x = self.walker.plant.n, vector[layout.HEAD :]
-        return np.concatenate((x[: 2 * n], s, x[2 * n :]))
+        return plain if walker.held.sizes.total == p and not walker.held.sizes.rate else act
 
     def _after(self, vector: Array, x: Array, mode: Mode) -> Array:
         """The run goes on from x+."""
-        n, p = self.walker.plant.n, self.walker.plant.p
         vector = vector.copy()
         vector[layout.STEP], vector[layout.START] = mode.step, mode.start
         vector[layout.FIRED], vector[layout.ARMED] = layout.FOOT_STRIKE, 0.0
-        vector[layout.HEAD :] = np.concatenate((x[: 2 * n], x[len(x) - p :]))
+        vector[layout.HEAD :] = x
         return vector
 
 
