@@ -56,7 +56,8 @@ if TYPE_CHECKING:
     from biped_adrc.studies.passive_walk import PassiveWalk, passive_walk
     from biped_adrc.studies.runs import load_walk
     from biped_adrc.studies.walk import Walk, walk
-    from biped_adrc.walker import ContinuousTime, Mode, SampledTime, Walker
+    from biped_adrc.timing import ContinuousTime, SampledTime
+    from biped_adrc.walker import Mode, Walker
 
 __version__ = "0.1.0"
 
@@ -66,7 +67,7 @@ _HOMES = {
     "Biped": "model.biped",
     "BipedError": "errors",
     "Case": "engine.batch",
-    "ContinuousTime": "walker",
+    "ContinuousTime": "timing",
     "Controller": "control.base",
     "ControllerLaws": "control.base",
     "DesignedGait": "studies.gait_design",
@@ -95,7 +96,7 @@ _HOMES = {
     "ReferenceReset": "control.reference_reset",
     "ResetPolicy": "observers.base",
     "ReturnMap": "analysis.return_map",
-    "SampledTime": "walker",
+    "SampledTime": "timing",
     "Status": "hybrid.status",
     "StepDown": "ground",
     "StepLimits": "gait.design.request",

@@ -1,4 +1,4 @@
-"""The ground: the axes of a slope, and where it is lower, by steps down in numbers of single supports."""
+"""The ground: the axes of a slope, and where it is lower or higher, by steps in numbers of single supports."""
 
 from __future__ import annotations
 
@@ -21,22 +21,14 @@ def ground_axes(slope: float) -> tuple[Array, Array]:
 class StepDown:
     """The ground on which single support `step` (from 1) ends lies `height` [m] below its stance foot.
 
-    Raises InputError for a step up: whether the swing foot clears its edge is not modelled.
+    Raises InputError for a height that is not positive; a step up is a `StepUp`.
     """
 
     step: int
     height: float
 
     def __post_init__(self) -> None:
-        if self.step < 1:
-            raise InputError(
-                f"the step down is in single support {self.step}; they are counted from 1"
-            )
-        if not (math.isfinite(self.height) and self.height > 0.0):
-            raise InputError(
-                f"the step down is {self.height} m high, expected a positive number; steps up are not "
-                "modelled"
-            )
+        _check(self.step, self.height, "down", "up")
 
     @property
     def drop(self) -> float:
@@ -48,13 +40,50 @@ class StepDown:
 class StepUp:
     """The ground on which single support `step` (from 1) ends lies `height` [m] above its stance foot.
 
-    The foot strikes it once it has been above; whether it clears the edge is not modelled.
+    The swing foot strikes it once it has been above; whether it clears the edge is not modelled.
+    Raises InputError for a height that is not positive; a step down is a `StepDown`.
     """
 
     step: int
     height: float
 
+    def __post_init__(self) -> None:
+        _check(self.step, self.height, "up", "down")
+
     @property
     def drop(self) -> float:
         """How far the ground lies below the stance foot [m], negative."""
         return -self.height
+
+
+def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp, ...]:
+    """Footholds at heights of mean zero and root mean square `rms` [m], for single supports 1 to `steps`.
+
+    The heights h_1, h_2, ... are normally distributed and independent, the first stance foot is at h_0 = 0, and
+    single support k ends h_(k-1) - h_k lower than it began; after `steps` the ground is level.
+    Raises InputError for a negative rms, a seed or a number of steps that is no whole number >= 0.
+    """
+    if not (math.isfinite(rms) and rms >= 0.0):
+        raise InputError(f"the rms of uneven ground is {rms} m, expected a number >= 0")
+    for name, value in (("seed", seed), ("number of steps", steps)):
+        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+            raise InputError(
+                f"the {name} of uneven ground is {value}, expected a whole number >= 0"
+            )
+    heights = np.concatenate(([0.0], np.random.default_rng(seed).normal(0.0, rms, steps)))
+    drops = ((k + 1, float(drop)) for k, drop in enumerate(-np.diff(heights)))
+    return tuple(
+        StepDown(step, drop) if drop > 0.0 else StepUp(step, -drop)
+        for step, drop in drops
+        if drop != 0.0
+    )
+
+
+def _check(step: int, height: float, way: str, other: str) -> None:
+    if step < 1:
+        raise InputError(f"the step {way} is in single support {step}; they are counted from 1")
+    if not (math.isfinite(height) and height > 0.0):
+        raise InputError(
+            f"the step {way} is {height} m high, expected a positive number; a step {other} is a "
+            f"Step{other.capitalize()}"
+        )

@@ -75,7 +75,7 @@ class Walker(HybridSystem):
     plant: Biped
     controller: Controller
     disturbance: Disturbance | None = None
-    timing: ContinuousTime | SampledTime = ContinuousTime()
+    timing: ContinuousTime | SampledTime = ContinuousTime()  # noqa: RUF009
     model: Biped | None = None
     torque_limit: float | None = None
     fall_height: float = 0.35
@@ -209,14 +209,14 @@ class Walker(HybridSystem):
         force[: self.plant.p] += u
         return force
 
+    def _motor_torque(self, x: Array) -> Array:
+        return held.motor_torque(self.held_at(x).line)
+
     def instant(self, t: float, x: Array, mode: Mode) -> Instant:
         """Measurement, torque, force and acceleration at (t, x)."""
         q, v, s = self.split_state(x)
         m = self.measure(t, q, v, mode)
-        if self.sampled:
-            u = held.motor_torque(self.held_at(x).line)
-        else:
-            u = self.saturate(self.law.output(s, m))
+        u = self._motor_torque(x) if self.sampled else self.saturate(self.law.output(s, m))
         zeta = self._external(t, q, v, mode)
         force = self._force(u, zeta)
         return Instant(m, s, u, zeta, force, self._acceleration(m, force))
@@ -256,7 +256,11 @@ class Walker(HybridSystem):
         assert k is not None
         (q, v, s), h, n = self.split_state(x), self.held_at(x), self.plant.n
         w = sense(k.sensors, h.w, q, v) if k.sizes.sensors else h.w
-        m = self.measure(t, w[:n], w[n : 2 * n], mode) if k.sizes.sensors else self.measure(t, q, v, mode)
+        m = (
+            self.measure(t, w[:n], w[n : 2 * n], mode)
+            if k.sizes.sensors
+            else self.measure(t, q, v, mode)
+        )
         s = self.law.correct(s, m)
         u = self.saturate(self.law.output(s, m))
         if k.sizes.rate:

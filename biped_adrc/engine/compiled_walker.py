@@ -28,8 +28,9 @@ from biped_adrc.errors import InputError
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.split import SplitLaws
+from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
-from biped_adrc.walker import LEAST_STEP, SampledTime, Walker
+from biped_adrc.walker import LEAST_STEP, Walker
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ class CompiledWalker:
 
     @classmethod
     def held(cls, walker: Walker, method: OneStepMethod) -> CompiledWalker:
-        """The plant alone under a torque that is held; x = (q, q', u), with lag (q, q', u_m, u). Raises as `of`."""
+        """The plant alone under a torque that is held; x = (q, q', u), with lag (q, q', u_m, u). As `of`."""
         bare = replace(
             walker,
             controller=Passive(),

@@ -179,7 +179,9 @@ class Equations:
         terms: Reduction = trace(reduce)(*mechanics.inertia_and_bias(robot, K, q, v), robot.p)
         return terms
 
-    def measured(self, trace: Tracer, t: Any, step: Any, t_step: Any, q: Any, v: Any) -> Measurement:
+    def measured(
+        self, trace: Tracer, t: Any, step: Any, t_step: Any, q: Any, v: Any
+    ) -> Measurement:
         """What the controller is given at (q, v)."""
         robot, numbers = self.make.robot, self.numbers
         K = numbers.plant if numbers.model is None else numbers.model
@@ -269,7 +271,8 @@ class Equations:
         """x after the controller has acted, and q''; without a discrete law its state stays."""
         at, laws, k = self.at(), self.make.laws, self.numbers.held
         true, held = at.m, at.held
-        assert held is not None and isinstance(k, HeldParameters)
+        assert held is not None
+        assert isinstance(k, HeldParameters)
         w = at.trace(sense)(k.sensors, held.w, true.q, true.v) if k.sizes.sensors else held.w
         if k.sizes.sensors:
             n = k.sizes.n

@@ -59,7 +59,16 @@ COMPARISONS: dict[int, Line] = {
     ca.OP_EQ: _compare("oeq"),
     ca.OP_NE: _compare("une"),
 }
-ONE: tuple[str, ...] = ("llvm.fabs.f64", "llvm.sqrt.f64", "llvm.floor.f64", "sin", "cos", "tan", "exp", "log")
+ONE: tuple[str, ...] = (
+    "llvm.fabs.f64",
+    "llvm.sqrt.f64",
+    "llvm.floor.f64",
+    "sin",
+    "cos",
+    "tan",
+    "exp",
+    "log",
+)
 ONE += ("sinh", "cosh", "tanh", "asin", "acos", "atan")
 TWO = ("llvm.minimum.f64", "llvm.maximum.f64", "pow")
 DECLARATIONS = "\n".join(

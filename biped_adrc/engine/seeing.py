@@ -26,7 +26,7 @@ def see(walker: Walker, trajectory: Trajectory, reference: Reference) -> list[Ar
     """Columns of all signals; None where a part has no compiled form."""
     if type(reference) is not VirtualConstraint:
         return None
-    n, p, nx = walker.plant.n, walker.plant.p, trajectory.arcs[0].x.shape[1]
+    n, nx = walker.plant.n, trajectory.arcs[0].x.shape[1]
     try:
         program = Program.of(walker, walker.controller_size(nx))
         watched = Watched(

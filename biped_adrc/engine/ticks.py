@@ -1,7 +1,7 @@
 """Sampled control in plain Python on the compiled plant: the controller is called once per tick.
 
-Between ticks the plant is (q, q', u) with the torque held, or (q, q', u_m, u) where the motors lag; the rest of x,
-the controller's own state first, is kept here and goes back into the states of the trajectory.
+Between ticks the plant is (q, q', u) with the torque held, or (q, q', u_m, u) where the motors lag; the rest
+of x, the controller's own state first, is kept here and goes back into the states of the trajectory.
 """
 
 from __future__ import annotations
@@ -24,8 +24,9 @@ from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
+from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, Mode, SampledTime, Walker
+from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
 Update = Callable[[float, Array, Mode], Array]
 """Of a clock: x+ at (t, x, mode)."""
@@ -194,7 +195,8 @@ class TickByTick:
             return x[places.flowing], x[places.kept]
 
         law, terms = walker.law, walker.nominal
-        assert isinstance(terms, CompiledBiped) and walker.held is not None
+        assert isinstance(terms, CompiledBiped)
+        assert walker.held is not None
 
         def plain(
             update: Update, t: float, flowing: Array, s: Array, mode: Mode

@@ -3,7 +3,7 @@
 The state g holds, over the ticks t_k of a run with e = q_b - h(Theta) from the true state, u the torque that
 acts and the parts of zeta in (12):
 
-    count, max |e|, sum e'e, max |u|, sum u'u, T sum |u|'|q_b'|, T sum u' q_b', max |matched|, max |unmatched|
+    ticks, max |e|, sum e'e, max |u|, sum u'u, T sum |u|'|q_b'|, T sum u' q_b', max |matched|, max |unmatched|
 
 A peak is that of the joint where it is largest.
 """
@@ -33,7 +33,7 @@ class MeterParameters(NamedTuple):
 class Reading(NamedTuple):
     """g, one number each."""
 
-    count: float
+    ticks: float
     peak_error: float
     """[rad]"""
     square_error: float

@@ -69,7 +69,7 @@ def sent(k: MotorParameters, line: Line, u: Array) -> Line:
 
 
 def acting(k: MotorParameters, line: Line) -> Array:
-    """Mean of the torque asked of the motors until the next tick, as a controller that knows the delay has it."""
+    """Mean of the torque asked of the motors until the next tick, for a controller that knows the delay."""
     if len(line.waiting) > 0:
         return k.fraction * line.u + (1.0 - k.fraction) * line.waiting
     return line.u

@@ -4,8 +4,8 @@
     y_n = (527612 y_(n-1) - 1370589 y_(n-3)) mod m_2,   m_2 = 2^32 - 22853
     u_n = ((x_n - y_n) mod m_1) / (m_1 + 1), m_1 in place of 0
 
-L'Ecuyer, Operations Research 47(1), 1999. Normal numbers by Box and Muller. The state is handed in and out, so that
-a run is repeated by repeating its seed, and a tick may be taken again.
+L'Ecuyer, Operations Research 47(1), 1999. Normal numbers by Box and Muller. The state is handed in and out, so
+that a run is repeated by repeating its seed, and a tick may be taken again.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def modulo(a: float, m: float) -> float:
     """a mod m for whole numbers |a| < 2^53; the quotient may be off by one in the last bit."""
     b = a - np.floor(a / m) * m
     b = np.where(b < 0.0, b + m, b)
-    return np.where(b >= m, b - m, b)  # type: ignore[no-any-return]
+    return np.where(b >= m, b - m, b)
 
 
 def uniforms(r: Array, count: int) -> tuple[Array, Array]:

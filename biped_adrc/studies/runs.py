@@ -35,8 +35,9 @@ from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 from biped_adrc.studies.push import Push
 from biped_adrc.studies.recording import Recording
 from biped_adrc.studies.walk import Walk, walk, watched
+from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, ContinuousTime, Mode, SampledTime, Walker
+from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
 CONTROLLERS = ("NPD", "ADRC")
 METHODS: dict[str, Any] = {

@@ -16,7 +16,8 @@ from biped_adrc.engine.robot import robot_of
 from biped_adrc.errors import ModelError
 from biped_adrc.model.planar import PlanarTree
 from biped_adrc.model.robots import robot_names
-from biped_adrc.walker import Mode, SampledTime, Walker
+from biped_adrc.timing import SampledTime
+from biped_adrc.walker import Mode, Walker
 
 EXACT = 1e-11
 COUNT = 10_000
