@@ -27,14 +27,16 @@ observer in the controller's state.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from biped_adrc.control.base import Controller
+from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint
 from biped_adrc.gait.curves import CurveParameters, Polynomial, curve
+from biped_adrc.hybrid.system import Split
 from biped_adrc.observers.base import ErrorSystem
 from biped_adrc.types import Array
 
@@ -254,3 +256,51 @@ def _refused(reason: str) -> InputError:
         f"feedback=True needs coordinates (Theta, q_b - h(Theta)), and there are none: {reason}; use "
         "Exponential(h), which has the observer alone in its linear part"
     )
+
+
+class Acting(Protocol):
+    """What acts at one state of a walker."""
+
+    @property
+    def measurement(self) -> Measurement: ...
+    @property
+    def s(self) -> Array: ...
+    @property
+    def u(self) -> Array: ...
+    @property
+    def a(self) -> Array: ...
+
+
+class Splittable(Protocol):
+    """A walker whose controller has laws to split it by."""
+
+    @property
+    def law(self) -> Controller: ...
+
+    def instant(self, t: float, x: Array, mode: Any) -> Acting:
+        """Measurement, torque and acceleration at (t, x)."""
+
+
+def split_of(walker: Splittable, laws: SplitLaws, mode: Any) -> Split:
+    """The walker in these coordinates."""
+    k = laws.parameters
+    observed = k.order * k.p
+
+    def remainder(t: float, w: Array, E: Array) -> tuple[Array, Array]:
+        i = walker.instant(t, laws.back(k, w, E), mode)
+        rest = len(i.s) > observed
+        ds = walker.law.flow(i.s, i.measurement, i.u) if rest else i.s
+        return forcing(w, E, i, ds)
+
+    def forcing(w: Array, E: Array, i: Acting, ds: Array) -> tuple[Array, Array]:
+        kappa_u = i.measurement.terms.kappa @ i.u
+        N_w, forced = laws.remainder(k, w, E, i.a, kappa_u, ds[observed:])
+        return N_w, laws.spread(forced)
+
+    def node(t: float, w: Array, E: Array) -> tuple[tuple[Array, Array], Array, Array]:
+        x = laws.back(k, w, E)
+        i = walker.instant(t, x, mode)
+        m, ds = i.measurement, walker.law.flow(i.s, i.measurement, i.u)
+        return forcing(w, E, i, ds), x, np.concatenate((m.v, i.a, ds))
+
+    return Split(partial(laws.to, k), partial(laws.back, k), laws.A, remainder, node)

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,7 +30,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, Guard, HybridSystem, Split
 from biped_adrc.linear import solve
 from biped_adrc.model.biped import Biped
-from biped_adrc.split import SplitLaws, error_laws, loop_laws
+from biped_adrc.split import SplitLaws, error_laws, loop_laws, split_of
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
 
@@ -386,7 +386,7 @@ class Walker(HybridSystem):
         The observer's states are the first of s; what follows them is taken with (q, q').
         """
         laws = self.split_laws()
-        return None if laws is None else replace(self._split(laws, mode), node=None)
+        return None if laws is None else replace(split_of(self, laws, mode), node=None)
 
     def feedback_split(self, mode: Mode) -> Split | None:
         """Those with the tracking error q_b - h(Theta) too, beside Theta and the angular momentum.
@@ -394,27 +394,4 @@ class Walker(HybridSystem):
         Raises InputError for a walker without such coordinates.
         """
         laws = self.split_laws(feedback=True)
-        return None if laws is None else self._split(laws, mode)
-
-    def _split(self, laws: SplitLaws, mode: Mode) -> Split:
-        k = laws.parameters
-        observed = k.order * k.p
-
-        def remainder(t: float, w: Array, E: Array) -> tuple[Array, Array]:
-            i = self.instant(t, laws.back(k, w, E), mode)
-            rest = len(i.s) > observed
-            ds = self.law.flow(i.s, i.measurement, i.u) if rest else i.s
-            return forcing(w, E, i, ds)
-
-        def forcing(w: Array, E: Array, i: Instant, ds: Array) -> tuple[Array, Array]:
-            kappa_u = i.measurement.terms.kappa @ i.u
-            N_w, forced = laws.remainder(k, w, E, i.a, kappa_u, ds[observed:])
-            return N_w, laws.spread(forced)
-
-        def node(t: float, w: Array, E: Array) -> tuple[tuple[Array, Array], Array, Array]:
-            x = laws.back(k, w, E)
-            i = self.instant(t, x, mode)
-            m, ds = i.measurement, self.law.flow(i.s, i.measurement, i.u)
-            return forcing(w, E, i, ds), x, np.concatenate((m.v, i.a, ds))
-
-        return Split(partial(laws.to, k), partial(laws.back, k), laws.A, remainder, node)
+        return None if laws is None else split_of(self, laws, mode)

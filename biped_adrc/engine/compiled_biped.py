@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.engine.equations import PlantEquations
 from biped_adrc.engine.fingerprint import hash_of, skeleton, versions_text
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import Machine, Text, machine
+from biped_adrc.engine.plant_equations import PlantEquations
 from biped_adrc.engine.robot import REMEMBERED, Robot, robot_of
 from biped_adrc.engine.symbols import floats
 from biped_adrc.errors import ModelError

@@ -1,4 +1,6 @@
-"""What a walker holds between ticks, behind its controller's state: x = (q, q', s | w, g, queue, u_m, waiting, u).
+"""What a walker holds between ticks, behind its controller's state.
+
+    x = (q, q', s, w, g, queue, u_m, waiting, u)
 
 w is the sensors' state, g the meter's, the rest the line of torques on their way to the motors; each is empty
 where the walker has no such part. u_m alone flows.

@@ -1,0 +1,1 @@
+"""The disturbance-rejection bench: trials, studies of many of them, and comparisons."""
