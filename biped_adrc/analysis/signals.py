@@ -76,6 +76,12 @@ class Signals:
     foothold_height: Array
     """(K,) z of the stance foot in the world [m]."""
 
+    @property
+    def xi_unmatched(self) -> Array:
+        """(K, p) the rest of `xi_external`: what comes through the unactuated row of (12) [rad/s^2]."""
+        unmatched: Array = self.xi_external - self.xi_matched
+        return unmatched
+
     def of_step(self, step: int) -> Signals:
         """The rows of one single support."""
         rows = self.step == step

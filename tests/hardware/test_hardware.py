@@ -1,0 +1,268 @@
+"""Sensors, motors and meter by closed forms, alone and in walks of both engines."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.hardware.held import motor_torque
+from biped_adrc.hardware.meter import Meter, Reading
+from biped_adrc.hardware.motors import Line, Motors, acting, limited, relabelled, sent
+from biped_adrc.hardware.sensors import Sensors, rounded, sense, sensed_impact, sensor_state
+
+T = 1e-3
+RANDOM = np.random.default_rng(11)
+
+
+def ticks(sensors, path, count, n=2, p=1, period=T):
+    """(q^, v^) at each tick along path(t) -> (q, v)."""
+    k = sensors.parameters(n, p, period)
+    w = sensor_state(k, *path(0.0), sensors.start)
+    seen = []
+    for i in range(count):
+        w = sense(k, w, *path(i * period))
+        assert len(w) == sensors.size(n)
+        seen.append(w[: 2 * n])
+    return np.array(seen)
+
+
+def steady(rate):
+    return lambda t: (np.array([0.3, -0.2]) + rate * t, np.full(2, rate))
+
+
+def test_a_count_is_never_further_off_than_half_of_one():
+    k = Sensors(counts=100.0).parameters(3, 3, T)
+    y = RANDOM.uniform(-7.0, 7.0, (1000, 3))
+    for row in y:
+        assert np.max(np.abs(rounded(k, row) - row)) <= np.pi / 100 * (1 + 1e-12)
+        counts = rounded(k, row) / (2 * np.pi / 100)
+        assert np.allclose(counts, np.round(counts), atol=1e-9)
+    assert np.array_equal(rounded(Sensors(None).parameters(3, 3, T), y[0]), y[0])
+
+
+def test_differences_of_a_steady_motion_are_its_rate():
+    exact = ticks(Sensors(), steady(2.0), 50)
+    assert np.allclose(exact[:, 2:], 2.0, rtol=0.0, atol=1e-10)
+    counted = ticks(Sensors(counts=8192.0), steady(2.0), 500)
+    step = 2 * np.pi / 8192
+    assert np.max(np.abs(counted[:, 2:] - 2.0)) <= step / T
+    assert abs(counted[1:, 2].mean() - 2.0) < step / (400 * T)
+
+
+def test_the_low_pass_answers_a_step_of_the_rate_with_an_exponential():
+    tau = 5e-3
+
+    def path(t):
+        return (np.zeros(2), np.zeros(2)) if t <= T / 2 else (np.full(2, t - 0.0), np.ones(2))
+
+    rate = ticks(Sensors(filter_time=tau), path, 30)[:, 2]
+    assert np.allclose(rate, 1.0 - np.exp(-np.arange(30) * T / tau), rtol=0.0, atol=1e-12)
+
+
+def test_rates_with_sensors_of_their_own():
+    path = steady(1.5)
+    gyro = ticks(Sensors(counts=64.0, velocity="gyro", pitch_resolution=0.0), path, 20)
+    assert np.all(gyro[:, 3] == 1.5)
+    assert np.all(gyro[:, 1] == [path(i * T)[0][1] for i in range(20)])
+    assert set(gyro[1:, 2]) <= {0.0, 2 * np.pi / 64 / T}
+    assert np.all(ticks(Sensors(counts=64.0, velocity="measured"), path, 20)[:, 2:] == 1.5)
+
+
+def test_noise_has_its_deviation_and_its_seed():
+    sensors = Sensors(noise=1e-3, pitch_noise=2e-3, rate_noise=0.1, velocity="measured", seed=4)
+    seen = ticks(sensors, steady(0.0), 4000)
+    error = seen - np.concatenate((steady(0.0)(0.0)))
+    assert np.allclose(error.std(axis=0), [1e-3, 2e-3, 0.1, 0.1], rtol=0.05)
+    assert np.max(np.abs(np.corrcoef(error.T) - np.eye(4))) < 0.06
+    assert np.array_equal(seen, ticks(sensors, steady(0.0), 4000))
+    assert not np.array_equal(seen[1], ticks(replace(sensors, seed=5), steady(0.0), 2)[1])
+
+
+def test_at_impact_differences_start_anew():
+    sensors = Sensors(counts=8192.0)
+    k = sensors.parameters(2, 1, T)
+    w = sense(k, sensor_state(k, np.zeros(2), np.ones(2), sensors.start), np.zeros(2), np.ones(2))
+    q, v, expected = np.array([5.0, 6.0]), np.array([-3.0, -4.0]), np.array([-2.5, -4.5])
+    w = sensed_impact(k, w, q, v, expected)
+    assert np.array_equal(w[2:4], expected)
+    assert np.array_equal(sense(k, w, q, v)[2:4], expected)  # nothing of the jump from 0 to 5 rad
+
+
+def line(j, waiting, lag=0):
+    return Line(np.zeros(2 * j), np.zeros(2 * lag), np.zeros(2 * waiting), np.zeros(2))
+
+
+@pytest.mark.parametrize("j", [0, 1, 3])
+@pytest.mark.parametrize("f", [0.0, 0.4])
+def test_a_torque_acts_when_its_delay_is_over(j, f):
+    k = Motors().parameters(T, f)
+    at = line(j, int(f > 0))
+    asked = RANDOM.normal(size=(10, 2))
+    nothing = np.zeros(2)
+    for i, u in enumerate(asked):
+        at = sent(k, at, u)
+        acts = asked[i - j] if i >= j else nothing
+        before = asked[i - j - 1] if i > j else nothing
+        now = at.u if f == 0 else at.waiting
+        assert np.array_equal(now, acts)
+        mean = acts if f == 0 else f * before + (1 - f) * acts
+        assert np.allclose(acting(k, at), mean)
+        if f > 0:
+            assert np.array_equal(at.u, before)
+            at = at._replace(u=at.waiting)  # what the loop does f T later
+
+
+def test_the_rate_limit_follows_what_was_sent_last():
+    k = Motors(rate_limit=2000.0).parameters(T, 0.0)
+    for j in (0, 2):
+        at, last = line(j, 0), np.zeros(2)
+        for _ in range(20):
+            u = limited(k, at, RANDOM.normal(0.0, 30.0, 2))
+            assert np.max(np.abs(u - last)) <= 2.0 + 1e-12
+            at, last = sent(k, at, u), u
+
+
+def test_legs_swap_all_that_is_on_its_way():
+    at = Line(np.arange(4.0), np.array([4.0, 5.0]), np.array([6.0, 7.0]), np.array([8.0, 9.0]))
+    swapped = relabelled(at, np.array([1, 0]))
+    assert [part.tolist() for part in swapped] == [[1, 0, 3, 2], [5, 4], [7, 6], [9, 8]]
+
+
+class Clocked(ba.Controller):
+    """Tells the time: u = t on every joint, in the order 1, 2, 3, 4."""
+
+    def output(self, s, m):
+        return m.t * np.arange(1.0, 5.0)
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.4e-3, 1e-3, 2.7e-3])
+def test_in_a_walk_torques_act_late_by_the_delay(biped, gait, delay):
+    walker = ba.Walker(biped, Clocked(), timing=ba.SampledTime(T, delay=delay))
+    q, v = gait.start(biped)
+    x0 = walker.initial_state(q, v)
+    arc = ba.simulate(walker, x0, ba.Mode(), ba.RK4(0.2e-3), t_end=0.02).arcs[0]
+    for t, x in zip(arc.t, arc.x, strict=True):
+        u = motor_torque(walker.held_at(x).line)
+        since = t - delay
+        near = abs(since / T - round(since / T)) < 1e-6
+        if since > 0 and not near:
+            assert np.allclose(u, np.floor(since / T) * T * np.arange(1.0, 5.0), atol=1e-12)
+        elif not near:
+            assert not np.any(u)
+
+
+@pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
+def test_lag_is_an_exponential_between_ticks(biped, gait, engine):
+    tau = 3e-3
+    motors = Motors(lag=tau)
+
+    class Step(ba.Controller):
+        def output(self, s, m):
+            return np.array([10.0, -20.0, 5.0, 0.0])
+
+    walker = ba.Walker(biped, Step(), timing=ba.SampledTime(T, delay=1.5e-3), motors=motors)
+    run = ba.walk(walker, gait, impacts=1, method=ba.RK4(0.25e-3), engine=engine).trajectory
+    arc = run.arcs[0]
+    late = np.maximum(arc.t - 1.5e-3, 0.0)
+    expected = (1.0 - np.exp(-late / tau))[:, None] * [10.0, -20.0, 5.0, 0.0]
+    found = np.array([motor_torque(walker.held_at(x).line) for x in arc.x])
+    assert np.max(np.abs(found - expected)) < 1e-4  # (h / tau)^4 / 120 of 20 N m
+
+
+def adrc(gait, bandwidth=300.0):
+    return ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(bandwidth, 1))
+
+
+PUSH = ba.TorquePulse([30.0, 30.0, 30.0, 30.0, 10.0], step=2, start=0.1, stop=0.3)
+SETUPS = {
+    "encoders": {"sensors": Sensors(8192.0), "delay": 0.5e-3},
+    "all": {
+        "sensors": Sensors(8192.0, noise=5e-5, rate_noise=0.01, filter_time=2e-3, seed=3),
+        "motors": Motors(2e4, 1e-3),
+        "delay": 1.4e-3,
+        "known": True,
+    },
+    "impact": {"impact_gain": (0.01, 0.02, 0.0, 0.0, -0.01), "delay": 1e-3},
+}
+
+
+def made(biped, gait, name, controller):
+    parts = dict(SETUPS[name])
+    timing = ba.SampledTime(T, delay=parts.pop("delay"), delay_known=parts.pop("known", False))
+    heavier = biped.with_errors(mass={"torso": 1.1})
+    meter = Meter(gait.constraint)
+    return ba.Walker(
+        heavier, controller, PUSH, timing, biped, torque_limit=150.0, meter=meter, **parts
+    )
+
+
+class Plain(ba.Controller):
+    """In Python alone."""
+
+    def __init__(self, h):
+        self.h = h
+
+    def output(self, s, m):
+        r = self.h(m.t, m.q, m.v)
+        return 2500 * (r.q_d - m.q_b) + 120 * (r.dq_d - m.v_b) + m.terms.Omega[:4]
+
+
+@pytest.mark.parametrize("name", SETUPS)
+@pytest.mark.parametrize("plain", [False, True], ids=["laws", "plain Python"])
+def test_both_engines_walk_alike(biped, gait, name, plain):
+    walker = made(biped, gait, name, Plain(gait.constraint) if plain else adrc(gait))
+    one, other = (
+        ba.walk(walker, gait, impacts=2, engine=engine).trajectory
+        for engine in ("pinocchio", "compiled")
+    )
+    assert one.status is other.status is ba.Status.COMPLETED
+    assert other.settings["engine"] == ("compiled plant" if plain else "compiled")
+    for a, b in zip(one.arcs, other.arcs, strict=True):
+        assert abs(a.event.t - b.event.t) < 1e-7
+        assert np.max(np.abs(a.event.x_minus - b.event.x_minus)[:10]) < 1e-6
+    readings = [Reading(*walker.held_at(run.final_state).g) for run in (one, other)]
+    assert readings[0] == pytest.approx(readings[1], rel=1e-5, abs=1e-9)
+
+
+def test_the_meter_counts_what_the_signals_show(biped, gait):
+    walker = made(biped, gait, "impact", adrc(gait))
+    walk = ba.walk(walker, gait, impacts=3)
+    signals = walk.signals
+    g = Reading(*walker.held_at(walk.trajectory.final_state).g)
+    starts = np.array([arc.t[0] for arc in walk.trajectory.arcs])
+    begin = starts[signals.step - 1]
+    k = np.round((signals.t - begin) / T)
+    tick = np.abs(signals.t - begin - k * T) < 1e-12
+    # of two nodes at one time the second is after the tick
+    tick &= np.append(np.diff(signals.t) > 0.0, True)
+    ends = [arc.t[-1] for arc in walk.trajectory.arcs]
+    tick &= ~np.isin(signals.t, ends) | np.isin(signals.t, starts)
+    e, u, v = signals.error[tick], signals.u[tick], signals.v[tick, :4]
+    assert g.ticks == np.sum(tick)
+    assert g.peak_error == pytest.approx(np.max(np.abs(e)), rel=1e-9)
+    assert g.square_torque == pytest.approx(np.sum(u**2), rel=1e-9)
+    assert g.peak_matched == pytest.approx(np.max(np.abs(signals.xi_matched[tick])), rel=1e-9)
+    unmatched = np.max(np.abs(signals.xi_unmatched[tick]))
+    assert g.peak_unmatched == pytest.approx(unmatched, rel=1e-9)
+    assert g.work == pytest.approx(T * np.sum(np.abs(u * v)), rel=1e-9)
+    assert g.net_work == pytest.approx(T * np.sum(u * v), rel=1e-9)
+
+
+def test_bad_hardware_is_named(biped, gait):
+    for make, message in (
+        (lambda: Sensors(counts=0.5), "0.5 counts per revolution"),
+        (lambda: Sensors(noise=-1e-3), "noise is -0.001 rad"),
+        (lambda: Sensors(rate_noise=float("nan")), "rate_noise is nan rad/s"),
+        (lambda: Sensors(velocity="guess"), "expected one of"),
+        (lambda: Sensors(seed=-1), "whole number"),
+        (lambda: Motors(rate_limit=0.0), "rate_limit is 0.0 N m/s"),
+        (lambda: Motors(lag=-1.0), "lag is -1.0 s"),
+        (lambda: ba.SampledTime(0.0), "sampling period is 0.0 s"),
+        (lambda: ba.SampledTime(1e-3, delay=-1e-3), "computation delay is -0.001 s"),
+        (lambda: ba.SampledTime(1e-3, delay=float("nan")), "computation delay is nan"),
+        (lambda: ba.Walker(biped, adrc(gait), sensors=Sensors()), "sampled time"),
+        (lambda: ba.Walker(biped, adrc(gait), impact_gain=(0.1,)), "5 finite numbers"),
+    ):
+        with pytest.raises(ba.BipedError, match=message):
+            make()
