@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.model.contact import FloatingDynamics, Impact
+from biped_adrc.model.physical import check_numbers, check_planar
 from biped_adrc.model.pinned import PinnedDynamics
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
 from biped_adrc.model.relabelling import relabelling
@@ -62,10 +63,12 @@ class Biped:
         return biped
 
     def check(self) -> None:
-        """Build both models now, and check that the two legs are alike, as relabelling assumes.
+        """Build both models now; check that they can be computed with and that the two legs are alike.
 
         The kinetic energy with the base at rest must not change when the legs swap roles. Raises ModelError.
         """
+        check_planar(self.tree, self.description)
+        check_numbers(self)
         n, R = self.n, self.R
         q, v = 0.3 * np.arange(1.0, n + 1.0), np.cos(np.arange(float(n)))
         one, other = (self.floating.inertia_on_fixed_base(x) for x in (q, self.relabel(q)))

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 import pinocchio as pin
 
+from biped_adrc.errors import SingularError
 from biped_adrc.model.pinned import build, frame_index, velocity_index
 from biped_adrc.model.urdf import Tree
 from biped_adrc.types import Array
@@ -135,7 +136,7 @@ class FloatingDynamics:
         return Z.T @ M @ Z, Z.T @ (nle + M @ Zdot_v)
 
     def impact(self, q: Array, v: Array, R: Array, offset: Array) -> Impact:
-        """Solve (7) at (q-, v-) and relabel: q+ = R q- + offset, v+ = R v (n,)."""
+        """Solve (7) at (q-, v-) and relabel: q+ = R q- + offset, v+ = R v (n,). Raises SingularError."""
         n = self.n
         D_e = self.extended_inertia(q)
         E_2 = self.swing_jacobian(q)
@@ -144,6 +145,9 @@ class FloatingDynamics:
         K[: n + 2, n + 2 :] = -E_2.T
         K[n + 2 :, : n + 2] = E_2
         rhs = np.concatenate((D_e[:, :n] @ v, np.zeros(2)))
-        solution = np.asarray(np.linalg.solve(K, rhs), dtype=np.float64)
+        try:
+            solution = np.asarray(np.linalg.solve(K, rhs), dtype=np.float64)
+        except np.linalg.LinAlgError as error:
+            raise SingularError("the impact (7) is singular") from error
         v_e = solution[: n + 2]
         return Impact(R @ q + offset, R @ v_e[:n], solution[n + 2 :], v_e)

@@ -8,6 +8,7 @@ is given the text this module writes.
 from __future__ import annotations
 
 import math
+import re
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -20,6 +21,9 @@ Vector = tuple[float, float, float]
 
 JOINT_TYPES = ("revolute", "prismatic", "fixed")
 GEOMETRY_SIZES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length")}
+LARGEST = 1e100
+"""Of the numbers in a URDF, in any unit; products of more overflow."""
+_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _ALMOST_ONE = 1e-6  # how far an axis may be from unit length, dimensionless
 
 
@@ -133,7 +137,8 @@ def tree_of(root: ET.Element, source: str) -> Tree:
             )
         links[link.name] = link
     joints = tuple(_read_joint(element, source) for element in root.findall("joint"))
-    return _validated(Tree(root.get("name", Path(source).stem), links, joints, source))
+    name = _printable(root.get("name", Path(source).stem), "robot", f"URDF '{source}'")
+    return _validated(Tree(name, links, joints, source))
 
 
 def to_xml(tree: Tree) -> str:
@@ -200,12 +205,12 @@ def _visual_xml(visual: Visual, link: str) -> list[str]:
 def numbers(element: ET.Element | None, key: str, default: str, count: int, where: str) -> Vector:
     """`count` finite numbers of an attribute. Raises ModelError that quotes it after `where`."""
     text = default if element is None else element.get(key, default)
-    try:
-        values = tuple(float(word) for word in text.split())
-    except ValueError:
-        values = ()
-    if len(values) != count or not all(math.isfinite(value) for value in values):
-        raise ModelError(f"{where}: {key}='{text}', expected {count} finite number(s)")
+    words = text.split()
+    values = tuple(float(word) for word in words) if all(map(_NUMBER.fullmatch, words)) else ()
+    if len(values) != count or not all(abs(value) < LARGEST for value in values):
+        raise ModelError(
+            f"{where}: {key}={text!r}, expected {count} finite number(s) below {LARGEST:g}"
+        )
     return values  # type: ignore[return-value]
 
 
@@ -230,6 +235,14 @@ def _name(element: ET.Element, key: str, where: str) -> str:
     name = element.get(key)
     if not name:
         raise ModelError(f"{where}: <{element.tag}> has no '{key}'")
+    return _printable(name, element.tag, where)
+
+
+def _printable(name: str, tag: str, where: str) -> str:
+    if not name.isprintable():
+        raise ModelError(
+            f"{where}: <{tag}> names {name!r}, expected a name on one line, without tabs"
+        )
     return name
 
 
@@ -267,6 +280,8 @@ def _read_visual(element: ET.Element, where: str) -> Visual:
         raise ModelError(f"{where} <{shape.tag}>: sizes {size}, expected positive numbers")
     colour = element.find("material/color")
     rgba = numbers(colour, "rgba", "0.5 0.5 0.5 1", 4, f"{where} <color>")
+    if not all(0.0 <= part <= 1.0 for part in rgba):
+        raise ModelError(f"{where} <color>: rgba {rgba}, expected numbers between 0 and 1")
     return Visual(shape.tag, size, _origin(element, f"{where} <visual>"), rgba)  # type: ignore[arg-type]
 
 
@@ -332,12 +347,17 @@ def _below(tree: Tree, root: str) -> set[str]:
 
 
 def _check_inertial(inertial: Inertial, where: str) -> None:
-    if not inertial.mass > 0:
+    if not 0 < inertial.mass < math.inf:
         raise ModelError(
             f"{where}: mass {inertial.mass:g} kg, expected a positive number; a frame without mass has no "
             "<inertial>"
         )
-    ixx, ixy, ixz, iyy, iyz, izz = inertial.inertia
+    size = sum(abs(moment) for moment in inertial.inertia)
+    if not 0 < size < math.inf:
+        raise ModelError(
+            f"{where}: the moments of inertia are {inertial.inertia}, expected finite ones"
+        )
+    ixx, ixy, ixz, iyy, iyz, izz = (moment / size for moment in inertial.inertia)
     minors = (
         ixx,
         ixx * iyy - ixy**2,
@@ -346,7 +366,8 @@ def _check_inertial(inertial: Inertial, where: str) -> None:
     if min(minors) <= 0:
         raise ModelError(f"{where}: the inertia matrix is not positive definite")
     if any(2 * moment > (ixx + iyy + izz) * (1 + 1e-9) for moment in (ixx, iyy, izz)):
+        xx, _, _, yy, _, zz = inertial.inertia
         raise ModelError(
-            f"{where}: inertia ({ixx:g}, {iyy:g}, {izz:g}) kg m^2 breaks the triangle inequality; "
+            f"{where}: inertia ({xx:g}, {yy:g}, {zz:g}) kg m^2 breaks the triangle inequality; "
             "no body has a principal moment above the sum of the other two"
         )

@@ -1,0 +1,84 @@
+"""Band-limited noise over a window, without a state: a sum of K sines with random phases.
+
+    zeta_i = amplitude_i sqrt(2/K) sum_k sin(2 pi f_ik s + phi_ik),   s = t - start
+
+f_ik is drawn evenly from the k-th of K equal parts of (0, bandwidth), so the spectrum is flat, the mean square
+over a long window is amplitude_i^2, and the sum is close to normally distributed (Shinozuka, Deodatis, Applied
+Mechanics Reviews 44(4), 1991). It is smooth and a pure function of time: it asks for no ticks and repeats
+by its seed.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters, since_onset
+from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+
+
+class NoiseParameters(NamedTuple):
+    """The window, and f [Hz] and phi [rad] of the sines, each (n, K)."""
+
+    window: WindowParameters
+    frequencies: Array
+    phases: Array
+
+
+def noise_torque(
+    k: NoiseParameters, t: float, step: int, t_start: float, q: Array, v: Array
+) -> Array:
+    """zeta (n,) [N m]."""
+    s, rms = since_onset(k.window, t, step, t_start), k.window.amplitude
+    zeta = np.zeros(len(rms))
+    if s < 0.0:
+        return zeta
+    n, count = k.frequencies.shape
+    for i in range(n):
+        total = 0.0
+        for j in range(count):
+            total += math.sin(2.0 * math.pi * k.frequencies[i, j] * s + k.phases[i, j])
+        zeta[i] = rms[i] * math.sqrt(2.0 / count) * total
+    return zeta
+
+
+@dataclass(frozen=True)
+class TorqueNoise(Windowed):
+    """Root mean square `amplitude` (n,) [N m], flat up to `bandwidth` [Hz], different on every coordinate.
+
+    The same seed gives the same noise. sines: K, their number per coordinate.
+    Raises InputError for a bandwidth or a number that is not positive, or a seed that is no whole number >= 0.
+    """
+
+    bandwidth: float = field(kw_only=True)
+    seed: int = field(kw_only=True)
+    sines: int = field(default=32, kw_only=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not (math.isfinite(self.bandwidth) and self.bandwidth > 0):
+            raise InputError(f"noise bandwidth is {self.bandwidth} Hz, expected a positive number")
+        for name, least in (("seed", 0), ("sines", 1)):
+            value = getattr(self, name)
+            if isinstance(value, bool) or not isinstance(value, int) or value < least:
+                raise InputError(f"noise {name} is {value}, expected a whole number >= {least}")
+
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        return noise_torque(self.parameters, t, step, t_start, q, v)
+
+    @cached_property
+    def parameters(self) -> NoiseParameters:
+        """What the law `noise_torque` needs."""
+        random, shape = np.random.default_rng(self.seed), (len(self.amplitude), self.sines)
+        part = np.arange(self.sines) + random.uniform(size=shape)
+        frequencies = self.bandwidth * part / self.sines
+        return NoiseParameters(self.window, frequencies, random.uniform(0.0, 2.0 * math.pi, shape))
+
+    @property
+    def laws(self) -> tuple[DisturbanceLaw, ...]:
+        return (DisturbanceLaw(self.parameters, noise_torque, self.switches),)

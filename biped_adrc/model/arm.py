@@ -1,0 +1,214 @@
+"""A fully actuated arm on a fixed base: every joint has a motor, so p = n and nothing is left over.
+
+    D(q) q'' + Omega(q, q') = u + zeta,   q'' = kappa u + xi,   kappa = D^-1,   xi = -D^-1 Omega
+
+which is (11)-(15) with no unactuated rows. The URDF may be any tree of revolute and prismatic joints; it is
+read as strictly as a biped's. What the hand carries is a ball fixed to the tool.
+"""
+
+from __future__ import annotations
+
+import math
+import sysconfig
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import pinocchio as pin
+
+from biped_adrc.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.model.pinned import frame_index
+from biped_adrc.model.reduction import Reduction, reduce
+from biped_adrc.model.robots import GRAVITY
+from biped_adrc.model.straighten import straightened
+from biped_adrc.model.urdf import Vector, numbers, parse, tree_of
+from biped_adrc.types import Array
+
+UR5 = ("ur_description/urdf/ur5_robot.urdf", "tool0")
+"""Path below the robots of example-robot-data, and the tool."""
+ACCURACY = 1e-9
+"""Largest relative round-off in D^-1."""
+
+
+class Payload(NamedTuple):
+    """A ball: mass [kg], centre in the tool's frame [m], radius [m]."""
+
+    mass: float
+    com: Vector
+    radius: float
+
+
+@dataclass(frozen=True)
+class Arm:
+    """An arm with what it carries. Make it with `Arm.load`; use one Arm per thread, as with a Biped."""
+
+    source: str
+    text: str
+    """URDF, without the <inertial> of frames that weigh nothing."""
+    tool: str
+    effort: Array
+    """(n,) [N m] or [N]; infinite where the URDF has no limit."""
+    payload: Payload | None = None
+
+    @classmethod
+    def load(cls, urdf: Path | str, tool: str) -> Arm:
+        """From a URDF and the link that is the tool. Raises ModelError that names the file and the place."""
+        source, root = str(urdf), parse(urdf)
+        _strip(root, source)
+        tree_of(straightened(root, source).robot, source)  # refuses what is not physical
+        moving = (joint for joint in root.findall("joint") if joint.get("type") != "fixed")
+        efforts = {joint.get("name", ""): _effort(joint, source) for joint in moving}
+        arm = cls(source, ET.tostring(root, encoding="unicode"), tool, np.zeros(0))
+        effort = np.array([efforts[name] for name in arm.joints])
+        return replace(arm, effort=effort)._checked()
+
+    @classmethod
+    def ur5(cls) -> Arm:
+        """The UR5 of example-robot-data, 6 joints. Raises ModelError where the extra `robots` is missing."""
+        path, tool = UR5
+        for folder in _data_folders():
+            if (folder / path).is_file():
+                return cls.load(folder / path, tool)
+        raise ModelError(
+            f"'{path}' of example-robot-data not found; install it by pip install 'biped-adrc[robots]'"
+        )
+
+    def with_payload(self, mass: float, com: Vector = (0.0, 0.0, 0.0), radius: float = 0.05) -> Arm:
+        """The arm with a ball of `mass` [kg] at `com` [m] in the tool's frame, in place of what it carried.
+
+        Raises InputError for a mass or radius [m] that is not positive.
+        """
+        if not (0.0 < mass < math.inf and 0.0 < radius < math.inf and all(map(math.isfinite, com))):
+            raise InputError(
+                f"the payload is {mass} kg, radius {radius} m, at {com} m; expected positive numbers and a "
+                "finite place"
+            )
+        return replace(self, payload=Payload(mass, com, radius))._checked()
+
+    @cached_property
+    def model(self) -> Any:
+        """Pinocchio's model, payload included."""
+        try:
+            model = pin.buildModelFromXML(self.text)
+        except (ValueError, RuntimeError) as error:
+            raise ModelError(f"URDF '{self.source}': Pinocchio refuses it: {error}") from error
+        if model.nq != model.nv or model.nv == 0:
+            raise ModelError(
+                f"URDF '{self.source}': nq = {model.nq} and nv = {model.nv}, expected one number per joint "
+                "and one joint at least; give a 'continuous' joint as 'revolute' with wide limits"
+            )
+        if self.payload is not None:
+            frame = model.frames[frame_index(model, self.tool)]
+            mass, com, radius = self.payload
+            ball = pin.Inertia.FromSphere(mass, radius)
+            ball.lever = np.array(com)
+            model.appendBodyToJoint(frame.parentJoint, ball, frame.placement)
+        model.gravity.linear = np.array([0.0, 0.0, -GRAVITY])
+        return model
+
+    @cached_property
+    def _data(self) -> Any:
+        return self.model.createData()
+
+    @cached_property
+    def joints(self) -> tuple[str, ...]:
+        """Names of q1, ..., qn, from the base outwards."""
+        return tuple(self.model.names)[1:]
+
+    @property
+    def n(self) -> int:
+        """Number of joints; all have motors."""
+        return int(self.model.nv)
+
+    # -- dynamics ----------------------------------------------------------------------------------
+    def inertia(self, q: Array) -> Array:
+        """D(q) (n, n)."""
+        return np.array(pin.crba(self.model, self._data, self._finite(q)))
+
+    def bias(self, q: Array, v: Array) -> Array:
+        """Omega(q, q') (n,)."""
+        x, dx = self._finite(q), self._finite(v)
+        return np.array(pin.nonLinearEffects(self.model, self._data, x, dx))
+
+    def reduction(self, q: Array, v: Array) -> Reduction:
+        """D, Omega, kappa and xi; A_N and a_N are empty."""
+        return reduce(self.inertia(q), self.bias(q, v), self.n)
+
+    def acceleration(self, q: Array, v: Array, force: Array) -> Array:
+        """q'' (n,) under the generalised force u + zeta (n,), by ABA."""
+        x, dx = self._finite(q), self._finite(v)
+        return np.array(pin.aba(self.model, self._data, x, dx, force))
+
+    def kinetic_energy(self, q: Array, v: Array) -> float:
+        """[J]."""
+        return float(pin.computeKineticEnergy(self.model, self._data, self._finite(q), v))
+
+    def potential_energy(self, q: Array) -> float:
+        """[J], zero at the height of the base."""
+        return float(pin.computePotentialEnergy(self.model, self._data, self._finite(q)))
+
+    def tool_position(self, q: Array) -> Array:
+        """(x, y, z) of the tool's frame [m]."""
+        pin.forwardKinematics(self.model, self._data, self._finite(q))
+        frame = frame_index(self.model, self.tool)
+        return np.array(pin.updateFramePlacement(self.model, self._data, frame).translation)
+
+    def _finite(self, q: Array) -> Array:
+        if q.shape != (self.n,):
+            raise InputError(f"expected an array of shape ({self.n},), found {q.shape}")
+        if not math.isfinite(q.dot(q)):
+            raise NotFiniteError(f"expected finite angles or rates, found {q}")
+        return q
+
+    def _checked(self) -> Arm:
+        """Itself, once the tool is there and D is positive definite at random states. Raises ModelError."""
+        frame_index(self.model, self.tool)
+        random = np.random.default_rng(5)
+        for _ in range(4):
+            D = self.inertia(random.uniform(-np.pi, np.pi, self.n))
+            least, most = np.linalg.eigvalsh(D)[[0, -1]] if np.all(np.isfinite(D)) else (0.0, 1.0)
+            if not most * np.finfo(float).eps <= ACCURACY * least:
+                raise ModelError(
+                    f"URDF '{self.source}': D has eigenvalues from {least:.2g} to {most:.2g}, expected "
+                    "positive ones; look for a last link without mass, and for masses far apart"
+                )
+        return self
+
+
+def _strip(root: ET.Element, source: str) -> None:
+    """Take out the <inertial> of links whose mass is written as 0: frames."""
+    for link in root.findall("link"):
+        inertial, where = link.find("inertial"), f"URDF '{source}', link '{link.get('name')}'"
+        mass = None if inertial is None else inertial.find("mass")
+        if inertial is None or mass is None:
+            continue
+        moments = inertial.find("inertia")
+        written = () if moments is None else tuple(moments.attrib)
+        values = [numbers(mass, "value", "", 1, where)[0]]
+        values += [numbers(moments, key, "", 1, where)[0] for key in written]
+        if not any(values):
+            link.remove(inertial)
+
+
+def _effort(joint: ET.Element, source: str) -> float:
+    limit = joint.find("limit")
+    if limit is None or "effort" not in limit.attrib:
+        return math.inf
+    where = f"URDF '{source}', joint '{joint.get('name')}' <limit>"
+    effort = numbers(limit, "effort", "", 1, where)[0]
+    if not effort > 0.0:
+        raise ModelError(
+            f"{where}: effort is {effort:g}, expected a positive number; every joint has a motor"
+        )
+    return effort
+
+
+def _data_folders() -> Iterator[Path]:
+    """Where example-robot-data may lie: below the prefix that its wheel shares with Pinocchio's."""
+    here = (Path(sysconfig.get_path(key)) for key in ("platlib", "purelib"))
+    for place in [*(path / "cmeel.prefix" for path in here), *Path(pin.__file__).parents]:
+        yield place / "share" / "example-robot-data" / "robots"

@@ -1,0 +1,250 @@
+"""Forces on links and band-limited noise: by Pinocchio's frames, by virtual work, by spectra, and compiled."""
+
+from dataclasses import replace
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.passive import Passive
+from biped_adrc.disturbances.hip_force import HipForce
+from biped_adrc.disturbances.link import OnLink
+from biped_adrc.disturbances.noise import TorqueNoise
+from biped_adrc.ground import StepDown, StepUp, uneven_ground
+from biped_adrc.model.pinned import frame_index
+from biped_adrc.model.robots import robot_names
+
+F = (12.0, -7.0, 3.0)  # [N, N, N m]
+PULSE = ba.TorquePulse(F, step=1, start=0.1, stop=0.2)
+WAVES = {
+    "pulse": PULSE,
+    "step": ba.TorqueStep(F, step=1, start=0.1),
+    "sine": ba.TorqueSine(F, start=0.05, stop=0.3, frequency=4.0),
+    "noise": TorqueNoise(F, bandwidth=8.0, seed=2),
+}
+
+
+def links(biped):
+    """Bodies and massless links, without the base."""
+    trunk = biped.description.trunk
+    for link in biped.tree.links:
+        if trunk in [joint.child for joint in biped.tree.path_to_root(link)]:
+            yield link
+
+
+def placement(biped, q, link):
+    """Pinocchio's placement of a link from the stance foot, in the URDF's own frame."""
+    f = biped.floating
+    pin.framesForwardKinematics(f.model, f.data, f.configuration(q))
+    return f.data.oMf[frame_index(f.model, link)].copy()
+
+
+def turned(before, after):
+    """Angle from one placement to the next, counter-clockwise with x to the right and z up [rad]."""
+    return -pin.log3(after.rotation @ before.rotation.T)[1]
+
+
+# -- a force and a moment on a link ----------------------------------------------------------------
+@pytest.mark.parametrize("robot", robot_names())
+def test_the_torque_is_that_of_pinocchios_frame_jacobian(robot):
+    biped = ba.Biped.load(robot)
+    f, random, n = biped.floating, np.random.default_rng(3), biped.n
+    for link in links(biped):
+        at = random.uniform(-0.5, 0.5, 2)
+        push = OnLink(biped, link, ba.TorquePulse(F), tuple(at))
+        for _ in range(4):
+            q, v = random.uniform(-3.0, 3.0, (2, n))
+            x, Z = f.configuration(q), f.velocity_map(q)[:, :n]
+            J = pin.computeFrameJacobian(
+                f.model, f.data, x, frame_index(f.model, link), pin.LOCAL_WORLD_ALIGNED
+            )
+            arm = placement(biped, q, link).rotation @ np.array([at[0], 0.0, at[1]])
+            angular = np.array([0.0, -F[2], 0.0]) + np.cross(arm, [F[0], 0.0, F[1]])
+            expected = (J @ Z).T @ np.array([F[0], 0.0, F[1], *angular])
+            assert push.torque(0.0, 1, 0.0, q, v) == pytest.approx(expected, rel=1e-11, abs=1e-11)
+
+
+@pytest.mark.parametrize("robot", ["rabbit", "three_link"])
+def test_its_power_is_force_times_velocity_and_moment_times_rate(robot):
+    biped, random, d = ba.Biped.load(robot), np.random.default_rng(4), 1e-6
+    for link in links(biped):
+        at = random.uniform(-0.5, 0.5, 2)
+        push = OnLink(biped, link, ba.TorquePulse(F), tuple(at))
+        q, v = random.uniform(-1.0, 1.0, (2, biped.n))
+        one, two = (placement(biped, q + s * d * v, link) for s in (-1.0, 1.0))
+        point = np.array([at[0], 0.0, at[1]])
+        velocity = (two.act(point) - one.act(point))[[0, 2]] / (2.0 * d)
+        power = F[:2] @ velocity + F[2] * turned(one, two) / (2.0 * d)
+        assert push.torque(0.0, 1, 0.0, q, v) @ v == pytest.approx(power, rel=1e-7, abs=1e-7)
+
+
+def test_a_force_at_the_hip_is_a_hip_force(biped):
+    q, v = np.random.default_rng(5).uniform(-1.0, 1.0, (2, 5))
+    hip = HipForce(biped, F[:2])
+    link = OnLink(biped, "torso", ba.TorquePulse((*F[:2], 0.0)))
+    expected = hip.torque(0.0, 1, 0.0, q, v)
+    assert link.torque(0.0, 1, 0.0, q, v) == pytest.approx(expected, abs=1e-12)
+    assert np.array_equal(link.resultant(0.0, 1, 0.0), hip.resultant(0.0, 1, 0.0))
+    (law,) = hip.laws
+    assert law.torque(law.parameters, 0.0, 1, 0.0, q, v) == pytest.approx(expected, abs=1e-12)
+
+
+@pytest.mark.parametrize("robot", ["rabbit", "compass"])
+def test_pure_moments_leave_the_ground_alone_and_forces_do_not(robot):
+    """F_ground + F = m (p_com'' - g), by differences of Pinocchio's COM along the motion."""
+    biped = ba.Biped.load(robot)
+    random, d, n = np.random.default_rng(6), 1e-4, biped.n
+    q, v = random.uniform(-0.5, 0.5, (2, n))
+    link = next(links(biped))
+    for f in (F, (0.0, 0.0, F[2])):
+        push = OnLink(biped, link, ba.TorquePulse(f), (0.0, 0.2))
+        walker = ba.Walker(biped, Passive(), push)
+        i = walker.instant(0.0, walker.initial_state(q, v), ba.Mode())
+        coms = [biped.pinned.centre_of_mass(q + s * v + 0.5 * s * s * i.a)[0] for s in (-d, 0.0, d)]
+        com = (coms[0] - 2.0 * coms[1] + coms[2]) / d**2
+        expected = biped.mass * (com + np.array([0.0, biped.description.gravity])) - f[:2]
+        found = walker.ground_reaction(i, ba.Mode())
+        assert found == pytest.approx(expected, rel=1e-5, abs=1e-4 * biped.weight)
+
+
+@pytest.mark.parametrize("name", list(WAVES))
+def test_compiled_walks_under_forces_are_the_python_engines(biped, gait, name):
+    push = OnLink(biped, "right_shin", WAVES[name], (0.02, 0.3))
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), push)
+    slow, fast = (
+        ba.walk(walker, gait, 1, ba.RK4(5e-3), engine=engine).trajectory
+        for engine in ("pinocchio", "compiled")
+    )
+    free = replace(walker, disturbance=None)
+    free = ba.walk(free, gait, 1, ba.RK4(5e-3), engine="compiled").trajectory
+    assert fast.settings["engine"] == "compiled"
+    a, b, c = (x.before("foot_strike")[:, :10] for x in (slow, fast, free))
+    assert np.max(np.abs(a - b)) < 1e-9
+    assert np.max(np.abs(b - c)) > 1e-4
+
+
+def test_a_wave_of_ones_own_has_no_law_and_acts_all_the_same(biped):
+    class Ramp(ba.TorquePulse):
+        """A torque that grows."""
+
+        laws = None
+
+        def torque(self, t, step, t_start, q, v):
+            return t * super().torque(t, step, t_start, q, v)
+
+    push, q = OnLink(biped, "torso", Ramp(F)), np.full(5, 0.2)
+    assert push.laws is None
+    one, two = (push.torque(t, 1, 0.0, q, q) for t in (1.0, 2.0))
+    assert np.array_equal(2.0 * one, two)
+    assert np.any(one)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("arm", PULSE), r"no link 'arm'; it has \['torso', 'left_thigh'"),
+        (("base_x_carriage", PULSE), "above the trunk 'torso'"),
+        (("torso", ba.TorquePulse([1.0] * 5)), "expected three numbers"),
+        (("torso", PULSE + PULSE), "is a Sum"),
+        (("torso", PULSE, (np.nan, 0.0)), "two finite numbers"),
+        (("torso", PULSE, (1.0,)), "two finite numbers"),
+    ],
+)
+def test_bad_places(biped, arguments, message):
+    with pytest.raises(ba.BipedError, match=message):
+        OnLink(biped, *arguments)
+
+
+# -- noise -----------------------------------------------------------------------------------------
+def sampled(noise, T, h):
+    q = np.zeros(len(noise.amplitude))
+    return np.array([noise.torque(h * k, 1, 0.0, q, q) for k in range(int(T / h))])
+
+
+def test_noise_has_its_power_evenly_below_its_bandwidth_and_none_above():
+    noise = TorqueNoise([2.0, 0.5], bandwidth=10.0, seed=7)
+    h, T = 1.0 / 64.0, 64.0
+    x = sampled(noise, T, h)
+    np.testing.assert_allclose(np.sqrt(np.mean(x**2, axis=0)), noise.amplitude, rtol=0.05)
+    window = np.hanning(len(x))[:, np.newaxis]
+    power = np.abs(np.fft.rfft(x * window, axis=0)) ** 2
+    f = np.fft.rfftfreq(len(x), h)
+    share = [np.sum(power[(f >= a) & (f < b)], axis=0) for a, b in ((0, 5), (5, 10.1), (10.1, 32))]
+    np.testing.assert_allclose(share[0], share[1], rtol=0.3)
+    assert np.all(share[2] < 1e-6 * share[0])
+    assert abs(np.corrcoef(x.T)[0, 1]) < 0.2
+
+
+def test_noise_repeats_by_its_seed_only():
+    q = np.zeros(3)
+    kept = [
+        TorqueNoise([1.0] * 3, bandwidth=5.0, seed=seed).torque(0.3, 1, 0.0, q, q)
+        for seed in (1, 1, 2)
+    ]
+    assert np.array_equal(kept[0], kept[1])
+    assert not np.any(kept[0] == kept[2])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"bandwidth": 0.0, "seed": 1}, "bandwidth is 0.0 Hz"),
+        ({"bandwidth": np.nan, "seed": 1}, "bandwidth is nan Hz"),
+        ({"bandwidth": 1.0, "seed": -1}, "seed is -1"),
+        ({"bandwidth": 1.0, "seed": 1.5}, "seed is 1.5"),
+        ({"bandwidth": 1.0, "seed": 1, "sines": 0}, "sines is 0"),
+    ],
+)
+def test_bad_noise(arguments, message):
+    with pytest.raises(ba.BipedError, match=message):
+        TorqueNoise([1.0, 2.0], **arguments)
+
+
+# -- uneven ground ---------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    "ground", [(StepUp(2, 0.01), StepDown(3, 0.01)), uneven_ground(2, 4e-3, 4)]
+)
+@pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
+def test_the_foot_strikes_the_ground_where_it_is(bare, published, ground, engine):
+    law = ba.ReferenceReset(ba.NPDController(ba.continued(published.constraint)))
+    walker = ba.Walker(bare, law, ground_steps=ground)
+    walk = ba.walk(walker, published, 5, ba.RK4(2e-3), engine=engine)
+    assert walk.trajectory.status.ok
+    feet = [bare.swing_foot(e.x_minus[:5]) for e in walk.trajectory.events("foot_strike")]
+    expected = [-sum(g.drop for g in ground if g.step == step) for step in range(1, 6)]
+    np.testing.assert_allclose([z for _, z in feet], expected, atol=1e-11)
+    assert min(x for x, _ in feet) > 0.2
+    heights = walk.signals.foothold_height
+    assert np.max(np.abs(heights)) > 3e-3
+    for arc, event in zip(walk.trajectory.arcs, walk.trajectory.events("foot_strike"), strict=True):
+        swing = np.array([bare.swing_foot(x[:5])[1] for x in arc.x])
+        below = arc.t[swing < -walker.drop(arc.mode.step) - 1e-9]
+        later = below[below > arc.t[np.argmax(swing)]]
+        assert len(later) == 0, event.t
+
+
+def test_uneven_ground_has_heights_of_mean_zero_and_the_rms():
+    drops = np.zeros((400, 30))
+    for seed in range(400):
+        for g in uneven_ground(seed, 0.01, 30):
+            drops[seed, g.step - 1] = g.drop
+    heights = -np.cumsum(drops, axis=1)
+    assert abs(heights.mean()) < 3e-4
+    np.testing.assert_allclose(np.sqrt(np.mean(heights**2, axis=0)), 0.01, rtol=0.15)
+    assert abs(np.corrcoef(heights[:, :-1].ravel(), heights[:, 1:].ravel())[0, 1]) < 0.05
+    assert uneven_ground(1, 0.0, 30) == ()
+    assert uneven_ground(3, 0.01, 8) == uneven_ground(3, 0.01, 8)
+
+
+def test_bad_ground():
+    for make, message in (
+        (lambda: StepUp(0, 0.01), "step up is in single support 0"),
+        (lambda: StepUp(1, -0.01), "step up is -0.01 m high.*StepDown"),
+        (lambda: StepDown(1, -0.01), "step down is -0.01 m high.*StepUp"),
+        (lambda: uneven_ground(1, -1.0, 3), "rms of uneven ground is -1"),
+        (lambda: uneven_ground(-1, 0.1, 3), "seed of uneven ground is -1"),
+        (lambda: uneven_ground(1, 0.1, -3), "number of steps of uneven ground is -3"),
+    ):
+        with pytest.raises(ba.BipedError, match=message):
+            make()

@@ -1,0 +1,171 @@
+"""Model errors: what they change by the energies they imply, what they leave, and what is refused."""
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.errors import InputError, ModelError
+from biped_adrc.model.errors import ModelErrors, impact_error
+from biped_adrc.model.own_checks import checks
+from biped_adrc.model.robots import robot_names
+
+ERRORS = ModelErrors(
+    mass={"torso": 0.2, "shin": -0.1}, com={"thigh": 0.3}, inertia={"shin": 0.5, "torso": -0.2}
+)
+
+
+def test_the_energies_are_those_of_the_bodies_one_by_one(biped):
+    """T and V summed over links from positions by differences, with the parameters asked for."""
+    wrong, d = ERRORS.apply(biped), 1e-6
+    random = np.random.default_rng(1)
+    factors = {"torso": (1.2, 1.0, 0.8), "thigh": (1.0, 1.3, 1.0), "shin": (0.9, 1.0, 1.5)}
+    bodies = biped.description.presets[biped.preset].bodies
+    q, v = random.uniform(-1.0, 1.0, (2, 5))
+    T = V = 0.0
+    rates = biped.pinned.bodies()[2] @ v
+    # links hang from the stance foot: shin, thigh, torso, swing thigh, swing shin
+    for name, rate, (root, s) in zip(
+        ("shin", "thigh", "torso", "thigh", "shin"), rates, ROOTS, strict=True
+    ):
+        m, c, J = (f * x for f, x in zip(factors[name], vars(bodies[name]).values(), strict=True))
+
+        def com(x, root=root, s=s, c=c):
+            a = biped.pinned.bodies()[2] @ x
+            ups = np.array([-np.sin(a), np.cos(a)]).T
+            return sum(k * ups[i] for i, k in root) + c * ups[s]
+
+        velocity = (com(q + d * v) - com(q - d * v)) / (2.0 * d)
+        T += 0.5 * m * velocity @ velocity + 0.5 * J * rate**2
+        V += m * biped.description.gravity * com(q)[1]
+    T += 0.5 * biped.armature * v[:4] @ v[:4]
+    assert wrong.kinetic_energy(q, v) == pytest.approx(T, rel=1e-8)
+    assert wrong.potential_energy(q) == pytest.approx(V, rel=1e-12)
+
+
+L = 0.4  # [m], thigh and shin
+STANCE = [(0, -L), (1, -L)]  # from the foot to the hip, against the links' own direction
+ROOTS = [
+    (STANCE[:1], 0),
+    (STANCE, 1),
+    (STANCE, 2),
+    (STANCE, 3),
+    ([*STANCE, (3, L)], 4),
+]
+
+
+@pytest.mark.parametrize("robot", robot_names())
+def test_drawn_errors_leave_a_physical_robot_with_the_same_geometry(robot):
+    biped = ba.Biped.load(robot)
+    q = np.random.default_rng(2).uniform(-1.0, 1.0, biped.n)
+    masses = []
+    for seed in range(5):
+        errors = ModelErrors.drawn(biped, seed)
+        wrong = errors.apply(biped)
+        broken = [check.law for check in checks(wrong) if not check.ok]
+        assert broken == [check.law for check in checks(biped) if not check.ok], seed
+        assert not broken or robot == "rimless_wheel", "whose legs are spokes of one body"
+        assert np.array_equal(wrong.swing_foot(q), biped.swing_foot(q))
+        assert np.array_equal(
+            ModelErrors.drawn(biped, seed).apply(biped).inertia(q), wrong.inertia(q)
+        )
+        assert 0.9 <= wrong.mass / biped.mass <= 1.1
+        masses.append(wrong.mass)
+    assert len(set(masses)) == 5
+
+
+def test_drawn_errors_fill_their_width_evenly(biped):
+    many = [ModelErrors.drawn(biped, seed, mass=0.2, com=0.0) for seed in range(300)]
+    e = np.array([list(errors.mass.values()) for errors in many])
+    assert e.shape == (300, 3)
+    assert np.max(np.abs(e)) <= 0.2
+    np.testing.assert_allclose(e.mean(axis=0), 0.0, atol=0.03)
+    np.testing.assert_allclose(e.std(axis=0), 0.2 / np.sqrt(3.0), rtol=0.1)
+    assert not any(any(errors.com.values()) for errors in many)
+    assert abs(np.corrcoef(e.T)[0, 1]) < 0.2
+    one = ModelErrors.drawn(biped, 1, links=("shin",))
+    assert (list(one.mass), list(one.com), list(one.inertia)) == (["shin"],) * 3
+
+
+def test_friction_errors_scale_friction_and_are_the_same_in_both_legs():
+    rubbing = ba.Biped.load("rabbit", friction=True)
+    errors = ModelErrors.drawn(rubbing, 4)
+    assert errors.friction["left_knee"] == errors.friction["right_knee"] != 0.0
+    v = np.array([1.0, -2.0, 0.01, 3.0, 1.0])
+    scale = [1.0 + errors.friction.get(name, 0.0) for name in rubbing.description.joints]
+    expected = np.array(scale) * rubbing.friction_torque(v)
+    assert errors.apply(rubbing).friction_torque(v) == pytest.approx(expected, rel=1e-14)
+    assert not ModelErrors.drawn(ba.Biped.load("rabbit"), 4).friction
+    without = ModelErrors(friction=dict.fromkeys(errors.friction, -1.0)).apply(rubbing)
+    assert not np.any(without.friction_torque(v))
+
+
+def test_a_wrong_plant_walks_compiled_as_in_python(bare, published):
+    wrong = ModelErrors.drawn(bare, 7, mass=0.05, com=0.05, inertia=0.05).apply(bare)
+    walker = ba.Walker(wrong, ba.NPDController(published.constraint), model=bare)
+    slow, fast = (
+        ba.walk(walker, published, 1, ba.RK4(5e-3), engine=engine).trajectory
+        for engine in ("pinocchio", "compiled")
+    )
+    assert fast.settings["engine"] == "compiled"
+    x, y = slow.arcs[0].event, fast.arcs[0].event
+    assert np.max(np.abs(x.x_minus - y.x_minus)) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("errors", "message"),
+    [
+        ({"mass": {"torso": -1.0}}, "mass of 'torso' is -1"),
+        ({"mass": {"torso": np.nan}}, "mass of 'torso' is nan"),
+        ({"inertia": {"shin": -1.5}}, "inertia of 'shin' is -1.5"),
+        ({"com": {"shin": np.inf}}, "com of 'shin' is inf"),
+        ({"friction": {"left_knee": -1.1}}, "friction of 'left_knee' is -1.1"),
+    ],
+)
+def test_errors_that_leave_nothing(errors, message):
+    with pytest.raises(InputError, match=message):
+        ModelErrors(**errors)
+
+
+@pytest.mark.parametrize(
+    ("errors", "message"),
+    [
+        ({"mass": {"arm": 0.1}}, "no body 'arm'; it has"),
+        ({"mass": {"left_foot": 0.1}}, "link 'left_foot' has no mass"),
+        ({"mass": {"left_shin": 0.1}}, "legs differ in mass"),
+        ({"com": {"left_shin": 0.1}}, "legs differ in mass"),
+        ({"mass": {"torso": 1e308}}, "mass inf"),
+        ({"friction": {"left_knee": 0.1, "right_knee": 0.2}}, "the same error of friction"),
+        ({"friction": {"left_knee": 0.1}}, "the same error of friction"),
+        ({"friction": {"torso_pitch": 0.1}}, "no friction in joint 'torso_pitch'"),
+    ],
+)
+def test_errors_that_do_not_fit_the_robot(errors, message):
+    with pytest.raises(ModelError, match=message):
+        ModelErrors(**errors).apply(ba.Biped.load("rabbit", friction=True))
+
+
+def test_friction_that_is_not_there(biped):
+    with pytest.raises(ModelError, match="load it with friction=True"):
+        ModelErrors(friction={"left_knee": 0.1, "right_knee": 0.1}).apply(biped)
+
+
+def test_bad_draws(biped):
+    for arguments, message in (
+        ({"mass": 1.0}, "errors of mass is 1.0"),
+        ({"com": -0.1}, "errors of com is -0.1"),
+        ({"inertia": np.nan}, "errors of inertia is nan"),
+    ):
+        with pytest.raises(InputError, match=message):
+            ModelErrors.drawn(biped, 1, **arguments)
+    with pytest.raises(InputError, match="seed of model errors is -1"):
+        ModelErrors.drawn(biped, -1)
+
+
+def test_impact_errors():
+    e = np.array([impact_error(seed, 0.1, 5) for seed in range(200)])
+    assert np.array_equal(e[3], impact_error(3, 0.1, 5))
+    assert np.max(np.abs(e)) <= 0.1
+    np.testing.assert_allclose(e.std(axis=0), 0.1 / np.sqrt(3.0), rtol=0.15)
+    for spread in (-0.1, 1.0, np.nan):
+        with pytest.raises(InputError, match="spread of impact errors"):
+            impact_error(1, spread, 5)
