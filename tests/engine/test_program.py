@@ -141,7 +141,7 @@ def check_walker(walker, gait, count):
         seen = [walker.clearance(q), walker.plant.swing_foot(q)[0], walker.plant.hip(q)[1]]
         close(call["watch"](q), np.array(seen))
         if walker.sampled:
-            close(call["tick"](0.1, 3.0, 0.05, x, zeta), pushed._tick(0.1, x, mode))
+            close(call["tick"](0.1, 3.0, 0.05, x, zeta), pushed.tick(0.1, x, mode))
         struck = walker.strike(0.1, x, Mode(2, 0.0))
         if struck is not None:
             close(call["strike"](0.1, 3.0, x), struck[0])
