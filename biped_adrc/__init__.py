@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from biped_adrc.analysis.stride_gain import stride_response
     from biped_adrc.analysis.to_ss import to_ss
     from biped_adrc.analysis.zero_report import zero_report
+    from biped_adrc.arm import ArmSystem
     from biped_adrc.control.adrc import ADRCController
     from biped_adrc.control.base import Controller, ControllerLaws, Measurement
     from biped_adrc.control.finite_time import FiniteTimeController
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     from biped_adrc.control.tracking import TABLE_II, Gains
     from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw
     from biped_adrc.disturbances.hip_force import HipForce
+    from biped_adrc.disturbances.link import OnLink
+    from biped_adrc.disturbances.noise import TorqueNoise
     from biped_adrc.disturbances.pulse import TorquePulse
     from biped_adrc.disturbances.sine import TorqueSine
     from biped_adrc.disturbances.step import TorqueStep
@@ -40,13 +43,17 @@ if TYPE_CHECKING:
     from biped_adrc.gait.reference import Reference, TimeReference
     from biped_adrc.gait.zero_dynamics import ZeroDynamics
     from biped_adrc.gait.zero_orbits import ZeroOrbits
-    from biped_adrc.ground import StepDown
+    from biped_adrc.ground import StepDown, StepUp, uneven_ground
+    from biped_adrc.hardware.motors import Motors
+    from biped_adrc.hardware.sensors import Sensors
     from biped_adrc.hybrid.exponential import Exponential
     from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
     from biped_adrc.hybrid.simulator import simulate
     from biped_adrc.hybrid.status import Status
     from biped_adrc.hybrid.trajectory import Trajectory
+    from biped_adrc.model.arm import Arm
     from biped_adrc.model.biped import Biped
+    from biped_adrc.model.errors import ModelErrors
     from biped_adrc.model.own import biped_from_urdf
     from biped_adrc.observers.base import Observer, ResetPolicy
     from biped_adrc.observers.gpi import TABLE_I, GPIObserver
@@ -64,6 +71,8 @@ __version__ = "0.1.0"
 _HOMES = {
     "ADRCController": "control.adrc",
     "Adaptive": "hybrid.integrators",
+    "Arm": "model.arm",
+    "ArmSystem": "arm",
     "Biped": "model.biped",
     "BipedError": "errors",
     "Case": "engine.batch",
@@ -85,8 +94,11 @@ _HOMES = {
     "LinearOutputs": "gait.outputs",
     "Measurement": "control.base",
     "Mode": "walker",
+    "ModelErrors": "model.errors",
+    "Motors": "hardware.motors",
     "NPDController": "control.npd",
     "Observer": "observers.base",
+    "OnLink": "disturbances.link",
     "OutputNPDController": "control.output_npd",
     "Outputs": "gait.outputs",
     "Passive": "control.passive",
@@ -97,15 +109,18 @@ _HOMES = {
     "ResetPolicy": "observers.base",
     "ReturnMap": "analysis.return_map",
     "SampledTime": "timing",
+    "Sensors": "hardware.sensors",
     "Status": "hybrid.status",
     "StepDown": "ground",
     "StepLimits": "gait.design.request",
+    "StepUp": "ground",
     "Stiff": "hybrid.integrators",
     "StrideGains": "control.stride",
     "StridePI": "control.stride",
     "TABLE_I": "observers.gpi",
     "TABLE_II": "control.tracking",
     "TimeReference": "gait.reference",
+    "TorqueNoise": "disturbances.noise",
     "TorquePulse": "disturbances.pulse",
     "TorqueSine": "disturbances.sine",
     "TorqueStep": "disturbances.step",
@@ -130,6 +145,7 @@ _HOMES = {
     "simulate_many": "engine.batch",
     "stride_response": "analysis.stride_gain",
     "to_ss": "analysis.to_ss",
+    "uneven_ground": "ground",
     "walk": "studies.walk",
     "zero_report": "analysis.zero_report",
 }
@@ -140,6 +156,8 @@ __all__ = [
     "TABLE_II",
     "ADRCController",
     "Adaptive",
+    "Arm",
+    "ArmSystem",
     "Biped",
     "BipedError",
     "Case",
@@ -161,8 +179,11 @@ __all__ = [
     "LinearOutputs",
     "Measurement",
     "Mode",
+    "ModelErrors",
+    "Motors",
     "NPDController",
     "Observer",
+    "OnLink",
     "OutputNPDController",
     "Outputs",
     "Passive",
@@ -172,13 +193,16 @@ __all__ = [
     "ResetPolicy",
     "ReturnMap",
     "SampledTime",
+    "Sensors",
     "Status",
     "StepDown",
     "StepLimits",
+    "StepUp",
     "Stiff",
     "StrideGains",
     "StridePI",
     "TimeReference",
+    "TorqueNoise",
     "TorquePulse",
     "TorqueSine",
     "TorqueStep",
@@ -203,6 +227,7 @@ __all__ = [
     "simulate_many",
     "stride_response",
     "to_ss",
+    "uneven_ground",
     "walk",
     "zero_report",
 ]

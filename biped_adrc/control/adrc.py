@@ -9,7 +9,7 @@ xi^ lumps model error and external torques into one signal per joint; the nomina
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Generic, NamedTuple, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from biped_adrc.control.base import Controller, ControllerLaws, Measurement, measured
 from biped_adrc.control.tracking import (
@@ -31,6 +31,7 @@ from biped_adrc.observers.gpi_sampled import (
     gpi_correct,
     gpi_predict,
 )
+from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.types import Array
 
 _K = TypeVar("_K", bound=Chain)
@@ -85,7 +86,22 @@ def adrc_estimate(k: ADRCParameters[Chain], s: Array, m: Measurement) -> Estimat
     return chain_estimate(k.observer, rows(k.observer, s))
 
 
-_GPI = (GPIObserver, SampledGPIObserver)
+_GPI = (GPIObserver, HighGainObserver, SampledGPIObserver)
+
+
+def has_gpi_laws(observer: Observer) -> bool:
+    """Whether the laws `gpi_...` are the observer's."""
+    return type(observer) in _GPI
+
+
+def gpi_parameters(observer: Observer) -> Any:
+    """What the laws `gpi_...` need. Raises InputError for an observer that is no GPI observer."""
+    if not has_gpi_laws(observer) or observer.laws is None:
+        raise InputError(
+            f"the laws of ADRC are written for a GPI observer, found {type(observer).__name__}; "
+            "call the controller's methods instead"
+        )
+    return observer.laws.parameters
 
 
 @dataclass(frozen=True)
@@ -122,22 +138,14 @@ class ADRCController(Controller):
         return self.observer.reset(s, self.reset, swap, after.q_b, after.v_b, after.terms.xi)
 
     @property
-    def parameters(self) -> ADRCParameters[GPIParameters] | ADRCParameters[SampledGPIParameters]:
+    def parameters(self) -> ADRCParameters[Any]:
         """What the laws `adrc_...` need. Raises InputError for a reference or an observer without a law."""
         h, gains = constraint_parameters(self.reference), self.gains.parameters(self.solve_theta)
-        if type(self.observer) is GPIObserver:
-            return ADRCParameters(h, gains, self.observer.parameters, self.reset.code)
-        if type(self.observer) is SampledGPIObserver:
-            return ADRCParameters(h, gains, self.observer.parameters, self.reset.code)
-        raise InputError(
-            f"the laws of ADRC are written for a GPI observer, found {type(self.observer).__name__}; "
-            "call the controller's methods instead"
-        )
+        return ADRCParameters(h, gains, gpi_parameters(self.observer), self.reset.code)
 
     @property
     def laws(self) -> ControllerLaws | None:
-        kind = type(self.observer)
-        if type(self.reference) is not VirtualConstraint or kind not in _GPI:
+        if type(self.reference) is not VirtualConstraint or not has_gpi_laws(self.observer):
             return None
         laws = ControllerLaws(
             self.parameters,
@@ -146,9 +154,9 @@ class ADRCController(Controller):
             jump=adrc_jump,
             estimate=adrc_estimate,
         )
-        if kind is GPIObserver:
-            return laws._replace(flow=adrc_flow)
-        return laws._replace(correct=adrc_correct, predict=adrc_predict)
+        if type(self.observer) is SampledGPIObserver:
+            return laws._replace(correct=adrc_correct, predict=adrc_predict)
+        return laws._replace(flow=adrc_flow)
 
     def sampled(self, period: float) -> ADRCController:
         return replace(self, observer=self.observer.sampled(period))

@@ -65,6 +65,11 @@ class OuterLoop(Controller):
     def _acting(self, w: Array) -> Controller:
         return with_correction(self.inner, self.correction(w))
 
+    @property
+    def needs_body(self) -> bool:  # type: ignore[override]
+        """As the inner controller."""
+        return self.inner.needs_body
+
     # -- what a controller does ------------------------------------------------------------------
     def output(self, s: Array, m: Measurement) -> Array:
         z, w = self.parts(s)
@@ -72,7 +77,9 @@ class OuterLoop(Controller):
 
     def initial_state(self, m: Measurement) -> Array:
         z = self.inner.initial_state(m)
-        return np.concatenate((z, self.own_start(reference_in_force(self.inner, z), m)))
+        s = np.concatenate((z, self.own_start(reference_in_force(self.inner, z), m)))
+        core = innermost(self, s)
+        return np.concatenate((core.initial_state(m), s[core_size(self, s) :]))
 
     def flow(self, s: Array, m: Measurement, u: Array) -> Array:
         z, w = self.parts(s)
@@ -90,7 +97,9 @@ class OuterLoop(Controller):
     def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
         z, w = self.parts(s)
         z = self.inner.jump(z, after, swap)
-        return np.concatenate((z, self.own_jump(w, reference_in_force(self.inner, z), after)))
+        made = np.concatenate((z, self.own_jump(w, reference_in_force(self.inner, z), after)))
+        end, core = core_size(self, s), innermost(self, made)
+        return np.concatenate((core.jump(s[:end], after, swap), made[end:]))
 
     def sampled(self, period: float) -> OuterLoop:
         return replace(self, inner=self.inner.sampled(period))
@@ -131,6 +140,28 @@ def reference_in_force(controller: Controller, s: Array) -> Constraint:
         )
     h: Constraint = getattr(controller, "reference", None) or tracked_constraint(controller)
     return h
+
+
+def core_size(controller: Controller, s: Array) -> int:
+    """Numbers of s that are the state of the controller inside all outer loops."""
+    size = len(s)
+    while isinstance(controller, OuterLoop):
+        size, controller = size - controller.own_size, controller.inner
+    return size
+
+
+def innermost(loop: OuterLoop, s: Array) -> Controller:
+    """The controller inside all outer loops, tracking what is in force in the state s.
+
+    An observer of outputs starts from the error of that, not of h alone.
+    """
+    core: Controller = loop
+    while isinstance(core, OuterLoop):
+        core = core.inner
+    if not hasattr(core, "reference"):
+        return core
+    made: Controller = replace(core, reference=reference_in_force(loop, s))  # type: ignore[type-var]
+    return made
 
 
 def with_correction(controller: Controller, correction: Correction) -> Controller:

@@ -9,8 +9,12 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.base import Controller
+from biped_adrc.control.clf_qp import CLFQPController
 from biped_adrc.control.finite_time import FiniteTimeController
+from biped_adrc.control.momentum_dob import MomentumDOBController
+from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.output_npd import OutputNPDController
+from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI
 from biped_adrc.disturbances.base import Disturbance, Sum
@@ -21,6 +25,12 @@ from biped_adrc.gait.outputs import LinearOutputs
 from biped_adrc.observers.base import Observer
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.gpi_sampled import SampledGPIObserver
+from biped_adrc.observers.high_gain import HighGainObserver
+from biped_adrc.observers.momentum import (
+    MomentumChain,
+    MomentumObserver,
+    SampledMomentumObserver,
+)
 
 PULSE = ba.TorquePulse([1.0, 2.0, 3.0, 4.0, 5.0], step=2, start=0.1, stop=0.2)
 DISTURBANCES = [
@@ -36,6 +46,10 @@ OBSERVERS = [
     GPIObserver.from_poles(),
     GPIObserver.from_bandwidth(300.0, 0),
     GPIObserver.from_poles().sampled(1e-3),
+    HighGainObserver.from_epsilon(0.002),
+    HighGainObserver.from_epsilon(0.002, m=2).sampled(1e-3),
+    MomentumObserver.from_bandwidth(200.0),
+    MomentumObserver.from_bandwidth(200.0, 4).sampled(1e-3),
 ]
 CONTROLLERS = {
     ba.NPDController: lambda c: ba.NPDController(c),
@@ -47,6 +61,10 @@ CONTROLLERS = {
     ),
     OutputNPDController: lambda c: OutputNPDController(LinearOutputs(np.eye(4, 5), c)),
     FiniteTimeController: lambda c: FiniteTimeController(LinearOutputs(np.eye(4, 5), c), 0.9, 0.02),
+    PDGravityController: lambda c: PDGravityController(c),
+    OutputADRCController: lambda c: OutputADRCController(c),
+    MomentumDOBController: lambda c: MomentumDOBController(c),
+    CLFQPController: lambda c: CLFQPController(c),
 }
 
 
@@ -71,9 +89,12 @@ def leaves(base, package):
 def test_every_leaf_is_listed():
     assert leaves(Disturbance, "disturbances") == {type(d) for d in DISTURBANCES}
     assert leaves(Controller, "control") == set(CONTROLLERS)
-    assert {type(o) for o in OBSERVERS} == {GPIObserver, SampledGPIObserver}
-    chains = {cls for cls in leaves(Observer, "observers") if cls.__name__ != "ChainObserver"}
-    assert chains == {GPIObserver, SampledGPIObserver}
+    found = {cls for cls in leaves(Observer, "observers") if cls.__name__ != "ChainObserver"}
+    assert found == {type(o) for o in OBSERVERS}
+    assert found == {
+        *(GPIObserver, SampledGPIObserver, HighGainObserver),
+        *(MomentumObserver, SampledMomentumObserver),
+    }
 
 
 @pytest.mark.parametrize("d", DISTURBANCES, ids=lambda d: type(d).__name__)
@@ -122,16 +143,18 @@ def test_bad_windows(kind):
         ba.TorqueStep([1.0] * 5, stop=1.0)
 
 
-@pytest.mark.parametrize("observer", OBSERVERS, ids=lambda o: f"{type(o).__name__} m={o.m}")
+@pytest.mark.parametrize("observer", OBSERVERS, ids=lambda o: f"{type(o).__name__} {o.order}")
 def test_observers(observer):
     y, dy, xi = np.linspace(0, 1, 4), np.linspace(1, 2, 4), np.linspace(-3, 3, 4)
     z = observer.initial_state(y, dy, xi)
     found = observer.estimate(z)
     assert found.position == pytest.approx(y)
-    assert found.velocity == pytest.approx(dy)
-    assert found.disturbance == pytest.approx(xi if observer.m > 0 else np.zeros(4))
+    momentum = isinstance(observer, MomentumChain)
+    assert found.velocity == pytest.approx(np.zeros(4) if momentum else dy)
+    has_xi = momentum or observer.m > 0
+    assert found.disturbance == pytest.approx(xi if has_xi else np.zeros(4))
     kept = z.copy()
-    if isinstance(observer, SampledGPIObserver):
+    if isinstance(observer, SampledGPIObserver | SampledMomentumObserver):
         results = [observer.correct(z, y), observer.predict(z, xi)]
         with pytest.raises(ba.BipedError, match="sampled time only"):
             observer.flow(z, y, xi)

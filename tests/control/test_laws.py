@@ -9,7 +9,10 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.base import Controller
 from biped_adrc.control.finite_time import psi
+from biped_adrc.control.momentum_dob import MomentumDOBController
+from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.passive import Passive
+from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.control.reference_reset import ReferenceReset, reset_polynomial, reset_start
 from biped_adrc.control.stride import (
     TORSO_LEAN,
@@ -23,10 +26,12 @@ from biped_adrc.disturbances.hip_force import HipForce, hip_force, hip_torque
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.noise import TorqueNoise
 from biped_adrc.gait.corrected import continued
-from biped_adrc.linear import solve
+from biped_adrc.linear import solve, solve_positive
 from biped_adrc.observers.base import Estimate, Observer
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.gpi_sampled import SampledGPIObserver
+from biped_adrc.observers.high_gain import HighGainObserver
+from biped_adrc.observers.momentum import MomentumObserver, SampledMomentumObserver
 from biped_adrc.walker import Mode
 
 numba = pytest.importorskip("numba")
@@ -43,7 +48,7 @@ def _solve(A, B, what):
     return np.linalg.solve(A, B)
 
 
-COMPILED[solve] = _solve
+COMPILED[solve] = COMPILED[solve_positive] = _solve
 
 
 def compiled(law):
@@ -77,13 +82,17 @@ def measurements(biped, gait, count=5):
     q, v = gait.start(biped)
     for _ in range(count):
         x = q + 0.05 * random.normal(size=5), v + 0.5 * random.normal(size=5)
-        yield walker.measure(0.1, *x, Mode()), random
+        m = walker.measure(0.1, *x, Mode())
+        yield m._replace(body=biped.body_terms(*x)), random
 
 
 CONTROLLERS = {
     "NPD": lambda c: ba.NPDController(c),
     "ADRC": lambda c: ba.ADRCController(c),
     "passive": lambda c: Passive(),
+    "PD with gravity": lambda c: PDGravityController(c),
+    "ADRC, outputs": lambda c: OutputADRCController(c),
+    "momentum observer": lambda c: MomentumDOBController(c),
 }
 
 
@@ -108,11 +117,12 @@ def test_controllers(biped, gait, name):
 
 
 @pytest.mark.parametrize("policy", ba.ResetPolicy)
-def test_what_the_impact_does_to_an_observer(biped, gait, policy):
-    controller = ba.ADRCController(gait.constraint, reset=policy)
+@pytest.mark.parametrize("kind", [ba.ADRCController, OutputADRCController, MomentumDOBController])
+def test_what_the_impact_does_to_an_observer(biped, gait, kind, policy):
+    controller = kind(gait.constraint, reset=policy)
     laws = controller.laws
     for m, random in measurements(biped, gait, 3):
-        s = random.normal(size=36)
+        s = random.normal(size=len(controller.initial_state(m)))
         expected = agree(laws.jump, laws.parameters, s, m, SWAP)
         assert np.array_equal(expected, controller.jump(s, m, SWAP))
 
@@ -123,8 +133,11 @@ def test_what_the_impact_does_to_an_observer(biped, gait, policy):
         GPIObserver.from_poles(),
         GPIObserver.from_poles().sampled(1e-3),
         GPIObserver.from_bandwidth(9.0, 0),
+        HighGainObserver.from_epsilon(0.002),
+        MomentumObserver.from_bandwidth(9.0, 3),
+        MomentumObserver.from_bandwidth(9.0).sampled(1e-3),
     ],
-    ids=["continuous", "discrete", "m = 0"],
+    ids=["continuous", "discrete", "m = 0", "high gain", "momentum", "momentum, discrete"],
 )
 def test_observers(observer):
     laws, random = observer.laws, np.random.default_rng(4)
@@ -142,7 +155,7 @@ def test_observers(observer):
         if getattr(laws, law):
             expected = agree(getattr(laws, law), k, Z, *rest)
             assert np.array_equal(expected.ravel(), getattr(observer, law)(z, *rest))
-    sampled = isinstance(observer, SampledGPIObserver)
+    sampled = isinstance(observer, SampledGPIObserver | SampledMomentumObserver)
     assert (laws.flow is None, laws.correct is None, laws.predict is None) == (
         sampled,
         not sampled,
@@ -244,6 +257,8 @@ def test_every_class_with_laws_is_tested_here():
     }
     assert found == {
         *("NPDController", "ADRCController", "Passive", "GPIObserver", "SampledGPIObserver"),
+        *("PDGravityController", "OutputADRCController", "MomentumDOBController"),
+        *("HighGainObserver", "MomentumObserver", "SampledMomentumObserver"),
         *("TorquePulse", "TorqueStep", "TorqueSine", "TorqueNoise", "OnLink", "HipForce", "Sum"),
     }
 

@@ -1,0 +1,194 @@
+"""A control Lyapunov function in a quadratic program, with limits on torque and ground force.
+
+    y = q_b - q_d,   y'' = mu,   eta = (y / eps, y'),   V = eta' P eta,   P = [[sqrt 3, 1], [1, sqrt 3]] (x) I
+
+    min  |mu|^2 + p delta^2   over mu, delta
+    s.t. V' <= -c V / eps + delta                 c = 1 / (1 + sqrt 3)
+         |u| <= u_max,   F_N >= F_min,   |F_T| <= friction F_N
+
+P solves the Riccati equation of the double integrator for Q = 1, c = 1 / lambda_max(P), so V falls as
+exp(-c t / eps) where no limit is in the way. V' + c V / eps = psi_0 + psi_1 mu is affine in mu, and so are
+u = kappa^-1 (a - xi), where a = M^-1 (mu + drift + H_N a_N), and the force of the ground F = F_a q'' + F_0 of
+the nominal model. With no limit active it is the law of least norm, which is tried first:
+mu = -psi_0 psi_1 / (|psi_1|^2 + 1 / p) for psi_0 > 0, else 0.
+
+Ames, Galloway, Sreenath, Grizzle, IEEE TAC 59(4), 2014; Galloway, Sreenath, Ames, Grizzle, IEEE Access 3, 2015.
+
+When nothing fulfils all limits, those on the force of the ground are dropped, and there is always a solution,
+since delta is free; should the solver not find it, the law of least norm is cut off at u_max.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+
+from biped_adrc.control.base import Controller, Measurement, measured
+from biped_adrc.control.body import body_of
+from biped_adrc.control.output_adrc import output_matrix
+from biped_adrc.errors import InputError
+from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.linear import solve
+from biped_adrc.model.reduction import identity
+from biped_adrc.types import Array
+
+ROOT = math.sqrt(3.0)
+
+
+class Decrease(NamedTuple):
+    """V and V' + c V / eps = psi_0 + psi_1 mu."""
+
+    V: float
+    psi_0: float
+    psi_1: Array
+    """(p,)."""
+
+
+class Affine(NamedTuple):
+    """u = U mu + u_0 [N m], and the force of the ground F = F_mu mu + F_1 [N]."""
+
+    U: Array
+    """(p, p)."""
+    u_0: Array
+    """(p,)."""
+    F_mu: Array
+    """(2, p)."""
+    F_1: Array
+    """(2,)."""
+
+
+class Rows(NamedTuple):
+    """G z <= h for z = (mu, sqrt p delta), whose square is least; the rows of the ground come last."""
+
+    G: Array
+    h: Array
+    ground: int
+    """Number of those rows."""
+
+
+def decrease(y: Array, dy: Array, eps: float) -> Decrease:
+    """For outputs y, y' (p,) and eps [s]."""
+    a = y / eps
+    aa, ab, bb = float(a @ a), float(a @ dy), float(dy @ dy)
+    V = ROOT * aa + 2.0 * ab + ROOT * bb
+    psi_0 = 2.0 * (ROOT * ab + bb) / eps + V / (eps * (1.0 + ROOT))
+    return Decrease(V, psi_0, 2.0 * (a + ROOT * dy))
+
+
+def least_norm(d: Decrease, relaxation: float) -> Array:
+    """mu (p,) without limits, p = relaxation."""
+    if d.psi_0 <= 0.0:
+        return np.zeros_like(d.psi_1)
+    mu: Array = d.psi_1 * (-d.psi_0 / (float(d.psi_1 @ d.psi_1) + 1.0 / relaxation))
+    return mu
+
+
+def affine(r: ReferencePoint, m: Measurement) -> Affine:
+    """Torque and ground force over mu. Raises SingularError where y'' does not follow the torque."""
+    terms, body, p = m.terms, body_of(m), len(r.q_d)
+    rest = r.drift + r.H[:, p:] @ terms.a_N
+    columns = np.empty((p, p + 1))
+    columns[:, :p], columns[:, p] = identity(p), rest
+    made = solve(output_matrix(r, terms), columns, "L of y'' = L u + xi_y")
+    torque = terms.kappa_inverse @ made
+    force = (body.F_a[:, :p] + body.F_a[:, p:] @ terms.A_N) @ made
+    u_0 = torque[:, p] - terms.kappa_inverse @ terms.xi
+    F_1 = force[:, p] + body.F_a[:, p:] @ terms.a_N + body.F_0
+    return Affine(torque[:, :p], u_0, force[:, :p], F_1)
+
+
+@dataclass(frozen=True)
+class CLFQPController(Controller):
+    """The module's program; it has no laws and runs in Python.
+
+    epsilon [s]: V falls with c / eps; 1 / eps^2 and sqrt 3 / eps are like K_p and K_d. torque_limit [N m],
+    friction (of a flat ground) and least_force, F_min [N]: None for no such limit. relaxation: p.
+    Raises InputError for numbers that are not positive; needs qpsolvers and daqp.
+    """
+
+    needs_body: ClassVar[bool] = True
+
+    reference: Reference
+    epsilon: float = 0.01
+    torque_limit: float | None = 150.0
+    friction: float | None = 0.6
+    least_force: float | None = 30.0
+    relaxation: float = 1e4
+
+    def __post_init__(self) -> None:
+        limits = ("torque_limit", "friction", "least_force")
+        for name in ("epsilon", "relaxation", *limits):
+            value = getattr(self, name)
+            if value is None and name in limits:
+                continue
+            if value is None or not (math.isfinite(value) and value > 0.0):
+                raise InputError(
+                    f"{name} of the CLF-QP is {value}, expected a positive number; None is for no "
+                    f"limit, of {', '.join(limits)}"
+                )
+
+    def output(self, s: Array, m: Measurement) -> Array:
+        r, x = self.reference(m.t, m.q, m.v), measured(m)
+        d = decrease(x.position - r.q_d, x.velocity - r.dq_d, self.epsilon)
+        to, mu = affine(r, m), least_norm(d, self.relaxation)
+        u = to.U @ mu + to.u_0
+        if self.allows(u, to.F_mu @ mu + to.F_1):
+            return u
+        solved = self._solved(self.program(d, to))
+        return self._cut(u) if solved is None else to.U @ solved + to.u_0
+
+    def allows(self, u: Array, F: Array) -> bool:
+        """Whether a torque (p,) and a force of the ground (F_T, F_N) are within all limits."""
+        tangential, normal = F.tolist()
+        if self.torque_limit is not None and float(np.max(np.abs(u))) > self.torque_limit:
+            return False
+        if self.least_force is not None and normal < self.least_force:
+            return False
+        return self.friction is None or abs(tangential) <= self.friction * normal
+
+    def program(self, d: Decrease, to: Affine) -> Rows:
+        """The rows that the limits make."""
+        p = len(to.u_0)
+        G: list[Array] = [d.psi_1[np.newaxis]]
+        h: list[Array | list[float]] = [[-d.psi_0]]
+        if self.torque_limit is not None:
+            G += [to.U, -to.U]
+            h += [self.torque_limit - to.u_0, self.torque_limit + to.u_0]
+        ground, F_mu, F_1 = 0, to.F_mu, to.F_1
+        if self.least_force is not None:
+            ground += 1
+            G.append(-F_mu[1:])
+            h.append(F_1[1:] - self.least_force)
+        if self.friction is not None:
+            ground += 2
+            cone = np.array([[1.0, -self.friction], [-1.0, -self.friction]])
+            G.append(cone @ F_mu)
+            h.append(-(cone @ F_1))
+        rows = np.zeros((sum(map(len, G)), p + 1))
+        np.concatenate(G, out=rows[:, :p])
+        rows[0, p] = -1.0 / math.sqrt(self.relaxation)
+        return Rows(rows, np.concatenate(h), ground)
+
+    def _solved(self, program: Rows) -> Array | None:
+        """mu (p,), with the limits of the ground or else without; None when the solver fails at both."""
+        z = _least(program.G, program.h)
+        if z is None and program.ground > 0:
+            z = _least(program.G[: -program.ground], program.h[: -program.ground])
+        return None if z is None else z[:-1]
+
+    def _cut(self, u: Array) -> Array:
+        if self.torque_limit is None:
+            return u
+        return np.minimum(np.maximum(u, -self.torque_limit), self.torque_limit)
+
+
+def _least(G: Array, h: Array) -> Array | None:
+    """The z of least |z| with G z <= h; None when there is none."""
+    from qpsolvers import solve_qp
+
+    n = G.shape[1]
+    z: Array | None = solve_qp(np.eye(n), np.zeros(n), G, h, solver="daqp", primal_tol=1e-9)
+    return z if z is not None and math.isfinite(z.dot(z)) else None

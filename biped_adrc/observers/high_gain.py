@@ -1,0 +1,113 @@
+"""The extended high-gain observer: gains alpha_i / eps^i, with one small number eps [s] to choose.
+
+    x1^' = x2^      + alpha_1 / eps   (y - x1^)
+    x2^' = x3^ + kappa u + alpha_2 / eps^2 (y - x1^)
+     ...
+    x_(m+2)^' =       alpha_(m+2) / eps^(m+2) (y - x1^)
+
+s^(m+2) + alpha_1 s^(m+1) + ... + alpha_(m+2) is Hurwitz; its roots divided by eps are the poles. As eps falls
+the loop recovers what it does with the state and the disturbance known, and the peaking of the estimates
+after a jump grows as eps^-(k-1): limit the torque, and start again at impact. Freidovich, Khalil, IEEE TAC
+53(10), 2008; Khalil, High-Gain Observers in Nonlinear Feedback Control, SIAM, 2017. It is the GPI observer (17)
+in another parametrisation, and runs by its laws, with states scaled by 1 / eps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import comb
+
+import numpy as np
+
+from biped_adrc.errors import InputError
+from biped_adrc.observers.base import ErrorSystem, ObserverLaws
+from biped_adrc.observers.chain import (
+    ChainObserver,
+    chain_estimate,
+    chain_reset,
+    chain_state,
+    rows,
+)
+from biped_adrc.observers.gpi import GPIParameters, gpi_flow
+from biped_adrc.observers.gpi_sampled import SampledGPIObserver
+from biped_adrc.types import Array
+
+
+@dataclass(frozen=True)
+class HighGainObserver(ChainObserver):
+    """The module's equations, the same for every joint. Make it with `from_epsilon`."""
+
+    alpha: tuple[float, ...] = ()
+
+    @classmethod
+    def from_epsilon(
+        cls, epsilon: float, alpha: Sequence[float] | None = None, m: int = 1
+    ) -> HighGainObserver:
+        """epsilon [s]; alpha_1 .. alpha_(m+2), dimensionless, (s + 1)^(m+2) without. Raises InputError."""
+        if not (np.isfinite(epsilon) and epsilon > 0):
+            raise InputError(f"epsilon is {epsilon} s, expected a small positive number as 0.002")
+        if m < 1:
+            raise InputError(
+                f"observer order is m = {m}, expected m >= 1: an extended high-gain observer has a state for "
+                "the disturbance"
+            )
+        if alpha is None:
+            alpha = [comb(m + 2, i) for i in range(1, m + 3)]
+        return cls(m, 1.0 / float(epsilon), _hurwitz(alpha, m))
+
+    @property
+    def epsilon(self) -> float:
+        """[s]."""
+        return 1.0 / self.scale
+
+    @cached_property
+    def poles(self) -> tuple[complex, ...]:
+        """Of the error dynamics (m + 2,) [rad/s]; m + 2 equal ones come out scattered by round-off."""
+        return tuple(complex(root) * self.scale for root in np.roots([1.0, *self.alpha]))
+
+    @cached_property
+    def parameters(self) -> GPIParameters:
+        """What the laws `gpi_flow` and `chain_...` need."""
+        return GPIParameters(np.array(self.alpha), float(self.scale), self.order)
+
+    @property
+    def gains(self) -> Array:
+        """alpha_i / eps^i (m + 2,), in the order of the module's equations."""
+        gains: Array = self.parameters.gains * self.scale ** np.arange(1, self.order + 1)
+        return gains
+
+    @property
+    def laws(self) -> ObserverLaws:
+        return ObserverLaws(
+            self.parameters, chain_state, chain_estimate, chain_reset, flow=gpi_flow
+        )
+
+    def flow(self, z: Array, y: Array, input: Array) -> Array:
+        return gpi_flow(self.parameters, rows(self, z), y, input).ravel()
+
+    def sampled(self, period: float) -> SampledGPIObserver:
+        """The current (filtered) discrete observer with poles exp(s T)."""
+        return SampledGPIObserver.from_poles(self.poles, period)
+
+    def error_system(self) -> ErrorSystem:
+        """(19) in scaled states."""
+        A = self.scale * np.eye(self.order, k=1)
+        A[:, 0] = -self.scale * self.parameters.gains
+        return ErrorSystem(A, 1.0 / self.scale)
+
+
+def _hurwitz(alpha: Sequence[float], m: int) -> tuple[float, ...]:
+    """alpha as floats. Raises InputError unless they are the coefficients of a Hurwitz polynomial."""
+    numbers = tuple(float(a) for a in alpha)
+    if len(numbers) != m + 2:
+        raise InputError(
+            f"a high-gain observer with m = {m} has {m + 2} numbers alpha, found {len(numbers)}"
+        )
+    if not np.all(np.isfinite(numbers)) or np.max(np.roots([1.0, *numbers]).real) >= 0.0:
+        raise InputError(
+            f"alpha is {numbers}: the roots of s^{m + 2} + alpha_1 s^{m + 1} + ... must have negative real "
+            f"parts; try those of (s + 1)^{m + 2}"
+        )
+    return numbers

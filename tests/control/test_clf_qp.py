@@ -1,0 +1,121 @@
+"""The CLF-QP: its Lyapunov function, its closed form, its limits, and what it does when it cannot keep them."""
+
+import numpy as np
+import pytest
+from scipy.optimize import linprog, nnls
+
+from biped_adrc.control.clf_qp import CLFQPController, affine, decrease, least_norm
+from biped_adrc.errors import InputError
+from biped_adrc.walker import Mode, Walker
+
+LIMIT = 150.0
+NO_STATE = np.zeros(0)
+FREE = {"torque_limit": None, "friction": None, "least_force": None}
+
+
+def clf_states(biped, gait, count, spread):
+    random = np.random.default_rng(7)
+    walker = Walker(biped, CLFQPController(gait.constraint))
+    q, v = gait.start(biped)
+    for _ in range(count):
+        at = q + spread * random.normal(size=5), v + 10.0 * spread * random.normal(size=5)
+        yield walker.measure(0.0, *at, Mode())
+
+
+def parts(law, m):
+    r = law.reference(m.t, m.q, m.v)
+    return decrease(m.q_b - r.q_d, m.v_b - r.dq_d, law.epsilon), affine(r, m)
+
+
+def test_the_lyapunov_function_falls_as_it_says(biped, gait):
+    """dV/dt by differences along the plant's motion: V' <= -c V / eps, with equality for the least norm."""
+    law, h = CLFQPController(gait.constraint, **FREE, relaxation=1e9), 1e-6
+    walker, seen = Walker(biped, law), 0
+    for m in clf_states(biped, gait, 20, 0.02):
+        a = walker.instant(0.0, np.concatenate((m.q, m.v)), Mode()).a
+
+        def V(t, m=m, a=a):
+            q, v = m.q + m.v * t + 0.5 * a * t**2, m.v + a * t
+            r = gait.constraint(0.0, q, v)
+            return decrease(q[:4] - r.q_d, v[:4] - r.dq_d, law.epsilon).V
+
+        rate, bound = (V(h) - V(-h)) / (2 * h), -V(0.0) / (law.epsilon * (1 + np.sqrt(3)))
+        d, _ = parts(law, m)
+        assert rate <= bound + 1e-5 * abs(bound)
+        if d.psi_0 > 0.0:
+            seen += 1
+            assert rate == pytest.approx(bound, rel=1e-4)
+    assert seen > 0
+
+
+def test_without_limits_the_program_has_the_closed_form_s_solution(biped, gait):
+    law = CLFQPController(gait.constraint, **FREE)
+    seen = set()
+    for m in clf_states(biped, gait, 40, 0.02):
+        d, to = parts(law, m)
+        mu = law._solved(law.program(d, to))
+        expected = np.zeros(4)
+        if d.psi_0 > 0.0:
+            expected = -d.psi_0 * d.psi_1 / (d.psi_1 @ d.psi_1 + 1.0 / law.relaxation)
+        assert mu == pytest.approx(expected, rel=1e-6, abs=1e-6)
+        assert law.output(NO_STATE, m) == pytest.approx(to.U @ expected + to.u_0, rel=1e-9)
+        assert least_norm(d, law.relaxation) == pytest.approx(expected, rel=1e-12)
+        seen.add(d.psi_0 > 0.0)
+    assert seen == {True, False}
+
+
+@pytest.mark.parametrize(
+    ("limit", "spread", "expected"),
+    [(LIMIT, 0.01, {"free", "limited"}), (20.0, 0.1, {"limited", "ground given up"})],
+)
+def test_limits_hold_where_they_can_and_the_solution_is_optimal(
+    biped, gait, limit, spread, expected
+):
+    """Torque, ground force of the plant in its cone, and Karush, Kuhn and Tucker's conditions."""
+    law = CLFQPController(gait.constraint, torque_limit=limit)
+    seen = {"free": 0, "limited": 0, "ground given up": 0}
+    for m in clf_states(biped, gait, 200, spread):
+        u = law.output(NO_STATE, m)
+        assert np.max(np.abs(u)) <= limit * (1.0 + 1e-6)
+        a = biped.acceleration(m.q, m.v, np.append(u, 0.0))
+        along, up = biped.ground_reaction(m.q, m.v, a)
+        d, to = parts(law, m)
+        program = law.program(d, to)
+        mu = np.linalg.solve(to.U, u - to.u_0)
+        assert np.allclose(to.F_mu @ mu + to.F_1, [along, up], rtol=1e-6, atol=1e-6)
+        inside = up >= law.least_force - 1e-4 and abs(along) <= law.friction * up + 1e-4
+        if not inside:
+            assert not feasible(program)
+            seen["ground given up"] += 1
+            continue
+        delta = max(0.0, d.psi_0 + d.psi_1 @ mu)
+        z = np.append(mu, np.sqrt(law.relaxation) * delta)
+        scale = np.linalg.norm(program.G, axis=1)
+        active = program.h - program.G @ z < 1e-5 * (scale * np.linalg.norm(z) + 1.0)
+        multipliers, gap = nnls(program.G[active].T, -z) if active.any() else ([], 0.0)
+        assert gap <= 1e-4 * np.linalg.norm(z)
+        limited = active[1:].any() and np.any(np.asarray(multipliers) > 0.0)
+        seen["limited" if limited else "free"] += 1
+    assert {name for name, count in seen.items() if count > 5} == expected, seen
+
+
+def feasible(program):
+    """Whether there is a z at all, by linear programming."""
+    found = linprog(np.zeros(5), program.G, program.h, bounds=(None, None), method="highs")
+    return found.status == 0
+
+
+def test_bad_numbers_of_the_clf_qp_are_refused(gait):
+    for bad in ({"epsilon": 0.0}, {"friction": -1.0}, {"relaxation": np.nan}, {"epsilon": None}):
+        with pytest.raises(InputError, match="expected a positive number"):
+            CLFQPController(gait.constraint, **bad)
+
+
+def test_a_solver_that_fails_leaves_the_torque_cut_off(biped, gait, monkeypatch):
+    monkeypatch.setattr("biped_adrc.control.clf_qp._least", lambda G, h: None)
+    law, most = CLFQPController(gait.constraint), 0.0
+    for m in clf_states(biped, gait, 40, 0.03):
+        u = law.output(NO_STATE, m)
+        assert np.all(np.isfinite(u))
+        most = max(most, np.max(np.abs(u)))
+    assert most == LIMIT

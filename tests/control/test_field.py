@@ -1,0 +1,373 @@
+"""The controllers and observers of the field: what each promises, by a law that its code does not use."""
+
+import ctypes
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import biped_adrc as ba
+from biped_adrc.control.adrc import ADRCController
+from biped_adrc.control.clf_qp import CLFQPController
+from biped_adrc.control.linear_adrc import bandwidth_gains, linear_adrc
+from biped_adrc.control.momentum_dob import MomentumDOBController
+from biped_adrc.control.npd import NPDController
+from biped_adrc.control.output_adrc import OutputADRCController
+from biped_adrc.control.pd_gravity import JointGains, PDGravityController
+from biped_adrc.control.reference_reset import ReferenceReset
+from biped_adrc.engine.program import Program
+from biped_adrc.errors import InputError
+from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.observers.high_gain import HighGainObserver
+from biped_adrc.observers.momentum import MomentumObserver
+from biped_adrc.walker import Mode, SampledTime, Walker
+
+K_P, K_D = 5000.0, 50.0
+LIMIT = 150.0
+NO_STATE = np.zeros(0)
+SLOW = GPIObserver.from_bandwidth(500.0)
+FIELD = {
+    "PD with gravity": PDGravityController,
+    "ADRC, outputs": OutputADRCController,
+    "ADRC, outputs, m = 1": lambda c: OutputADRCController(c, SLOW),
+    "linear ADRC": linear_adrc,
+    "ADRC, high gain": lambda c: ADRCController(c, HighGainObserver.from_epsilon(0.002)),
+    "momentum observer": MomentumDOBController,
+    "CLF-QP": CLFQPController,
+}
+PEAK = {
+    "PD with gravity": (2.6e-2, 2.6e-2),
+    "ADRC, outputs": (3e-4, 3e-4),
+    "ADRC, outputs, m = 1": (2e-3, 3e-3),
+    "linear ADRC": (3e-4, 3e-3),
+    "ADRC, high gain": (3e-4, 3e-3),
+    "momentum observer": (3e-4, 4e-3),
+    "CLF-QP": (3e-4, 1.2e-2),
+}
+"""Largest tracking error [rad] before and from the push on; NPD's is 1.3e-4 and 7.6e-3."""
+PUSH = ba.TorquePulse([30.0] * 4 + [0.0], step=19, start=0.1, stop=0.3)
+
+
+# -- walking -----------------------------------------------------------------------------------
+@pytest.mark.parametrize("name", FIELD)
+def test_the_published_gait_is_kept(biped, gait, name):
+    """25 impacts at 1 kHz within 150 N m, pushed in the 19th step."""
+    controller, time = FIELD[name](gait.constraint), SampledTime(1e-3)
+    walker = Walker(biped, controller, PUSH, time, torque_limit=LIMIT)
+    walk = ba.walk(walker, gait, 25, ba.RK4(1e-3), engine="compiled")
+    assert walk.trajectory.status.ok
+    assert len(walk.trajectory.events("foot_strike")) == 25
+    s = walk.signals
+    for rows, most in zip((s.step < 19, s.step >= 19), PEAK[name], strict=True):
+        assert np.max(np.abs(s.error[rows])) < most
+
+
+@pytest.mark.parametrize("name", FIELD)
+def test_in_continuous_time(biped, gait, name):
+    push = replace(PUSH, step=1)
+    walker = Walker(biped, FIELD[name](gait.constraint), push, torque_limit=LIMIT)
+    h = 1e-3 if name == "CLF-QP" else 5e-5  # Table I has a pole at -19836 rad/s
+    walk = ba.walk(walker, gait, 3, ba.RK4(h), engine="compiled")
+    assert walk.trajectory.status.ok
+    assert np.max(np.abs(walk.signals.error)) < PEAK[name][True]
+
+
+# -- compiled against Python -------------------------------------------------------------------
+LAWS = {
+    **{name: made for name, made in FIELD.items() if name != "CLF-QP"},
+    "PD, stiff": lambda c: PDGravityController(c, JointGains([1e3, 2e3, 3e3, 4e3], 50.0)),
+    "ADRC, outputs, reset measured": lambda c: OutputADRCController(
+        c, SLOW, reset=ba.ResetPolicy.MEASURED
+    ),
+    "momentum observer, three poles, as printed": lambda c: MomentumDOBController(
+        c, MomentumObserver.from_poles((-90.0, -60 + 20j, -60 - 20j)), solve_theta=False
+    ),
+}
+
+
+@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
+def test_the_closed_loop_in_machine_code_is_python_s(biped, gait, name, sampled):
+    time = SampledTime(1e-3) if sampled else ba.ContinuousTime()
+    heavy = biped.with_errors(mass={"torso": 1.2})
+    law = LAWS[name](gait.constraint)
+    walker = Walker(heavy, law, timing=time, model=biped, torque_limit=LIMIT)
+    random, n, mode = np.random.default_rng(11), biped.n, Mode(3, 0.05)
+    q, v = gait.start(biped)
+    for i in range(60):
+        x = walker.initial_state(*(a + 0.3 * random.normal(size=n) for a in (q, v)))
+        x[2 * n :] *= 1.0 + 0.1 * random.normal(size=len(x) - 2 * n)
+        if i == 0:
+            call = functions(walker, x)
+        zeta = 30.0 * random.normal(size=n)
+        pushed = replace(walker, disturbance=ba.TorqueStep(zeta))
+        close(call["flow"](0.1, 3.0, 0.05, x, zeta), pushed.flow(0.1, x, mode))
+        if sampled:
+            close(call["tick"](0.1, 3.0, 0.05, x, zeta), pushed.tick(0.1, x, mode))
+        struck = walker.strike(0.1, x, Mode(2, 0.0))
+        if struck is not None:
+            close(call["strike"](0.1, 3.0, x), struck[0])
+
+
+def functions(walker, x):
+    """Those of the program, by name."""
+    n, nx = walker.plant.n, len(x)
+    held = walker.plant.p if walker.sampled else 0
+    program = Program.of(walker, nx - 2 * n - held)
+    sizes = {"flow": 3 + nx + n, "strike": 2 + nx, "tick": 3 + nx + n}
+    return {name: evaluator(program, name, size) for name, size in sizes.items()}
+
+
+def evaluator(program, name, inputs):
+    address = program.address(name)
+    function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(address) if address else None
+    inp, out = np.zeros(inputs), np.zeros(2 * inputs)
+
+    def call(*parts):
+        np.concatenate([np.atleast_1d(x) for x in parts], out=inp)
+        function(program.K.ctypes.data, inp.ctypes.data, out.ctypes.data)
+        return out.copy()
+
+    return call
+
+
+def close(found, expected):
+    assert np.max(np.abs(found[: len(expected)] - expected)) <= 1e-11 * np.max(np.abs(expected))
+
+
+# -- PD with gravity compensation --------------------------------------------------------------
+def test_the_weight_is_the_slope_of_the_potential_energy(biped, gait):
+    q, h = gait.start(biped)[0] + 0.1, 1e-4
+    walker = Walker(biped, PDGravityController(at_rest(q)))
+    u = walker.law.output(NO_STATE, walker.measure(0.0, q, np.zeros(5), Mode()))
+    for i, found in enumerate(u):
+        step = h * np.eye(5)[i]
+        slope = (biped.potential_energy(q + step) - biped.potential_energy(q - step)) / (2 * h)
+        assert found == pytest.approx(slope, rel=1e-6)
+
+
+def test_a_balanced_posture_is_held(biped, gait):
+    """With the COM above the stance foot nothing moves, by the plant's own equations of motion."""
+    q = gait.start(biped)[0].copy()
+
+    def leaning(torso):
+        return biped.gravity(np.append(q[:4], torso))[4]
+
+    q[4] = brentq(leaning, -1.0, 1.0, xtol=1e-14)
+    walker = Walker(biped, PDGravityController(at_rest(q)))
+    x = walker.initial_state(q, np.zeros(5))
+    assert np.max(np.abs(biped.gravity(q)[:4])) > 1.0
+    assert np.max(np.abs(walker.instant(0.0, x, Mode()).a)) < 1e-10
+
+
+def at_rest(q):
+    zero = np.zeros(4)
+    return ba.TimeReference(lambda t: (q[:4], zero, zero))
+
+
+def test_without_body_terms_it_says_what_is_missing(biped, gait):
+    m = Walker(biped, ba.Passive()).measure(0.0, *gait.start(biped), Mode())
+    with pytest.raises(InputError, match="no body terms"):
+        PDGravityController(gait.constraint).output(NO_STATE, m)
+
+
+def test_an_outer_loop_asks_for_what_its_controller_needs(biped, gait):
+    loop = ReferenceReset(PDGravityController(gait.constraint))
+    walker = Walker(biped, loop, timing=SampledTime(1e-3), torque_limit=LIMIT)
+    assert ba.walk(walker, gait, 2).trajectory.status.ok
+
+
+# -- ADRC in output form -----------------------------------------------------------------------
+def off_orbit(gait, biped, seed=2):
+    random = np.random.default_rng(seed)
+    q, v = gait.start(biped)
+    return q + random.normal(0, 0.02, biped.n), v + random.normal(0, 0.3, biped.n)
+
+
+def output_acceleration(walker, gait, x):
+    """y, y', y'' with the plant's own acceleration."""
+    i = walker.instant(0.0, x, Mode())
+    m = i.measurement
+    r = gait.constraint(0.0, m.q, m.v)
+    return m.q_b - r.q_d, m.v_b - r.dq_d, i.a[:4] - r.drift - r.H @ i.a
+
+
+def left_over(walker, gait, x):
+    """y'' + K_d y' + K_p y of the plant, over the size of y''."""
+    y, dy, ddy = output_acceleration(walker, gait, x)
+    return np.max(np.abs(ddy + K_D * dy + K_P * y)) / np.max(np.abs(ddy))
+
+
+@pytest.mark.parametrize("kind", [OutputADRCController, MomentumDOBController, linear_adrc])
+def test_with_exact_estimates_the_loop_is_npd_s(biped, gait, kind):
+    q, v = off_orbit(gait, biped)
+    walker, npd = (
+        Walker(biped, kind(gait.constraint)),
+        Walker(biped, NPDController(gait.constraint)),
+    )
+    x = walker.initial_state(q, v)
+    assert left_over(walker, gait, x) < 1e-8
+    u, expected = (w.instant(0.0, w.initial_state(q, v), Mode()).u for w in (walker, npd))
+    assert u == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_known_force_is_rejected_whatever_it_acts_on(biped, gait, seed):
+    """Matched and unmatched: xi_y is y'' of the plant at u = 0, r is the force itself."""
+    random = np.random.default_rng(seed)
+    zeta = ba.TorqueStep(40.0 * random.normal(size=5))
+    q, v = off_orbit(gait, biped, seed)
+    idle = Walker(biped, ba.Passive(), zeta)
+    xi_y = output_acceleration(idle, gait, idle.initial_state(q, v))[2]
+
+    walker = Walker(biped, OutputADRCController(gait.constraint, SLOW), zeta)
+    x = walker.initial_state(q, v)
+    assert left_over(walker, gait, x) > 1e-2
+    y, dy, _ = output_acceleration(walker, gait, x)
+    x[10:] = SLOW.initial_state(y, dy, xi_y)
+    assert left_over(walker, gait, x) < 1e-8
+
+    walker = Walker(biped, MomentumDOBController(gait.constraint), zeta)
+    x = walker.initial_state(q, v)
+    observer = walker.controller.observer
+    x[10:] = observer.initial_state(biped.inertia(q) @ v, NO_STATE, zeta.amplitude)
+    assert left_over(walker, gait, x) < 1e-8
+    m = walker.measure(0.0, q, v, Mode())
+    i = walker.instant(0.0, x, Mode())
+    true_xi = i.a[:4] - m.terms.kappa @ i.u
+    assert walker.law.estimate(x[10:], m).disturbance == pytest.approx(true_xi, rel=1e-9)
+
+
+def test_estimates_of_outputs_in_words_of_the_joints(biped, gait):
+    """What is said to the signals is the xi of the joint form."""
+    walker = Walker(biped, OutputADRCController(gait.constraint))
+    x = walker.initial_state(*off_orbit(gait, biped))
+    i = walker.instant(0.0, x, Mode())
+    found = walker.law.estimate(i.s, i.measurement)
+    assert found.position == pytest.approx(i.measurement.q_b, rel=1e-12)
+    assert found.velocity == pytest.approx(i.measurement.v_b, rel=1e-12)
+    assert found.disturbance == pytest.approx(i.a[:4] - i.measurement.terms.kappa @ i.u, rel=1e-8)
+
+
+def test_inside_an_outer_loop_the_outputs_are_those_in_force(biped, gait):
+    """Off the constraint the corrected error is zero at the start and after an impact, and so is y^."""
+    loop = ReferenceReset(OutputADRCController(gait.constraint, SLOW))
+    walker = Walker(biped, loop, timing=SampledTime(1e-3))
+    q, v = off_orbit(gait, biped)
+    m = walker.measure(0.0, q, v, Mode())
+    law, swap = walker.law, biped.relabelling[:4]
+    s = law.initial_state(m)
+    for state in (s, law.jump(s + 1.0, m, swap)):
+        assert np.max(np.abs(law.inner.observer.estimate(state[:12]).disturbance)) > 1.0
+        assert np.max(np.abs(state[:8])) < 1e-9
+
+
+# -- linear ADRC and the high-gain observer ----------------------------------------------------
+def test_bandwidths_are_the_poles(gait):
+    made = linear_adrc(gait.constraint, 300.0, 60.0)
+    poles = np.roots([1.0, made.gains.K_d, made.gains.K_p])
+    assert poles == pytest.approx([-60.0, -60.0], rel=1e-6)
+    assert np.linalg.eigvals(made.observer.error_system().A) == pytest.approx(-300.0, rel=1e-4)
+    assert made.observer.m == 1
+    assert linear_adrc(gait.constraint).gains == ba.TABLE_II
+    with pytest.raises(InputError, match="controller bandwidth is -1"):
+        bandwidth_gains(-1.0)
+
+
+@pytest.mark.parametrize("alpha", [None, (6.0, 11.0, 6.0), (4.0, 6.0, 4.0)])
+def test_the_high_gain_observer_is_gpi_with_the_same_poles(alpha):
+    epsilon, random = 0.004, np.random.default_rng(1)
+    observer = HighGainObserver.from_epsilon(epsilon, alpha)
+    gpi = GPIObserver.from_poles([complex(pole) for pole in clean(observer.poles)])
+    assert observer.gains == pytest.approx(gpi.gains, rel=1e-4)
+    y, u = random.normal(size=(2, 4))
+    x = random.normal(size=(3, 4))
+    one, other = (o.flow(o.initial_state(*x), y, u) for o in (observer, gpi))
+    weights = [(o.scale ** np.arange(3))[:, np.newaxis] for o in (observer, gpi)]
+    physical = [dz.reshape(3, 4) * w for dz, w in zip((one, other), weights, strict=True)]
+    assert physical[0] == pytest.approx(physical[1], rel=1e-3)
+    A = observer.error_system().A
+    assert np.poly(A * epsilon) == pytest.approx([1.0, *observer.alpha], rel=1e-9)
+    made, expected = (o.sampled(1e-3).parameters.L for o in (observer, gpi))
+    assert made == pytest.approx(expected, rel=1e-4)
+
+
+def clean(poles):
+    """Poles without the imaginary parts that round-off gives equal ones."""
+    return [pole.real if abs(pole.imag) < 1e-3 * abs(pole) else pole for pole in poles]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"epsilon": 0.0}, "epsilon is 0"),
+        ({"epsilon": 0.1, "m": 0}, "m = 0"),
+        ({"epsilon": 0.1, "alpha": (1.0, 1.0)}, "has 3 numbers alpha, found 2"),
+        ({"epsilon": 0.1, "alpha": (1.0, 1.0, 2.0)}, "negative real parts"),
+    ],
+)
+def test_bad_high_gain_observers(arguments, message):
+    with pytest.raises(InputError, match=message):
+        HighGainObserver.from_epsilon(**arguments)
+
+
+# -- anti-windup -------------------------------------------------------------------------------
+@dataclass(frozen=True)
+class Unlimited(ba.Controller):
+    """A controller whose observer is told the torque asked for, not the one applied."""
+
+    inner: ba.Controller
+
+    @property
+    def needs_body(self):
+        return self.inner.needs_body
+
+    def output(self, s, m):
+        return self.inner.output(s, m)
+
+    def initial_state(self, m):
+        return self.inner.initial_state(m)
+
+    def correct(self, s, m):
+        return self.inner.correct(s, m)
+
+    def predict(self, s, m, u):
+        return self.inner.predict(s, m, self.inner.output(s, m))
+
+    def jump(self, s, after, swap):
+        return self.inner.jump(s, after, swap)
+
+    def sampled(self, period):
+        return replace(self, inner=self.inner.sampled(period))
+
+    def estimate(self, s, m):
+        return self.inner.estimate(s, m)
+
+
+OBSERVING = {
+    "ADRC, Table I": ADRCController,
+    **{name: made for name, made in FIELD.items() if name not in ("PD with gravity", "CLF-QP")},
+}
+
+
+@pytest.mark.parametrize("name", OBSERVING)
+def test_the_observer_is_told_the_torque_applied(biped, gait, name):
+    """A push that the motors cannot answer: the estimate stays near q_b'' - kappa u, and the walk goes on."""
+    push = ba.TorquePulse([110.0, -110.0, 110.0, -110.0, 0.0], step=2, start=0.1, stop=0.2)
+    law, errors = OBSERVING[name](gait.constraint), []
+    for told in (law, Unlimited(law)):
+        walker = Walker(biped, told, push, SampledTime(1e-3), torque_limit=100.0)
+        walk = ba.walk(walker, gait, 8, ba.RK4(1e-3), engine="compiled")
+        s = walk.signals.of_step(2)
+        during = (s.t - s.t[0] > 0.12) & (s.t - s.t[0] < 0.2)
+        assert np.max(np.abs(s.u[during])) == 100.0
+        wrong = np.linalg.norm((s.xi_estimate - s.xi)[during], axis=1)
+        errors.append(np.median(wrong) / np.median(np.linalg.norm(s.xi[during], axis=1)))
+        if told is law:
+            assert walk.trajectory.status.ok
+            late = walk.signals.of_step(8)
+            assert np.max(np.abs(late.error)) < 5e-3
+    near, off = errors
+    assert near < 0.2, errors
+    assert off > 3.0 * near, errors

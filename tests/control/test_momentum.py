@@ -1,0 +1,102 @@
+"""The momentum observer: how fast it finds a force, what it knows, and what an impact does to it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.momentum_dob import MomentumDOBController, known_force, momentum_of
+from biped_adrc.control.npd import NPDController
+from biped_adrc.errors import InputError
+from biped_adrc.observers.momentum import MomentumObserver
+from biped_adrc.walker import Mode, Walker
+
+NO_STATE = np.zeros(0)
+
+
+def test_the_force_is_found_with_the_poles_chosen(biped, gait):
+    """r = zeta (1 - (b e^(a t) - a e^(b t)) / (b - a)) for all coordinates, whatever the robot does."""
+    a, b = -40.0, -60.0
+    zeta = np.array([20.0, -10.0, 5.0, 15.0, -8.0])
+    law = MomentumDOBController(gait.constraint, MomentumObserver.from_poles((a, b)))
+    walker = Walker(biped, law, ba.TorqueStep(zeta))
+    run = ba.walk(walker, gait, 1, ba.RK4(5e-4), engine="compiled").trajectory
+    arc = run.arcs[0]
+    settled = (b * np.exp(a * arc.t) - a * np.exp(b * arc.t)) / (b - a)
+    r = np.array([law.observer.estimate(x[10:]).disturbance for x in arc.x])
+    assert arc.t[-1] > 0.2
+    assert np.max(np.abs(r - np.outer(1.0 - settled, zeta))) < 1e-5 * np.max(np.abs(zeta))
+
+
+@pytest.mark.parametrize("poles", [(-40.0, -60.0), (-30 + 20j, -30 - 20j, -50.0)])
+def test_in_discrete_time_the_error_has_the_poles_exp_s_T(poles):
+    T = 2e-3
+    k = MomentumObserver.from_poles(poles).sampled(T).parameters
+    found = np.linalg.eigvals((np.eye(k.order) - np.outer(k.L, np.eye(k.order)[0])) @ k.Phi)
+    expected = np.exp(T * np.array(poles))
+    assert np.allclose(np.sort_complex(found), np.sort_complex(expected), rtol=1e-9)
+
+
+def test_a_constant_force_on_a_mass_is_found_without_error_in_discrete_time():
+    observer, T = MomentumObserver.from_bandwidth(80.0).sampled(1e-3), 1e-3
+    zeta, beta, momentum = np.array([7.0]), np.array([-3.0]), np.array([0.4])
+    z = observer.initial_state(momentum, NO_STATE, np.zeros(1))
+    for _ in range(500):
+        z = observer.predict(z, beta)
+        momentum = momentum + T * (beta + zeta)
+        z = observer.correct(z, momentum)
+    assert observer.estimate(z).disturbance == pytest.approx(zeta, rel=1e-9)
+    assert observer.estimate(z).position == pytest.approx(momentum, rel=1e-12)
+
+
+def test_what_is_known_of_the_momentum_is_its_rate(biped, gait):
+    """beta = d(D q')/dt, by differences along the plant's motion without forces from outside."""
+    law = NPDController(gait.constraint)
+    walker = Walker(biped, law)
+    random, (q, v) = np.random.default_rng(2), gait.start(biped)
+    off = q + random.normal(0, 0.02, 5), v + random.normal(0, 0.3, 5)
+    x, h = walker.initial_state(*off), 1e-5
+    i = walker.instant(0.0, x, Mode())
+    q, v, a = x[:5], x[5:], i.a
+
+    def momentum(t):
+        return biped.inertia(q + v * t + 0.5 * a * t**2) @ (v + a * t)
+
+    m = i.measurement._replace(body=biped.body_terms(q, v))
+    rate = (momentum(h) - momentum(-h)) / (2.0 * h)
+    assert known_force(m, i.u) == pytest.approx(rate, rel=1e-6, abs=1e-6)
+    assert momentum_of(m).position == pytest.approx(momentum(0.0), rel=1e-12)
+
+
+def test_an_impact_relabels_the_force_and_keeps_it(biped, gait):
+    q, v = gait.start(biped)
+    law = MomentumDOBController(gait.constraint, MomentumObserver.from_bandwidth(50.0, 3))
+    walker = Walker(biped, law)
+    after = walker.measure(0.0, q, v, Mode())
+    r, swap = np.arange(1.0, 6.0), biped.relabelling[:4]
+    s = law.observer.initial_state(np.ones(5), NO_STATE, r)
+    s[10:] = 9.0
+    for policy in ba.ResetPolicy:
+        new = replace(law, reset=policy).jump(s, after, swap)
+        x = law.observer.estimate(new)
+        kept = policy is ba.ResetPolicy.NONE
+        assert x.disturbance == pytest.approx(r if kept else r[[1, 0, 3, 2, 4]])
+        told = policy in (ba.ResetPolicy.MEASURED, ba.ResetPolicy.MODEL)
+        assert x.position == pytest.approx(biped.inertia(q) @ v if told else np.ones(5))
+        assert np.all(new[10:] == (0.0 if policy is ba.ResetPolicy.MODEL else 9.0))
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: MomentumObserver.from_poles([-3.0]), "at least 2 poles"),
+        (lambda: MomentumObserver.from_poles([-3.0, 1.0]), "not stable"),
+        (lambda: MomentumObserver.from_bandwidth(-3.0), "bandwidth is -3"),
+        (lambda: MomentumObserver.from_bandwidth(3.0).sampled(0.0), "period is 0"),
+        (lambda: MomentumObserver.from_bandwidth(3.0).predict(NO_STATE, NO_STATE), "sampled"),
+    ],
+)
+def test_bad_momentum_observers(make, message):
+    with pytest.raises(InputError, match=message):
+        make()
