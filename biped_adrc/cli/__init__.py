@@ -12,7 +12,7 @@ import sys
 
 from rich.console import Console
 
-from biped_adrc.cli import design, gait, look, reproduce, robot, walk, zero
+from biped_adrc.cli import design, gait, look, observer, reproduce, robot, walk, zero
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, gait_app
 from biped_adrc.errors import BipedError
 
@@ -23,6 +23,7 @@ __all__ = [
     "gait_app",
     "look",
     "main",
+    "observer",
     "reproduce",
     "robot",
     "walk",

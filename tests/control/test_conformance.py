@@ -10,6 +10,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.base import Controller
 from biped_adrc.control.clf_qp import CLFQPController
+from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.finite_time import FiniteTimeController
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
@@ -65,7 +66,10 @@ CONTROLLERS = {
     OutputADRCController: lambda c: OutputADRCController(c),
     MomentumDOBController: lambda c: MomentumDOBController(c),
     CLFQPController: lambda c: CLFQPController(c),
+    Delayed: lambda c: Delayed(ba.ADRCController(c), 1e-3),
 }
+CONTINUOUS = {Delayed}
+"""In sampled time a delay belongs to `SampledTime`."""
 
 
 def leaves(base, package):
@@ -174,6 +178,10 @@ def test_observers(observer):
 @pytest.mark.parametrize("timing", [ba.ContinuousTime(), ba.SampledTime(1e-3)])
 def test_controllers(biped, gait, kind, timing):
     walker = ba.Walker(biped, CONTROLLERS[kind](gait.constraint), timing=timing)
+    if walker.sampled and kind in CONTINUOUS:
+        with pytest.raises(ba.BipedError, match="SampledTime"):
+            _ = walker.law
+        return
     q, v = gait.start(biped)
     m = walker.measure(0.0, q, v, ba.Mode())
     law = walker.law

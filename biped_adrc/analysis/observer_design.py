@@ -1,0 +1,289 @@
+"""What a GPI observer asks of a robot's encoders, clock and motors, and which one they allow.
+
+`observer_report` puts together what the linear loop of one joint says: gains and conditioning, transfer
+functions, delay margins, the largest stable period, the torque that one encoder count makes, the peak after an
+impact, and the largest bandwidth of each order that the robot allows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.analysis.observer_choice import (
+    ORDERS,
+    SHARE,
+    Hardware,
+    Recommended,
+    loop_on,
+    recommend,
+    ripple,
+)
+from biped_adrc.analysis.observer_impact import Impact, ImpactPeak, impact_peak, orbit_impact
+from biped_adrc.analysis.observer_loop import (
+    Condition,
+    DelayMargin,
+    ObserverLoop,
+    bandwidth,
+    conditioning,
+    observer_loop,
+)
+from biped_adrc.analysis.observer_sampled import largest_delay, largest_period
+from biped_adrc.analysis.observer_tables import Section, microseconds, sections
+from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.errors import InputError
+from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.model.biped import Biped
+from biped_adrc.observers.base import ResetPolicy
+from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.timing import SampledTime
+from biped_adrc.types import Array, ComplexArray
+
+COUNTS = 8192.0
+"""Of RABBIT's encoders per revolution."""
+PERIOD = 1.5e-3
+"""[s], of RABBIT's controller."""
+
+
+class Response(NamedTuple):
+    """One transfer function: its value at low frequency, its largest value, and where it falls off."""
+
+    low: float
+    peak: float
+    at: float
+    """[rad/s], of the peak."""
+    bandwidth: float
+    """[rad/s], where it is 3 dB below: below `low` for xi^ / xi, below the peak for the others."""
+
+
+@dataclass(frozen=True)
+class ObserverReport:
+    """The module's numbers for one observer and the gains of one joint; `text()` has all of it."""
+
+    observer: GPIObserver
+    gains: Gains
+    robot: str
+    """Its name and preset."""
+    hardware: Hardware
+    impact: Impact
+    joint: int = 0
+
+    @cached_property
+    def loop(self) -> ObserverLoop:
+        """In continuous time."""
+        return observer_loop(self.observer, self.gains, self.joint)
+
+    @cached_property
+    def condition(self) -> Condition:
+        """Of the observer matrix."""
+        return conditioning(self.observer)
+
+    @cached_property
+    def hidden(self) -> DelayMargin:
+        """In continuous time, the observer fed with the torque asked for."""
+        return self.loop.delay_margin()
+
+    @cached_property
+    def told(self) -> DelayMargin:
+        """In continuous time, the observer fed with the torque that acts."""
+        return self.loop.delay_margin(known=True)
+
+    @cached_property
+    def sampled_margins(self) -> tuple[float, float]:
+        """The largest stable delay [s] at this period, hidden and known."""
+        hidden, known = (
+            largest_delay(
+                self.observer, self.hardware.period, self.gains, joint=self.joint, known=told
+            )
+            for told in (False, True)
+        )
+        return hidden, known
+
+    @cached_property
+    def largest_periods(self) -> dict[str, tuple[float, float]]:
+        """The largest stable period [s], the delay hidden and known, by form of the observer and delay."""
+        cases = {
+            "no delay": (0.0, "current"),
+            "a delay of one period": (1.0, "current"),
+            "no delay, measurement held": (0.0, "held"),
+        }
+        return {name: self._periods(delay, form) for name, (delay, form) in cases.items()}
+
+    def _periods(self, delay: float, form: str) -> tuple[float, float]:
+        hidden, known = (
+            largest_period(
+                self.observer,
+                self.gains,
+                joint=self.joint,
+                delay_periods=delay,
+                known=told,
+                form=form,
+            )
+            for told in (False, delay > 0.0)
+        )
+        return hidden, known
+
+    @cached_property
+    def spectral_radius(self) -> float:
+        """Of the sampled loop at this period and delay."""
+        return loop_on(self.hardware, self.observer, self.gains, self.joint).spectral_radius
+
+    @cached_property
+    def ripple(self) -> float:
+        """rms torque [N m] of one encoder count; infinite for an unstable loop."""
+        return ripple(self.hardware, self.observer, self.gains, self.joint)
+
+    @property
+    def frequencies(self) -> Array:
+        """[rad/s], for the responses."""
+        rates = np.abs(self.observer.poles)
+        slow = min(rates.min(), math.sqrt(self.loop.K_p))
+        return np.geomspace(0.01 * slow, 100.0 * max(rates.max(), self.loop.K_d), 2000)
+
+    @cached_property
+    def responses(self) -> dict[str, Response]:
+        """Of xi to e [s^2], of xi to xi^, and of the measurement's error to the torque [N m/rad]."""
+        grid = self.frequencies
+
+        def torque(frequency: Array) -> ComplexArray:
+            return self.loop.noise(frequency) * self.hardware.inertia
+
+        found = {}
+        for name, f in (
+            ("e / xi", self.loop.tracking_error),
+            ("xi^ / xi", self.loop.estimate),
+            ("u / n", torque),
+        ):
+            level = np.abs(f(grid))
+            top = int(np.argmax(level))
+            start = grid[0] if name == "xi^ / xi" else grid[top]
+            edge = bandwidth(f, start, grid[-1]) if level[top] > 0.0 else math.nan
+            found[name] = Response(
+                float(level[0]), float(level[top]), float(grid[top]), float(edge)
+            )
+        return found
+
+    @cached_property
+    def impact_peaks(self) -> dict[ResetPolicy, ImpactPeak]:
+        """After the gait's impact, by reset policy."""
+        return {
+            policy: impact_peak(self.observer, self.impact, policy, self.gains)
+            for policy in ResetPolicy
+        }
+
+    @cached_property
+    def recommended(self) -> tuple[Recommended, ...]:
+        """For each m of ORDERS what the encoders, the period and the delay allow."""
+        return tuple(recommend(self.hardware, self.gains, m, self.joint) for m in ORDERS)
+
+    @property
+    def runs(self) -> bool:
+        """Whether the loop is stable and the ripple within SHARE of the torque limit."""
+        return self.ripple <= SHARE * self.hardware.torque_limit
+
+    @property
+    def verdict(self) -> str:
+        """Whether the observer can run on this robot, in words, with the numbers that decide."""
+        k = self.hardware
+        limit, rate = k.torque_limit, 1.0 / k.period
+        where = f"on {self.robot} at {rate:.0f} Hz with {k.counts:g} counts per revolution"
+        late = f"a delay of {k.delay * 1e6:.0f} us" if k.delay > 0.0 else "no delay"
+        bears = (
+            f"it bears {microseconds(self.sampled_margins[int(k.known)])} of delay at this period"
+        )
+        if not math.isfinite(self.ripple):
+            return (
+                f"{self.name} cannot run {where}: with {late} the sampled loop is unstable, spectral radius "
+                f"{self.spectral_radius:.4g}; {bears}"
+            )
+        share = self.ripple / limit
+        part = f"{100.0 * share:.3g} % of" if share <= 1.0 else f"{share:.3g} times"
+        torque = (
+            f"one encoder count makes {self.ripple:.4g} N m rms, {part} the limit of {limit:g} N m"
+        )
+        if share > 1.0:
+            return f"{self.name} cannot run {where}: {torque}; {bears}"
+        wish = (
+            "" if self.runs else f", but not well: at most {100.0 * SHARE:g} % are asked for, and"
+        )
+        return f"{self.name} can run {where}{wish or ':'} {torque}; {bears}"
+
+    @property
+    def sections(self) -> list[Section]:
+        """The tables."""
+        return sections(self)
+
+    @property
+    def name(self) -> str:
+        """The observer in words."""
+        return observer_name(self.observer)
+
+    def text(self) -> str:
+        """The verdict and the tables it stands on."""
+        tables = ("\n".join(section.lines()) for section in sections(self))
+        return "\n\n".join((self.verdict, *tables))
+
+
+def observer_report(
+    observer: GPIObserver | Sequence[complex],
+    gains: Gains = TABLE_II,
+    period: float = PERIOD,
+    *,
+    robot: Biped,
+    gait: Gait,
+    counts: float = COUNTS,
+    delay: float = 0.0,
+    known: bool = False,
+    torque_limit: float | None = None,
+    joint: int = 0,
+) -> ObserverReport:
+    """The report of an observer, or of poles [rad/s], on a robot that walks a gait.
+
+    counts: of the encoders per revolution; delay [s]: from a tick to its torque, `known` to the observer or
+    not; torque_limit [N m]: of the robot's record if not given; joint: whose gains, of one number per joint.
+    Raises InputError for what is impossible, and names it.
+    """
+    if not isinstance(observer, GPIObserver):
+        observer = GPIObserver.from_poles(observer)
+    SampledTime(period, delay=delay)
+    if not (math.isfinite(counts) and counts >= 1.0):
+        raise InputError(f"the encoders have {counts} counts per revolution, expected at least 1")
+    limit = robot.description.peak_torque if torque_limit is None else torque_limit
+    if limit is None or not (math.isfinite(limit) and limit > 0.0):
+        raise InputError(
+            f"the torque limit of '{robot.description.name}' is {limit} N m, expected a positive number; give "
+            "torque_limit, or peak_torque in its record"
+        )
+    observer_loop(observer, gains, joint)  # a joint without gains is refused here
+    hardware = Hardware(
+        period, delay, known, float(counts), float(limit), worst_inertia(robot, gait)
+    )
+    name = f"{robot.description.name} ({robot.preset})"
+    impact = orbit_impact(robot, gait, observer.order)
+    return ObserverReport(observer, gains, name, hardware, impact, joint)
+
+
+def worst_inertia(biped: Biped, gait: Gait) -> float:
+    """The largest sqrt(sum_j (kappa^-1)_ij^2) over joints and along the gait [kg m^2]."""
+    still = np.zeros(biped.n)
+    along = ZeroDynamics.of(biped, gait.constraint).q
+    return float(
+        max(np.max(np.linalg.norm(biped.reduction(q, still).kappa_inverse, axis=1)) for q in along)
+    )
+
+
+def observer_name(observer: GPIObserver) -> str:
+    """Table I, or m and the poles."""
+    if observer.poles == GPIObserver.from_poles().poles:
+        return "Table I"
+    first = observer.poles[0]
+    if all(pole == first for pole in observer.poles):
+        return f"m = {observer.m} at {-first.real:g} rad/s"
+    slow, fast = (f(abs(pole) for pole in observer.poles) for f in (min, max))
+    return f"m = {observer.m} with poles of {slow:g} to {fast:g} rad/s"

@@ -1,0 +1,117 @@
+"""What an observer says wrongly after an impact, by its linear error dynamics, for each reset policy.
+
+    e' = A^ e   (19),   e(0+) = what is true after impact - what the reset makes of the estimates before it
+
+Before impact the estimates are taken as right, along the gait's periodic orbit: q_b, q_b', xi and its first
+derivatives. The torque that the error costs is the deviation
+
+    u - u* = kappa^-1 (K_p e_1 + K_d e_2 + e_3)
+
+from that of right estimates, with kappa as it is just after impact. Linear, and so without the torque limit
+and without what a fall would do.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.polynomial import Chebyshev
+from scipy.linalg import expm
+
+from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.model.biped import Biped
+from biped_adrc.observers.base import ResetPolicy
+from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.types import Array
+
+DEGREE = 20
+"""Of the polynomial in time that stands for xi along the orbit."""
+DERIVATIVES = 3
+"""Of xi that are taken from it; those above count as known, since a fit has none to give."""
+INSTANTS, LONG = 400, 8.0
+"""Of the response, and its length in time constants of the slowest pole."""
+
+
+class ImpactPeak(NamedTuple):
+    """Largest absolute values over joints and time after one impact."""
+
+    position: float
+    """e_1 [rad]."""
+    velocity: float
+    """e_2 [rad/s]."""
+    disturbance: float
+    """e_3 [rad/s^2]."""
+    torque: float
+    """u - u* [N m]."""
+
+
+class Impact(NamedTuple):
+    """States of the chain in physical units, (order, p): q_b, q_b', xi, xi', ..."""
+
+    before: Array
+    after: Array
+    swap: Any
+    """(p,) ints, the relabelling of the joints."""
+    inertia: Array
+    """kappa^-1 (p, p) after it [kg m^2]."""
+
+
+def orbit_impact(biped: Biped, gait: Gait, order: int) -> Impact:
+    """The impact of the gait's periodic orbit. Raises GaitError where the orbit cannot be had."""
+    zero = ZeroDynamics.of(biped, gait.constraint)
+    orbit = zero.orbit(zero.delta * zero.sigma_minus)
+    xi = np.array([biped.reduction(q, v).xi for q, v in zip(orbit.q, orbit.v, strict=True)])
+    rate = orbit.v @ gait.constraint.phase
+    t = _times(orbit.theta, rate, gait.constraint.theta_plus)
+    fits = [Chebyshev.fit(t, column, DEGREE, domain=[0.0, orbit.period]) for column in xi.T]
+    ends = []
+    for time, (q, v) in (
+        (orbit.period, (gait.q_minus, gait.v_minus)),
+        (0.0, gait.start(biped)),
+    ):
+        rows = [q[: biped.p], v[: biped.p], biped.reduction(q, v).xi]
+        rows += [np.array([fit.deriv(j)(time) for fit in fits]) for j in range(1, DERIVATIVES + 1)]
+        rows += [np.zeros(biped.p)] * order
+        ends.append(np.array(rows[:order]))
+    inertia = biped.reduction(*gait.start(biped)).kappa_inverse
+    return Impact(ends[0], ends[1], biped.relabelling[: biped.p], inertia)
+
+
+def _times(theta: Array, rate: Array, start: float) -> Array:
+    """t at the nodes: the integral of 1 / Theta' from the start of the step."""
+    slowness = Chebyshev.fit(theta, 1.0 / rate, DEGREE)
+    whole = slowness.integ()
+    t: Array = whole(theta) - whole(start)
+    return t
+
+
+def reset_error(impact: Impact, policy: ResetPolicy) -> Array:
+    """e(0+) (order, p) in physical units."""
+    estimate = impact.before if policy is ResetPolicy.NONE else impact.before[:, impact.swap]
+    estimate = estimate.copy()
+    if policy in (ResetPolicy.MEASURED, ResetPolicy.MODEL):
+        estimate[:2] = impact.after[:2]
+    if policy is ResetPolicy.MODEL:
+        estimate[2:] = 0.0
+        estimate[2:3] = impact.after[2:3]
+    return impact.after - estimate
+
+
+def impact_peak(
+    observer: GPIObserver, impact: Impact, policy: ResetPolicy, gains: Gains = TABLE_II
+) -> ImpactPeak:
+    """The response to e(0+), over LONG time constants; e_3 = 0 for m = 0, which has no xi^."""
+    w, k = observer.scale, observer.order
+    E = reset_error(impact, policy) / w ** np.arange(k)[:, np.newaxis]
+    A = observer.error_system().A
+    rates = np.abs(np.real(observer.poles))
+    later = np.geomspace(0.01 / rates.max(), LONG / rates.min(), INSTANTS)
+    values = np.array([expm(A * t) @ E for t in (0.0, *later)])
+    e_1, e_2 = values[:, 0], values[:, 1] * w
+    e_3 = values[:, 2] * w**2 if k > 2 else np.zeros_like(e_1)
+    a = gains.K_p * e_1 + gains.K_d * e_2 + e_3
+    peaks = (float(np.max(np.abs(x))) for x in (e_1, e_2, e_3, a @ impact.inertia.T))
+    return ImpactPeak(*peaks)

@@ -1,0 +1,233 @@
+"""The linear loop of one joint under ADRC with a torque that comes late: its gain and its delay margin.
+
+With chi(s) the observer's polynomial (19), a = kappa u - q_d'' and e = q_b - q_d, the robot and (20) are
+
+    e'' = g a(t - d) + xi,    a = -K_p x1^ - K_d x2^ - xi^
+
+g is kappa of the robot over that of the model, 1 where the model is right. Broken at the delay the loop has
+the gain L(s), and roots on the imaginary axis where exp(i w d) = -L(i w):
+
+    hidden   L = g P / (s^(m+2) Q)         the observer is fed with a(t)
+    known    L = g (K_d s + K_p) / s^2 + (g - 1) (chi - s^m Q) / chi       it is fed with a(t - d)
+
+    Q = s^2 + (l_(m+1) + K_d) s + l_m + K_p + K_d l_(m+1)
+    P = the terms of (s^2 + K_d s + K_p) chi below s^(m+2)
+
+since s^(m+2) Q + P = (s^2 + K_d s + K_p) chi, which for g = 1 and d = 0 is the characteristic polynomial. All
+coefficients of P and Q are sums of products of positive ones, and s is counted in w, the geometric mean of the
+poles. Without delay and with g = 1
+
+    e / xi = s^m Q / ((s^2 + K_d s + K_p) chi)                    (23), corrected
+    xi^ / xi = (chi - s^(m+2) - l_(m+1) s^(m+1) - l_m s^m) / chi
+    a / n = -s^2 P / ((s^2 + K_d s + K_p) chi)                    n: error of the measured q_b
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.errors import InputError
+from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.types import Array, ComplexArray
+
+GRID = 2000
+"""Frequencies between which crossovers are looked for, beside the roots of the polynomial they obey."""
+
+
+class DelayMargin(NamedTuple):
+    """The smallest delay with a root on the imaginary axis, and that root."""
+
+    delay: float
+    """[s], infinite when there is none, 0 for a loop that is unstable without a delay."""
+    frequency: float
+    """[rad/s], nan for a loop that is unstable without a delay."""
+
+
+class Condition(NamedTuple):
+    """Condition number of the observer matrix (19) in the 2-norm."""
+
+    physical: float
+    scaled: float
+
+
+@dataclass(frozen=True)
+class ObserverLoop:
+    """The module's loop. Make it with `observer_loop`; K_p [1/s^2], K_d [1/s], kappa_ratio is g."""
+
+    observer: GPIObserver
+    K_p: float
+    K_d: float
+    kappa_ratio: float = 1.0
+
+    # -- polynomials in s / w, highest power first --------------------------------------------------
+    @cached_property
+    def _chi(self) -> Array:
+        return np.concatenate(([1.0], self.observer.parameters.gains))
+
+    @cached_property
+    def _feedback(self) -> Array:
+        w = self.observer.scale
+        return np.array([1.0, self.K_d / w, self.K_p / w**2])
+
+    @cached_property
+    def _Q(self) -> Array:
+        (_, k_d, k_p), (l_1, l_2) = self._feedback, self._chi[1:3]
+        return np.array([1.0, l_1 + k_d, l_2 + k_p + k_d * l_1])
+
+    @cached_property
+    def _P(self) -> Array:
+        full = np.polymul(self._feedback, self._chi)
+        return np.asarray(full[3:], dtype=float)
+
+    def _broken(self, known: bool) -> tuple[Array, Array]:
+        """Numerator and denominator of L."""
+        g, order = self.kappa_ratio, self.observer.order
+        if not known:
+            return g * self._P, np.concatenate((self._Q, np.zeros(order)))
+        (_, k_d, k_p), l_1 = self._feedback, self._chi[1]
+        unseen = np.concatenate(([-k_d, -(k_p + k_d * l_1)], self._chi[3:], [0.0, 0.0]))
+        tracked = g * np.polymul([k_d, k_p], self._chi)
+        top = np.asarray(np.polyadd(tracked, (g - 1.0) * unseen), dtype=float)
+        return top, np.concatenate((self._chi, [0.0, 0.0]))
+
+    # -- frequency responses -------------------------------------------------------------------------
+    def _response(self, numerator: Array, frequency: Array, feedback: bool = True) -> ComplexArray:
+        """numerator / (chi (s^2 + K_d s + K_p)) or numerator / chi at s = i w, chi as a product."""
+        s = 1j * np.asarray(frequency, dtype=float) / self.observer.scale
+        value: ComplexArray = np.asarray(np.polyval(numerator, s), dtype=complex)
+        for pole in self.observer.poles:
+            value = value / (s - pole / self.observer.scale)
+        return value / np.polyval(self._feedback, s) if feedback else value
+
+    def tracking_error(self, frequency: Array) -> ComplexArray:
+        """e / xi [s^2] at frequencies [rad/s]."""
+        numerator = np.concatenate((self._Q, np.zeros(self.observer.m)))
+        return self._response(numerator, frequency) / self.observer.scale**2
+
+    def estimate(self, frequency: Array) -> ComplexArray:
+        """xi^ / xi at frequencies [rad/s]; zero for m = 0, which has no xi^."""
+        rest = self._chi[3:] if self.observer.m else np.zeros(1)
+        return self._response(rest, frequency, feedback=False)
+
+    def noise(self, frequency: Array) -> ComplexArray:
+        """a / n [1/s^2] at frequencies [rad/s]."""
+        numerator = np.concatenate((self._P, [0.0, 0.0]))
+        return -self._response(numerator, frequency) * self.observer.scale**2
+
+    def gain(self, frequency: Array, known: bool = False) -> ComplexArray:
+        """L at frequencies [rad/s]."""
+        s = 1j * np.asarray(frequency, dtype=float) / self.observer.scale
+        top, bottom = self._broken(known)
+        L: ComplexArray = np.polyval(top, s) / np.polyval(bottom, s)
+        return L
+
+    # -- stability -----------------------------------------------------------------------------------
+    def stable_without_delay(self, known: bool = False) -> bool:
+        """Whether all roots of 1 + L have negative real parts; always for kappa_ratio 1."""
+        if self.kappa_ratio == 1.0:
+            return True
+        top, bottom = self._broken(known)
+        return bool(np.max(np.roots(np.polyadd(top, bottom)).real) < 0.0)
+
+    def crossovers(self, known: bool = False) -> Array:
+        """All frequencies [rad/s] at which |L| = 1, in order."""
+        top, bottom = self._broken(known)
+        roots = np.roots(np.polysub(_squared(top), _squared(bottom)))
+        near = np.sqrt(np.abs(roots[np.abs(roots) > 0.0])) * self.observer.scale
+        grid = np.geomspace(0.1 * near.min(), 10.0 * near.max(), GRID)
+        grid = np.unique(np.concatenate((grid, *(near * f for f in (0.999, 1.001)))))
+
+        def excess(log_w: float) -> float:
+            return float(np.log(np.abs(self.gain(np.exp(log_w), known))))
+
+        level, logs = np.log(np.abs(self.gain(grid, known))), np.log(grid)
+        turns = np.flatnonzero((level[:-1] > 0.0) != (level[1:] > 0.0))
+        found = (brentq(excess, logs[i], logs[i + 1], xtol=1e-14) for i in turns)
+        return np.exp(np.fromiter(found, dtype=float))
+
+    def delay_margin(self, known: bool = False) -> DelayMargin:
+        """The smallest delay d that the loop does not bear; known: the observer is fed with a(t - d)."""
+        if not self.stable_without_delay(known):
+            return DelayMargin(0.0, np.nan)
+        at = self.crossovers(known)
+        if len(at) == 0:
+            return DelayMargin(np.inf, np.inf)
+        delays = np.mod(np.angle(-self.gain(at, known)), 2.0 * np.pi) / at
+        first = int(np.argmin(delays))
+        return DelayMargin(float(delays[first]), float(at[first]))
+
+
+def observer_loop(
+    observer: GPIObserver, gains: Gains = TABLE_II, joint: int = 0, kappa_ratio: float = 1.0
+) -> ObserverLoop:
+    """The loop of one joint with its gains. Raises InputError for another observer or a joint without gains."""
+    if not isinstance(observer, GPIObserver):
+        raise InputError(
+            f"the linear loop of a {type(observer).__name__} was asked for, expected a GPIObserver in "
+            "continuous time"
+        )
+    if not (np.isfinite(kappa_ratio) and kappa_ratio > 0.0):
+        raise InputError(f"kappa_ratio is {kappa_ratio}, expected a positive number")
+    K_p, K_d = (joint_gain(gain, joint) for gain in (gains.K_p, gains.K_d))
+    return ObserverLoop(observer, K_p, K_d, float(kappa_ratio))
+
+
+def conditioning(observer: GPIObserver) -> Condition:
+    """Of (19) in its own and in scaled states, by the inverse in closed form.
+
+    With ones above the diagonal and -l in the first column, A e = f has the solution e_1 = -f_k / l_k,
+    e_(i+1) = f_i + l_i e_1. The smallest singular value of a matrix with entries up to 1e29 is lost in
+    round-off, its inverse is not.
+    """
+
+    def condition(l: Array, w: float) -> float:  # noqa: E741
+        k = len(l)
+        A = w * np.eye(k, k=1)
+        A[:, 0] -= l
+        inverse = np.eye(k, k=-1) / w
+        inverse[:, -1] -= np.concatenate(([1.0], l[:-1] / w)) / l[-1]
+        return float(np.linalg.norm(A, 2) * np.linalg.norm(inverse, 2))
+
+    w = observer.scale
+    return Condition(condition(observer.gains, 1.0), condition(w * observer.parameters.gains, w))
+
+
+def bandwidth(response: Callable[[Array], ComplexArray], low: float, high: float) -> float:
+    """The first frequency between low and high [rad/s] at which |response| falls below 1 / sqrt 2 of that at
+    low; high where it does not."""
+    grid = np.geomspace(low, high, GRID)
+    level = np.abs(response(grid))
+    below = np.flatnonzero(level < level[0] / np.sqrt(2.0))
+    return float(grid[below[0]]) if len(below) else high
+
+
+def _squared(p: Array) -> Array:
+    """|p(i w)|^2 as a polynomial in w^2, highest power first."""
+    rising = p[::-1]
+    even, odd = (
+        half * (-1.0) ** np.arange(len(half)) if len(half) else np.zeros(1)
+        for half in (rising[0::2], rising[1::2])
+    )
+    square: Array = np.polyadd(
+        np.polymul(even[::-1], even[::-1]), np.append(np.polymul(odd[::-1], odd[::-1]), 0.0)
+    )
+    return square
+
+
+def joint_gain(gain: Array | float, joint: int) -> float:
+    """The gain of one joint. Raises InputError for a joint that has none."""
+    values = np.atleast_1d(gain)
+    if len(values) == 1:
+        return float(values[0])
+    if not 0 <= joint < len(values):
+        raise InputError(
+            f"joint {joint} was asked for, found gains of joints 0 to {len(values) - 1}"
+        )
+    return float(values[joint])

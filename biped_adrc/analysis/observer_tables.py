@@ -1,0 +1,132 @@
+"""The observer report as tables of text, for a terminal or a page."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+from biped_adrc.analysis.observer_choice import KAPPA_RATIOS, SHARE, without_observer
+
+if TYPE_CHECKING:
+    from biped_adrc.analysis.observer_design import ObserverReport
+
+
+class Section(NamedTuple):
+    """One table."""
+
+    title: str
+    header: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+    def lines(self) -> list[str]:
+        """Title, header and rows, in columns of equal width."""
+        cells = (self.header, *self.rows)
+        widths = [max(len(row[i]) for row in cells) for i in range(len(self.header))]
+        table = ("  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)) for row in cells)
+        return [self.title, *(f"  {line}".rstrip() for line in table)]
+
+
+def sections(report: ObserverReport) -> list[Section]:
+    """All of it but the verdict."""
+    return [
+        _gains(report),
+        _stability(report),
+        _responses(report),
+        _impact(report),
+        _allowed(report),
+    ]
+
+
+def _gains(report: ObserverReport) -> Section:
+    o, c = report.observer, report.condition
+    names = [f"l_{o.order - 1 - i} [1/s^{i + 1}]" for i in range(o.order)]
+    rows = [
+        (name, f"{physical:.6g}", f"{scaled:.6g}")
+        for name, physical, scaled in zip(names, o.gains, o.parameters.gains, strict=True)
+    ]
+    rows.append(("condition number of (19)", f"{c.physical:.3g}", f"{c.scaled:.3g}"))
+    title = f"Gains of the observer; states scaled by w = {o.scale:.6g} rad/s"
+    return Section(title, ("", "physical", "scaled"), tuple(rows))
+
+
+def _stability(report: ObserverReport) -> Section:
+    hidden, known = report.hidden, report.told
+    sampled = report.sampled_margins
+    period = microseconds(report.hardware.period)
+    rows = [
+        ("delay margin, continuous", microseconds(hidden.delay), microseconds(known.delay)),
+        ("  root on the axis at", f"{hidden.frequency:.4g} rad/s", f"{known.frequency:.4g} rad/s"),
+        (f"delay margin, period {period}", *(microseconds(d) for d in sampled)),
+        *(
+            (f"largest period, {name}", *(microseconds(T) for T in periods))
+            for name, periods in report.largest_periods.items()
+        ),
+    ]
+    return Section("Stability of the linear loop", ("", "delay hidden", "known"), tuple(rows))
+
+
+def _responses(report: ObserverReport) -> Section:
+    rows = tuple(
+        (
+            f"|{name}|",
+            f"{r.low:.3g}",
+            f"{r.peak:.4g} at {r.at:.4g} rad/s",
+            f"{r.bandwidth:.4g} rad/s",
+        )
+        for name, r in report.responses.items()
+    )
+    header = ("", "at low frequency", "peak", "-3 dB")
+    title = "Transfer functions: disturbance to error [s^2] and to its estimate, angle to torque [N m/rad]"
+    return Section(title, header, rows)
+
+
+def _impact(report: ObserverReport) -> Section:
+    rows = tuple(
+        (
+            policy.value,
+            f"{p.position:.3g} rad",
+            f"{p.velocity:.3g} rad/s",
+            f"{p.disturbance:.4g} rad/s^2",
+            f"{p.torque:.4g} N m",
+        )
+        for policy, p in report.impact_peaks.items()
+    )
+    title = "Peak after the gait's impact: error of the estimates, and the torque it costs"
+    return Section(title, ("reset", "x1^", "x2^", "xi^", "torque"), rows)
+
+
+def _allowed(report: ObserverReport) -> Section:
+    rows = [
+        (str(r.m), "none", "", "", "", "")
+        if math.isnan(r.bandwidth)
+        else (
+            str(r.m),
+            f"{r.bandwidth:.4g} rad/s",
+            r.because,
+            f"{r.ripple:.3g} N m",
+            microseconds(r.delay_margin),
+            f"{r.rejection:.3g}",
+        )
+        for r in report.recommended
+    ]
+    alone = without_observer(report.gains, report.joint)
+    rows.append(("none", "", "", "", "", f"{alone:.3g}"))
+    low, high = KAPPA_RATIOS[0], KAPPA_RATIOS[-1]
+    title = (
+        f"Largest bandwidth of m + 2 equal poles: rms torque of one count within {100 * SHARE:g} % of the "
+        f"limit, stable for kappa off by {low:g} to {high:g}"
+    )
+    header = (
+        "m",
+        "bandwidth",
+        "limited by",
+        "rms torque",
+        "delay margin",
+        "|e / xi| at 5 Hz [s^2]",
+    )
+    return Section(title, header, tuple(rows))
+
+
+def microseconds(seconds: float) -> str:
+    """A time in words."""
+    return f"{1e6 * seconds:.4g} us" if math.isfinite(seconds) else "no limit found"

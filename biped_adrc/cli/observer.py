@@ -1,0 +1,166 @@
+"""`biped-adrc observer`."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from biped_adrc.cli.app import Robot, RobotPreset, app, bar, console
+from biped_adrc.errors import InputError
+
+if TYPE_CHECKING:
+    from biped_adrc.control.tracking import Gains
+    from biped_adrc.gait.gait import Gait
+    from biped_adrc.model.biped import Biped
+    from biped_adrc.observers.gpi import GPIObserver
+    from biped_adrc.studies.observer_check import DelayCheck, Walked
+
+
+@app.command("observer")
+def observer_command(
+    poles: Annotated[
+        str | None,
+        typer.Option(help="m + 2 observer poles [rad/s], comma separated; by default Table I."),
+    ] = None,
+    bandwidth: Annotated[
+        float | None, typer.Option(help="All m + 2 poles at minus this [rad/s], instead of poles.")
+    ] = None,
+    order: Annotated[
+        int | None,
+        typer.Option(help="m; 1 with --bandwidth if not given, checked against --poles."),
+    ] = None,
+    k_p: Annotated[float, typer.Option("--K-p", help="K_p [1/s^2].")] = 5000.0,
+    k_d: Annotated[float, typer.Option("--K-d", help="K_d [1/s].")] = 50.0,
+    period: Annotated[float, typer.Option(help="Sampling period [s].")] = 1.5e-3,
+    counts: Annotated[float, typer.Option(help="Of the encoders per revolution.")] = 8192.0,
+    delay: Annotated[float, typer.Option(help="From a tick to its torque [s].")] = 0.0,
+    known: Annotated[
+        bool, typer.Option("--known", help="Feed the observer with the torque that acts.")
+    ] = False,
+    robot: Robot = "rabbit",
+    preset: RobotPreset = None,
+    gait: Annotated[
+        str, typer.Option(help="A stored gait by name, or a .json file.")
+    ] = "published",
+    confirm: Annotated[
+        bool, typer.Option("--confirm", help="Walk below and above the margins, and with encoders.")
+    ] = False,
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", help="Draw the transfer functions: .png or .svg.")
+    ] = None,
+) -> None:
+    """Say what an observer asks of encoders, clock and motors, and which one a robot allows."""
+    from biped_adrc.analysis.observer_design import observer_report
+    from biped_adrc.control.tracking import Gains
+    from biped_adrc.gait.gait import load_gait
+    from biped_adrc.model.biped import Biped
+
+    chosen, gains = _observer(poles, bandwidth, order), Gains(k_p, k_d)
+    kind = _figure_kind(out)
+    biped = Biped.load(robot, preset)
+    found = load_gait(gait, biped)
+    report = observer_report(
+        chosen, gains, period, robot=biped, gait=found, counts=counts, delay=delay, known=known
+    )
+    console.print(report.verdict, markup=False, highlight=False, soft_wrap=True)
+    for section in report.sections:
+        header = (escape(name) for name in section.header)
+        table = Table(*header, title=escape(section.title), title_justify="left")
+        for row in section.rows:
+            table.add_row(*(escape(cell) for cell in row))
+        console.print(table)
+    if confirm:
+        _confirm(biped, found, chosen, gains, (period, counts, delay, known))
+    if out is not None:
+        from biped_adrc.files import write_bytes
+        from biped_adrc.viz.observer_figure import observer_figure
+        from biped_adrc.viz.style import render
+
+        write_bytes(out, render(observer_figure([report]), kind))
+        console.print(f"written to {out}")
+
+
+def _observer(poles: str | None, bandwidth: float | None, order: int | None) -> GPIObserver:
+    from biped_adrc.observers.gpi import TABLE_I, GPIObserver
+
+    if poles is not None and bandwidth is not None:
+        raise InputError("both --poles and --bandwidth are given; give one of them")
+    if bandwidth is not None:
+        return GPIObserver.from_bandwidth(bandwidth, 1 if order is None else order)
+    if poles is None:
+        return GPIObserver.from_poles(TABLE_I, order)
+    try:
+        values = [complex(text) for text in poles.replace(" ", "").split(",")]
+    except ValueError:
+        raise InputError(
+            f"--poles is '{poles}', expected numbers separated by commas, as -300,-400+50j,-400-50j"
+        ) from None
+    return GPIObserver.from_poles(values, order)
+
+
+def _figure_kind(out: Path | None) -> str:
+    kind = "" if out is None else out.suffix.lower().removeprefix(".")
+    if out is not None and kind not in ("png", "svg"):
+        raise InputError(f"a figure was asked for as '{out}', expected a name in .png or .svg")
+    return kind
+
+
+def _confirm(
+    biped: Biped,
+    gait: Gait,
+    observer: GPIObserver,
+    gains: Gains,
+    clock: tuple[float, float, float, bool],
+) -> None:
+    from biped_adrc.studies.observer_check import DelayCase, check_delay, check_encoders
+
+    period, counts, delay, known = clock
+    with bar() as progress:
+        task = progress.add_task("walks with a late torque, then with encoders", total=4)
+        checks = []
+        for told in (False, True):
+            checks.append(check_delay(DelayCase(biped, gait, observer, gains, told)))
+            progress.advance(task)
+        walks = []
+        for seen in (None, counts):
+            walks.append(
+                check_encoders(
+                    biped,
+                    gait,
+                    observer,
+                    gains,
+                    period=period,
+                    counts=seen,
+                    delay=delay,
+                    known=known,
+                )
+            )
+            progress.advance(task)
+    _print_walks(checks, walks)
+
+
+def _print_walks(checks: list[DelayCheck], walks: list[Walked]) -> None:
+    header = ("walk", "status", "errors stay", escape("error of later steps [rad]"))
+    table = Table(*header, title="Confirmed by walking", title_justify="left")
+    rows = [walked for check in checks for walked in (check.below, check.above, check.limited)]
+    for walked in (*rows, *walks):
+        tracks = "yes" if walked.tracks else "no"
+        table.add_row(walked.condition, walked.status.name, tracks, f"{walked.amplitude:.3g}")
+    console.print(table)
+    for check in checks:
+        own = f"{1e6 * check.robot_margin:.4g} us ({100 * check.shift:+.2g} %)"
+        own = own if math.isfinite(check.robot_margin) else "far from it"
+        console.print(
+            f"delay {'known' if check.known else 'hidden'}: linear margin {1e6 * check.margin:.4g} us, "
+            f"{'confirmed' if check.confirmed else 'NOT confirmed'}; the robot's own "
+            f"{own}; a finer approximant changes errors "
+            f"by {check.order_effect:.1g} rad",
+            markup=False,
+            highlight=False,
+            soft_wrap=True,
+        )

@@ -1,0 +1,253 @@
+"""Any controller in continuous time, with its torque on the way to the motors for `delay` seconds.
+
+    u(t) = u_asked(t - d),   exp(-s d) ~ N(s d) / D(s d)
+
+by the Pade approximant with a numerator one degree lower than the denominator of degree k = `order`:
+
+    N(x) = sum_(j<k)  (2k-1-j)! (k-1)! / ((2k-1)! j! (k-1-j)!) (-x)^j
+    D(x) = sum_(j<=k) (2k-1-j)! k!     / ((2k-1)! j! (k-j)!)     x^j
+
+Its error is of order (w d)^(2k), as good as the next one of equal degrees, whose gain at high frequency is +-1:
+what is asked would act at once, in part and with the wrong sign, and a torque that depends on itself would have
+to be solved for. This one passes nothing at once. States per joint R (k,), x' = d x / dt:
+
+    d R_i' = R_(i+1),   d R_k' = (u_asked - sum_j D_j R_(j+1)) / D_k,   u = sum_j N_j R_(j+1)
+
+hidden: the inner observer is fed with what was asked for, as if it acted at once; known: with what acts. The
+legs swap in the line as in the controller. A torque limit of the Walker acts behind the line; one of the
+drives' own, `torque_limit`, before it, and a hidden observer is fed with the limited torque.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from math import factorial
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from biped_adrc.control.adrc import (
+    ADRCController,
+    adrc_estimate,
+    adrc_flow,
+    adrc_initial_state,
+    adrc_jump,
+    adrc_output,
+)
+from biped_adrc.control.base import Controller, ControllerLaws, Measurement
+from biped_adrc.control.npd import NPDController, npd_output
+from biped_adrc.errors import InputError
+from biped_adrc.observers.base import Estimate
+from biped_adrc.types import Array
+
+HIGHEST = 10
+"""Largest order: beyond it coefficients cover more than ten decades and the line gets no better."""
+
+
+class LineParameters(NamedTuple):
+    """N (k,) and D (k + 1,), lowest power first; 1/d [1/s]; limit [N m]; k; known: 1 or 0."""
+
+    numerator: Array
+    denominator: Array
+    rate: float
+    limit: float
+    order: int
+    known: int
+
+
+class DelayedParameters(NamedTuple):
+    """Of the controller inside, and of the line."""
+
+    inner: Any
+    line: LineParameters
+
+
+def line_state(k: LineParameters, u: Array) -> Array:
+    """R (k, p) after u (p,) [N m] has been asked for long enough."""
+    R = np.zeros((k.order, len(u)))
+    R[0] = u / k.denominator[0]
+    return R
+
+
+def line_output(k: LineParameters, R: Array) -> Array:
+    """u (p,) [N m] that comes out."""
+    u: Array = k.numerator @ R
+    return u
+
+
+def line_flow(k: LineParameters, R: Array, asked: Array) -> Array:
+    """R' (k, p) while `asked` (p,) [N m] goes in."""
+    dR = np.zeros(R.shape)
+    dR[:-1] = k.rate * R[1:]
+    dR[-1] = k.rate * (asked - k.denominator[:-1] @ R) / k.denominator[-1]
+    return dR
+
+
+def held_back(k: LineParameters, u: Array) -> Array:
+    """u within the drives' own limit."""
+    return np.minimum(np.maximum(u, -k.limit), k.limit)
+
+
+def parts(k: LineParameters, s: Array, p: int) -> tuple[Array, Array]:
+    """The inner state and R (k, p) of s."""
+    size = len(s) - k.order * p
+    return s[:size], s[size:].reshape(k.order, p)
+
+
+def delayed_output(k: DelayedParameters, s: Array, m: Measurement) -> Array:
+    """u (p,) [N m], of a delay before."""
+    return line_output(k.line, parts(k.line, s, m.terms.kappa.shape[0])[1])
+
+
+def delayed_adrc_state(k: DelayedParameters, m: Measurement) -> Array:
+    """s of ADRC that agrees with measurement and model, and a line full of its torque."""
+    z = adrc_initial_state(k.inner, m)
+    u = held_back(k.line, adrc_output(k.inner, z, m))
+    return np.concatenate((z, line_state(k.line, u).ravel()))
+
+
+def delayed_adrc_flow(k: DelayedParameters, s: Array, m: Measurement, u: Array) -> Array:
+    """s' under the applied torque u (p,), with the observer (17)."""
+    z, R = parts(k.line, s, len(u))
+    asked = held_back(k.line, adrc_output(k.inner, z, m))
+    fed = u if k.line.known > 0 else asked
+    return np.concatenate((adrc_flow(k.inner, z, m, fed), line_flow(k.line, R, asked).ravel()))
+
+
+def delayed_adrc_jump(k: DelayedParameters, s: Array, after: Measurement, swap: Array) -> Array:
+    """s after impact: the observer by its policy, the line relabelled."""
+    z, R = parts(k.line, s, len(swap))
+    return np.concatenate((adrc_jump(k.inner, z, after, swap), R[:, swap].ravel()))
+
+
+def delayed_adrc_estimate(k: DelayedParameters, s: Array, m: Measurement) -> Estimate:
+    """What the observer inside says."""
+    return adrc_estimate(k.inner, parts(k.line, s, m.terms.kappa.shape[0])[0], m)
+
+
+def delayed_npd_state(k: DelayedParameters, m: Measurement) -> Array:
+    """A line full of the torque of NPD."""
+    return line_state(k.line, held_back(k.line, npd_output(k.inner, m.q[:0], m))).ravel()
+
+
+def delayed_npd_flow(k: DelayedParameters, s: Array, m: Measurement, u: Array) -> Array:
+    """s' of the line."""
+    asked = held_back(k.line, npd_output(k.inner, m.q[:0], m))
+    return line_flow(k.line, parts(k.line, s, len(u))[1], asked).ravel()
+
+
+def delayed_npd_jump(k: DelayedParameters, s: Array, after: Measurement, swap: Array) -> Array:
+    """The line relabelled."""
+    return parts(k.line, s, len(swap))[1][:, swap].ravel()
+
+
+@dataclass(frozen=True)
+class Delayed(Controller):
+    """The module's line behind `inner`. delay [s] > 0; order k of the approximant, 1 to 10.
+
+    known: the observer inside is fed with the torque that acts. torque_limit [N m]: of what is asked for.
+    It compiles around ADRC with a GPI observer and around NPD. Raises InputError.
+    """
+
+    inner: Controller
+    delay: float
+    order: int = 4
+    known: bool = False
+    torque_limit: float | None = None
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.delay) and self.delay > 0.0):
+            raise InputError(
+                f"the delay is {self.delay} s, expected a positive number; use {type(self.inner).__name__} "
+                "itself without one"
+            )
+        if isinstance(self.order, bool) or self.order not in range(1, HIGHEST + 1):
+            raise InputError(
+                f"the line's order is {self.order}, expected a whole number 1 to {HIGHEST}"
+            )
+        limit = self.torque_limit
+        if limit is not None and not (math.isfinite(limit) and limit > 0.0):
+            raise InputError(f"the torque limit is {limit} N m, expected a positive number or None")
+
+    @property
+    def needs_body(self) -> bool:  # type: ignore[override]
+        """As the controller inside."""
+        return self.inner.needs_body
+
+    @cached_property
+    def line(self) -> LineParameters:
+        """What the laws `line_...` need."""
+        limit = math.inf if self.torque_limit is None else float(self.torque_limit)
+        N, D = pade(self.order)
+        return LineParameters(N, D, 1.0 / self.delay, limit, self.order, int(self.known))
+
+    def _asked(self, s: Array, m: Measurement) -> Array:
+        return held_back(self.line, self.inner.output(s, m))
+
+    def output(self, s: Array, m: Measurement) -> Array:
+        return line_output(self.line, self._parts(s, m)[1])
+
+    def initial_state(self, m: Measurement) -> Array:
+        s = self.inner.initial_state(m)
+        return np.concatenate((s, line_state(self.line, self._asked(s, m)).ravel()))
+
+    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
+        s, R = self._parts(s, m)
+        asked = self._asked(s, m)
+        ds = self.inner.flow(s, m, u if self.known else asked)
+        return np.concatenate((ds, line_flow(self.line, R, asked).ravel()))
+
+    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+        s, R = self._parts(s, after)
+        return np.concatenate((self.inner.jump(s, after, swap), R[:, swap].ravel()))
+
+    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
+        return self.inner.estimate(self._parts(s, m)[0], m)
+
+    def _parts(self, s: Array, m: Measurement) -> tuple[Array, Array]:
+        return parts(self.line, s, m.terms.kappa.shape[0])
+
+    def sampled(self, period: float) -> Controller:
+        raise InputError(
+            "Delayed works in continuous time; in sampled time the delay is the clock's: "
+            "SampledTime(period, delay=...) around the controller inside"
+        )
+
+    @property
+    def laws(self) -> ControllerLaws | None:
+        """Of ADRC with a GPI observer and of NPD; None around another controller, which runs in Python."""
+        inner = self.inner.laws if type(self.inner) in (ADRCController, NPDController) else None
+        if inner is None:
+            return None
+        k = DelayedParameters(inner.parameters, self.line)
+        if type(self.inner) is NPDController:
+            return ControllerLaws(
+                k, delayed_output, delayed_npd_state, delayed_npd_flow, delayed_npd_jump
+            )
+        if inner.flow is None:
+            return None
+        return ControllerLaws(
+            k,
+            delayed_output,
+            delayed_adrc_state,
+            delayed_adrc_flow,
+            delayed_adrc_jump,
+            estimate=delayed_adrc_estimate,
+        )
+
+
+def pade(k: int) -> tuple[Array, Array]:
+    """N (k,) and D (k + 1,) of the module's approximant in x = s d, lowest power first; D_0 = N_0 = 1."""
+    whole = factorial(2 * k - 1)
+    N = [
+        (-1.0) ** j * factorial(2 * k - 1 - j) * factorial(k - 1)
+        / (whole * factorial(j) * factorial(k - 1 - j))
+        for j in range(k)
+    ]  # fmt: skip
+    D = [
+        factorial(2 * k - 1 - j) * factorial(k) / (whole * factorial(j) * factorial(k - j))
+        for j in range(k + 1)
+    ]
+    return np.array(N), np.array(D)

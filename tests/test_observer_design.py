@@ -1,0 +1,485 @@
+"""The observer design assistant: margins, sampled loops, noise, impacts, and the robot's own word on them."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.analysis.observer_choice import Hardware, count_error, obstacle, recommend
+from biped_adrc.analysis.observer_design import observer_report
+from biped_adrc.analysis.observer_impact import impact_peak, orbit_impact
+from biped_adrc.analysis.observer_loop import conditioning, observer_loop
+from biped_adrc.analysis.observer_sampled import (
+    FORMS,
+    covariance,
+    largest_delay,
+    largest_period,
+    sampled_loop,
+)
+from biped_adrc.analysis.to_ss import error_to_ss, loop_to_ss
+from biped_adrc.control.base import Measurement
+from biped_adrc.control.delayed import Delayed, line_flow, line_output, line_state, pade
+from biped_adrc.errors import InputError
+from biped_adrc.hardware.motors import IDEAL, Line, acting, sent, whole_and_part
+from biped_adrc.observers.gpi import gpi_flow
+from biped_adrc.observers.gpi_sampled import gpi_correct, gpi_predict
+from biped_adrc.studies.observer_check import DelayCase, check_encoders, step_errors
+from biped_adrc.viz.observer_figure import observer_figure
+
+TABLE_I = ba.GPIObserver.from_poles()
+FIRST = ba.GPIObserver.from_bandwidth(500.0, 1)
+OBSERVERS = {
+    "table 1": TABLE_I,
+    "m = 1": FIRST,
+    "m = 0": ba.GPIObserver.from_bandwidth(300.0, 0),
+    "complex": ba.GPIObserver.from_poles((-300 + 200j, -300 - 200j, -400.0, -80.0)),
+}
+K_P, K_D = 5000.0, 50.0
+
+
+@pytest.fixture(params=OBSERVERS.values(), ids=list(OBSERVERS))
+def observer(request):
+    return request.param
+
+
+# -- the loop in continuous time ---------------------------------------------------------------------
+def delayed_loop(observer, delay, known, order=8, g=1.0):
+    """The loop with an approximant of the delay, column by column from the laws that the robot runs."""
+    w, k = observer.scale, observer.order
+    N, D = pade(order)
+    line = Delayed(ba.Passive(), delay, order).line
+    np.testing.assert_array_equal(line.numerator, N)
+    np.testing.assert_array_equal(line.denominator, D)
+
+    def flow(X):
+        y, rate, Z, R = X[0], X[1], X[2 : 2 + k], X[2 + k :]  # rate in units of w
+        xi = Z[2] * w**2 if k > 2 else 0.0
+        a = -K_P * Z[0] - K_D * w * Z[1] - xi
+        late = line_output(line, R)
+        dZ = gpi_flow(observer.parameters, Z, y, late if known else a)
+        return np.vstack((w * rate, g * late / w, dZ, line_flow(line, R, a)))
+
+    return flow(np.eye(2 + k + order))
+
+
+@pytest.mark.parametrize("known", [False, True], ids=["hidden", "known"])
+@pytest.mark.parametrize("g", [0.8, 1.0, 1.3])
+def test_delay_margin_is_where_a_root_crosses_the_axis(observer, known, g):
+    margin, at = observer_loop(observer, kappa_ratio=g).delay_margin(known)
+    for share, sign in ((0.999, -1), (1.001, 1)):
+        roots = np.linalg.eigvals(delayed_loop(observer, share * margin, known, g=g))
+        assert np.sign(np.max(roots.real)) == sign
+    roots = np.linalg.eigvals(delayed_loop(observer, margin, known, g=g))
+    assert np.min(np.abs(roots - 1j * at)) < 1e-5 * at
+
+
+def test_margins_of_the_paper_and_of_the_linear_observer():
+    assert observer_loop(TABLE_I).delay_margin().delay == pytest.approx(85e-6, rel=0.05)
+    assert observer_loop(FIRST).delay_margin().delay == pytest.approx(4.6e-3, rel=0.05)
+
+
+def test_known_delay_leaves_the_textbook_margin_of_the_gains(observer):
+    """s^2 + (K_d s + K_p) exp(-s d): |L| = 1 at w^4 = K_d^2 w^2 + K_p^2, d = atan(K_d w / K_p) / w."""
+    w = math.sqrt(0.5 * (K_D**2 + math.sqrt(K_D**4 + 4.0 * K_P**2)))
+    margin = observer_loop(observer).delay_margin(known=True)
+    assert margin.delay == pytest.approx(math.atan(K_D * w / K_P) / w, rel=1e-9)
+    assert margin.frequency == pytest.approx(w, rel=1e-9)
+
+
+def test_a_loop_that_is_unstable_without_delay_has_no_margin():
+    """A slow observer of high order, on a robot whose kappa is three times the model's."""
+    loop = observer_loop(ba.GPIObserver.from_bandwidth(20.0, 7), kappa_ratio=3.0)
+    assert np.max(np.linalg.eigvals(delayed_loop(loop.observer, 1e-6, False, g=3.0)).real) > 0.0
+    assert loop.delay_margin().delay == 0.0
+
+
+def test_transfer_functions_are_those_of_the_state_space(observer):
+    frequencies = np.array([3.0, 30.0, 100.0, 300.0, 1e3, 1e4])
+    loop = observer_loop(observer)
+    space = loop_to_ss(ba.ADRCController(ba.TimeReference(None), observer))
+    error = error_to_ss(observer)
+    values = np.array([space(1j * w) for w in frequencies])
+    xi_error = np.array([error(1j * w)[2, 0] for w in frequencies])
+    # the state space finds e / xi by differences of up to xi / K_p: round-off of that size is its own
+    floor = 1e-12 / K_P
+    np.testing.assert_allclose(loop.tracking_error(frequencies), values[:, 0, 0], 1e-6, floor)
+    np.testing.assert_allclose(loop.noise(frequencies), values[:, 2, 1], 1e-6)
+    np.testing.assert_allclose(loop.estimate(frequencies), 1.0 - xi_error, 1e-6, 1e-9)
+
+
+def test_conditioning():
+    for observer in (FIRST, OBSERVERS["m = 0"]):
+        w, l = observer.scale, observer.gains  # noqa: E741
+        A = np.eye(len(l), k=1)
+        A[:, 0] -= l
+        found = conditioning(observer)
+        assert found.physical == pytest.approx(np.linalg.cond(A), rel=1e-6)
+        assert found.scaled == pytest.approx(
+            np.linalg.cond(observer.error_system().A / w), rel=1e-6
+        )
+    assert conditioning(TABLE_I).physical == pytest.approx(3.07e29, rel=1e-2)
+    assert conditioning(TABLE_I).scaled == pytest.approx(
+        np.linalg.cond(TABLE_I.error_system().A), rel=1e-6
+    )
+
+
+# -- sampled time ------------------------------------------------------------------------------------
+def tick_by_tick(observer, T, delay, known):
+    """One period of the loop by the laws of observer and line, for columns of (e, T e', Z, torques T^2)."""
+    k, form = observer.order, observer.sampled(T)
+    queue, f = whole_and_part(delay, T)
+    motors = IDEAL.parameters(T, f)
+
+    def step(X, noise):
+        y, rate, Z, rest = X[0], X[1] / T, X[2 : 2 + k], X[2 + k :] / T**2
+        p = X.shape[1]
+        Z = gpi_correct(form.parameters, Z, y + noise)
+        x = form.estimate(Z.ravel())
+        a = -K_P * x.position - K_D * x.velocity - x.disturbance
+        # what acts is rest[0] where a part of a period is waited for; the queue follows it
+        old = rest[0] if f > 0.0 else np.zeros(p)
+        waiting = old.copy() if f > 0.0 else np.zeros(0)
+        line = sent(motors, Line(rest[int(f > 0.0) :].ravel(), np.zeros(0), waiting, old), a)
+        first, then = (line.u, line.waiting) if f > 0.0 else (line.u, line.u)
+        Z = gpi_predict(form.parameters, Z, acting(motors, line) if known else a)
+        for u, h in ((first, f * T), (then, (1.0 - f) * T)):
+            y, rate = y + h * rate + 0.5 * h**2 * u, rate + h * u
+        held = [then[np.newaxis]] if f > 0.0 else []
+        left = np.vstack((*held, line.queue.reshape(-1, p))) if held or queue else np.zeros((0, p))
+        return np.vstack((y, T * rate, Z, T**2 * left)), a
+
+    return step, 2 + k + queue + int(f > 0.0)
+
+
+@pytest.mark.parametrize("known", [False, True], ids=["hidden", "known"])
+@pytest.mark.parametrize("delay", [0.0, 0.4, 1.0, 2.3])
+@pytest.mark.parametrize("T", [1.5e-3, 2e-4])
+def test_sampled_loop_is_the_one_of_the_laws_tick_by_tick(observer, T, delay, known):
+    loop = sampled_loop(observer, T, delay=delay * T, known=known)
+    step, size = tick_by_tick(observer, T, delay * T, known)
+    matrix, _ = step(np.eye(size), 0.0)
+    np.testing.assert_allclose(loop.matrix, matrix, rtol=1e-9, atol=1e-9 * np.max(np.abs(matrix)))
+
+
+def test_held_form_is_the_continuous_observer_with_a_held_measurement():
+    T, parts = 1e-3, 400
+    loop = sampled_loop(FIRST, T, form="held")
+    w, h = FIRST.scale, T / parts
+    X = np.eye(5)
+    y, rate, Z = X[0], X[1] / T, X[2:]
+    a = -K_P * Z[0] - K_D * w * Z[1] - w**2 * Z[2]
+    for _ in range(parts):
+        slopes, weights = [], (0.0, 0.5, 0.5, 1.0)
+        for weight in weights:
+            at = Z + weight * h * slopes[-1] if slopes else Z
+            slopes.append(gpi_flow(FIRST.parameters, at, y, a))
+        Z = Z + h / 6.0 * (slopes[0] + 2.0 * (slopes[1] + slopes[2]) + slopes[3])
+    stepped = np.vstack((y + T * rate + 0.5 * T**2 * a, T * rate + T**2 * a, Z))
+    np.testing.assert_allclose(loop.matrix, stepped, atol=1e-9 * np.max(np.abs(stepped)))
+
+
+@pytest.mark.parametrize(("T", "delay"), [(1.5e-3, 0.0), (1.5e-3, 0.7), (1e-3, 1.0)])
+def test_ripple_of_a_count_is_that_of_many_noisy_loops(T, delay):
+    loop, sigma = sampled_loop(FIRST, T, delay=delay * T), count_error(8192)
+    step, size = tick_by_tick(FIRST, T, delay * T, False)
+    random, loops = np.random.default_rng(3), 4000
+    X, torques = np.zeros((size, loops)), []
+    for tick in range(700):
+        count = math.sqrt(12.0) * sigma
+        X, a = step(X, random.uniform(-0.5 * count, 0.5 * count, loops))
+        if tick >= 400 and tick % 30 == 0:
+            torques.append(a)
+    assert np.std(torques) == pytest.approx(loop.rms(sigma), rel=0.02)
+
+
+def test_covariance_solves_its_equation():
+    A = np.diag([0.9, 0.99], 0) + np.array([[0.0, 0.3], [0.0, 0.0]])
+    Q = np.array([[2.0, 0.5], [0.5, 1.0]])
+    P = covariance(A, Q)
+    np.testing.assert_allclose(P, A @ P @ A.T + Q, rtol=1e-12)
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("observer_", [TABLE_I, FIRST], ids=["table 1", "m = 1"])
+def test_largest_period_parts_stable_from_unstable(observer_, form):
+    T = largest_period(observer_, form=form, delay_periods=1.0)
+    for share, stable in ((0.999, True), (1.001, False)):
+        loop = sampled_loop(observer_, share * T, delay=share * T, form=form)
+        assert loop.stable is stable
+
+
+def test_a_held_measurement_limits_the_period_of_table_1():
+    """The bound that the notes on the paper found by trying: about 1e-5 s."""
+    assert largest_period(TABLE_I, form="held") == pytest.approx(1e-5, rel=0.1)
+
+
+@pytest.mark.parametrize("observer_", [TABLE_I, FIRST], ids=["table 1", "m = 1"])
+def test_sampled_margin_tends_to_the_continuous_one(observer_):
+    """A held torque is late by half a period; the observer knows that, so the margin is not even less."""
+    margin = observer_loop(observer_).delay_margin().delay
+    gaps = [abs(largest_delay(observer_, margin / n) - margin) for n in (8, 32)]
+    assert gaps[1] < 0.5 * gaps[0]
+    assert gaps[1] < 0.02 * margin
+
+
+# -- the delayed controller --------------------------------------------------------------------------
+@pytest.mark.parametrize("k", [1, 2, 3, 4])
+def test_approximant_is_of_order_2k(k):
+    N, D = pade(k)
+
+    def error(x):
+        s = 1j * x
+        return abs(np.polyval(N[::-1], s) / np.polyval(D[::-1], s) - np.exp(-s))
+
+    assert math.log2(error(0.5) / error(0.25)) == pytest.approx(2 * k, abs=0.15)
+    assert np.max(np.roots(D[::-1]).real) < 0.0
+
+
+def test_line_hands_out_what_went_in_a_delay_before():
+    k = Delayed(ba.Passive(), 0.1, 6).line
+    h, w = 1e-3, 7.0
+    R = line_state(k, np.array([1.0]))
+    assert line_output(k, R)[0] == pytest.approx(1.0)
+    for i in range(2000):
+        t = i * h
+        asked = [np.array([math.cos(w * (t + c * h))]) for c in (0.0, 0.5, 1.0)]
+        a = line_flow(k, R, asked[0])
+        b = line_flow(k, R + 0.5 * h * a, asked[1])
+        c = line_flow(k, R + 0.5 * h * b, asked[1])
+        d = line_flow(k, R + h * c, asked[2])
+        R = R + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
+    assert line_output(k, R)[0] == pytest.approx(math.cos(w * (2.0 - 0.1)), abs=1e-8)
+
+
+@pytest.mark.parametrize("known", [False, True], ids=["hidden", "known"])
+@pytest.mark.parametrize("inner", ["ADRC", "NPD"])
+def test_delayed_controller_compiles_to_what_its_methods_do(bare, published, inner, known):
+    controllers = {
+        "ADRC": ba.ADRCController(published.constraint, FIRST),
+        "NPD": ba.NPDController(published.constraint),
+    }
+    controller = Delayed(controllers[inner], 2e-3, 3, known, torque_limit=60.0)
+    walker = ba.Walker(bare, controller, torque_limit=55.0)
+    slow, fast = (
+        ba.walk(walker, published, 1, ba.RK4(1e-3), engine=engine).trajectory
+        for engine in ("pinocchio", "compiled")
+    )
+    assert fast.settings["engine"] == "compiled"
+    np.testing.assert_allclose(fast.final_state, slow.final_state, rtol=1e-7, atol=1e-7)
+
+
+def test_known_feeds_what_acts_and_hidden_what_was_asked(bare, published):
+    inner = ba.ADRCController(published.constraint, FIRST)
+    q, v = published.start(bare)
+    m = Measurement(0.0, 1, 0.0, q, v, bare.reduction(q, v))
+    z, u = inner.initial_state(m) + 1e-4, np.array([1.0, -2.0, 3.0, 4.0])
+    for known, fed in ((False, inner.output(z, m)), (True, u)):
+        controller = Delayed(inner, 1e-3, 2, known)
+        s = np.concatenate((z, np.ones(8)))
+        flow = controller.flow(s, m, u)
+        np.testing.assert_array_equal(flow[:12], inner.flow(z, m, fed))
+        assert not np.array_equal(controller.output(s, m), inner.output(z, m))
+
+
+def test_impact_swaps_the_legs_in_the_line(bare, published):
+    controller = Delayed(ba.NPDController(published.constraint), 1e-3, 2)
+    q, v = published.start(bare)
+    m = Measurement(0.0, 2, 0.0, q, v, bare.reduction(q, v))
+    s = np.arange(8.0)
+    np.testing.assert_array_equal(
+        controller.jump(s, m, np.array([1, 0, 3, 2])), [1, 0, 3, 2, 5, 4, 7, 6]
+    )
+    np.testing.assert_allclose(controller.output(controller.initial_state(m), m)[0:4],
+                               controller.inner.output(np.zeros(0), m), rtol=1e-12)  # fmt: skip
+
+
+def test_delayed_controller_names_bad_input(published):
+    inner = ba.NPDController(published.constraint)
+    for arguments, word in (
+        ((0.0,), "delay is 0"),
+        ((math.nan,), "delay is nan"),
+        ((1e-3, 0), "order is 0"),
+        ((1e-3, 11), "order is 11"),
+        ((1e-3, 4, False, -1.0), "torque limit is -1"),
+    ):
+        with pytest.raises(InputError, match=word):
+            Delayed(inner, *arguments)
+    with pytest.raises(InputError, match="SampledTime"):
+        Delayed(inner, 1e-3).sampled(1e-3)
+
+
+# -- the robot's word --------------------------------------------------------------------------------
+@pytest.mark.parametrize("observer_", [FIRST, TABLE_I], ids=["m = 1", "table 1"])
+def test_robot_tracks_below_the_margin_and_diverges_above(biped, gait, observer_):
+    case = DelayCase(biped, gait, observer_)
+    below, finer = (case.walked(0.95 * case.margin, order) for order in (4, 6))
+    above = case.walked(1.05 * case.margin)
+    assert below.tracks
+    assert not above.tracks
+    assert np.max(above.errors) > 100.0 * np.max(below.errors)
+    np.testing.assert_allclose(below.errors, finer.errors, atol=1e-6)
+
+
+def test_motors_turn_divergence_into_a_limit_cycle(biped, gait):
+    case = DelayCase(biped, gait, TABLE_I)
+    calm = case.walked(0.95 * case.margin, torque_limit=150.0)
+    shaken = case.walked(1.05 * case.margin, torque_limit=150.0)
+    assert shaken.status is ba.Status.COMPLETED
+    assert 1e-4 < shaken.amplitude < 5e-2
+    assert shaken.amplitude > 20.0 * calm.amplitude
+
+
+def test_table_1_falls_by_one_count_where_the_linear_observer_walks(biped, gait):
+    walked = {
+        (observer, counts): check_encoders(biped, gait, observer, period=1.5e-3, counts=counts)
+        for observer in (TABLE_I, FIRST)
+        for counts in (None, 8192)
+    }
+    assert {key: w.status for key, w in walked.items()} == {
+        (TABLE_I, None): ba.Status.COMPLETED,
+        (TABLE_I, 8192): ba.Status.FELL,
+        (FIRST, None): ba.Status.COMPLETED,
+        (FIRST, 8192): ba.Status.COMPLETED,
+    }
+
+
+def test_ripple_on_the_robot_is_the_one_of_the_linear_loop(biped, gait):
+    """The rms of the stance hip's torque, with and without counts: their squares differ by the ripple's."""
+    from biped_adrc.hardware.sensors import Sensors
+
+    observer, rms = ba.GPIObserver.from_bandwidth(200.0, 1), []
+    for counts in (None, 8192):
+        walker = ba.Walker(
+            biped,
+            ba.ADRCController(gait.constraint, observer),
+            timing=ba.SampledTime(1.5e-3),
+            sensors=Sensors(counts=counts, velocity="measured"),
+        )
+        run = ba.walk(walker, gait, 25, ba.RK4(5e-4), engine="compiled").trajectory
+        assert run.status is ba.Status.COMPLETED
+        rms.append(np.sqrt(np.mean(np.concatenate([arc.x[:, -4] for arc in run.arcs]) ** 2)))
+    report = observer_report(observer, robot=biped, gait=gait)
+    assert math.sqrt(rms[1] ** 2 - rms[0] ** 2) == pytest.approx(report.ripple, rel=0.2)
+
+
+@pytest.mark.parametrize("policy", ["relabel", "measured"])
+def test_peak_after_impact_is_the_one_of_a_walk(bare, published, policy):
+    policy = ba.ResetPolicy(policy)
+    impact = orbit_impact(bare, published, TABLE_I.order)
+    controller = ba.ADRCController(published.constraint, TABLE_I, reset=policy)
+    walker = ba.Walker(bare, controller)
+    run = ba.walk(walker, published, 2, ba.RK4(1e-5), engine="compiled").trajectory
+    arc = run.arcs[1]
+    u = np.array([walker.instant(arc.t[i], arc.x[i], arc.mode).u for i in range(0, 1500, 5)])
+    peak = impact_peak(TABLE_I, impact, policy).torque
+    usual = np.max(np.abs(u[-1]))  # the gait's own torque, which the linear response leaves out
+    assert abs(np.max(np.abs(u)) - peak) < usual + 0.03 * peak
+
+
+def test_exact_reset_leaves_only_what_was_not_known(bare, published):
+    impact = orbit_impact(bare, published, FIRST.order)
+    assert impact_peak(FIRST, impact, ba.ResetPolicy.MODEL).torque == 0.0
+    none, relabel = (
+        impact_peak(FIRST, impact, policy)
+        for policy in (ba.ResetPolicy.NONE, ba.ResetPolicy.RELABEL)
+    )
+    q, v = published.start(bare)
+    assert none.position == pytest.approx(np.max(np.abs(q[:4] - published.q_minus[:4])))
+    jump = v[:4] - published.v_minus[[1, 0, 3, 2]]
+    assert relabel.velocity == pytest.approx(np.max(np.abs(jump)), rel=1e-3)
+
+
+# -- the report --------------------------------------------------------------------------------------
+def test_verdicts(biped, gait):
+    table, first, slow = (
+        observer_report(o, robot=biped, gait=gait)
+        for o in (TABLE_I, FIRST, ba.GPIObserver.from_bandwidth(100.0, 1))
+    )
+    assert table.verdict.startswith("Table I cannot run on rabbit (identified) at 667 Hz")
+    assert table.ripple > 100.0 * 150.0
+    assert "can run" in first.verdict
+    assert "not well" in first.verdict
+    assert slow.runs
+    late = observer_report(TABLE_I, robot=biped, gait=gait, delay=1.5e-3)
+    assert "unstable" in late.verdict
+    assert f"{late.spectral_radius:.4g}" in late.verdict
+    assert table.text().startswith(table.verdict)
+    for section in table.sections:
+        assert all(len(row) == len(section.header) for row in section.rows)
+
+
+def test_recommended_bandwidth_is_the_last_that_is_allowed():
+    hardware = Hardware(1.5e-3, 0.0, False, 8192.0, 150.0, 4.7)
+    for m in (1, 5):
+        found = recommend(hardware, ba.Gains(), m)
+        at = (ba.GPIObserver.from_bandwidth(f * found.bandwidth, m) for f in (0.999, 1.002))
+        assert [obstacle(hardware, o, ba.Gains()) for o in at] == ["", found.because]
+    none = recommend(hardware._replace(counts=10.0), ba.Gains(), 1)
+    assert math.isnan(none.bandwidth)
+
+
+def test_finer_encoders_allow_more():
+    hardware = Hardware(1.5e-3, 0.0, False, 8192.0, 150.0, 4.7)
+    found = [recommend(hardware._replace(counts=n), ba.Gains(), 1) for n in (8192.0, 65536.0)]
+    assert found[1].bandwidth > 1.5 * found[0].bandwidth
+
+
+def test_report_names_bad_input(biped, gait):
+    for arguments, word in (
+        ({"period": 0.0}, "sampling period is 0"),
+        ({"counts": 0.5}, "0.5 counts"),
+        ({"delay": -1e-3}, "delay is -0.001"),
+        ({"torque_limit": math.nan}, "torque limit"),
+        ({"gains": ba.Gains(np.array([1.0, 2.0]), np.array([1.0, 2.0])), "joint": 2}, "joint 2"),
+    ):
+        with pytest.raises(InputError, match=word):
+            observer_report(FIRST, robot=biped, gait=gait, **arguments)
+    with pytest.raises(InputError, match="not stable"):
+        observer_report([-1.0, 2.0, -3.0], robot=biped, gait=gait)
+    with pytest.raises(InputError, match="SampledGPIObserver"):
+        observer_loop(FIRST.sampled(1e-3))
+    with pytest.raises(InputError, match="kappa_ratio"):
+        observer_loop(FIRST, kappa_ratio=0.0)
+    with pytest.raises(InputError, match="form"):
+        sampled_loop(FIRST, 1e-3, form="new")
+
+
+def test_figure_shows_every_report(biped, gait):
+    reports = [observer_report(o, robot=biped, gait=gait) for o in (TABLE_I, FIRST)]
+    for axes in observer_figure(reports).axes:
+        assert [line.get_label() for line in axes.lines[:2]] == ["Table I", "m = 1 at 500 rad/s"]
+        assert axes.lines[2].get_xdata()[0] == pytest.approx(math.pi / 1.5e-3)
+    with pytest.raises(InputError, match="no report"):
+        observer_figure([])
+
+
+def test_command(tmp_path):
+    from biped_adrc.cli import app
+    from biped_adrc.cli import observer as _  # noqa: F401
+
+    out = tmp_path / "loop.svg"
+    done = CliRunner().invoke(app, ["observer", "--bandwidth", "100", "-o", str(out)])
+    assert done.exit_code == 0, done.output
+    assert "can run on rabbit" in done.output
+    assert "[s^2]" in done.output.replace("\n", "")
+    assert out.read_text().startswith("<?xml")
+    for arguments, word in (
+        (["--poles", "-3,-4,-5", "--order", "4"], "6 poles"),
+        (["--poles", "a"], "separated by commas"),
+        (["--poles", "-3,-4", "--bandwidth", "3"], "both"),
+        (["-o", "x.pdf"], ".svg"),
+    ):
+        failed = CliRunner().invoke(app, ["observer", *arguments])
+        assert isinstance(failed.exception, InputError)
+        assert word in str(failed.exception)
+
+
+def test_errors_of_a_perfect_walk_are_small(bare, published):
+    run = ba.walk(
+        ba.Walker(bare, ba.NPDController(published.constraint)), published, 2, engine="compiled"
+    )
+    assert np.max(step_errors(published, run.trajectory)) < 1e-7
