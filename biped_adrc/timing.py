@@ -20,8 +20,10 @@ class ContinuousTime:
 class SampledTime:
     """The controller acts at ticks every `period` [s] and its torque is held in between.
 
-    restart: the clock restarts at impact; a free-running clock makes the return map depend on its phase.
-    delay [s]: from a tick to the instant at which its torque begins to act, for the computation.
+    restart: the clock restarts at impact. A free-running clock makes the return map depend on its phase, and a
+    discrete observer takes what it is reset to at impact for its prediction of the next tick.
+    delay [s]: from a tick to the instant at which its torque begins to act, for the computation. A clock that
+    restarts at impact ticks there early; what is on its way is then up to one period sooner.
     delay_known: the controller's observer is fed with the torque that acts until the next tick, instead of the
     one just asked for. Raises InputError for a period that is not positive or a delay that is negative.
     """

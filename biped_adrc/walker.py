@@ -24,7 +24,7 @@ from biped_adrc.ground import StepDown, StepUp
 from biped_adrc.hardware import held
 from biped_adrc.hardware.held import Held, HeldParameters
 from biped_adrc.hardware.meter import Meter, metered
-from biped_adrc.hardware.motors import Motors, acting, limited, sent
+from biped_adrc.hardware.motors import Motors, acting, limited, mean_torque, sent
 from biped_adrc.hardware.sensors import Sensors, sense
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, Guard, HybridSystem, Split
@@ -105,9 +105,10 @@ class Walker(HybridSystem):
                 "timing=SampledTime(period)"
             )
         gain = self.impact_gain
-        if gain and not (len(gain) == self.plant.n and all(math.isfinite(e) for e in gain)):
+        fits = len(gain) == self.plant.n and all(math.isfinite(e) and e > -1.0 for e in gain)
+        if gain and not fits:
             raise InputError(
-                f"the impact gain is {gain}, expected {self.plant.n} finite numbers, or none"
+                f"the impact gain is {gain}, expected {self.plant.n} finite numbers above -1, or none"
             )
 
     # -- parts -----------------------------------------------------------------------------------
@@ -271,7 +272,8 @@ class Walker(HybridSystem):
         if k.sizes.meter:
             terms = self.nominal.reduction(q, v) if k.sizes.sensors else m.terms
             zeta = self._external(t, q, v, mode)
-            g = metered(k.meter, g, q, v, held.motor_torque(line), zeta, terms)
+            u, mean = held.motor_torque(line), mean_torque(k.motors, line)
+            g = metered(k.meter, g, q, v, u, mean, zeta, terms)
         return np.concatenate((q, v, s, held.written(Held(w, g, line))))
 
     def _release(self, t: float, x: Array, mode: Mode) -> Array:
@@ -314,7 +316,7 @@ class Walker(HybridSystem):
             h, expected = self.held_at(x), v_plus
             if self.held.sizes.sensors:
                 expected = self.nominal.impact(h.w[:n], h.w[n : 2 * n]).v
-            h = held.after_impact(self.held, h, self._swap, impact.q, v_plus, expected)
+            h = held.after_impact(self.held, h, self._swap, q, impact.q, v_plus, expected)
             tail = held.written(h)
             if self.held.sizes.sensors:
                 seen = h.w[:n], h.w[n : 2 * n]

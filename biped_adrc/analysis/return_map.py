@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from biped_adrc.engine.choice import COMPILED, PINOCCHIO, check_engine
-from biped_adrc.errors import ModelError, SimulationError
+from biped_adrc.errors import InputError, ModelError, SimulationError
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.status import Status
@@ -74,6 +74,13 @@ class ReturnMap:
 
     def __post_init__(self) -> None:
         check_engine(self.engine)
+        w = self.walker
+        noisy = w.sensors is not None and w.sensors.noisy
+        if w.meter is not None or noisy:
+            what = "a meter, which counts on" if w.meter is not None else "noise in its sensors"
+            raise InputError(
+                f"the walker has {what}, so its state never returns; expected one without it for a return map"
+            )
 
     @property
     def _dropped(self) -> int:

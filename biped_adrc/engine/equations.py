@@ -43,7 +43,7 @@ from biped_adrc.hardware.held import (
     written,
 )
 from biped_adrc.hardware.meter import metered
-from biped_adrc.hardware.motors import acting, limited, sent
+from biped_adrc.hardware.motors import acting, limited, mean_torque, sent
 from biped_adrc.hardware.sensors import sense
 from biped_adrc.model.biped import STICTION_SPEED
 from biped_adrc.model.reduction import Reduction, reduce
@@ -285,7 +285,8 @@ class Equations:
         s = self.law(at, "predict", s, fed) if laws.predict is not None else s
         u, g = motor_torque(line), held.g
         if k.sizes.meter:
-            g = at.trace(metered)(k.meter, g, true.q, true.v, u, at.zeta, true.terms)
+            mean = mean_torque(k.motors, line)
+            g = at.trace(metered)(k.meter, g, true.q, true.v, u, mean, at.zeta, true.terms)
         a = self.acceleration(true.terms, true.q, true.v, self.force(u, at.zeta))
         x = (true.q, true.v, s, written(Held(w, g, line)))
         out = column(*x, at.trace.solver.least, a)
@@ -298,19 +299,22 @@ class Equations:
         t, step = inp.take(), inp.take()
         q, v, s = inp.take(robot.n), inp.take(robot.n), inp.take(make.size)
         tail = inp.take(self.nx - 2 * robot.n - make.size)
+        q_minus = q
         q, v = mechanics.impact(robot, self.numbers.plant, q, v)
         if self.make.gained:
             v = v * (1.0 + self.numbers.impact_gain)
         trace, seen = Tracer(), (q, v)
         if make.held is not None:
-            tail, seen = self.held_after(trace, tail, q, v)
+            tail, seen = self.held_after(trace, tail, q_minus, q, v)
         if make.laws.jump is not None:
             after = self.measured(trace, t, step, 0.0 * t, *seen)
             s = self.said(trace, "jump", self.numbers.k, s, after, robot.swap)
         out = column(q, v, s, tail, trace.solver.least)
         return Function(self.K, inp.symbol, out, tuple(trace.calls))
 
-    def held_after(self, trace: Tracer, tail: Any, q: Any, v: Any) -> tuple[Any, tuple[Any, Any]]:
+    def held_after(
+        self, trace: Tracer, tail: Any, q_minus: Any, q: Any, v: Any
+    ) -> tuple[Any, tuple[Any, Any]]:
         """What is held after an impact to (q, v), and what the controller sees of (q, v) there."""
         k, robot = self.numbers.held, self.make.robot
         assert isinstance(k, HeldParameters)
@@ -318,7 +322,7 @@ class Equations:
         if k.sizes.sensors:
             K = self.numbers.plant if self.numbers.model is None else self.numbers.model
             _, expected = mechanics.impact(robot, K, held.w[:n], held.w[n : 2 * n])
-        held = trace(after_impact)(k, held, robot.swap, q, v, expected)
+        held = trace(after_impact)(k, held, robot.swap, q_minus, q, v, expected)
         seen = (held.w[:n], held.w[n : 2 * n]) if k.sizes.sensors else (q, v)
         return written(held), seen
 

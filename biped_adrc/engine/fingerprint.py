@@ -103,6 +103,7 @@ def versions_text() -> str:
     """The versions of what makes code, this package's own generator, and the processor."""
 
     from biped_adrc.engine.machine import processor
+    from biped_adrc.model.biped import STICTION_SPEED
 
     root = Path(__file__).parents[1]
     own = [
@@ -112,6 +113,7 @@ def versions_text() -> str:
     ]
     return "\n".join(
         [
+            repr(STICTION_SPEED),
             *(platform.python_version(), np.__version__, version("casadi"), version("llvmlite")),
             *(processor(), *(path.read_text(encoding="utf-8") for path in own)),
         ]

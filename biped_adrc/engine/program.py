@@ -25,7 +25,7 @@ from biped_adrc.engine.symbols import Untraceable, floats
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.held import after_impact, motor_torque, read, written
 from biped_adrc.hardware.meter import metered
-from biped_adrc.hardware.motors import acting, limited, sent
+from biped_adrc.hardware.motors import acting, limited, mean_torque, sent
 from biped_adrc.hardware.sensors import sense
 from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
@@ -125,7 +125,18 @@ def _numbers(
     )
 
 
-HARDWARE = (sense, limited, sent, acting, metered, after_impact, read, written, motor_torque)
+HARDWARE = (
+    sense,
+    limited,
+    sent,
+    acting,
+    mean_torque,
+    metered,
+    after_impact,
+    read,
+    written,
+    motor_torque,
+)
 """Laws of what is between controller and plant."""
 _MACHINES: dict[str, Machine] = {}
 

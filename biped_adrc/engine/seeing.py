@@ -12,10 +12,10 @@ from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import Machine, Text, machine
 from biped_adrc.engine.observe import Observation, Seen, Watched, shapes
-from biped_adrc.engine.program import NotCompiled, Program
+from biped_adrc.engine.program import HARDWARE, NotCompiled, Program
 from biped_adrc.engine.symbols import Untraceable, floats
 from biped_adrc.errors import ModelError
-from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.constraint import VirtualConstraint, virtual_constraint
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.types import Array
@@ -117,7 +117,7 @@ _CODES: dict[str, Machine] = {}
 
 
 def _code(make: Make, watched: Watched) -> Machine:
-    laws = "\n".join(law_text(law) for law in make.laws[1:])
+    laws = "\n".join(law_text(law) for law in (*make.laws[1:], *HARDWARE, virtual_constraint))
     key = hash_of(
         *("observe", skeleton(make.robot), laws, make.size, make.held),
         *(skeleton(watched), versions_text()),

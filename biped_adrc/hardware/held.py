@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from biped_adrc.hardware import meter
-from biped_adrc.hardware.meter import Meter
+from biped_adrc.hardware.meter import Meter, metered_impact
 from biped_adrc.hardware.motors import IDEAL, Line, Motors, relabelled, whole_and_part
 from biped_adrc.hardware.sensors import Sensors, sensed_impact, sensor_state
 from biped_adrc.types import Array
@@ -74,7 +74,7 @@ def held_parameters(
         n,
         p,
         0 if sensors is None else sensors.size(n),
-        0 if metered is None else meter.SIZE,
+        0 if metered is None else meter.size(p),
         queue,
         int(motors.lag > 0.0),
         int(fraction > 0.0),
@@ -84,7 +84,7 @@ def held_parameters(
     return HeldParameters(
         () if sensors is None else sensors.parameters(n, p, period),
         motors.parameters(period, fraction),
-        () if metered is None else metered.parameters(period),
+        () if metered is None else metered.parameters,
         sizes,
     )
 
@@ -116,10 +116,12 @@ def at_start(k: HeldParameters, q: Array, v: Array, sensors: Sensors | None) -> 
 
 
 def after_impact(
-    k: HeldParameters, held: Held, swap: Array, q: Array, v: Array, v_model: Array
+    k: HeldParameters, held: Held, swap: Array, q_minus: Array, q: Array, v: Array, v_model: Array
 ) -> Held:
-    """What is held after an impact to (q, v); v_model is the rate that the controller expects there."""
-    w = held.w
+    """What is held after an impact from q_minus to (q, v); v_model is the rate that the controller expects."""
+    w, g, p = held.w, held.g, k.sizes.p
     if k.sizes.sensors > 0:
         w = sensed_impact(k.sensors, w, q, v, v_model)
-    return Held(w, held.g, relabelled(held.line, swap))
+    if k.sizes.meter > 0:
+        g = metered_impact(g, q_minus[:p], q[:p], swap)
+    return Held(w, g, relabelled(held.line, swap))

@@ -5,8 +5,8 @@
     tau u_m' = u - u_m                                  torque of the motor
 
 What waits to act is held: j torques in a queue, and one more until t_k + f T where f > 0. At impact all of them
-are relabelled with the joints, and, where the clock restarts, what is waiting for a fraction of a period is
-replaced.
+are relabelled with the joints. Where the clock restarts there, a tick comes early: it may change the torque by
+as much as any other, the queue moves up, and what is waiting for a fraction of a period is replaced.
 """
 
 from __future__ import annotations
@@ -46,11 +46,9 @@ class Line(NamedTuple):
 
 
 def limited(k: MotorParameters, line: Line, u: Array) -> Array:
-    """u within the rate limit, after the last torque that was sent."""
+    """u within the rate limit, after the torque before it: what waited has acted by now, or never will."""
     p = len(line.u)
     last = line.u
-    if len(line.waiting) > 0:
-        last = line.waiting
     if len(line.queue) > 0:
         last = line.queue[len(line.queue) - p :]
     return np.minimum(np.maximum(u, last - k.change), last + k.change)
@@ -73,6 +71,11 @@ def acting(k: MotorParameters, line: Line) -> Array:
     if len(line.waiting) > 0:
         return k.fraction * line.u + (1.0 - k.fraction) * line.waiting
     return line.u
+
+
+def mean_torque(k: MotorParameters, line: Line) -> Array:
+    """Of the motors until the next tick (p,), with lag by what they give now."""
+    return line.u_m if len(line.u_m) > 0 else acting(k, line)
 
 
 def relabelled(line: Line, swap: Array) -> Line:

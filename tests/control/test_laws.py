@@ -91,8 +91,6 @@ CONTROLLERS = {
     "ADRC": lambda c: ba.ADRCController(c),
     "passive": lambda c: Passive(),
     "PD with gravity": lambda c: PDGravityController(c),
-    "ADRC, outputs": lambda c: OutputADRCController(c),
-    "momentum observer": lambda c: MomentumDOBController(c),
 }
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections.abc import Mapping
 from typing import Any, Literal
 
@@ -85,7 +86,9 @@ class Trial(BaseModel):
     force: float = value(0.0, "Force on a link.", "N", ge=0, le=1e5)
     direction: float = value(0.0, "Of a force, from forwards to up.", "rad", ge=-7, le=7)
     pushed_step: int = value(3, "Single support in which it begins.", ge=1, le=100_000)
-    onset: float | None = value(None, "In that step; drawn over the step without.", "s", ge=0, le=2)
+    onset: float | None = value(
+        None, "In that step; drawn without, to end with it.", "s", ge=0, le=2
+    )
     duration: float = value(0.2, "Of a pulse, a sine or noise.", "s", gt=0, le=100.0)
     frequency: float = value(5.0, "Of a sine; the highest of noise.", "Hz", gt=0, le=1000.0)
     # the plant is not the model
@@ -111,6 +114,8 @@ class Trial(BaseModel):
     start: dict[str, float] = value(
         {}, "Added to the start, by coordinate: q1.. [rad], v1.. [rad/s]."
     )
+    start_speed: float = value(0.0, "Relative change of all rates.", "1", gt=-1, le=2)
+    start_speed_spread: float = value(0.0, "Standard deviation of it, drawn.", "1", ge=0, le=1)
     start_spread: float = value(0.0, "Standard deviation added to all angles.", "rad", ge=0, le=1)
     start_rate_spread: float = value(0.0, "The same for rates.", "rad/s", ge=0, le=10)
     # numerics
@@ -127,10 +132,30 @@ class Trial(BaseModel):
     @field_validator("start")
     @classmethod
     def _coordinates(cls, start: dict[str, float]) -> dict[str, float]:
-        wrong = [key for key in start if not (key[:1] in "qv" and key[1:].isdigit())]
+        wrong = [key for key in start if not re.fullmatch("[qv][1-9][0-9]*", key, re.ASCII)]
         if wrong:
             raise ValueError(f"start names {wrong}, expected coordinates such as 'q5' or 'v5'")
-        return dict(sorted(start.items()))
+        return {key: x for key, x in sorted(start.items()) if x != 0.0}
+
+    @model_validator(mode="after")
+    def _effective(self) -> Trial:
+        """Raise ValueError for a value that would do nothing."""
+        pushed = self.push != "none"
+        idle = {
+            "amplitude or force without a push": not pushed and self.amplitude + self.force > 0.0,
+            "friction_error without friction": self.friction_error > 0.0 and not self.friction,
+            "filter_time with rates that are measured": self.filter_time > 0.0
+            and self.velocity == "measured",
+            "rate_noise with rates from differences": self.rate_noise > 0.0
+            and self.velocity == "differences",
+            f"pushed_step = {self.pushed_step} of {self.impacts} steps": self.pushed_step
+            > self.impacts
+            and (pushed or self.ground_step != 0.0),
+        }
+        found = [what for what, is_so in idle.items() if is_so]
+        if found:
+            raise ValueError(f"{'; '.join(found)}: this would do nothing, leave one of them out")
+        return self
 
     def record(self) -> dict[str, Any]:
         """The values that differ from the defaults and from what `hardware` fills in, by name."""

@@ -1,0 +1,133 @@
+"""Trials carried out: a row of plain numbers from each, whatever becomes of it.
+
+A trial whose values do not fit is a row with the status REFUSED, one whose controller raises with RAISED; what
+has no value is None, and no number is a NaN.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from threading import Lock
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from biped_adrc.engine.batch import Case, Walked, run_case
+from biped_adrc.errors import BipedError
+from biped_adrc.hardware.meter import reading
+from biped_adrc.hybrid.status import Status
+from biped_adrc.studies.bench.build import case, scene_of
+from biped_adrc.studies.bench.trial import Trial
+
+Row = dict[str, float | int | str | None]
+
+REFUSED = "REFUSED"
+COLUMNS = {
+    "status": "How the walk ended.",
+    "detail": "More of it in words.",
+    "survived": "1 when all foot strikes were made.",
+    "impacts": "Foot strikes made.",
+    "t_end": "[s]",
+    "peak_error": "Largest |q_b - h(Theta)| at the ticks [rad].",
+    "rms_error": "[rad]",
+    "peak_torque": "[N m]",
+    "rms_torque": "[N m]",
+    "work": "Sum of |u|'|dq_b| from tick to tick [J].",
+    "net_work": "Sum of u' dq_b [J]: the work of the held torques.",
+    "distance": "Sum of the steps [m].",
+    "cost_of_transport": "work / (weight distance).",
+    "speed": "distance / time [m/s].",
+    "speed_change": "Relative to the gait's.",
+    "last_speed": "Of the last two steps [m/s].",
+    "peak_matched": "Largest part of zeta in (12) from the joints [rad/s^2].",
+    "peak_unmatched": "Largest part from the unactuated row [rad/s^2].",
+    "engine": "What ran.",
+}
+"""Of a row."""
+
+_PREPARING = Lock()
+"""Robots and generated code are shared by the threads of a process."""
+
+
+def run_trials(records: Sequence[Mapping[str, Any]]) -> list[Row]:
+    """A row for each trial, in their order."""
+    return [run_trial(record) for record in records]
+
+
+def run_trial(record: Mapping[str, Any]) -> Row:
+    """The row of one trial, by its record."""
+    try:
+        trial = Trial(**record)
+        with _PREPARING:
+            made = case(trial)
+            run = run_case(made)
+    except (BipedError, ValidationError) as error:
+        return _row({"status": REFUSED, "detail": str(error), "survived": 0, "impacts": 0})
+    return _row(measured(trial, made, run()))
+
+
+def measured(trial: Trial, made: Case, walked: Walked) -> Row:
+    """The numbers of a walk."""
+    row: Row = {
+        "status": walked.status.name,
+        "detail": walked.detail,
+        "survived": int(walked.status is Status.COMPLETED),
+        "impacts": walked.impacts,
+        "t_end": walked.t_end,
+        "engine": walked.engine,
+    }
+    with _PREPARING:
+        row |= _pace(trial, made, walked)
+    if len(walked.final_state) > 2 * made.walker.plant.n + made.walker.behind - 1:
+        row |= _meter(trial, made, walked, row)
+    return row
+
+
+def _pace(trial: Trial, made: Case, walked: Walked) -> Row:
+    """How far and how fast."""
+    if walked.impacts == 0:
+        return {"distance": 0.0}
+    plant, gait = made.walker.plant, scene_of(trial).gait
+    steps = [float(plant.swing_foot(x[: plant.n])[0]) for x in walked.x_minus]
+    speed = sum(steps) / float(walked.times[-1] - walked.t_start)
+    usual = float(scene_of(trial).biped.swing_foot(gait.q_minus)[0]) / gait.period
+    last = sum(steps[-2:]) / float(np.sum(walked.durations[-2:]))
+    return {
+        "distance": sum(steps),
+        "speed": speed,
+        "speed_change": speed / usual - 1.0,
+        "last_speed": last,
+    }
+
+
+def _meter(trial: Trial, made: Case, walked: Walked, row: Row) -> Row:
+    """What the ticks counted."""
+    w = made.walker
+    g, distance = reading(w.held_at(walked.final_state).g), row["distance"]
+    ticks = max(g.ticks, 1.0) * w.plant.p
+    forward = isinstance(distance, float) and distance > 0.0
+    cost = g.work / (w.plant.weight * distance) if forward else None  # type: ignore[operator]
+    return {
+        "peak_error": g.peak_error,
+        "rms_error": math.sqrt(g.square_error / ticks),
+        "peak_torque": g.peak_torque,
+        "rms_torque": math.sqrt(g.square_torque / ticks),
+        "work": g.work,
+        "net_work": g.net_work,
+        "cost_of_transport": cost,
+        "peak_matched": g.peak_matched,
+        "peak_unmatched": g.peak_unmatched,
+    }
+
+
+def _row(known: Row) -> Row:
+    """All columns, None where there is no number."""
+    row: Row = {}
+    for name in COLUMNS:
+        x = known.get(name)
+        if isinstance(x, float):
+            x = float(x) if math.isfinite(x) else None
+        row[name] = x
+    return row
