@@ -12,12 +12,24 @@ import sys
 
 from rich.console import Console
 
-from biped_adrc.cli import design, gait, look, observer, reproduce, robot, walk, zero
+from biped_adrc.cli import (
+    compare,
+    design,
+    gait,
+    look,
+    observer,
+    reproduce,
+    robot,
+    sweep,
+    walk,
+    zero,
+)
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, gait_app
 from biped_adrc.errors import BipedError
 
 __all__ = [
     "app",
+    "compare",
     "design",
     "gait",
     "gait_app",
@@ -26,6 +38,7 @@ __all__ = [
     "observer",
     "reproduce",
     "robot",
+    "sweep",
     "walk",
     "zero",
 ]

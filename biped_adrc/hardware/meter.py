@@ -6,8 +6,8 @@ acts and the parts of zeta in (12):
     ticks, max |e|, sum e'e, max |u|, sum u'u, sum |u|'|dq_b|, sum u' dq_b, max |matched|, max |unmatched|
 
 and, behind them, q_b at the last tick and the mean torque since. dq_b is how far the joints move from tick to
-tick or to an impact: for a torque that is held u' dq_b is its work, whatever q' does. A peak is that of the joint
-where it is largest.
+tick or to an impact: for a torque that is held u' dq_b is its work, whatever q' does. A peak is that of the
+joint where it is largest.
 """
 
 from __future__ import annotations

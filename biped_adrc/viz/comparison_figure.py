@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 from biped_adrc.errors import InputError
 from biped_adrc.viz.style import PALETTE, label, new_figure, style
@@ -27,7 +28,7 @@ def survival_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
         for cell in cells:
             x, y = columns.index(cell["controller"]), rows.index(cell["condition"])
             value, low, high = cell["survived"]
-            axes.add_patch(_box(x, y, 1.0 - 0.62 * (1.0 - value), value))
+            axes.add_patch(_box(x, y, value))
             ink = "black"
             axes.text(x, y - 0.12, f"{100 * value:.0f} %", ha="center", va="center", color=ink)
             span = f"{100 * low:.0f} to {100 * high:.0f}"
@@ -37,13 +38,10 @@ def survival_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
         return figure
 
 
-def _box(x: int, y: int, grey: float, value: float) -> Any:
-    from matplotlib.patches import Rectangle
-
-    hatch = "" if value > 0.5 else "//"
-    return Rectangle(
-        (x - 0.5, y - 0.5), 1, 1, fc=str(round(grey, 3)), ec="white", lw=1.0, hatch=hatch
-    )
+def _box(x: int, y: int, value: float) -> Rectangle:
+    """White where all survive, grey where none does."""
+    grey = str(round(1.0 - 0.38 * (1.0 - value), 3))
+    return Rectangle((x - 0.5, y - 0.5), 1, 1, fc=grey, ec="black", lw=0.4)
 
 
 def measure_figure(cells: Sequence[Mapping[str, Any]], measure: str, title: str) -> Figure:

@@ -1,0 +1,95 @@
+"""`biped-adrc compare`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.table import Table
+
+from biped_adrc.cli.app import EXIT_INTERRUPTED, app, command, console
+from biped_adrc.cli.sweep import study_bar, study_workers
+
+if TYPE_CHECKING:
+    from biped_adrc.studies.bench.execute import Progress as Done
+
+
+@app.command()
+def compare(
+    out: Annotated[
+        Path,
+        typer.Option("--out", "-o", help="Folder of results, figures and page; goes on there."),
+    ] = Path("comparison"),
+    controllers: Annotated[
+        str | None, typer.Option(help="Comma separated; all of them if not given.")
+    ] = None,
+    conditions: Annotated[
+        str | None, typer.Option(help="Comma separated; all of them if not given.")
+    ] = None,
+    seeds: Annotated[int, typer.Option(help="Walks in each cell of the table.")] = 20,
+    pushes: Annotated[
+        bool, typer.Option(help="Look for the largest push survived, by bisection.")
+    ] = True,
+    workers: Annotated[
+        int | None, typer.Option(help="Processes or threads; by default one per core.")
+    ] = None,
+    threads: Annotated[
+        bool, typer.Option("--threads", help="Threads in place of processes.")
+    ] = False,
+    scheduler: Annotated[
+        str | None, typer.Option(help="Address of a Dask scheduler, such as tcp://host:8786.")
+    ] = None,
+    other_versions: Annotated[
+        bool, typer.Option("--other-versions", help="Go on with results of other versions.")
+    ] = False,
+) -> None:
+    """Which controller survives what: controllers x conditions x seeds, with confidence intervals."""
+    from biped_adrc.studies.bench.catalogue import CONTROLLERS
+    from biped_adrc.studies.bench.compare_study import run_comparison
+    from biped_adrc.studies.bench.conditions import CONDITIONS
+
+    crew = study_workers(workers, threads, scheduler)
+    with study_bar() as shown:
+        task = shown.add_task("walking", total=None, left="")
+
+        def progress(p: Done) -> None:
+            left = "" if p.left is None else f"{p.left:.0f} s left in this round"
+            shown.update(task, completed=p.done, total=p.total, left=left)
+            if p.note:
+                shown.console.print(p.note)
+
+        try:
+            summary = run_comparison(
+                out,
+                command(),
+                _names(controllers, tuple(CONTROLLERS)),
+                _names(conditions, tuple(CONDITIONS)),
+                seeds,
+                pushes,
+                crew,
+                progress,
+                other_versions,
+            )
+        except KeyboardInterrupt:
+            shown.stop()
+            console.print(f"what is finished is in {out}; the same command goes on from there")
+            raise typer.Exit(EXIT_INTERRUPTED) from None
+    _print(summary)
+    console.print(f"written to {out}: comparison.html, summary.json, figures, comparison.sqlite")
+
+
+def _names(text: str | None, every: tuple[str, ...]) -> tuple[str, ...]:
+    return every if text is None else tuple(name.strip() for name in text.split(","))
+
+
+def _print(summary: dict[str, Any]) -> None:
+    """The share of walks that survive."""
+    controllers = list(summary["controllers"])
+    table = Table("condition", *controllers, title="walks that make all steps, %")
+    found = {(c["condition"], c["controller"]): c["survived"][0] for c in summary["cells"]}
+    for condition in summary["conditions"]:
+        table.add_row(condition, *(f"{100 * found[condition, name]:.0f}" for name in controllers))
+    console.print(table)
+    for line in summary["findings"]:
+        console.print(line, markup=False, highlight=False)

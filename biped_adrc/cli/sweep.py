@@ -1,0 +1,172 @@
+"""`biped-adrc sweep`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console
+from biped_adrc.errors import InputError
+
+if TYPE_CHECKING:
+    from biped_adrc.studies.bench.execute import Progress as Done
+    from biped_adrc.studies.bench.study import Study
+    from biped_adrc.studies.bench.sweep import Sweep
+    from biped_adrc.studies.bench.workers import Workers
+    from biped_adrc.viz.sweep_maps import Maps
+
+
+@app.command()
+def sweep(
+    study: Annotated[Path, typer.Argument(help="The study, a TOML file.")],
+    out: Annotated[
+        Path, typer.Option("--out", "-o", help="Folder of the results; a study goes on there.")
+    ],
+    workers: Annotated[
+        int | None, typer.Option(help="Processes or threads; by default one per core.")
+    ] = None,
+    threads: Annotated[
+        bool, typer.Option("--threads", help="Threads in place of processes.")
+    ] = False,
+    scheduler: Annotated[
+        str | None, typer.Option(help="Address of a Dask scheduler, such as tcp://host:8786.")
+    ] = None,
+    export: Annotated[
+        list[str] | None, typer.Option(help="Write the results as csv or parquet too.")
+    ] = None,
+    plot: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Draw a map, X,Y or X,Y,PANEL of what is varied, such as 'bandwidth,period'; end with "
+            "':COLUMN' for another result than the share that survives. May be repeated."
+        ),
+    ] = None,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Check the study and count its walks, no more.")
+    ] = False,
+    other_versions: Annotated[
+        bool, typer.Option("--other-versions", help="Go on with results of other versions.")
+    ] = False,
+) -> None:
+    """Walk every point of a study, on all cores or a cluster; what is finished is never lost."""
+    from biped_adrc.studies.bench.export import KINDS, check_parquet
+    from biped_adrc.studies.bench.study_file import load_study
+    from biped_adrc.studies.bench.sweep import rehearse
+
+    found = load_study(study)
+    maps = [_maps(text, found) for text in plot or ()]
+    for kind in export or ():
+        if kind not in KINDS:
+            raise InputError(f"--export is '{kind}', expected one of {list(KINDS)}")
+        if kind == "parquet":
+            check_parquet()
+    crew = study_workers(workers, threads, scheduler)
+    if dry_run:
+        rehearse(found)
+        _print_study(found)
+        return
+    done = _run(found, out, crew)
+    console.print(
+        f"{done.path}: "
+        + ", ".join(f"{count} {status}" for status, count in done.statuses().items()),
+        markup=False,
+        highlight=False,
+        soft_wrap=True,
+    )
+    _write(done, out, export or [], maps)
+
+
+def _run(study: Study, out: Path, crew: Workers) -> Sweep:
+    from biped_adrc.studies.bench.sweep import sweep as run
+
+    with study_bar() as shown:
+        task = shown.add_task(study.name, total=study.count, left="")
+
+        def progress(p: Done) -> None:
+            left = "" if p.left is None else f"{_clock(p.left)} left"
+            shown.update(task, completed=p.done, left=left)
+            if p.note:
+                shown.console.print(p.note)
+
+        try:
+            return run(study, out, crew, progress=progress)
+        except KeyboardInterrupt:
+            shown.stop()
+            console.print(f"what is finished is in {out}; the same command goes on from there")
+            raise typer.Exit(EXIT_INTERRUPTED) from None
+
+
+def study_bar() -> Progress:
+    return Progress(
+        TextColumn("{task.description:<24.24}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn("{task.fields[left]}"),
+        console=console,
+    )
+
+
+def _clock(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes // 60}:{minutes % 60:02}:{rest:02}"
+
+
+def study_workers(number: int | None, threads: bool, scheduler: str | None) -> Workers:
+    from biped_adrc.studies.bench.workers import Processes, Threads
+
+    if scheduler is None:
+        return Threads(number) if threads else Processes(number)
+    if threads or number is not None:
+        raise InputError("--scheduler brings its own workers; leave out --workers and --threads")
+    from biped_adrc.studies.bench.cluster import Cluster
+
+    return Cluster(scheduler)
+
+
+def _maps(text: str, study: Study) -> Maps:
+    """What a text of --plot asks for. Raises InputError."""
+    from biped_adrc.studies.bench.parameters import unit
+    from biped_adrc.studies.bench.study import CASE
+    from biped_adrc.viz.sweep_maps import Maps
+
+    axes, _, value = text.partition(":")
+    names = [name.strip() for name in axes.split(",")]
+    if not 2 <= len(names) <= 3 or len(set(names)) < len(names):
+        raise InputError(f"--plot is '{text}', expected X,Y or X,Y,PANEL, and perhaps :COLUMN")
+    for name in names:
+        if name not in study.varied:
+            raise InputError(
+                f"--plot names '{name}', which the study does not vary; choose from {list(study.varied)}"
+            )
+    units = {name: unit(name) for name in study.varied if name != CASE}
+    ranges = {} if study.draw is None else study.draw.ranges
+    log = frozenset(name for name, r in ranges.items() if r.scale == "log")
+    panel = names[2] if len(names) == 3 else None
+    return Maps(names[0], names[1], panel, value.strip() or "survived", units, log)
+
+
+def _print_study(study: Study) -> None:
+    console.print(
+        f"{study.name}: {study.count} points, over {', '.join(study.varied) or 'nothing'}"
+    )
+    first = next(study.points())
+    console.print(
+        f"the first of them: {dict(first.at)}", markup=False, highlight=False, soft_wrap=True
+    )
+
+
+def _write(done: Sweep, out: Path, kinds: list[str], maps: list[Maps]) -> None:
+    for kind in kinds:
+        from biped_adrc.studies.bench.export import export
+
+        path = out / f"results.{kind}"
+        export(done, path)
+        console.print(f"written to {path}", soft_wrap=True)
+    for m in maps:
+        from biped_adrc.studies.bench.maps import write_map
+
+        console.print(f"written to {write_map(done, m, out)}", soft_wrap=True)
