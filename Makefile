@@ -5,10 +5,10 @@ OUT ?= out
 ARGS ?=
 BIN := .venv/bin
 BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine/batches engine/growth \
-  engine/compiling peers/plant peers/closed_loop pinocchio_calls
+  engine/compiling peers/plant peers/closed_loop bench/studies pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
-.PHONY: reproduce test docs pictures results verification dev lint format types imports bench clean
+.PHONY: reproduce test docs pictures comparison results verification dev lint format types imports bench clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -23,6 +23,11 @@ docs: .venv/.dev
 # what the README shows, from the runs of 'make reproduce'
 pictures: .venv/.core
 	$(BIN)/python docs/make_pictures.py $(OUT)
+
+# docs/comparison.md, from a comparison in $(OUT)/comparison, which is made or finished first
+comparison: .venv/.core
+	$(BIN)/biped-adrc compare --out $(OUT)/comparison
+	$(BIN)/python docs/write_comparison.py $(OUT)/comparison
 
 # the reproduction's results in docs/ and README.md, from its summary
 results: .venv/.core

@@ -1,4 +1,4 @@
-"""What a comparison says in words, from its numbers alone: who tracks best where, who falls, who pays for it."""
+"""What a comparison says in words, from its numbers alone: who tracks best where, who falls, who pays."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ def _best(c: Comparison) -> Iterable[str]:
             yield f"{condition}: no controller tracks clearly better than another ({least:.1e} rad)."
         else:
             yield (
-                f"{condition}: {', '.join(near)} track best, with a largest error of {least:.1e} rad; "
-                f"{most} has {errors[most]:.1e} rad."
+                f"{condition}: least error with {', '.join(near)} ({least:.1e} rad), most with {most} "
+                f"({errors[most]:.1e} rad)."
             )
 
 

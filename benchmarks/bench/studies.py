@@ -1,0 +1,119 @@
+"""A study by `sweep`: wall time, walks per second and core, memory, and the same bits however it is carried out.
+
+Run: python benchmarks/bench/studies.py [OUT] [--quick]
+
+Every walk has 25 impacts at 1 kHz under ADRC with a push of its own and counts its own error, torque and work. The
+hash is of every row, in the order of the study. `memory` is the highest that was resident in the process that
+carries the study out, `workers` in its largest child, both so far.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import resource
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+from report import Table, arguments
+
+from biped_adrc.studies.bench.study import Study
+from biped_adrc.studies.bench.sweep import Sweep, sweep
+from biped_adrc.studies.bench.workers import Processes, Threads
+
+KB = 1024.0 * 1e-6  # [MB]
+
+
+def study(walks: int, impacts: int = 25) -> Study:
+    """Pushes drawn by seed."""
+    fixed: dict[str, Any] = {
+        "controller": "ADRC",
+        "impacts": impacts,
+        "push": "pulse",
+        "on": "random joints",
+        "amplitude": 40.0,
+    }
+    return Study(name=f"{walks} walks", fixed=fixed, seeds=tuple(range(walks)))
+
+
+def hash_of(found: Sweep) -> str:
+    """Of all rows."""
+    digest = hashlib.sha256()
+    for result in found.results():
+        digest.update(json.dumps([result.at, result.row], sort_keys=True).encode())
+    return digest.hexdigest()[:12]
+
+
+def carried_out(asked: Study, workers: Any) -> tuple[float, str]:
+    """Wall time [s] and hash of a study in a folder of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        begin = time.perf_counter()
+        found = sweep(asked, Path(folder), workers)
+        return time.perf_counter() - begin, hash_of(found)
+
+
+def peak(who: int) -> float:
+    """The highest resident memory so far [MB]."""
+    return KB * resource.getrusage(who).ru_maxrss
+
+
+def on_a_cluster(asked: Study) -> tuple[float, str] | None:
+    """On a Dask cluster of two worker processes; None without Dask."""
+    try:
+        from distributed import LocalCluster
+    except ImportError:
+        return None
+    from biped_adrc.studies.bench.cluster import Cluster
+
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+    with LocalCluster(processes=True, **options) as cluster:
+        return carried_out(asked, Cluster(cluster.scheduler_address))
+
+
+def main() -> None:
+    """Print the table, and write it when asked."""
+    asked = arguments(__doc__).parse_args()
+    table = Table("Studies", "sampled ADRC walks of 25 impacts", "s and MB", ("numba", "distributed"))
+    carried_out(study(4), Processes(2))  # whatever is compiled once
+    size = 100 if asked.quick else 1000
+    ways: dict[str, Any] = {
+        "1 process": Processes(1),
+        "2 processes": Processes(2),
+        "2 threads": Threads(2),
+    }
+    alone, known = 0.0, ""
+    for name, workers in ways.items():
+        wall, found = carried_out(study(size), workers)
+        alone, known = alone or wall, known or found
+        add(table, f"{name}, {size}", size, wall, alone, found == known, workers.number)
+    cluster = on_a_cluster(study(size))
+    if cluster is None:
+        table.missing("Dask cluster")
+    else:
+        add(table, f"Dask cluster, {size}", size, cluster[0], alone, cluster[1] == known, 2)
+    for many in (1000,) if asked.quick else (1000, 10_000):
+        wall, _ = carried_out(study(many, 5), Processes(2))
+        add(table, f"2 processes, {many} of 5 impacts", many, wall, wall, True, 2)
+    table.finish(asked.out)
+
+
+def add(
+    table: Table, name: str, walks: int, wall: float, alone: float, same: bool, cores: int
+) -> None:
+    """A row."""
+    table.add(
+        name,
+        wall_s=wall,
+        walks_per_s=walks / wall,
+        per_core=walks / wall / cores,
+        scaling=alone / wall,
+        same_bits=same,
+        memory=peak(resource.RUSAGE_SELF),
+        workers=peak(resource.RUSAGE_CHILDREN),
+    )
+
+
+if __name__ == "__main__":
+    main()

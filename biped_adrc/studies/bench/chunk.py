@@ -1,0 +1,59 @@
+"""What a worker does: a chunk of records carried out, each row made ready to be stored."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+RAISED = "RAISED"
+"""Status of a run that raised."""
+
+Function = Callable[[Sequence[Mapping[str, Any]]], Sequence[Mapping[str, Any]]]
+"""A row of plain values for each record, in their order."""
+
+
+class Made(NamedTuple):
+    """The text of a row, and the time it took [s]: in a chunk as a whole its share."""
+
+    row: str
+    status: str | None
+    engine: str | None
+    seconds: float
+
+
+def run_chunk(function: Function, records: Sequence[Mapping[str, Any]]) -> list[Made]:
+    """A row of each record. Where the function raises, record by record, so that one spoils no other."""
+    begin = time.perf_counter()
+    try:
+        rows = _rows(function, records)
+        share = (time.perf_counter() - begin) / max(len(records), 1)
+        return [made(row, share) for row in rows]
+    except (Exception, SystemExit) as error:
+        if len(records) > 1:
+            return [one for record in records for one in run_chunk(function, [record])]
+        detail = f"{type(error).__name__}: {error}"
+        return [made({"status": RAISED, "detail": detail}, time.perf_counter() - begin)]
+
+
+def _rows(function: Function, records: Sequence[Mapping[str, Any]]) -> Sequence[Mapping[str, Any]]:
+    rows = function(records)
+    if len(rows) != len(records):
+        raise ValueError(f"the function gave {len(rows)} rows for {len(records)} records")
+    return rows
+
+
+def made(row: Mapping[str, Any], seconds: float) -> Made:
+    """Ready to be stored. Raises TypeError for a value that is not plain."""
+    for name, x in row.items():
+        if x is not None and not isinstance(x, (float, int, str)):
+            raise TypeError(
+                f"the row has {type(x).__name__} {x!r} in '{name}', expected a number or text"
+            )
+    status, engine = row.get("status"), row.get("engine")
+    return Made(json.dumps(dict(row)), _text(status), _text(engine), seconds)
+
+
+def _text(x: Any) -> str | None:
+    return None if x is None else str(x)

@@ -1,0 +1,150 @@
+"""The workers of an existing Dask cluster, by the address of its scheduler (the extra `[cluster]`).
+
+Each chunk asks its worker for the versions of what the numbers depend on, so that one that joins late cannot
+spoil a study.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass
+from typing import Any
+
+from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.studies.bench.store import numerical_versions
+from biped_adrc.studies.bench.workers import Workers
+
+TIMEOUT = 10.0
+"""[s] for a scheduler to answer, and for its first worker."""
+
+
+@dataclass(frozen=True)
+class Cluster(Workers):
+    """Workers of the scheduler at `address`, such as tcp://host:8786, which has `timeout` [s] to answer."""
+
+    address: str
+    timeout: float = TIMEOUT
+
+    def start(self) -> Executor:
+        """Raises InputError when none answers, has no workers, or has some with other versions."""
+        client = _client(self.address, self.timeout)
+        try:
+            _check_workers(client, self.address, self.timeout)
+        except BaseException:
+            client.close(timeout=1)
+            raise
+        return _Checked(client, client.get_executor(pure=False), numerical_versions())
+
+    def count(self, executor: Executor) -> int:
+        return max(1, sum(_of(executor).client.nthreads().values()))
+
+    def stop(self, executor: Executor, now: bool) -> None:
+        executor.shutdown(wait=not now)
+        _of(executor).client.close(timeout=2)
+
+    def restart(self, executor: Executor) -> Executor:
+        """The scheduler has put others in the place of workers that died."""
+        return executor
+
+    def broken(self, error: BaseException) -> bool:
+        from distributed import KilledWorker
+
+        return super().broken(error) or isinstance(error, KilledWorker)
+
+    def check(self, executor: Executor) -> None:
+        client = _of(executor).client
+        comm = client.scheduler_comm
+        if client.status != "running" or comm is None or comm.comm.closed():
+            raise SimulationError(
+                f"the scheduler at {self.address} has gone away; what was finished is kept. Start the cluster "
+                "again, and then the study: it goes on from there"
+            )
+
+
+def _check_workers(client: Any, address: str, timeout: float) -> None:
+    """Raises InputError."""
+    try:
+        client.wait_for_workers(1, timeout=timeout)
+    except TimeoutError as error:
+        raise InputError(
+            f"the scheduler at {address} has no workers after {timeout:g} s; start some with "
+            f"'dask worker {address}'"
+        ) from error
+    for worker, found in client.run(_asked()).items():
+        text = difference(found, numerical_versions())
+        if text:
+            raise InputError(_refusal(f"worker {worker} of the scheduler at {address}", text))
+
+
+def difference(found: Mapping[str, str] | str, expected: Mapping[str, str]) -> str:
+    """Which versions differ; empty when none does. Text in their place is what went wrong there."""
+    if isinstance(found, str):
+        return found
+    names = sorted({*found, *expected})
+    pairs = [(name, found.get(name), expected.get(name)) for name in names]
+    return "; ".join(f"{name} {a} there, {b} here" for name, a, b in pairs if a != b)
+
+
+def _refusal(who: str, text: str) -> str:
+    return (
+        f"{who} would give other numbers: {text}. Give all workers the versions of this machine, or run the "
+        "study where they are"
+    )
+
+
+def _client(address: str, timeout: float) -> Any:
+    try:
+        from distributed import Client as connect
+    except ImportError as error:
+        raise InputError(
+            "a study on a Dask cluster needs Dask, which is not installed; pip install 'biped-adrc[cluster]'"
+        ) from error
+    try:
+        return connect(address, timeout=timeout, set_as_default=False)  # type: ignore[no-untyped-call]
+    except (OSError, ValueError, TimeoutError, ImportError) as error:
+        raise InputError(
+            f"no Dask scheduler answers at '{address}' within {timeout:g} s ({type(error).__name__}: {error}); "
+            "expected an address such as tcp://host:8786, which 'dask scheduler' prints when it starts"
+        ) from error
+
+
+def _asked() -> Callable[[], Any]:
+    """A function that workers can run which do not have this package."""
+
+    def versions() -> Any:
+        try:
+            from biped_adrc.studies.bench.store import numerical_versions
+        except ImportError as error:
+            return f"biped-adrc cannot be imported there ({error})"
+        return dict(numerical_versions())
+
+    return versions
+
+
+def _run(expected: Mapping[str, str], function: Callable[..., Any], *arguments: Any) -> Any:
+    text = difference(numerical_versions(), expected)
+    if text:
+        raise InputError(_refusal("a worker of the cluster", text))
+    return function(*arguments)
+
+
+@dataclass(frozen=True)
+class _Checked(Executor):
+    """Dask's executor and its client; workers look at their versions first."""
+
+    client: Any
+    inner: Any
+    versions: Mapping[str, str]
+
+    def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        return self.inner.submit(_run, dict(self.versions), function, *args, **kwargs)
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        self.inner.shutdown(wait=wait and not cancel_futures)
+
+
+def _of(executor: Executor) -> _Checked:
+    if not isinstance(executor, _Checked):
+        raise TypeError(f"{executor!r} was not started by a cluster")
+    return executor

@@ -1,0 +1,135 @@
+"""The comparison carried out, stored run by run, and written: results.sqlite, figures, page, summary.
+
+A comparison that is killed goes on where it was: every walk, those of the bisections too, lies in the file by
+its record.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from biped_adrc.files import write_bytes, write_text
+from biped_adrc.studies.bench.catalogue import CONTROLLERS
+from biped_adrc.studies.bench.comparison import Comparison, check, compare
+from biped_adrc.studies.bench.conditions import BASE, CONDITIONS
+from biped_adrc.studies.bench.execute import LARGEST_CHUNK, Progress, run_study
+from biped_adrc.studies.bench.findings import findings
+from biped_adrc.studies.bench.points import Point, key_of, text_of
+from biped_adrc.studies.bench.run import run_trials
+from biped_adrc.studies.bench.store import About, Store, numerical_versions
+from biped_adrc.studies.bench.store_open import open_store
+from biped_adrc.studies.bench.trial import Trial
+from biped_adrc.studies.bench.workers import Workers
+from biped_adrc.viz.comparison_figure import measure_figure, push_figure, survival_figure
+from biped_adrc.viz.comparison_page import CAPTIONS, comparison_html
+from biped_adrc.viz.style import render
+
+RESULTS = "comparison.sqlite"
+TITLES = {
+    "peak_error": "largest tracking error [rad]",
+    "rms_torque": "torque, root mean square [N m]",
+    "cost_of_transport": "cost of transport",
+}
+
+
+@dataclass
+class Stored:
+    """Walks trials by `run_study` and takes their rows from the store."""
+
+    store: Store
+    workers: Workers | Executor | int | None
+    progress: Callable[[Progress], None] | None
+    walks: int = field(default=0)
+    """Walked or found, so far."""
+
+    def __call__(self, records: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+        points = [_point(record) for record in records]
+        run_study(
+            run_trials,
+            points,
+            self.store,
+            self.workers,
+            chunk=max(1, min(LARGEST_CHUNK, len(points) // 16)),
+            total=len(points),
+            progress=self.progress,
+            first=self.walks,
+        )
+        self.walks += len(points)
+        keys = [key_of(text_of(point.record)) for point in points]
+        rows = self.store.rows(keys)
+        return [rows[key] for key in keys]
+
+
+def _point(record: Mapping[str, Any]) -> Point:
+    told = ("controller", "seed", "push", "on", "onset", "amplitude")
+    return Point(Trial(**record).record(), {k: record[k] for k in told if k in record})
+
+
+def run_comparison(
+    out: Path,
+    command: str,
+    controllers: Sequence[str] = tuple(CONTROLLERS),
+    conditions: Sequence[str] = tuple(CONDITIONS),
+    seeds: int = 20,
+    pushes: bool = True,
+    workers: Workers | Executor | int | None = None,
+    progress: Callable[[Progress], None] | None = None,
+    other_versions: bool = False,
+) -> dict[str, Any]:
+    """Walk everything that is not in `out` yet and write the page; returns the summary.
+
+    Raises InputError for unknown names or a file of another comparison, OutputError.
+    """
+    check(controllers, conditions, seeds)
+    asked = {
+        "controllers": list(controllers),
+        "conditions": {name: dict(CONDITIONS[name].values) for name in conditions},
+        "base": dict(BASE),
+        "seeds": seeds,
+        "pushes": pushes,
+    }
+    name = hashlib.sha256(json.dumps(asked, sort_keys=True).encode()).hexdigest()[:32]
+    about = About("comparison", name, asked, numerical_versions())
+    with open_store(out / RESULTS, about, other_versions) as store:
+        carry = Stored(store, workers, progress)
+        found = compare(carry, controllers, conditions, seeds, pushes)
+    return write(found, out, command, carry.walks)
+
+
+def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, Any]:
+    """Figures, summary.json and comparison.html; returns the summary. Raises OutputError."""
+    summary = {
+        "command": command,
+        "walks": walks,
+        "seeds": found.seeds,
+        "findings": findings(found),
+        "controllers": {name: CONTROLLERS[name].words for name in found.controllers},
+        "conditions": {name: CONDITIONS[name].words for name in found.conditions},
+        "cells": [cell.row() for cell in found.cells],
+        "pushes": [push.row() for push in found.pushes],
+        "base": dict(BASE),
+        "versions": dict(numerical_versions()),
+    }
+    figures = draw(summary)
+    for name, svg in figures.items():
+        write_bytes(out / f"{name}.svg", svg)
+    texts = {name: svg.decode("utf-8") for name, svg in figures.items()}
+    write_text(out / "comparison.html", comparison_html(summary, texts))
+    write_text(out / "summary.json", json.dumps(summary, indent=1) + "\n")
+    return summary
+
+
+def draw(summary: Mapping[str, Any]) -> dict[str, bytes]:
+    """The figures as SVG, by name."""
+    cells, pushes = summary["cells"], summary["pushes"]
+    figures = {"survival": survival_figure(cells)}
+    figures |= {name: measure_figure(cells, name, title) for name, title in TITLES.items()}
+    if pushes:
+        figures["pushes"] = push_figure(pushes)
+    return {name: render(figures[name], "svg") for name in CAPTIONS if name in figures}

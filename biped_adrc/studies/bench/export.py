@@ -1,0 +1,117 @@
+"""Results as CSV or Parquet, row by row: what is varied, then the results; written whole or not at all."""
+
+from __future__ import annotations
+
+import csv
+import itertools
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from biped_adrc.errors import InputError, OutputError
+from biped_adrc.studies.bench.sweep import Sweep
+
+KINDS = ("csv", "parquet")
+BLOCK = 10_000
+"""Rows of a group of Parquet."""
+
+
+def export(results: Sweep, path: Path) -> None:
+    """Write the results to a file of the kind that its suffix names. Raises InputError and OutputError."""
+    kind = path.suffix.lower().lstrip(".")
+    if kind not in KINDS:
+        raise InputError(
+            f"cannot export results to '{path}': the name ends in '{path.suffix}', expected .csv or .parquet"
+        )
+    if kind == "csv":
+        export_csv(results, path)
+    else:
+        export_parquet(results, path)
+
+
+def export_csv(results: Sweep, path: Path) -> None:
+    """Floats come back to the last bit; an empty field is no value. Raises OutputError."""
+    names = results.names()
+    with _replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(names)
+        for row in results.rows():
+            writer.writerow([_field(row.get(name)) for name in names])
+
+
+def _field(x: Any) -> Any:
+    return repr(float(x)) if isinstance(x, float) else x
+
+
+def check_parquet() -> None:
+    """Raises InputError where Parquet cannot be written."""
+    try:
+        import pyarrow  # noqa: F401
+    except ImportError as error:
+        raise InputError(
+            "an export to Parquet needs pyarrow, which is not installed; pip install 'biped-adrc[tables]'"
+        ) from error
+
+
+def export_parquet(results: Sweep, path: Path) -> None:
+    """A column has one type: whole numbers, floats, true or false, text. Raises InputError and OutputError."""
+    check_parquet()
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    kinds = _kinds(results)
+    made = {bool: pa.bool_(), int: pa.int64(), float: pa.float64(), str: pa.string()}
+    schema = pa.schema([(name, made[kind]) for name, kind in kinds.items()])
+    rows = results.rows()
+    with _replacing(path) as temporary, parquet.ParquetWriter(temporary, schema) as writer:
+        while block := list(itertools.islice(rows, BLOCK)):
+            columns = [[_as(kind, row.get(name)) for row in block] for name, kind in kinds.items()]
+            writer.write_table(pa.table(columns, schema=schema))
+
+
+def _kinds(results: Sweep) -> dict[str, type]:
+    """The type of each column that all its values fit in."""
+    seen: dict[str, set[type]] = {name: set() for name in results.names()}
+    for row in results.rows():
+        for name, x in row.items():
+            if x is not None:
+                seen[name].add(type(x))
+    return {name: _kind(types) for name, types in seen.items()}
+
+
+def _kind(types: set[type]) -> type:
+    if len(types) == 1:
+        return next(iter(types))
+    return float if types and types <= {int, float} else str
+
+
+def _as(kind: type, x: Any) -> Any:
+    return None if x is None else kind(x)
+
+
+@contextmanager
+def _replacing(path: Path) -> Iterator[Path]:
+    """A temporary file beside `path`, which takes its place when all is in it. Raises OutputError."""
+    temporary = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        os.close(handle)
+        temporary = Path(name)
+        yield temporary
+        with open(temporary, "rb") as file:
+            os.fsync(file.fileno())
+        umask = os.umask(0)
+        os.umask(umask)
+        os.chmod(temporary, 0o666 & ~umask)
+        os.replace(temporary, path)
+    except OSError as error:
+        raise OutputError(
+            f"cannot write '{path}': {error.strerror or error}; choose a folder you may write to"
+        ) from error
+    finally:
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)

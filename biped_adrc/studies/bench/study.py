@@ -1,0 +1,94 @@
+"""A study: trials that have some values in common and others varied.
+
+Its points are all combinations of cases, levels of the grid, samples and seeds, the seeds fastest; they are
+made one after the other, when they are asked for.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+import json
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from biped_adrc.studies.bench.parameters import Value, nested
+from biped_adrc.studies.bench.points import Point
+from biped_adrc.studies.bench.samples import Draw
+from biped_adrc.studies.bench.trial import Trial
+
+CASE, SEED = "case", "seed"
+
+
+class Named(BaseModel):
+    """A partial set of parameters by name; they go before the study's fixed ones."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    values: dict[str, Value] = {}
+
+
+class Study(BaseModel):
+    """What is varied and what is not, in SI units: as `read_study` makes it of a file or of plain tables."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    description: str = ""
+    fixed: dict[str, Value] = {}
+    grid: dict[str, tuple[Value, ...]] = {}
+    draw: Draw | None = None
+    seeds: tuple[int, ...] = Field(default=(), description="The trial's own seed without.")
+    cases: tuple[Named, ...] = ()
+
+    @property
+    def count(self) -> int:
+        """The number of its points."""
+        levels = math.prod(len(levels) for levels in self.grid.values())
+        samples = 1 if self.draw is None else self.draw.count
+        return levels * samples * max(len(self.cases), 1) * max(len(self.seeds), 1)
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """What a point is told apart by: the case, parameters by name, the seed."""
+        drawn = () if self.draw is None else tuple(self.draw.ranges)
+        case = (CASE,) if self.cases else ()
+        return (*case, *self.grid, *drawn, *((SEED,) if self.seeds else ()))
+
+    def configuration(self) -> dict[str, Any]:
+        """All of it as plain values."""
+        return self.model_dump(mode="json")
+
+    @property
+    def hash(self) -> str:
+        """The same for two studies that differ in their description only."""
+        text = json.dumps(self.model_dump(mode="json", exclude={"description"}), sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+    def points(self) -> Iterator[Point]:
+        """One after the other; where values do not fit together the record has them as they are."""
+        for case in self.cases or (None,):
+            values = self.fixed | ({} if case is None else case.values)
+            named: dict[str, Value] = {} if case is None else {CASE: case.name}
+            for levels in itertools.product(*self.grid.values()):
+                level = dict(zip(self.grid, levels, strict=True))
+                for sample in self._samples():
+                    for seed in self.seeds or (None,):
+                        at = level | sample | ({} if seed is None else {SEED: seed})
+                        yield Point(record_of(values | at), named | at)
+
+    def _samples(self) -> Iterator[dict[str, Any]]:
+        return iter([{}]) if self.draw is None else self.draw.samples()
+
+
+def record_of(values: dict[str, Value]) -> dict[str, Any]:
+    """The trial's record of values by name, or the values themselves where no trial has them together."""
+    made = nested(values)
+    try:
+        return Trial.model_validate(made).record()
+    except ValidationError:
+        return dict(sorted(made.items()))

@@ -1,0 +1,280 @@
+"""A study from a file, checked as a whole before anything starts; what is wrong is said all at once.
+
+    [study]            name, description, seeds (a number of them, or a list)
+    [fixed]            parameters of every trial
+    [grid]             p = [..] or p = {from, to, count, scale = "linear" | "log"}: all combinations
+    [random], [sobol]  count, seed, p = {from, to, scale}: samples, of all p together
+    [[cases]]          name, parameters: each set is crossed with grid and samples
+
+Values are numbers in the SI unit, or text such as "1.5 ms"; "none" for no value.
+"""
+
+from __future__ import annotations
+
+import itertools
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from biped_adrc.errors import InputError
+from biped_adrc.studies.bench.parameters import (
+    START,
+    Refused,
+    Value,
+    check_name,
+    is_number,
+    is_whole,
+    read,
+)
+from biped_adrc.studies.bench.samples import Draw, Range
+from biped_adrc.studies.bench.study import SEED, Named, Study
+from biped_adrc.studies.bench.trial import Trial
+
+TABLES = ("study", "fixed", "grid", "random", "sobol", "cases")
+MOST = 1_000_000
+"""Levels of one parameter, and seeds."""
+MOST_LOOKED_AT = 4000
+"""Points that are looked at beforehand; a later one that does not fit has a row that says so."""
+
+
+def load_study(path: Path | str) -> Study:
+    """The study of a TOML file. Raises InputError with everything that is wrong in it."""
+    path = Path(path)
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(
+            f"cannot read the study file '{path}': {error.strerror}; expected a TOML file"
+        ) from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"study file '{path}' is not TOML: {error}") from error
+    return read_study(tables, f"study file '{path}'")
+
+
+def read_study(tables: Mapping[str, Any], where: str = "the study") -> Study:
+    """The study of plain tables, as a file has them. Raises InputError with everything that is wrong."""
+    r = _Reader()
+    for table in tables:
+        r.known(table, TABLES, "")
+    head = r.table(tables, "study")
+    for key in head:
+        r.known(key, ("name", "description", "seeds"), "study.")
+    fixed = r.values(r.table(tables, "fixed"), "fixed.")
+    grid = r.levels(r.table(tables, "grid"))
+    draw = _draw(r, tables)
+    made = {
+        "name": r.text(head, "name", "study."),
+        "description": r.text(head, "description", "study.", ""),
+        "fixed": fixed,
+        "grid": grid,
+        "draw": draw,
+        "seeds": _seeds(r, head.get("seeds")),
+        "cases": _cases(r, tables.get("cases", [])),
+    }
+    if not r.problems:
+        return _together(r, Study(**made), where)
+    raise _error(r, where)
+
+
+@dataclass
+class _Reader:
+    """Collects what is wrong, in the order of reading."""
+
+    problems: list[str] = field(default_factory=list)
+
+    def wrong(self, key: str, text: object) -> None:
+        self.problems.append(f"{key}: {text}")
+
+    def attempt(self, key: str, read: Callable[[], Any]) -> Any:
+        try:
+            return read()
+        except (Refused, ValidationError) as error:
+            self.wrong(key, error if isinstance(error, Refused) else _first(error))
+            return None
+
+    def known(self, key: str, names: tuple[str, ...], where: str) -> None:
+        if key not in names:
+            near = get_close_matches(key, names, 1)
+            hint = f"did you mean '{near[0]}'?" if near else f"expected one of {list(names)}"
+            self.wrong(f"{where}{key}", f"unknown key; {hint}")
+
+    def table(self, tables: Mapping[str, Any], name: str) -> dict[str, Any]:
+        """A table with the names of parameters in tables of their own joined by dots."""
+        found = tables.get(name, {})
+        if not isinstance(found, Mapping):
+            self.wrong(name, f"found {found!r}, expected a table [{name}]")
+            return {}
+        return _joined(found)
+
+    def text(self, table: Mapping[str, Any], key: str, where: str, default: Any = None) -> Any:
+        found = table.get(key, default)
+        if not isinstance(found, str) or (default is None and not found.strip()):
+            self.wrong(f"{where}{key}", f"found {found!r}, expected a text")
+        return found
+
+    def natural(self, table: Mapping[str, Any], key: str, where: str, least: int) -> int:
+        found = table.get(key)
+        if type(found) is not int or found < least:
+            self.wrong(f"{where}{key}", f"found {found!r}, expected a whole number from {least} on")
+            return least
+        return found
+
+    def values(self, table: Mapping[str, Any], where: str) -> dict[str, Value]:
+        return {
+            name: self.attempt(f"{where}{name}", lambda n=name, x=x: read(n, x))  # type: ignore[misc]
+            for name, x in table.items()
+        }
+
+    def levels(self, table: Mapping[str, Any]) -> dict[str, tuple[Value, ...]]:
+        return {
+            name: self.attempt(f"grid.{name}", lambda n=name, x=x: _levels(n, x)) or ()  # type: ignore[misc]
+            for name, x in table.items()
+        }
+
+
+def _joined(table: Mapping[str, Any]) -> dict[str, Any]:
+    """TOML reads start.v5 = .. as a table in a table."""
+    made: dict[str, Any] = {}
+    for name, x in table.items():
+        if name == START and isinstance(x, Mapping):
+            made |= {f"{START}.{key}": inner for key, inner in x.items()}
+        else:
+            made[name] = x
+    return made
+
+
+def _first(error: ValidationError) -> str:
+    reason = error.errors()[0]
+    name = "".join(f"{part}: " for part in reason["loc"])
+    return f"{name}{reason['msg'].removeprefix('Value error, ')}"
+
+
+def _levels(name: str, given: Any) -> tuple[Value, ...]:
+    """The levels of a grid, of a list or a range. Raises Refused."""
+    check_name(name)
+    if isinstance(given, Mapping):
+        count = given.get("count")
+        if type(count) is not int or not 1 <= count <= MOST:
+            raise Refused(f"found count {count!r}, expected a whole number from 1 to {MOST}")
+        numbers = _range(name, given, ("from", "to", "count", "scale")).levels(count)
+        levels = [read(name, x) for x in numbers]
+    elif isinstance(given, list) and given:
+        levels = [read(name, x) for x in given]
+    else:
+        raise Refused(f"found {given!r}, expected a list of values or {{from, to, count}}")
+    twice = {repr(x) for i, x in enumerate(levels) if x in levels[:i]} if len(levels) < 1000 else ()
+    if twice:
+        raise Refused(f"{', '.join(twice)} is given twice")
+    return tuple(levels)
+
+
+def _range(name: str, given: Any, keys: tuple[str, ...]) -> Range:
+    """Raises Refused."""
+    check_name(name)
+    if not isinstance(given, Mapping) or not {"from", "to"} <= set(given) <= set(keys):
+        raise Refused(f"found {given!r}, expected {{{', '.join(keys)}}}")
+    if not is_number(name):
+        raise Refused("has no ranges; give a list of values in [grid]")
+    low, high = read(name, given["from"]), read(name, given["to"])
+    scale = given.get("scale", "linear")
+    if scale not in ("linear", "log"):
+        raise Refused(f"found scale {scale!r}, expected 'linear' or 'log'")
+    if not isinstance(low, (int, float)) or not isinstance(high, (int, float)) or low >= high:
+        raise Refused(f"found from {given['from']!r} to {given['to']!r}, expected from < to")
+    if scale == "log" and (low <= 0.0 or is_whole(name)):
+        raise Refused("a logarithmic scale expects a parameter with a fraction and from > 0")
+    return Range(low=low, high=high, scale=scale, whole=is_whole(name))
+
+
+def _draw(r: _Reader, tables: Mapping[str, Any]) -> Draw | None:
+    kinds = [kind for kind in ("random", "sobol") if kind in tables]
+    if not kinds:
+        return None
+    if len(kinds) == 2:
+        r.wrong("sobol", "there is [random] too; expected one of them")
+    kind: Any = kinds[0]
+    table, where = r.table(tables, kind), f"{kind}."
+    count, seed = r.natural(table, "count", where, 1), r.natural(table, "seed", where, 0)
+    keys = ("from", "to", "scale")
+    ranges = {
+        name: r.attempt(f"{where}{name}", lambda n=name, x=x: _range(n, x, keys))  # type: ignore[misc]
+        for name, x in table.items()
+        if name not in ("count", "seed")
+    }
+    if not ranges:
+        r.wrong(kind, "names no parameter; expected p = {from, to}")
+    if r.problems:
+        return None
+    return Draw(kind=kind, count=count, seed=seed, ranges=ranges)
+
+
+def _seeds(r: _Reader, given: Any) -> tuple[int, ...]:
+    if given is None:
+        return ()
+    if type(given) is int and 1 <= given <= MOST:
+        return tuple(range(given))
+    fits = isinstance(given, list) and given and all(type(x) is int and x >= 0 for x in given)
+    if not fits or len(set(given)) < len(given):
+        r.wrong("study.seeds", f"found {given!r}, expected how many, or a list of different seeds")
+        return ()
+    return tuple(given)
+
+
+def _cases(r: _Reader, given: Any) -> tuple[Named, ...]:
+    if not isinstance(given, list) or not all(isinstance(case, Mapping) for case in given):
+        r.wrong("cases", f"found {given!r}, expected tables [[cases]]")
+        return ()
+    cases = []
+    for i, case in enumerate(given, 1):
+        where = f"cases[{i}]."
+        name = r.text(case, "name", where)
+        rest = _joined({key: x for key, x in case.items() if key != "name"})
+        cases.append(Named(name=str(name), values=r.values(rest, where)))
+    names = [case.name for case in cases]
+    if len(set(names)) < len(names):
+        r.wrong("cases", f"have the names {names}, expected different ones")
+    return tuple(cases)
+
+
+def _together(r: _Reader, study: Study, where: str) -> Study:
+    """Whether nothing is given in two places, and a point can be made of each case."""
+    drawn = () if study.draw is None else study.draw.ranges
+    places: dict[str, Iterable[str]] = {"fixed": study.fixed, "grid": study.grid, "samples": drawn}
+    places |= {f"cases[{i}]": case.values for i, case in enumerate(study.cases, 1)}
+    seeds = {"study.seeds": {SEED}} if study.seeds else {}
+    seen: dict[str, str] = {}
+    for place, names in (places | seeds).items():
+        for name in names:
+            if name not in seen:
+                seen[name] = place
+            elif not (place.startswith("cases") and seen[name].startswith(("fixed", "cases"))):
+                r.wrong(f"{place}.{name}", f"is given in '{seen[name]}' too; expected one place")
+    if not r.problems:
+        _look(r, study)
+    if r.problems:
+        raise _error(r, where)
+    return study
+
+
+def _look(r: _Reader, study: Study) -> None:
+    """Whether values fit together, in the first points of each case, up to the first where they do not."""
+    most = MOST_LOOKED_AT // max(len(study.cases), 1) + 1
+    for case in study.cases or (None,):
+        alone = study.model_copy(update={"cases": () if case is None else (case,)})
+        for p in itertools.islice(alone.points(), most):
+            try:
+                Trial.model_validate(p.record)
+            except ValidationError as error:
+                r.wrong(f"at {dict(p.at)}", _first(error))
+                return
+
+
+def _error(r: _Reader, where: str) -> InputError:
+    if len(r.problems) == 1:
+        return InputError(f"{where}, {r.problems[0]}")
+    return InputError("\n  ".join([f"{where} has {len(r.problems)} problems:", *r.problems]))

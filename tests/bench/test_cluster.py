@@ -1,0 +1,158 @@
+"""The same study on a real Dask cluster of separate processes, with workers and a scheduler that go away."""
+
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from pathlib import Path
+
+import pytest
+import standin
+from standin import about, records, results, rows
+
+from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.studies.bench import cluster as of_cluster
+from biped_adrc.studies.bench.cluster import Cluster, difference
+from biped_adrc.studies.bench.execute import run_study
+from biped_adrc.studies.bench.store import numerical_versions
+from biped_adrc.studies.bench.store_open import open_store
+from biped_adrc.studies.bench.study_file import read_study
+from biped_adrc.studies.bench.sweep import sweep
+from biped_adrc.studies.bench.workers import Threads
+
+pytestmark = pytest.mark.filterwarnings("ignore")
+FOLDER = Path(standin.__file__).parent
+
+SCHEDULER = """
+import sys, time
+sys.path.insert(0, sys.argv[1])
+from distributed import LocalCluster
+if __name__ == "__main__":
+    with LocalCluster(n_workers=int(sys.argv[2]), threads_per_worker=1, processes=True,
+                      dashboard_address=None, silence_logs=50) as cluster:
+        print(cluster.scheduler_address, flush=True)
+        sys.stdin.read()
+"""
+
+
+def started(workers):
+    """A cluster of its own process, and its address."""
+    process = subprocess.Popen(
+        [sys.executable, "-c", SCHEDULER, str(FOLDER), str(workers)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        start_new_session=True,
+        env={**os.environ, "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1"},
+    )
+    return process, process.stdout.readline().strip()
+
+
+@pytest.fixture(scope="module")
+def address():
+    process, address = started(2)
+    yield address
+    process.communicate("")
+
+
+def run(path, given, workers, **more):
+    with open_store(path, about()) as store:
+        summary = run_study(rows, given, store, workers, **more)
+        return results(store), summary
+
+
+def test_the_same_rows_as_in_threads(tmp_path, address):
+    here, _ = run(tmp_path / "here.sqlite", records(90), Threads(2))
+    there, _ = run(tmp_path / "there.sqlite", records(90), Cluster(address), chunk=4)
+    assert there == here
+
+
+def test_walks_are_the_same_as_in_threads(tmp_path, address):
+    study = read_study(
+        {
+            "study": {"name": "walks", "seeds": 2},
+            "fixed": {"impacts": 2, "start_rate_spread": 0.05},
+            "grid": {"controller": ["ADRC", "NPD"]},
+        }
+    )
+    here = sweep(study, tmp_path / "here", Threads(2))
+    there = sweep(study, tmp_path / "there", Cluster(address), chunk=1)
+    assert list(there.rows()) == list(here.rows())
+    assert there.statuses() == {"COMPLETED": 4}
+
+
+def test_a_worker_that_is_killed_in_the_middle(tmp_path, address):
+    marked = tmp_path / "died"
+    given = [{**r, "once": str(marked)} if r["x"] == 40 else r for r in records(90)]
+    found, _ = run(tmp_path / "killed.sqlite", given, Cluster(address), chunk=4)
+    assert marked.exists()
+    assert [row for *_, row in found] == rows(records(90))
+
+
+def test_a_record_that_kills_every_worker_is_named(tmp_path, address):
+    given = [{**r, "kill": 1} if r["x"] == 3 else r for r in records(12)]
+    found, _ = run(tmp_path / "kill.sqlite", given, Cluster(address), chunk=2)
+    assert [k for k, _, _, row in found if row["status"] == "CRASHED"] == [3]
+
+
+def test_a_scheduler_that_goes_away_ends_the_study_and_keeps_what_was_finished(tmp_path):
+    process, address = started(1)
+
+    def stop(p):
+        if p.fresh >= 20:
+            os.killpg(process.pid, signal.SIGKILL)
+
+    path = tmp_path / "r.sqlite"
+    begin = time.monotonic()
+    with pytest.raises(SimulationError, match="gone away"):
+        run(path, records(400, 5e-3), Cluster(address), chunk=4, progress=stop)
+    assert time.monotonic() - begin < 30.0
+    process.communicate()
+    with open_store(path, about()) as store:
+        assert 20 <= len(store) < 400
+
+
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nowhere", "tcp://127.0.0.1:notaport"])
+def test_a_scheduler_that_does_not_answer(address):
+    begin = time.monotonic()
+    with pytest.raises(InputError, match="no Dask scheduler answers"):
+        Cluster(address, timeout=1.0).start()
+    assert time.monotonic() - begin < 5.0
+
+
+def test_a_scheduler_without_workers():
+    process, address = started(0)
+    with pytest.raises(InputError, match="no workers after 1 s"):
+        Cluster(address, timeout=1.0).start()
+    process.communicate("")
+
+
+def test_a_worker_with_other_versions_is_refused(monkeypatch, address):
+    other = {**numerical_versions(), "numpy": "99.1"}
+    monkeypatch.setattr(of_cluster, "numerical_versions", lambda: other)
+    with pytest.raises(InputError, match=r"worker tcp.*numpy .* there, 99.1 here"):
+        Cluster(address).start()
+
+
+def test_a_worker_that_joins_with_other_versions_is_refused():
+    here = dict(numerical_versions())
+    assert of_cluster._run(here, int, "3") == 3
+    with pytest.raises(InputError, match=r"a worker of the cluster .*scipy .* there, 0 here"):
+        of_cluster._run({**here, "scipy": "0"}, int, "3")
+    assert "cannot be imported" in difference("biped-adrc cannot be imported there", here)
+
+
+def test_without_dask_the_extra_is_named():
+    code = """
+        import sys
+        sys.modules["distributed"] = None
+        from biped_adrc.studies.bench.cluster import Cluster
+        Cluster("tcp://127.0.0.1:9").start()
+    """
+    done = subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, check=False
+    )
+    assert "pip install 'biped-adrc[cluster]'" in done.stderr

@@ -1,0 +1,255 @@
+"""The same rows whoever makes them, and a clear end for those that cannot be made."""
+
+import contextlib
+import os
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import psutil
+import pytest
+import standin
+from standin import about, records, results, rows
+
+from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.studies.bench import execute
+from biped_adrc.studies.bench.execute import LOOK_UP, run_study
+from biped_adrc.studies.bench.points import Point
+from biped_adrc.studies.bench.store_open import open_store, read_store
+from biped_adrc.studies.bench.workers import Processes, Threads
+
+LIGHT = ("standin",)
+
+
+def run(path, given, workers, **more):
+    with open_store(path, about()) as store:
+        summary = run_study(more.pop("function", rows), given, store, workers, **more)
+        return results(store), summary
+
+
+@pytest.fixture(scope="module")
+def expected(tmp_path_factory):
+    return run(tmp_path_factory.mktemp("one") / "r.sqlite", records(90), Threads(1), chunk=90)[0]
+
+
+@pytest.mark.parametrize(
+    ("workers", "chunk"),
+    [
+        (Processes(1, LIGHT), None),
+        (Processes(2, LIGHT), 4),
+        (Threads(1), 1),
+        (Threads(3), 7),
+    ],
+)
+def test_rows_do_not_depend_on_workers_or_chunks(tmp_path, expected, workers, chunk):
+    assert run(tmp_path / "r.sqlite", records(90), workers, chunk=chunk)[0] == expected
+
+
+def test_an_executor_of_the_callers_is_used_and_not_ended(tmp_path, expected):
+    with ThreadPoolExecutor(2) as pool:
+        assert run(tmp_path / "r.sqlite", records(90), pool)[0] == expected
+        assert pool.submit(int, "3").result() == 3
+
+
+def test_repeated_points_run_once_and_have_their_rows(tmp_path):
+    lock, seen = threading.Lock(), []
+
+    def counting(given):
+        with lock:
+            seen.extend(record["x"] for record in given)
+        return rows(given)
+
+    given = [Point({"x": k % 10}, {"x": k % 10, "place": k}) for k in range(3 * LOOK_UP)]
+    found, summary = run(tmp_path / "r.sqlite", given, Threads(2), function=counting, chunk=2)
+    assert sorted(seen) == list(range(10))
+    assert (summary.points, summary.fresh) == (3 * LOOK_UP, 10)
+    assert [at["place"] for _, _, at, _ in found] == list(range(3 * LOOK_UP))
+    assert all(row["n"] == at["x"] ** 2 for _, _, at, row in found)
+
+
+def test_points_are_made_when_they_are_needed(tmp_path):
+    taken = []
+
+    def endless():
+        for record in records(10**9):
+            taken.append(record["x"])
+            yield record
+
+    def stop(p):
+        if p.fresh >= 50:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run(tmp_path / "r.sqlite", endless(), Threads(2), progress=stop)
+    assert len(taken) <= 2 * LOOK_UP
+
+
+def test_a_record_that_raises_is_named_and_spoils_no_other(tmp_path, expected):
+    given = [{**r, "raise": 1} if r["x"] in (5, 50) else r for r in records(90)]
+    found, _ = run(tmp_path / "r.sqlite", given, Threads(2), chunk=9)
+    for got, good in zip(found, expected, strict=True):
+        if got[0] in (5, 50):
+            assert got[3] == {"status": "RAISED", "detail": f"ValueError: no row for {got[0]}"}
+        else:
+            assert got == good
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        (lambda given: rows(given)[1:], "0 rows for 1 records"),
+        (lambda given: [{"y": object()} for _ in given], "expected a number or text"),
+        (lambda given: sys.exit(3), "SystemExit: 3"),
+    ],
+)
+def test_rows_that_are_none_have_the_reason(tmp_path, function, message):
+    found, _ = run(tmp_path / "r.sqlite", records(4), Threads(1), function=function)
+    assert [row["status"] for *_, row in found] == ["RAISED"] * 4
+    assert message in found[0][3]["detail"]
+
+
+def test_a_function_that_cannot_be_sent_is_refused(tmp_path):
+    with pytest.raises(SimulationError, match="import by name"):
+        run(
+            tmp_path / "r.sqlite",
+            records(4),
+            Processes(1, LIGHT),
+            function=lambda given: rows(given),
+        )
+
+
+def test_a_worker_that_is_killed_once_changes_nothing(tmp_path, expected):
+    marked = tmp_path / "died"
+    given = [{**r, "once": str(marked)} if r["x"] == 40 else r for r in records(90)]
+    notes = []
+    found, summary = run(
+        tmp_path / "r.sqlite", given, Processes(2, LIGHT), progress=lambda p: notes.append(p.note)
+    )
+    assert summary.deaths == 1
+    assert any("died" in note for note in notes)
+    assert [row for *_, row in found] == [row for *_, row in expected]
+
+
+def test_a_record_that_kills_its_worker_is_named(tmp_path, expected):
+    given = [{**r, "kill": 1} if r["x"] == 30 else r for r in records(40)]
+    found, summary = run(tmp_path / "r.sqlite", given, Processes(2, LIGHT), chunk=4)
+    assert summary.deaths >= 2
+    assert [k for k, _, _, row in found if row["status"] == "CRASHED"] == [30]
+    assert "died" in found[30][3]["detail"]
+    assert all(a == b for a, b in zip(found, expected, strict=False) if a[0] != 30)
+    again = run(tmp_path / "r.sqlite", given, Processes(1, LIGHT))
+    assert (again[0], again[1].fresh) == (found, 1)
+
+
+def test_workers_that_die_all_the_time_end_the_study(tmp_path):
+    given = [{"x": k, "kill": 1} for k in range(40)]
+    with pytest.raises(SimulationError, match="died one after the other"):
+        run(tmp_path / "r.sqlite", given, Processes(1, LIGHT), chunk=1)
+
+
+def test_progress_counts_to_the_end_and_knows_the_time_left(tmp_path):
+    told = []
+    run(
+        tmp_path / "r.sqlite",
+        records(60, 1e-3),
+        Threads(1),
+        chunk=5,
+        total=60,
+        progress=told.append,
+    )
+    done = [p.done for p in told]
+    assert done == sorted(done)
+    assert (done[0], done[-1], told[-1].left) == (0, 60, 0.0)
+    half = next(p for p in told if p.done == 30)
+    assert 0.01 < half.left < 1.0
+
+
+@pytest.mark.parametrize("number", [0, -2])
+def test_numbers_of_workers_and_chunks(tmp_path, number):
+    for make in (Processes, Threads):
+        with pytest.raises(InputError, match="expected at least 1"):
+            make(number)
+    with pytest.raises(InputError, match="expected at least 1"):
+        run(tmp_path / "r.sqlite", records(3), Threads(1), chunk=number)
+
+
+SCRIPT = """
+import sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+from standin import about, records, rows
+from biped_adrc.studies.bench.execute import run_study
+from biped_adrc.studies.bench.store_open import open_store
+from biped_adrc.studies.bench.workers import Processes
+if __name__ == "__main__":
+    with open_store(Path(sys.argv[2]), about()) as store:
+        run_study(rows, records(2000, 5e-3), store, Processes(2, ("standin",)), chunk=4,
+                  progress=lambda p: print(p.done, flush=True))
+"""
+
+
+@pytest.fixture
+def running(tmp_path):
+    """A study in two processes, some of it done; its file, and all its processes."""
+    folder = Path(standin.__file__).parent
+    process = subprocess.Popen(
+        [sys.executable, "-c", SCRIPT, str(folder), str(tmp_path / "r.sqlite")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    while int(process.stdout.readline()) < 40:
+        pass
+    below = psutil.Process(process.pid).children(recursive=True)
+    yield process, tmp_path / "r.sqlite", below
+    for one in (process, *below):
+        with contextlib.suppress(psutil.NoSuchProcess):
+            one.kill()
+    process.communicate()
+
+
+def test_ctrl_c_ends_all_processes_and_keeps_what_was_finished(running):
+    process, path, below = running
+    os.killpg(process.pid, signal.SIGINT)
+    begin = time.monotonic()
+    _, err = process.communicate(timeout=20)
+    assert time.monotonic() - begin < 4.0
+    assert "KeyboardInterrupt" in err
+    assert err.count("Traceback") == 1
+    _, alive = psutil.wait_procs(below, 3)
+    assert not alive
+    with read_store(path) as store:
+        assert 40 <= len(store) < 2000
+
+
+def test_killed_no_worker_is_left_behind(running):
+    process, _, below = running
+    assert len(below) >= 3
+    process.kill()
+    _, alive = psutil.wait_procs(below, 5)
+    assert not alive
+
+
+def test_memory_stays_flat(tmp_path):
+    def kilobytes():
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+    with open_store(tmp_path / "r.sqlite", about()) as store:
+        run_study(rows, records(1000), store, Threads(2))
+        before = kilobytes()
+        run_study(rows, records(6_000), store, Threads(2))
+        assert kilobytes() - before < 3000
+        assert sum(1 for _ in store.results()) == 6_000
+        assert kilobytes() - before < 3000
+
+
+def test_chunks_are_small_enough_for_all_workers():
+    assert execute._chunk_size(2, None) == execute.LARGEST_CHUNK
+    assert execute._chunk_size(2, 40) * 2 * 4 <= 40
+    assert execute._chunk_size(64, 10) == 1

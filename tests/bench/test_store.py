@@ -1,0 +1,238 @@
+"""The results file: exact, whole after a kill at any moment, and left alone where it is not one's own."""
+
+import os
+import random
+import signal
+import sqlite3
+import struct
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import standin
+from standin import about, records, results, rows
+
+from biped_adrc.errors import InputError, OutputError
+from biped_adrc.studies.bench.chunk import made
+from biped_adrc.studies.bench.execute import run_study
+from biped_adrc.studies.bench.points import key_of, text_of
+from biped_adrc.studies.bench.store import Placed, Ran
+from biped_adrc.studies.bench.store_open import APPLICATION, open_store, read_store
+from biped_adrc.studies.bench.workers import Threads
+
+KILLS = 50
+N = 160
+
+
+def ran(record, row):
+    text, one = text_of(record), made(row, 0.1)
+    return Ran(key_of(text), text, one.row, one.status, one.engine, record.get("seed"), one.seconds)
+
+
+def filled(path, n=20):
+    with open_store(path, about()) as store:
+        run_study(rows, records(n), store, Threads(1))
+    return path
+
+
+def child(path, n, pause):
+    return subprocess.Popen(
+        [sys.executable, standin.__file__, str(path), str(n), str(pause)],
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+
+
+def test_floats_come_back_to_the_last_bit(tmp_path):
+    random.seed(3)
+    bits = [struct.pack("<Q", random.getrandbits(64)) for _ in range(2000)]
+    values = [x for (x,) in (struct.unpack("<d", b) for b in bits) if x == x]
+    with open_store(tmp_path / "r.sqlite", about()) as store:
+        store.add(ran({"x": k}, {"value": x}) for k, x in enumerate(values))
+        keys = [key_of(text_of({"x": k})) for k in range(len(values))]
+        store.place(
+            Placed(k, key, text_of({"at": x}))
+            for k, (key, x) in enumerate(zip(keys, values, strict=True))
+        )
+    with read_store(tmp_path / "r.sqlite") as store:
+        for result, x in zip(store.results(), values, strict=True):
+            assert struct.pack("<d", result.row["value"]) == struct.pack("<d", x)
+            assert struct.pack("<d", result.at["at"]) == struct.pack("<d", x)
+
+
+def test_killed_at_random_moments_no_finished_run_is_lost(tmp_path):
+    random.seed(11)
+    path, pause = tmp_path / "killed.sqlite", 1.5e-3
+    before, in_the_middle = 0, 0
+    for k in range(KILLS):
+        process = child(path, N, pause)
+        first = (
+            process.stdout.readline() if k % 4 else ""
+        )  # each fourth while it still opens the file
+        time.sleep(random.uniform(0.0, 0.12 if first else 0.25))
+        process.send_signal(signal.SIGKILL)
+        said = (first + process.communicate()[0]).split()
+        told = [int(line) for line in said if line.isdigit()]
+        kept = finished_runs(path)
+        assert kept >= max([before, *told])
+        in_the_middle += before < kept < N
+        before = kept
+        if kept == N:
+            assert_whole(path, pause)
+            path.unlink()
+            before = 0
+    assert in_the_middle > KILLS / 5
+    assert child(path, N, pause).communicate()[0].endswith("end\n")
+    assert_whole(path, pause)
+
+
+def finished_runs(path):
+    """It opens, and each of them has its point."""
+    if not path.exists():
+        return 0
+    try:
+        with read_store(path) as store:
+            assert len(results(store)) == len(store)
+            return len(store)
+    except InputError as error:
+        if "is empty" in str(error):  # killed before anything was begun in it
+            return 0
+        raise
+
+
+def assert_whole(path, pause):
+    given = list(records(N, pause))
+    with read_store(path) as store:
+        expected = [(k, r, row) for k, (r, row) in enumerate(zip(given, rows(given), strict=True))]
+        assert [(r.position, r.at, r.row) for r in store.results()] == expected
+
+
+def test_resumed_equals_uninterrupted(tmp_path):
+    whole, path = tmp_path / "whole.sqlite", tmp_path / "killed.sqlite"
+    process = child(path, N, 2e-3)
+    while int(process.stdout.readline()) < N // 4:
+        pass
+    process.kill()
+    process.communicate()
+    with open_store(path, about()) as store:
+        assert N // 4 <= len(store) < N
+        fresh = N - len(store)
+        summary = run_study(rows, records(N, 2e-3), store, Threads(2))
+        assert (summary.points, summary.fresh) == (N, fresh)
+        resumed = results(store)
+        assert run_study(rows, records(N, 2e-3), store, Threads(2)).fresh == 0
+    with open_store(whole, about()) as store:
+        run_study(rows, records(N, 2e-3), store, Threads(2))
+        assert results(store) == resumed
+
+
+def test_one_file_is_left_when_it_is_closed(tmp_path):
+    filled(tmp_path / "r.sqlite")
+    assert [p.name for p in tmp_path.iterdir()] == ["r.sqlite"]
+
+
+def test_a_second_process_is_refused_and_the_first_goes_on(tmp_path):
+    path = tmp_path / "r.sqlite"
+    process = child(path, 60, 5e-3)
+    process.stdout.readline()
+    with pytest.raises(InputError, match=f"being written by process {process.pid}"):
+        open_store(path, about())
+    with read_store(path) as store:  # while it grows
+        assert len(store) < 60
+    assert process.communicate()[0].endswith("end\n")
+    with open_store(path, about()) as store:
+        assert len(store) == 60
+
+
+def foreign(path):
+    with sqlite3.connect(path) as db:
+        db.execute("CREATE TABLE mine (x)")
+        db.execute("PRAGMA application_id = 42")
+    db.close()
+
+
+def newer(path):
+    filled(path)
+    with sqlite3.connect(path) as db:
+        db.execute("PRAGMA user_version = 9")
+    db.close()
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda path: path.write_text("a,b\n1,2\n" * 200), "no results file"),
+        (foreign, "another program"),
+        (newer, "format 9, expected 1"),
+        (
+            lambda path: filled(path).write_bytes(path.read_bytes()[:3000]),
+            "damaged|malformed|no results",
+        ),
+    ],
+)
+def test_files_that_are_not_ours_are_left_as_they_are(tmp_path, make, message):
+    path = tmp_path / "r.sqlite"
+    make(path)
+    before = path.read_bytes()
+    for attempt in (lambda: open_store(path, about()), lambda: read_store(path)):
+        with pytest.raises((InputError, OutputError), match=message):
+            attempt()
+    assert path.read_bytes() == before
+
+
+def test_another_study_is_refused_by_what_differs(tmp_path):
+    path = tmp_path / "r.sqlite"
+    open_store(path, about("a", grid=[1], fixed=2)).close()
+    before = path.read_bytes()
+    with pytest.raises(InputError, match=r"holds the study 'a'.*is 'b'.*other in grid;"):
+        open_store(path, about("b", grid=[3], fixed=2))
+    assert path.read_bytes() == before
+
+
+def test_other_versions_are_refused_unless_asked_for(tmp_path):
+    path = filled(tmp_path / "r.sqlite", 5)
+    now = about()
+    other = now._replace(versions={**now.versions, "numpy": "99.1"})
+    with pytest.raises(InputError, match=rf"numpy {now.versions['numpy']} there, 99.1 here"):
+        open_store(path, other)
+    with open_store(path, other, other_versions=True) as store:
+        run_study(rows, records(8), store, Threads(1))
+    with sqlite3.connect(path) as db:
+        made_with = dict(db.execute("SELECT versions, count(*) FROM runs GROUP BY 1").fetchall())
+    db.close()
+    assert sorted(made_with.values()) == [3, 5]
+
+
+def test_a_full_disk_ends_the_study_and_keeps_what_was_finished(tmp_path):
+    path = tmp_path / "r.sqlite"
+    with open_store(path, about()) as store:
+        store.connection.execute("PRAGMA max_page_count = 30")
+        with pytest.raises(OutputError, match="full"):
+            run_study(rows, records(5000), store, Threads(2))
+        kept = len(store)
+        assert kept > 0
+    with open_store(path, about()) as store:
+        assert len(store) == kept
+        run_study(rows, records(500), store, Threads(2))
+        assert [r.row["n"] for r in store.results()] == [k * k for k in range(500)]
+
+
+def test_a_file_that_cannot_be_written(tmp_path):
+    (tmp_path / "file").touch()
+    for path in (tmp_path / "file" / "r.sqlite", Path(os.devnull) / "r.sqlite"):
+        with pytest.raises(OutputError, match="cannot write"):
+            open_store(path, about())
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(OutputError, match="cannot write"):
+        open_store(tmp_path / "folder", about())
+    with open_store(tmp_path / "r.sqlite", about()) as store:
+        store.connection.execute("PRAGMA query_only = ON")
+        with pytest.raises(OutputError, match="readonly"):
+            store.add([ran({"x": 1}, {"y": 1.0})])
+
+
+def test_the_application_is_in_the_header(tmp_path):
+    header = filled(tmp_path / "r.sqlite").read_bytes()[:100]
+    assert struct.unpack(">II", header[60:64] + header[68:72]) == (1, APPLICATION)

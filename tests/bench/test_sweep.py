@@ -1,0 +1,301 @@
+"""From a study file to results: tables, exports and maps by counting, and the command."""
+
+import csv
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from typer.testing import CliRunner
+
+from biped_adrc.cli import app
+from biped_adrc.cli import sweep as _  # noqa: F401
+from biped_adrc.errors import InputError, OutputError
+from biped_adrc.studies.bench.export import export
+from biped_adrc.studies.bench.maps import sweep_map, write_map
+from biped_adrc.studies.bench.run import run_trials
+from biped_adrc.studies.bench.study_file import read_study
+from biped_adrc.studies.bench.sweep import Table, load_sweep, rehearse, sweep
+from biped_adrc.studies.bench.workers import Processes, Threads
+from biped_adrc.viz.sweep_maps import MOST_LEVELS, Maps, cell_means, cut, sweep_map_figure
+
+TABLES = {
+    "study": {"name": "stand-in", "seeds": 5},
+    "grid": {
+        "K_p": {"from": 100, "to": 1600, "count": 5, "scale": "log"},
+        "period": ["0.5 ms", "1 ms"],
+        "controller": ["ADRC", "NPD"],
+        "impacts": [3, 4],
+    },
+}
+
+
+def stand_in(records):
+    """Who survives is known: gains below 500, for NPD at 1 ms."""
+    return [_row(record) for record in records]
+
+
+def _row(record):
+    K_p, period = record["K_p"], record.get("period", 1e-3)
+    lost = record.get("controller") == "NPD" and period == 1e-3 and K_p > 500
+    return {
+        "status": "FALLEN" if lost else "COMPLETED",
+        "detail": 'a "quoted", text' if lost else "",
+        "survived": int(not lost),
+        "impacts": 1 if lost else record.get("impacts", 25),
+        "rms_error": None if lost else math.sin(K_p) * period + record.get("seed", 0),
+        "speed": None if lost else K_p / 3.0,
+    }
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    out = tmp_path_factory.mktemp("sweep")
+    return sweep(read_study(TABLES), out, Threads(2), function=stand_in)
+
+
+def test_the_table_has_a_row_for_each_point(done):
+    table = done.table()
+    assert len(table) == done.study.count == 200
+    assert done.names()[:5] == ["K_p", "period", "controller", "parameter.impacts", "seed"]
+    lost = (table["controller"] == "NPD") & (table["period"] == 1e-3) & (table["K_p"] > 500)
+    assert np.array_equal(table["survived"] == 0, lost)
+    assert np.array_equal(np.isnan(table["speed"]), lost)
+    assert done.statuses() == {"COMPLETED": 200 - lost.sum(), "FALLEN": lost.sum()}
+    few = table.where({"controller": "NPD", "seed": 3})
+    few = few.where(few["K_p"] > 500)
+    assert (len(few), few["survived"].mean()) == (8, 0.5)
+    for wrong in (
+        lambda: table["sped"],
+        lambda: done.table("sped"),
+        lambda: table.where({"sped": 1}),
+    ):
+        with pytest.raises(InputError, match="no column 'sped'"):
+            wrong()
+
+
+def test_results_are_found_again(done):
+    again = load_sweep(done.path.parent)
+    assert again.study == done.study
+    assert list(again.rows()) == list(done.rows())
+    with pytest.raises(InputError, match="no results file"):
+        load_sweep(done.path.parent / "elsewhere")
+
+
+def test_csv_comes_back_to_the_last_bit(done, tmp_path):
+    path = tmp_path / "new" / "r.csv"
+    export(done, path)
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    names = done.names()
+    for row, expected in zip(rows, done.rows(), strict=True):
+        assert list(row) == names
+        for name, x in expected.items():
+            assert row[name] == ("" if x is None else repr(x) if isinstance(x, float) else str(x))
+            assert not isinstance(x, float) or float(row[name]) == x
+
+
+def test_parquet_comes_back_with_its_types(done, tmp_path):
+    from pyarrow import parquet
+
+    export(done, tmp_path / "r.parquet")
+    table = parquet.read_table(tmp_path / "r.parquet")
+    assert table.column_names == done.names()
+    assert table.to_pylist() == list(done.rows())
+    kinds = {
+        name: str(table.schema.field(name).type) for name in ("speed", "impacts", "controller")
+    }
+    assert kinds == {"speed": "double", "impacts": "int64", "controller": "string"}
+
+
+def test_exports_that_cannot_be_written(done, tmp_path):
+    with pytest.raises(InputError, match=r"expected .csv or .parquet"):
+        export(done, tmp_path / "r.xlsx")
+    (tmp_path / "file").touch()
+    with pytest.raises(OutputError, match="cannot write"):
+        export(done, tmp_path / "file" / "r.csv")
+
+
+def test_a_map_shows_the_share_of_each_cell(done):
+    columns = done.table("K_p", "controller", "survived").columns
+    x, y = cut(columns["K_p"], False), cut(columns["controller"], False)
+    assert (x.texts, y.texts) == (["100", "200", "400", "800", "1600"], ["ADRC", "NPD"])
+    share = cell_means(x, y, columns["survived"].astype(float))
+    assert np.array_equal(share, [[1, 1, 1, 1, 1], [1, 1, 1, 0.5, 0.5]])
+    figure = sweep_map(done, Maps("K_p", "controller", "period"))
+    assert isinstance(figure, Figure)
+    titles = [axes.get_title(loc="left") for axes in figure.axes if axes.get_title(loc="left")]
+    assert titles == ["period = 0.0005", "period = 0.001"]
+    meshes = [axes.collections[0].get_array().reshape(2, 5) for axes in figure.axes[:2]]
+    assert np.array_equal(np.mean(meshes, axis=0), share)
+
+
+def test_a_map_of_a_result_without_a_number_somewhere(done, tmp_path):
+    path = write_map(done, Maps("impacts", "K_p", value="speed", units={"K_p": "1/s^2"}), tmp_path)
+    assert path.name == "map-impacts-K_p-speed.png"
+    assert path.read_bytes().startswith(b"\x89PNG")
+    for maps, message in (
+        (Maps("K_p", "gain"), "no column 'gain'"),
+        (Maps("K_p", "period", value="status"), "which is no number"),
+    ):
+        with pytest.raises(InputError, match=message):
+            sweep_map(done, maps)
+
+
+def test_samples_are_cut_into_cells_of_equal_width_or_ratio():
+    random = np.random.default_rng(2)
+    x = random.uniform(-1.0, 1.0, 20_000)
+    cells = cut(x, False)
+    assert np.bincount(cells.cell) == pytest.approx(1000, rel=0.15)
+    assert np.array_equal(cells.cell, np.clip(np.floor((x - x.min()) / np.ptp(x) * 20), 0, 19))
+    ratio = cut(10.0**x, True)
+    assert np.mean(ratio.cell != cells.cell) < 1e-3
+    assert cell_means(cells, cells, x).diagonal() == pytest.approx(
+        np.linspace(-0.95, 0.95, 20), abs=5e-3
+    )
+    many = np.arange(MOST_LEVELS + 1.0)
+    too_many = {"x": many, "y": many, "p": many, "survived": many}
+    with pytest.raises(InputError, match="20 panels"):
+        sweep_map_figure(too_many, Maps("x", "y", "p"))
+    with pytest.raises(InputError, match="no points"):
+        sweep_map_figure({"x": many[:0], "y": many[:0], "survived": many[:0]}, Maps("x", "y"))
+
+
+def test_levels_that_look_alike_have_cells_of_their_own():
+    cells = cut(np.array([1.0, 1.0 + 1e-9, np.nan]), False)
+    assert cells.cell.tolist() == [0, 1, 2]
+
+
+def test_tables_keep_what_they_are_given():
+    assert len(Table({})) == 0
+
+
+@pytest.mark.parametrize(
+    ("tables", "message"),
+    [
+        ({"fixed": {"robot": "rabit"}}, "rabit"),
+        ({"fixed": {"gait": "nowhere"}}, "nowhere"),
+        ({"grid": {"controller": ["ADRC", "ADCR"]}}, "ADCR"),
+        ({"cases": [{"name": "pushed", "push": "pulse", "on": "q9"}]}, "case 'pushed'.*q9"),
+    ],
+)
+def test_names_are_looked_up_before_anything_starts(tmp_path, tables, message):
+    study = read_study({"study": {"name": "typo"}, **tables})
+    with pytest.raises(InputError, match=message):
+        rehearse(study)
+    with pytest.raises(InputError, match=message):
+        sweep(study, tmp_path / "out", Threads(1))
+    assert not (tmp_path / "out").exists()
+
+
+WALKS = """
+[study]
+name = "walks"
+seeds = 2
+[fixed]
+impacts = 2
+start_rate_spread = 0.05
+[grid]
+controller = ["ADRC", "NPD"]
+period = ["1 ms", "2 ms"]
+"""
+
+
+def command(*arguments, **more):
+    code = "from biped_adrc.cli import main, sweep\nif __name__ == '__main__': main()"
+    return subprocess.Popen(
+        [sys.executable, "-c", code, "sweep", *map(str, arguments)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        **more,
+    )
+
+
+def test_walks_are_the_same_in_processes_and_threads(tmp_path):
+    path = tmp_path / "walks.toml"
+    path.write_text(WALKS)
+    apart = sweep(path, tmp_path / "apart", Processes(2))
+    beside = sweep(path, tmp_path / "beside", Threads(2))
+    assert list(apart.rows()) == list(beside.rows())
+    records = [point.record for point in apart.study.points()]
+    here = json.loads(json.dumps(run_trials(records)))
+    assert [{k: row[k] for k in here[0]} for row in apart.rows()] == here
+    assert apart.statuses() == {"COMPLETED": 8}
+
+
+def test_the_command_runs_exports_draws_and_goes_on(tmp_path):
+    path, out = tmp_path / "walks.toml", tmp_path / "out"
+    path.write_text(WALKS)
+    dry = CliRunner().invoke(app, ["sweep", str(path), "--out", str(out), "--dry-run"])
+    assert (dry.exit_code, out.exists()) == (0, False)
+    assert "8 points" in dry.stdout
+    more = ("--export", "csv", "--export", "parquet", "--plot", "period,controller:rms_error")
+    process = command(path, "--out", out, "--threads", *more)
+    text, err = process.communicate(timeout=120)
+    assert process.returncode == 0, err
+    assert "8 COMPLETED" in text
+    names = {p.name for p in out.iterdir()}
+    assert names == {
+        "results.sqlite",
+        "results.csv",
+        "results.parquet",
+        "map-period-controller-rms_error.png",
+    }
+    assert sweep(path, out, Threads(1)).summary.fresh == 0
+    path.write_text(WALKS.replace("0.05", "0.06"))
+    before = (out / "results.sqlite").read_bytes()
+    with pytest.raises(InputError, match="other in fixed"):
+        sweep(path, out, Threads(1))
+    assert (out / "results.sqlite").read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["none.toml", "--out", "o"], "No such file"),
+        (["walks.toml", "--out", "o", "--workers", "0"], "expected at least 1"),
+        (["walks.toml", "--out", "o", "--export", "xls"], r"expected one of \['csv', 'parquet'\]"),
+        (["walks.toml", "--out", "o", "--plot", "period"], "expected X,Y"),
+        (["walks.toml", "--out", "o", "--plot", "period,noise"], "does not vary"),
+        (
+            ["walks.toml", "--out", "o", "--scheduler", "tcp://127.0.0.1:9", "--threads"],
+            "leave out",
+        ),
+    ],
+)
+def test_wrong_commands(tmp_path, monkeypatch, arguments, message):
+    monkeypatch.chdir(tmp_path)
+    Path("walks.toml").write_text(WALKS)
+    with pytest.raises(InputError, match=message):
+        CliRunner().invoke(app, ["sweep", *arguments], catch_exceptions=False)
+    assert not Path("o").exists()
+
+
+def test_ctrl_c_says_how_to_go_on(tmp_path):
+    path, out = tmp_path / "walks.toml", tmp_path / "out"
+    path.write_text(WALKS.replace("seeds = 2", "seeds = 2000"))
+    process = command(path, "--out", out)
+    kept = 0
+    while kept < 10:
+        time.sleep(0.05)
+        assert process.poll() is None, process.communicate()
+        if (out / "results.sqlite").exists():
+            try:
+                kept = sum(load_sweep(out).statuses().values())
+            except InputError:
+                kept = 0
+    os.killpg(process.pid, signal.SIGINT)
+    text, err = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert "the same command goes on" in " ".join(text.split())
+    assert "Traceback" not in err
+    assert kept <= sum(load_sweep(out).statuses().values()) < 8000
