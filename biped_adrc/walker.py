@@ -19,7 +19,7 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.errors import InputError, NotFiniteError, SimulationError
 from biped_adrc.ground import StepDown, StepUp
 from biped_adrc.hardware import held
 from biped_adrc.hardware.held import Held, HeldParameters
@@ -97,19 +97,8 @@ class Walker(HybridSystem):
             raise InputError(
                 f"the model has {self.model.n} coordinates, the plant {self.plant.n}; they must agree"
             )
-        hardware = {"sensors": self.sensors, "motors": self.motors, "a meter": self.meter}
-        given = [name for name, part in hardware.items() if part is not None]
-        if given and not self.sampled:
-            raise InputError(
-                f"{given[0]} work in sampled time, found {type(self.timing).__name__}; give "
-                "timing=SampledTime(period)"
-            )
-        gain = self.impact_gain
-        fits = len(gain) == self.plant.n and all(math.isfinite(e) and e > -1.0 for e in gain)
-        if gain and not fits:
-            raise InputError(
-                f"the impact gain is {gain}, expected {self.plant.n} finite numbers above -1, or none"
-            )
+        parts = (self.sensors, self.motors, self.meter)
+        held.check_parts(self.plant.n, self.timing, *parts, self.impact_gain)
 
     # -- parts -----------------------------------------------------------------------------------
     @cached_property
@@ -179,10 +168,7 @@ class Walker(HybridSystem):
         s = self.law.initial_state(m)
         u = np.asarray(self.law.output(s, m))
         if u.shape != (self.plant.p,):
-            raise InputError(
-                f"{type(self.controller).__name__}.output returned an array of shape {u.shape}, expected "
-                f"({self.plant.p},): one torque [N m] per motor"
-            )
+            raise InputError(_misshapen(self, u))
         if not np.all(np.isfinite(u)):
             raise NotFiniteError(
                 f"{type(self.controller).__name__}.output returned {u} at the start"
@@ -193,7 +179,10 @@ class Walker(HybridSystem):
 
     # -- laws ------------------------------------------------------------------------------------
     def saturate(self, u: Array) -> Array:
-        """u within the torque limit. Raises NotFiniteError."""
+        """u within the torque limit. Raises NotFiniteError, SimulationError for another number of torques."""
+        u = np.asarray(u, dtype=float)
+        if u.shape != (self.plant.p,):
+            raise SimulationError(_misshapen(self, u))
         if self.torque_limit is not None:
             u = np.minimum(np.maximum(u, -self.torque_limit), self.torque_limit)
         if not math.isfinite(u.dot(u)):
@@ -397,3 +386,10 @@ class Walker(HybridSystem):
         """
         laws = self.split_laws(feedback=True)
         return None if laws is None else split_of(self, laws, mode)
+
+
+def _misshapen(walker: Walker, u: Array) -> str:
+    return (
+        f"{type(walker.controller).__name__}.output returned an array of shape {u.shape}, expected "
+        f"({walker.plant.p},): one torque [N m] per motor"
+    )

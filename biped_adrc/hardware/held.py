@@ -8,14 +8,17 @@ where the walker has no such part. u_m alone flows.
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from biped_adrc.errors import InputError
 from biped_adrc.hardware import meter
 from biped_adrc.hardware.meter import Meter, metered_impact
 from biped_adrc.hardware.motors import IDEAL, Line, Motors, relabelled, whole_and_part
 from biped_adrc.hardware.sensors import Sensors, sensed_impact, sensor_state
+from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
 
 
@@ -55,6 +58,29 @@ class Held(NamedTuple):
     w: Array
     g: Array
     line: Line
+
+
+def check_parts(
+    n: int,
+    timing: ContinuousTime | SampledTime,
+    sensors: Sensors | None,
+    motors: Motors | None,
+    metered: Meter | None,
+    gain: tuple[float, ...],
+) -> None:
+    """Raise InputError for hardware in continuous time, or an impact gain that is none."""
+    hardware = {"sensors": sensors, "motors": motors, "a meter": metered}
+    given = [name for name, part in hardware.items() if part is not None]
+    if given and not isinstance(timing, SampledTime):
+        raise InputError(
+            f"{given[0]} work in sampled time, found {type(timing).__name__}; give "
+            "timing=SampledTime(period)"
+        )
+    fits = len(gain) == n and all(math.isfinite(e) and e > -1.0 for e in gain)
+    if gain and not fits:
+        raise InputError(
+            f"the impact gain is {gain}, expected {n} finite numbers above -1, or none"
+        )
 
 
 def held_parameters(

@@ -286,3 +286,29 @@ def test_bad_hardware_is_named(biped, gait):
     ):
         with pytest.raises(ba.BipedError, match=message):
             make()
+
+
+class Late(ba.Controller):
+    """Forgets a motor after a while, or gives no number."""
+
+    def __init__(self, late):
+        self.late = late
+
+    def output(self, s, m):
+        return np.zeros(4) if m.t < 0.05 else self.late
+
+
+@pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
+def test_a_controller_that_forgets_a_motor_is_named(biped, gait, engine):
+    for timing in (ba.SampledTime(T), ba.ContinuousTime()):
+        walker = ba.Walker(biped, Late(np.zeros(3)), timing=timing)
+        with pytest.raises(ba.BipedError, match=r"Late\.output returned an array of shape \(3,\)"):
+            ba.walk(walker, gait, 1, ba.RK4(T), engine=engine)
+        nan = ba.Walker(biped, Late(np.full(4, np.nan)), timing=timing)
+        found = ba.walk(nan, gait, 1, ba.RK4(T), engine=engine).trajectory
+        assert found.status is ba.Status.NOT_FINITE
+    q, v = gait.start(biped)
+    case = ba.Case(ba.Walker(biped, Late(np.zeros(3)), timing=ba.SampledTime(T)), q, v, ba.RK4(T))
+    (walked,) = ba.simulate_many([case])
+    assert walked.status is ba.Status.RAISED
+    assert "shape (3,)" in walked.detail
