@@ -14,7 +14,7 @@ reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
 
 test: .venv/.test
-	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadfile
+	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadgroup
 
 # the pages, in docs/_build/html
 docs: .venv/.dev

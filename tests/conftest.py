@@ -32,3 +32,11 @@ def bare():
 @pytest.fixture(scope="session")
 def published(bare):
     return ba.load_gait("published", bare)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """A file is run by one worker, which makes its fixtures once; every document is a file of its own."""
+    for item in items:
+        document = item.name.startswith("test_every_block_runs")
+        item.add_marker(pytest.mark.xdist_group(item.nodeid if document else str(item.path)))

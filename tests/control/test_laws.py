@@ -8,6 +8,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.base import Controller
+from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.finite_time import psi
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
@@ -87,7 +88,6 @@ def measurements(biped, gait, count=5):
 
 
 CONTROLLERS = {
-    "NPD": lambda c: ba.NPDController(c),
     "ADRC": lambda c: ba.ADRCController(c),
     "passive": lambda c: Passive(),
     "PD with gravity": lambda c: PDGravityController(c),
@@ -256,6 +256,7 @@ def test_every_class_with_laws_is_tested_here():
     assert found == {
         *("NPDController", "ADRCController", "Passive", "GPIObserver", "SampledGPIObserver"),
         *("PDGravityController", "OutputADRCController", "MomentumDOBController"),
+        Delayed.__name__,
         *("HighGainObserver", "MomentumObserver", "SampledMomentumObserver"),
         *("TorquePulse", "TorqueStep", "TorqueSine", "TorqueNoise", "OnLink", "HipForce", "Sum"),
     }

@@ -75,7 +75,7 @@ def test_controllers(biped, gait, name):
     found = {key: [] for key in ("initial_state", "output", "flow", "jump", "correct", "predict")}
     for _ in range(5):
         x = q + 0.05 * random.normal(size=5), v + 0.5 * random.normal(size=5)
-        m = walker.measure(0.1, *x, Mode())
+        m = walker.measure(0.1, *x, Mode())._replace(body=biped.body_terms(*x))
         s = controller.initial_state(m)
         s = s * (1.0 + 0.01 * random.normal(size=len(s)))
         u = 20.0 * random.normal(size=4)
