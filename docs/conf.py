@@ -29,7 +29,9 @@ nitpick_ignore_regex = [
     (r"py:.*", r"_?(asyncio|collections|pathlib|enum|abc|concurrent|functools|types|typing)\b.*"),
     (r"py:.*", r"(Figure|Axes|ArrayLike|NDArray|Path|Callable|Mapping|Sequence|Iterator|Iterable)"),
     (r"py:.*", r"StateSpace"),
-    (r"py:.*", r"Ints"),  # an alias
+    (r"py:.*", r"Ints|Value|Scale"),  # aliases
+    (r"py:.*", r"(annotated_types|pydantic|sqlite3|distributed)\b.*"),
+    (r"py:.*", r"[-0-9.e+]+"),  # bounds of a field
     (r"py:.*", r"(.*\.)?_[A-Za-z]\w*"),  # private names in signatures
 ]
 

@@ -3,6 +3,7 @@
 <!-- modules of biped_adrc.gait -->      one section for every module of the package
 <!-- names of biped_adrc -->             a table of the names at the top of the package
 <!-- help of biped-adrc simulate -->     what the command prints for --help
+<!-- fields of biped_adrc.studies.bench.trial.Trial -->   a table of what a study may vary
 """
 
 import importlib
@@ -11,12 +12,12 @@ import re
 
 import biped_adrc
 
-_LINE = re.compile(r"^<!-- (modules|names|help) of (.+?) -->$", re.MULTILINE)
+_LINE = re.compile(r"^<!-- (modules|names|help|fields) of (.+?) -->$", re.MULTILINE)
 
 
 def placeholders(app, docname, source):
     """Expand the lines of one page."""
-    makers = {"modules": _modules, "names": _names, "help": _help}
+    makers = {"modules": _modules, "names": _names, "help": _help, "fields": _fields}
     source[0] = _LINE.sub(lambda m: makers[m[1]](m[2]), source[0])
 
 
@@ -46,6 +47,25 @@ def _names(_: str) -> str:
         first = (text or "").strip().partition("\n\n")[0].replace("\n", " ").replace("|", "\\|")
         kind = "class" if isinstance(thing, type) else "func" if callable(thing) else "data"
         rows.append(f"| {{py:{kind}}}`ba.{name} <{module}.{name}>` | `{module}` | {first} |")
+    return "\n".join(rows)
+
+
+def _fields(model: str) -> str:
+    module, _, name = model.rpartition(".")
+    rows = ["| name | unit | default | range | what |", "|---|---|---|---|---|"]
+    for field, info in getattr(importlib.import_module(module), name).model_fields.items():
+        unit = info.json_schema_extra["unit"]
+        ends = [
+            f"{sign} {getattr(part, key):g}"
+            for part in info.metadata
+            for key, sign in (("ge", "≥"), ("gt", ">"), ("le", "≤"), ("lt", "<"))
+            if hasattr(part, key)
+        ]
+        usual = "none" if info.default is None else info.get_default()
+        shown = f"{usual:g}" if isinstance(usual, float) else str(usual)
+        rows.append(
+            f"| `{field}` | {'' if unit == '1' else unit} | {shown} | {', '.join(ends)} | {info.description} |"
+        )
     return "\n".join(rows)
 
 

@@ -177,7 +177,7 @@ def _push(p: dict[str, Any]) -> str:
 def figure(name: str) -> str:
     """A figure with its caption."""
     title, caption = CAPTIONS[name]
-    return f"### {title}\n\n![{title}](comparison/{name}.svg)\n\n{caption}"
+    return f"## {title}\n\n![{title}](comparison/{name}.svg)\n\n{caption}"
 
 
 def main() -> None:
