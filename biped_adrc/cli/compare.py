@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from rich.progress import Progress
 from rich.table import Table
 
-from biped_adrc.cli.app import EXIT_INTERRUPTED, app, command, console
-from biped_adrc.cli.sweep import study_bar, study_workers
+from biped_adrc.cli.app import app, command, console
+from biped_adrc.cli.sweep import interrupted, say, study_bar, study_workers
 
 if TYPE_CHECKING:
     from biped_adrc.studies.bench.execute import Progress as Done
@@ -46,19 +48,11 @@ def compare(
 ) -> None:
     """Which controller survives what: controllers x conditions x seeds, with confidence intervals."""
     from biped_adrc.studies.bench.catalogue import CONTROLLERS
-    from biped_adrc.studies.bench.compare_study import run_comparison
+    from biped_adrc.studies.bench.compare_study import RESULTS, run_comparison
     from biped_adrc.studies.bench.conditions import CONDITIONS
 
     crew = study_workers(workers, threads, scheduler)
     with study_bar() as shown:
-        task = shown.add_task("walking", total=None, left="")
-
-        def progress(p: Done) -> None:
-            left = "" if p.left is None else f"{p.left:.0f} s left in this round"
-            shown.update(task, completed=p.done, total=p.total, left=left)
-            if p.note:
-                shown.console.print(p.note)
-
         try:
             summary = run_comparison(
                 out,
@@ -68,15 +62,26 @@ def compare(
                 seeds,
                 pushes,
                 crew,
-                progress,
+                _progress(shown),
                 other_versions,
             )
         except KeyboardInterrupt:
             shown.stop()
-            console.print(f"what is finished is in {out}; the same command goes on from there")
-            raise typer.Exit(EXIT_INTERRUPTED) from None
+            raise interrupted(out / RESULTS) from None
     _print(summary)
-    console.print(f"written to {out}: comparison.html, summary.json, figures, comparison.sqlite")
+    say(f"written to {out}: comparison.html, summary.json, figures, {RESULTS}")
+
+
+def _progress(shown: Progress) -> Callable[[Done], None]:
+    task = shown.add_task("walking", total=None, left="")
+
+    def progress(p: Done) -> None:
+        left = "" if p.left is None else f"{p.left:.0f} s left in this round"
+        shown.update(task, completed=p.done, total=p.total, left=left)
+        if p.note:
+            shown.console.print(p.note, markup=False)
+
+    return progress
 
 
 def _names(text: str | None, every: tuple[str, ...]) -> tuple[str, ...]:
@@ -92,4 +97,4 @@ def _print(summary: dict[str, Any]) -> None:
         table.add_row(condition, *(f"{100 * found[condition, name]:.0f}" for name in controllers))
     console.print(table)
     for line in summary["findings"]:
-        console.print(line, markup=False, highlight=False)
+        say(line)

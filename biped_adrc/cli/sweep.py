@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -47,39 +48,78 @@ def sweep(
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Check the study and count its walks, no more.")
     ] = False,
+    no_run: Annotated[
+        bool, typer.Option("--no-run", help="Export and draw what is finished, walk nothing.")
+    ] = False,
     other_versions: Annotated[
         bool, typer.Option("--other-versions", help="Go on with results of other versions.")
     ] = False,
 ) -> None:
     """Walk every point of a study, on all cores or a cluster; what is finished is never lost."""
-    from biped_adrc.studies.bench.export import KINDS, check_parquet
+    from biped_adrc.studies.bench.rehearsal import rehearse
     from biped_adrc.studies.bench.study_file import load_study
-    from biped_adrc.studies.bench.sweep import rehearse
 
     found = load_study(study)
     maps = [_maps(text, found) for text in plot or ()]
-    for kind in export or ():
-        if kind not in KINDS:
-            raise InputError(f"--export is '{kind}', expected one of {list(KINDS)}")
-        if kind == "parquet":
-            check_parquet()
+    _check_kinds(export or [])
     crew = study_workers(workers, threads, scheduler)
     if dry_run:
         rehearse(found)
         _print_study(found)
         return
-    done = _run(found, out, crew)
-    console.print(
-        f"{done.path}: "
-        + ", ".join(f"{count} {status}" for status, count in done.statuses().items()),
-        markup=False,
-        highlight=False,
-        soft_wrap=True,
-    )
+    done = _finished(found, out) if no_run else _run(found, out, crew, other_versions)
+    _print_statuses(done)
     _write(done, out, export or [], maps)
 
 
-def _run(study: Study, out: Path, crew: Workers) -> Sweep:
+def _check_kinds(kinds: list[str]) -> None:
+    """Raises InputError."""
+    from biped_adrc.studies.bench.export import KINDS, check_parquet
+
+    for kind in kinds:
+        if kind not in KINDS:
+            raise InputError(f"--export is '{kind}', expected one of {list(KINDS)}")
+        if kind == "parquet":
+            check_parquet()
+
+
+def _finished(study: Study, out: Path) -> Sweep:
+    """What is there of this study. Raises InputError."""
+    from biped_adrc.studies.bench.sweep import load_sweep
+
+    done = load_sweep(out)
+    if done.study.hash != study.hash:
+        raise InputError(
+            f"'{done.path}' holds the study '{done.study.name}' ({done.study.hash[:8]}), and the file is of "
+            f"'{study.name}' ({study.hash[:8]}); expected the same, choose another folder"
+        )
+    return done
+
+
+def say(text: str) -> None:
+    """As it is."""
+    console.print(text, markup=False, highlight=False, soft_wrap=True)
+
+
+def _print_statuses(done: Sweep) -> None:
+    counts = ", ".join(f"{count} {status}" for status, count in done.statuses().items())
+    say(f"{done.path}: {counts or 'nothing is finished'}")
+    for status, detail in done.no_walks().items():
+        say(f"one that is {status}: {detail}")
+
+
+def interrupted(results: Path) -> typer.Exit:
+    """Say what to do after Ctrl-C, of which once is enough."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if results.exists():
+        say(f"what is finished is in {results.parent}; the same command goes on from there")
+    else:
+        say(f"nothing was begun in {results.parent}")
+    return typer.Exit(EXIT_INTERRUPTED)
+
+
+def _run(study: Study, out: Path, crew: Workers, other_versions: bool) -> Sweep:
+    from biped_adrc.studies.bench.sweep import RESULTS
     from biped_adrc.studies.bench.sweep import sweep as run
 
     with study_bar() as shown:
@@ -89,19 +129,18 @@ def _run(study: Study, out: Path, crew: Workers) -> Sweep:
             left = "" if p.left is None else f"{_clock(p.left)} left"
             shown.update(task, completed=p.done, left=left)
             if p.note:
-                shown.console.print(p.note)
+                shown.console.print(p.note, markup=False)
 
         try:
-            return run(study, out, crew, progress=progress)
+            return run(study, out, crew, progress=progress, other_versions=other_versions)
         except KeyboardInterrupt:
             shown.stop()
-            console.print(f"what is finished is in {out}; the same command goes on from there")
-            raise typer.Exit(EXIT_INTERRUPTED) from None
+            raise interrupted(out / RESULTS) from None
 
 
 def study_bar() -> Progress:
     return Progress(
-        TextColumn("{task.description:<24.24}"),
+        TextColumn("{task.description:<24.24}", markup=False),
         BarColumn(),
         MofNCompleteColumn(),
         TimeElapsedColumn(),
@@ -142,21 +181,39 @@ def _maps(text: str, study: Study) -> Maps:
             raise InputError(
                 f"--plot names '{name}', which the study does not vary; choose from {list(study.varied)}"
             )
+    value = value.strip() or "survived"
+    _check_map(text, study, value, names[2:])
     units = {name: unit(name) for name in study.varied if name != CASE}
     ranges = {} if study.draw is None else study.draw.ranges
     log = frozenset(name for name, r in ranges.items() if r.scale == "log")
     panel = names[2] if len(names) == 3 else None
-    return Maps(names[0], names[1], panel, value.strip() or "survived", units, log)
+    return Maps(names[0], names[1], panel, value, units, log)
+
+
+def _check_map(text: str, study: Study, value: str, panels: list[str]) -> None:
+    """Raises InputError for a result that there will not be, or too many panels."""
+    from biped_adrc.studies.bench.parameters import is_number
+    from biped_adrc.studies.bench.run import COLUMNS, WORDS
+    from biped_adrc.studies.bench.study import CASE
+    from biped_adrc.viz.sweep_maps import MOST_PANELS
+
+    shown = [name for name in COLUMNS if name not in WORDS]
+    shown += [name for name in study.varied if name != CASE and is_number(name)]
+    if value not in shown:
+        raise InputError(f"--plot is '{text}': '{value}' is no result; choose from {shown}")
+    for name in panels:
+        count = study.levels(name)
+        if count > MOST_PANELS:
+            raise InputError(
+                f"--plot is '{text}': {count} panels over '{name}', expected at most {MOST_PANELS}; put it on "
+                "an axis"
+            )
 
 
 def _print_study(study: Study) -> None:
-    console.print(
-        f"{study.name}: {study.count} points, over {', '.join(study.varied) or 'nothing'}"
-    )
+    say(f"{study.name}: {study.count} points, over {', '.join(study.varied) or 'nothing'}")
     first = next(study.points())
-    console.print(
-        f"the first of them: {dict(first.at)}", markup=False, highlight=False, soft_wrap=True
-    )
+    say(f"the first of them: {dict(first.at)}")
 
 
 def _write(done: Sweep, out: Path, kinds: list[str], maps: list[Maps]) -> None:
@@ -165,8 +222,8 @@ def _write(done: Sweep, out: Path, kinds: list[str], maps: list[Maps]) -> None:
 
         path = out / f"results.{kind}"
         export(done, path)
-        console.print(f"written to {path}", soft_wrap=True)
+        say(f"written to {path}")
     for m in maps:
         from biped_adrc.studies.bench.maps import write_map
 
-        console.print(f"written to {write_map(done, m, out)}", soft_wrap=True)
+        say(f"written to {write_map(done, m, out)}")

@@ -36,7 +36,9 @@ def observer_figure(reports: Sequence[ObserverReport]) -> Figure:
             )
             look = {"color": PALETTE[i % len(PALETTE)], "ls": DASHES[i % len(DASHES)]}
             for axes, curve in zip(panels, curves, strict=True):
-                axes.loglog(grid, np.abs(curve), label=report.name, **look)
+                level = np.abs(curve)
+                if np.any(level > 0.0):  # m = 0 has no estimate
+                    axes.loglog(grid, level, label=report.name, **look)
         titles = (
             ("|e / xi| [s$^2$]", "error from a disturbance"),
             ("|xi^ / xi|", "estimate of the disturbance"),
@@ -44,6 +46,10 @@ def observer_figure(reports: Sequence[ObserverReport]) -> Figure:
         )
         for axes, (name, title) in zip(panels, titles, strict=True):
             label(axes, "frequency [rad/s]", name, title)
+            if not axes.lines:
+                axes.set_xscale("log")
+                axes.text(0.5, 0.5, "m = 0 has none", ha="center", transform=axes.transAxes)
+                continue
             highest = max(np.max(line.get_ydata()) for line in axes.lines)
             axes.set_ylim(bottom=max(axes.get_ylim()[0], FLOOR * highest))
             axes.axvline(np.pi / reports[0].hardware.period, color=GREY, lw=0.8, ls=":")

@@ -84,11 +84,13 @@ def sweep_map_figure(columns: Columns, maps: Maps) -> Figure:
 
 
 def cut(column: NDArray[Any], log: bool) -> Cut:
-    """The cells of an axis: one for each value, or of equal width (ratio if `log`) where there are many."""
-    levels = sorted(set(column.tolist()), key=_order)
+    """The cells of an axis: one for each value, or of equal width (ratio if `log`) where there are many.
+
+    What is no value has a cell of its own, the last.
+    """
+    levels = sorted({_order(x): x for x in column.tolist()}.values(), key=_order)
     numbers = column.dtype.kind in "fi"
     if len(levels) <= MOST_LEVELS or not numbers:
-        levels = [x for x in levels if x == x] + [x for x in levels if x != x][:1]
         place = {_order(x): k for k, x in enumerate(levels)}
         cell = np.array([place[_order(x)] for x in column.tolist()], np.intp)
         return Cut(cell, [_text(x) for x in levels])
@@ -96,20 +98,24 @@ def cut(column: NDArray[Any], log: bool) -> Cut:
     low, high = float(known.min()), float(known.max())
     edges = np.geomspace(low, high, CELLS + 1) if log else np.linspace(low, high, CELLS + 1)
     cell = np.clip(np.searchsorted(edges, column, side="right") - 1, 0, CELLS - 1)
-    cell[~np.isfinite(column)] = -1
+    cell[np.isnan(column)] = CELLS
+    cell[np.isinf(column)] = -1
     middles = np.sqrt(edges[1:] * edges[:-1]) if log else (edges[1:] + edges[:-1]) / 2
-    return Cut(cell.astype(np.intp), [f"{m:.3g}" for m in middles])
+    none = [_text(None)] if np.isnan(column).any() else []
+    return Cut(cell.astype(np.intp), [f"{m:.3g}" for m in middles] + none)
 
 
 def _order(x: Any) -> tuple[int, Any]:
-    if isinstance(x, str) or x is None:
-        return 2, str(x)
+    if x is None:
+        return 3, 0.0
+    if isinstance(x, str):
+        return 2, x
     return (1, 0.0) if x != x else (0, x)
 
 
 def _text(x: Any) -> str:
     if isinstance(x, str):
-        return x
+        return x.replace("$", r"\$")  # no formula
     return "none" if x is None or x != x else f"{x:.4g}"
 
 

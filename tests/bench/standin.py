@@ -37,6 +37,10 @@ def _row(record):
     }
 
 
+def die():
+    os._exit(1)
+
+
 def _first_time(path):
     if path is None or Path(path).exists():
         return False

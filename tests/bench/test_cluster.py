@@ -107,15 +107,33 @@ def test_a_scheduler_that_goes_away_ends_the_study_and_keeps_what_was_finished(t
 
     path = tmp_path / "r.sqlite"
     begin = time.monotonic()
-    with pytest.raises(SimulationError, match="gone away"):
+    with pytest.raises(SimulationError, match="gone away") as caught:
         run(path, records(400, 5e-3), Cluster(address), chunk=4, progress=stop)
     assert time.monotonic() - begin < 30.0
+    assert caught.value.exit_code == 3  # no robot fell
     process.communicate()
     with open_store(path, about()) as store:
         assert 20 <= len(store) < 400
 
 
-@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nowhere", "tcp://127.0.0.1:notaport"])
+@pytest.mark.parametrize(
+    "address",
+    [
+        "nowhere",
+        "",
+        "tcp://",
+        "tcp://localhost",
+        "tcp://host:port",
+        "foo://bar:1",
+        "tcp://host:70000",
+    ],
+)
+def test_what_is_no_address(address):
+    with pytest.raises(InputError, match=r"is '.*', expected one such as tcp://host:8786"):
+        Cluster(address).start()
+
+
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "127.0.0.1:9", "tls://127.0.0.1:9"])
 def test_a_scheduler_that_does_not_answer(address):
     begin = time.monotonic()
     with pytest.raises(InputError, match="no Dask scheduler answers"):

@@ -18,8 +18,9 @@ from standin import about, records, results, rows
 
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.studies.bench import execute
-from biped_adrc.studies.bench.execute import LOOK_UP, run_study
-from biped_adrc.studies.bench.points import Point
+from biped_adrc.studies.bench import workers as of_workers
+from biped_adrc.studies.bench.execute import LOOK_UP, MOST_DEATHS, run_study
+from biped_adrc.studies.bench.points import Point, point
 from biped_adrc.studies.bench.store_open import open_store, read_store
 from biped_adrc.studies.bench.workers import Processes, Threads
 
@@ -146,10 +147,77 @@ def test_a_record_that_kills_its_worker_is_named(tmp_path, expected):
     assert (again[0], again[1].fresh) == (found, 1)
 
 
-def test_workers_that_die_all_the_time_end_the_study(tmp_path):
+def test_many_records_that_kill_their_workers_hold_up_no_other(tmp_path):
+    """More of them one after the other than workers may die without a reason."""
+    lethal = range(2, 2 + MOST_DEATHS)
+    given = [{**r, "kill": 1} if r["x"] in lethal else r for r in records(16)]
+    found, _ = run(tmp_path / "r.sqlite", given, Processes(1, LIGHT), chunk=1)
+    assert [k for k, _, _, row in found if row["status"] == "CRASHED"] == list(lethal)
+    assert len(found) == 16
+
+
+def test_what_killed_its_worker_before_comes_last(tmp_path):
+    seen = []
+
+    def noting(given):
+        seen.extend(record["x"] for record in given)
+        return rows(given)
+
+    with open_store(tmp_path / "r.sqlite", about()) as store:
+        jobs = [execute._job(point(r)) for r in records(5)]
+        row = execute.made({"status": "CRASHED", "detail": "it died"}, 0.0)
+        store.add(execute._ran(job, row) for job in jobs[:2])
+        run_study(noting, records(5), store, Threads(1), chunk=1)
+        assert seen == [2, 3, 4, 0, 1]
+        assert store.statuses() == {"COMPLETED": 5}
+
+
+def test_records_that_all_kill_their_workers_end_the_study(tmp_path, monkeypatch):
+    monkeypatch.setattr(execute, "MOST_CRASHED", 3)
     given = [{"x": k, "kill": 1} for k in range(40)]
-    with pytest.raises(SimulationError, match="died one after the other"):
-        run(tmp_path / "r.sqlite", given, Processes(1, LIGHT), chunk=1)
+    path = tmp_path / "r.sqlite"
+    for crashed in (3, 6):  # the second time with others
+        with pytest.raises(SimulationError, match="3 runs one after the other killed"):
+            run(path, given, Processes(1, LIGHT), chunk=1)
+        with read_store(path) as store:
+            assert store.statuses() == {"CRASHED": crashed}
+
+
+def test_workers_that_cannot_start_end_the_study(tmp_path, monkeypatch):
+    monkeypatch.setattr(of_workers, "_begin", standin.die)
+    with pytest.raises(SimulationError, match="end as they start"):
+        run(tmp_path / "r.sqlite", records(4), Processes(1, LIGHT))
+
+
+UNGUARDED = """
+import sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+from standin import about, records, rows
+from biped_adrc.studies.bench.execute import run_study
+from biped_adrc.studies.bench.store_open import open_store
+with open_store(Path(sys.argv[2]), about()) as store:
+    run_study(rows, records(5), store)
+"""
+
+
+def test_a_script_without_a_guard_is_told_so(tmp_path):
+    script, path = tmp_path / "script.py", tmp_path / "r.sqlite"
+    script.write_text(UNGUARDED)
+    done = subprocess.run(
+        [sys.executable, script, Path(standin.__file__).parent, path],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert "if __name__ == '__main__':" in done.stderr.splitlines()[-1]
+    with read_store(path) as store:
+        assert len(store) == 0
+
+
+def test_as_many_workers_as_this_process_may_use():
+    assert Processes().count(None) == len(os.sched_getaffinity(0))
 
 
 def test_progress_counts_to_the_end_and_knows_the_time_left(tmp_path):
@@ -226,6 +294,38 @@ def test_ctrl_c_ends_all_processes_and_keeps_what_was_finished(running):
     assert not alive
     with read_store(path) as store:
         assert 40 <= len(store) < 2000
+
+
+def test_ctrl_c_twice_is_as_once(running):
+    process, path, below = running
+    for _ in range(5):
+        os.killpg(process.pid, signal.SIGINT)
+        time.sleep(0.02)
+    _, err = process.communicate(timeout=20)
+    assert err.count("Traceback") == 1, err
+    _, alive = psutil.wait_procs(below, 3)
+    assert not alive
+    with read_store(path) as store:
+        assert 40 <= len(store) < 2000
+
+
+@pytest.mark.parametrize("pause", [0.3, 0.6, 0.9, 1.2, 1.6])
+def test_ctrl_c_while_workers_start(tmp_path, pause):
+    folder = Path(standin.__file__).parent
+    text = SCRIPT.replace("with open_store", "print(0, flush=True); \n    with open_store")
+    process = subprocess.Popen(
+        [sys.executable, "-c", text, str(folder), str(tmp_path / "r.sqlite")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    process.stdout.readline()
+    time.sleep(pause / 2)
+    os.killpg(process.pid, signal.SIGINT)
+    _, err = process.communicate(timeout=20)
+    assert err.count("Traceback") == 1, err
+    assert err.rstrip().endswith("KeyboardInterrupt"), err
 
 
 def test_killed_no_worker_is_left_behind(running):

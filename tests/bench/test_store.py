@@ -18,7 +18,7 @@ from biped_adrc.errors import InputError, OutputError
 from biped_adrc.studies.bench.chunk import made
 from biped_adrc.studies.bench.execute import run_study
 from biped_adrc.studies.bench.points import key_of, text_of
-from biped_adrc.studies.bench.store import Placed, Ran
+from biped_adrc.studies.bench.store import Placed, Ran, numerical_versions
 from biped_adrc.studies.bench.store_open import APPLICATION, open_store, read_store
 from biped_adrc.studies.bench.workers import Threads
 
@@ -231,6 +231,31 @@ def test_a_file_that_cannot_be_written(tmp_path):
         store.connection.execute("PRAGMA query_only = ON")
         with pytest.raises(OutputError, match="readonly"):
             store.add([ran({"x": 1}, {"y": 1.0})])
+
+
+def test_a_damaged_row_is_named(tmp_path):
+    path = filled(tmp_path / "r.sqlite", 5)
+    with sqlite3.connect(path) as db:
+        db.execute("UPDATE runs SET row = substr(row, 1, 9) || char(1) WHERE record LIKE '%: 3}'")
+    db.close()
+    with read_store(path) as store, pytest.raises(InputError, match=r"run [0-9a-f]{32} .*damaged"):
+        results(store)
+    with sqlite3.connect(path) as db:
+        db.execute("UPDATE study SET configuration = '{'")
+    db.close()
+    with pytest.raises(InputError, match="damaged"):
+        read_store(path)
+
+
+def test_a_number_that_the_file_cannot_hold(tmp_path):
+    with open_store(tmp_path / "r.sqlite", about()) as store:
+        with pytest.raises(InputError, match="too large"):
+            run_study(rows, [{"x": 1, "seed": 2**63}], store, Threads(1))
+        assert len(store) == 0
+
+
+def test_versions_name_what_the_numbers_depend_on():
+    assert {"qpsolvers", "daqp", "source of biped-adrc"} <= set(numerical_versions())
 
 
 def test_the_application_is_in_the_header(tmp_path):

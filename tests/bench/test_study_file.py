@@ -9,6 +9,7 @@ import pytest
 
 from biped_adrc.errors import InputError
 from biped_adrc.studies.bench import parameters
+from biped_adrc.studies.bench.run import run_trial
 from biped_adrc.studies.bench.samples import BLOCK, Draw, Range
 from biped_adrc.studies.bench.study import Study
 from biped_adrc.studies.bench.study_file import load_study, read_study
@@ -78,9 +79,9 @@ def test_a_study_comes_back_from_its_configuration(tmp_path):
 
 
 def test_points_are_not_kept(tmp_path):
-    many = STUDY.replace("count = 4", "count = 1_000_000_000").replace("seeds = 3", "seeds = 1000")
+    many = STUDY.replace("count = 4", "count = 1_000_000").replace("seeds = 3", "seeds = 40")
     study = load_study(written(tmp_path, many))
-    assert study.count == 24 * 10**12
+    assert study.count == 24 * 40 * 10**6
     list(itertools.islice(study.points(), 100))
     tracemalloc.start()
     for _ in itertools.islice(study.points(), 3000):
@@ -130,6 +131,10 @@ def changed(old, new):
         (changed('controller = "LESO"', "seed = 4"), ["seed", "given in 'fixed' too"]),
         (changed('controller = "LESO"', "controller = 5"), ["fixed.controller", "found 5", "string"]),
         (changed("[grid]", "[grid"), ["is not TOML", "line 8"]),
+        (changed("count = 4", "count = 1_000_000_000"), ["7.2e+10 points", "at most 1e+09"]),
+        (changed("seeds = 3", "seeds = [9223372036854775808]"), ["study.seeds", "expected how many"]),
+        (changed('"0.5 ms"', '"1e999 s"'), ["grid.period", "1e999 is too large"]),
+        (changed('"0.5 ms"', '"5 km^999"'), ["grid.period", "power 999, expected at most 9"]),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_named(tmp_path, text, messages):
@@ -175,6 +180,36 @@ def test_values_that_do_not_fit_together_are_named_by_their_point(tmp_path):
     )  # a row that is refused, no end of the study
 
 
+def test_every_level_of_an_axis_is_looked_at():
+    grid = {"impacts": [25] * 1, "seed": {"from": 0, "to": 9999, "count": 10_000}}
+    grid |= {"pushed_step": [1, 26]}
+    tables = {"study": {"name": "a"}, "grid": grid, "fixed": {"push": "pulse", "amplitude": 1.0}}
+    with pytest.raises(InputError, match="pushed_step = 26 of 25 steps"):
+        read_study(tables)
+
+
+def test_points_all_over_a_study_are_looked_at():
+    """Both axes fit with the first of the other, and not together."""
+    grid = {"push": ["none", "pulse"], "pushed_step": [1, *range(20, 30)]}
+    tables = {"study": {"name": "a"}, "grid": grid}
+    with pytest.raises(InputError, match=r"pushed_step = 2[6-9] of 25 steps"):
+        read_study(tables)
+
+
+def test_a_byte_order_mark_is_no_part_of_the_file(tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text(STUDY, encoding="utf-8-sig")
+    assert load_study(path) == load_study(written(tmp_path, STUDY))
+
+
+def test_what_is_wrong_has_no_web_address():
+    with pytest.raises(InputError) as caught:
+        read_study({"study": {"name": "a"}, "grid": {"controller": [5]}})
+    row = run_trial({"K_p": -1.0})
+    assert (row["status"], row["detail"]) == ("REFUSED", "K_p: Input should be greater than 0")
+    assert "http" not in str(caught.value)
+
+
 def test_a_file_that_is_not_there(tmp_path):
     with pytest.raises(InputError, match="No such file"):
         load_study(tmp_path / "none.toml")
@@ -217,7 +252,8 @@ def test_decimal_prefixes_are_exact():
 
 
 @pytest.mark.parametrize(
-    "text", ["ms", "1,5 ms", "1.5 ms s", "five", "", "1 m/", "nan s", "1 kdeg", "1 s^"]
+    "text",
+    ["ms", "1,5 ms", "1.5 ms s", "five", "", "1 m/", "nan s", "1 kdeg", "1 s^", "1 s^10/s^9"],
 )
 def test_texts_that_are_no_times(text):
     with pytest.raises(ValueError, match=r"expected|not known"):

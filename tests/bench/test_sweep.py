@@ -5,6 +5,7 @@ import json
 import math
 import os
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
@@ -18,11 +19,17 @@ from typer.testing import CliRunner
 from biped_adrc.cli import app
 from biped_adrc.cli import sweep as _  # noqa: F401
 from biped_adrc.errors import InputError, OutputError
+from biped_adrc.resources import data_folder
+from biped_adrc.studies.bench.build import scene_of
+from biped_adrc.studies.bench.cluster import Cluster
 from biped_adrc.studies.bench.export import export
 from biped_adrc.studies.bench.maps import sweep_map, write_map
+from biped_adrc.studies.bench.named_files import files_of_study
+from biped_adrc.studies.bench.rehearsal import rehearse
 from biped_adrc.studies.bench.run import run_trials
 from biped_adrc.studies.bench.study_file import read_study
-from biped_adrc.studies.bench.sweep import Table, load_sweep, rehearse, sweep
+from biped_adrc.studies.bench.sweep import Table, load_sweep, sweep
+from biped_adrc.studies.bench.trial import Trial
 from biped_adrc.studies.bench.workers import Processes, Threads
 from biped_adrc.viz.sweep_maps import MOST_LEVELS, Maps, cell_means, cut, sweep_map_figure
 
@@ -173,6 +180,116 @@ def test_levels_that_look_alike_have_cells_of_their_own():
     assert cells.cell.tolist() == [0, 1, 2]
 
 
+def test_what_has_no_value_has_one_cell():
+    none = cut(np.array([math.nan] * 60), False)
+    assert (none.cell.tolist(), none.texts) == ([0] * 60, ["none"])
+    few = cut(np.array([math.nan] * 60 + [1.0, 2.0]), False)
+    assert few.cell.tolist() == [2] * 60 + [0, 1]
+    many = cut(np.array([*np.linspace(1.0, 2.0, 60), math.nan]), True)
+    assert (len(many.texts), many.texts[-1], many.cell[-1]) == (21, "none", 20)
+    assert cut(np.array(["a", None, None], dtype=object), False).texts == ["a", "none"]
+
+
+def test_a_dollar_is_no_formula():
+    x = np.array(["a $_$", "$x^$"], dtype=object)
+    columns = {"x": x, "y": np.array([1, 2]), "survived": np.array([0, 1])}
+    figure = sweep_map_figure(columns, Maps("x", "y", "x"))
+    figure.canvas.draw()  # raises where it is one
+    assert [t.get_text() for t in figure.axes[0].get_xticklabels()] == [r"\$x^\$", r"a \$_\$"]
+
+
+def test_what_was_no_walk_is_grey_and_no_fall(tmp_path):
+    study = read_study(
+        {"study": {"name": "refused"}, "grid": {"impacts": [1, 2], "on": ["q1", "random joints"]}}
+    )
+    done = sweep(study, tmp_path, Threads(1), function=half_refused)
+    table = done.table()
+    assert np.array_equal(np.isnan(table["survived"]), table["on"] == "q1")
+    assert len(table.where({"survived": None})) == 2
+    assert len(table.where({"detail": None})) == 2
+    x, y = cut(table["parameter.impacts"], False), cut(table["on"], False)
+    means = cell_means(x, y, table["survived"])
+    assert np.array_equal(means, [[math.nan] * 2, [1.0] * 2], equal_nan=True)
+    assert done.no_walks() == {"REFUSED": "it does not fit"}
+
+
+def half_refused(records):
+    return [
+        {"status": "COMPLETED", "survived": 1, "detail": None, "impacts": 1}
+        if record.get("on") == "random joints"
+        else {"status": "REFUSED", "survived": None, "detail": "it does not fit", "impacts": 0}
+        for record in records
+    ]
+
+
+def test_a_refused_trial_did_not_fall():
+    (row,) = run_trials([{"gait": "nowhere"}])
+    assert (row["status"], row["survived"], row["impacts"]) == ("REFUSED", None, 0)
+
+
+def test_a_file_that_is_named_belongs_to_the_numbers(tmp_path):
+    gait, out = tmp_path / "mine.json", tmp_path / "out"
+    first = data_folder("gaits") / "rabbit" / "published-identified.json"
+    gait.write_text(first.read_text())
+    study = read_study({"study": {"name": "a"}, "fixed": {"gait": str(gait), "impacts": 1}})
+    sweep(study, out, Threads(1))
+    assert sweep(study, out, Threads(1)).summary.fresh == 0
+    kept, before = scene_of(Trial(gait=str(gait))).gait.period, json.loads(gait.read_text())
+    gait.write_text(json.dumps(before | {"period": 1.5 * kept}))
+    assert scene_of(Trial(gait=str(gait))).gait.period == 1.5 * kept
+    with pytest.raises(InputError, match=r"other versions.*file .*mine.json"):
+        sweep(study, out, Threads(1))
+    with pytest.raises(InputError, match="workers elsewhere"):
+        sweep(study, tmp_path / "there", Cluster("tcp://127.0.0.1:9"))
+
+
+def test_a_robot_brings_its_urdf(tmp_path):
+    robot = tmp_path / "robot.toml"
+    robot.write_text('urdf = "mine.urdf"')
+    study = read_study({"study": {"name": "a"}, "grid": {"robot": ["rabbit", str(robot)]}})
+    assert [p.name for p in files_of_study(study)] == ["mine.urdf", "robot.toml"]
+
+
+def test_too_many_points_are_refused(tmp_path):
+    study = read_study(TABLES).model_copy(update={"seeds": range(10**9)})
+    with pytest.raises(InputError, match=r"4e\+10 points, expected at most 1e\+09"):
+        sweep(study, tmp_path, Threads(1), function=stand_in)
+
+
+def test_no_address_of_a_scheduler_leaves_no_file(tmp_path):
+    with pytest.raises(InputError, match="expected one such as tcp://host:8786"):
+        sweep(read_study(TABLES), tmp_path / "out", Cluster("nonsense"), function=stand_in)
+    assert not (tmp_path / "out").exists()
+
+
+def test_names_are_no_markup(tmp_path):
+    path, out = tmp_path / "walks.toml", tmp_path / "out [b]"
+    path.write_text(WALKS.replace('"walks"', '"gain [/b] x"').replace("seeds = 2", ""))
+    dry = CliRunner().invoke(app, ["sweep", str(path), "--out", str(out), "--dry-run"])
+    assert "gain [/b] x: 4 points" in dry.stdout
+    done = CliRunner().invoke(app, ["sweep", str(path), "--out", str(out), "--threads"])
+    assert done.exit_code == 0, done.output
+    arguments = ["sweep", str(path), "--out", str(out), "--no-run", "--export", "csv"]
+    again = CliRunner().invoke(app, arguments)
+    assert f"written to {out / 'results.csv'}" in again.stdout
+    path.write_text(WALKS)
+    with pytest.raises(InputError, match="expected the same"):
+        CliRunner().invoke(app, arguments, catch_exceptions=False)
+
+
+def test_the_command_goes_on_with_other_versions(tmp_path):
+    path, out = tmp_path / "walks.toml", tmp_path / "out"
+    path.write_text(WALKS.replace("seeds = 2", ""))
+    arguments = ["sweep", str(path), "--out", str(out), "--threads"]
+    assert CliRunner().invoke(app, arguments).exit_code == 0
+    with sqlite3.connect(out / "results.sqlite") as db:
+        db.execute("""UPDATE study SET versions = '{"numpy": "0"}'""")
+    db.close()
+    with pytest.raises(InputError, match="numpy 0 there"):
+        CliRunner().invoke(app, arguments, catch_exceptions=False)
+    assert CliRunner().invoke(app, [*arguments, "--other-versions"]).exit_code == 0
+
+
 def test_tables_keep_what_they_are_given():
     assert len(Table({})) == 0
 
@@ -183,6 +300,16 @@ def test_tables_keep_what_they_are_given():
         ({"fixed": {"robot": "rabit"}}, "rabit"),
         ({"fixed": {"gait": "nowhere"}}, "nowhere"),
         ({"grid": {"controller": ["ADRC", "ADCR"]}}, "ADCR"),
+        ({"fixed": {"start.q9": 0.1}}, "q9"),
+        ({"grid": {"start.v5": [0.1], "start.v9": [0.0, 0.1]}}, "v9"),
+        ({"grid": {"preset": ["none", "nope"]}}, "nope"),
+        (
+            {
+                "grid": {"seed": [1], "on": ["q1", "q1,-q1"]},
+                "fixed": {"push": "step", "amplitude": 1.0},
+            },
+            "cancel",
+        ),
         ({"cases": [{"name": "pushed", "push": "pulse", "on": "q9"}]}, "case 'pushed'.*q9"),
     ],
 )
@@ -266,6 +393,11 @@ def test_the_command_runs_exports_draws_and_goes_on(tmp_path):
         (["walks.toml", "--out", "o", "--export", "xls"], r"expected one of \['csv', 'parquet'\]"),
         (["walks.toml", "--out", "o", "--plot", "period"], "expected X,Y"),
         (["walks.toml", "--out", "o", "--plot", "period,noise"], "does not vary"),
+        (["walks.toml", "--out", "o", "--plot", "period,seed:status"], "'status' is no result"),
+        (["walks.toml", "--out", "o", "--plot", "period,seed:sped"], "'sped' is no result"),
+        (["many.toml", "--out", "o", "--plot", "period,controller,seed"], "20 panels over 'seed'"),
+        (["walks.toml", "--out", "walks.toml"], "is a file; expected a folder"),
+        (["walks.toml", "--out", "o", "--no-run"], "no results file"),
         (
             ["walks.toml", "--out", "o", "--scheduler", "tcp://127.0.0.1:9", "--threads"],
             "leave out",
@@ -275,6 +407,7 @@ def test_the_command_runs_exports_draws_and_goes_on(tmp_path):
 def test_wrong_commands(tmp_path, monkeypatch, arguments, message):
     monkeypatch.chdir(tmp_path)
     Path("walks.toml").write_text(WALKS)
+    Path("many.toml").write_text(WALKS.replace("seeds = 2", "seeds = 20"))
     with pytest.raises(InputError, match=message):
         CliRunner().invoke(app, ["sweep", *arguments], catch_exceptions=False)
     assert not Path("o").exists()

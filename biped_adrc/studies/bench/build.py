@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 
@@ -29,6 +30,7 @@ from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.errors import ModelErrors, impact_error
 from biped_adrc.studies.bench.catalogue import controller
+from biped_adrc.studies.bench.named_files import files_of
 from biped_adrc.studies.bench.trial import Trial
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
@@ -46,16 +48,26 @@ class Scene:
     gait: Gait
 
 
+Stamp = tuple[tuple[str, int, int], ...]
+"""Of files: path, time of the last change [ns] and size."""
+
+
 @lru_cache(maxsize=16)
-def scene(robot: str, preset: str | None, gait: str, friction: bool) -> Scene:
-    """Loaded once in a process."""
+def scene(robot: str, preset: str | None, gait: str, friction: bool, stamp: Stamp = ()) -> Scene:
+    """Loaded once in a process, and again when a file has changed."""
     biped = Biped.load(robot, preset, friction)
     return Scene(biped, load_gait(gait, biped))
 
 
 def scene_of(trial: Trial) -> Scene:
     """The trial's scene. Raises InputError for a robot or gait that there is not."""
-    return scene(trial.robot, trial.preset, trial.gait, trial.friction)
+    paths = (*files_of("robot", trial.robot), *files_of("gait", trial.gait))
+    return scene(trial.robot, trial.preset, trial.gait, trial.friction, _stamp(paths))
+
+
+def _stamp(paths: tuple[Path, ...]) -> Stamp:
+    there = [(path, path.stat()) for path in paths if path.is_file()]
+    return tuple((str(path), found.st_mtime_ns, found.st_size) for path, found in there)
 
 
 def drawn(trial: Trial, what: str) -> int:

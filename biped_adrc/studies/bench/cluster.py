@@ -6,17 +6,20 @@ spoil a study.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
-from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.errors import InputError
 from biped_adrc.studies.bench.store import numerical_versions
-from biped_adrc.studies.bench.workers import Workers
+from biped_adrc.studies.bench.workers import Workers, WorkersError
 
 TIMEOUT = 10.0
 """[s] for a scheduler to answer, and for its first worker."""
+
+ADDRESS = re.compile(r"(?:(?:tcp|tls)://)?(?:\[[0-9a-fA-F:.]+\]|[\w.-]+):([0-9]{1,5})")
 
 
 @dataclass(frozen=True)
@@ -25,9 +28,14 @@ class Cluster(Workers):
 
     address: str
     timeout: float = TIMEOUT
+    elsewhere: ClassVar[bool] = True
+
+    def prepare(self) -> None:
+        """Raises InputError as `start`."""
+        self.stop(self.start(), True)
 
     def start(self) -> Executor:
-        """Raises InputError when none answers, has no workers, or has some with other versions."""
+        """Raises InputError for no address, when none answers, has no workers, or some with other versions."""
         client = _client(self.address, self.timeout)
         try:
             _check_workers(client, self.address, self.timeout)
@@ -56,7 +64,7 @@ class Cluster(Workers):
         client = _of(executor).client
         comm = client.scheduler_comm
         if client.status != "running" or comm is None or comm.comm.closed():
-            raise SimulationError(
+            raise WorkersError(
                 f"the scheduler at {self.address} has gone away; what was finished is kept. Start the cluster "
                 "again, and then the study: it goes on from there"
             )
@@ -100,13 +108,24 @@ def _client(address: str, timeout: float) -> Any:
         raise InputError(
             "a study on a Dask cluster needs Dask, which is not installed; pip install 'biped-adrc[cluster]'"
         ) from error
+    _check_address(address)
     try:
         return connect(address, timeout=timeout, set_as_default=False)  # type: ignore[no-untyped-call]
-    except (OSError, ValueError, TimeoutError, ImportError) as error:
+    except (OSError, ValueError, TypeError, TimeoutError, ImportError) as error:
         raise InputError(
             f"no Dask scheduler answers at '{address}' within {timeout:g} s ({type(error).__name__}: {error}); "
             "expected an address such as tcp://host:8786, which 'dask scheduler' prints when it starts"
         ) from error
+
+
+def _check_address(address: str) -> None:
+    """Raises InputError."""
+    match = ADDRESS.fullmatch(address)
+    if match is None or not 0 < int(match[1]) < 2**16:
+        raise InputError(
+            f"the address of the Dask scheduler is '{address}', expected one such as tcp://host:8786, which "
+            "'dask scheduler' prints when it starts"
+        )
 
 
 def _asked() -> Callable[[], Any]:

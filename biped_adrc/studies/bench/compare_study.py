@@ -1,4 +1,4 @@
-"""The comparison carried out, stored run by run, and written: results.sqlite, figures, page, summary.
+"""The comparison carried out, stored run by run, and written: comparison.sqlite, figures, page, summary.
 
 A comparison that is killed goes on where it was: every walk, those of the bisections too, lies in the file by
 its record.
@@ -24,8 +24,9 @@ from biped_adrc.studies.bench.points import Point, key_of, text_of
 from biped_adrc.studies.bench.run import run_trials
 from biped_adrc.studies.bench.store import About, Store, numerical_versions
 from biped_adrc.studies.bench.store_open import open_store
+from biped_adrc.studies.bench.sweep import check_folder
 from biped_adrc.studies.bench.trial import Trial
-from biped_adrc.studies.bench.workers import Workers
+from biped_adrc.studies.bench.workers import Workers, workers_of
 from biped_adrc.viz.comparison_figure import measure_figure, push_figure, survival_figure
 from biped_adrc.viz.comparison_page import CAPTIONS, comparison_html
 from biped_adrc.viz.style import render
@@ -96,6 +97,8 @@ def run_comparison(
     }
     name = hashlib.sha256(json.dumps(asked, sort_keys=True).encode()).hexdigest()[:32]
     about = About("comparison", name, asked, numerical_versions())
+    check_folder(out)
+    workers_of(workers).prepare()
     with open_store(out / RESULTS, about, other_versions) as store:
         carry = Stored(store, workers, progress)
         found = compare(carry, controllers, conditions, seeds, pushes)

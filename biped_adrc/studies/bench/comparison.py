@@ -12,6 +12,7 @@ from typing import Any
 
 from biped_adrc.errors import InputError
 from biped_adrc.studies.bench.catalogue import CONTROLLERS
+from biped_adrc.studies.bench.chunk import NO_WALK
 from biped_adrc.studies.bench.conditions import CONDITIONS, record
 from biped_adrc.studies.bench.largest_push import (
     DIRECTIONS,
@@ -25,7 +26,6 @@ from biped_adrc.studies.bench.statistics import Interval, median, share
 
 PUSH_SEEDS = 5
 """Seeds of the largest pushes, at most."""
-NO_WALK = ("REFUSED", "RAISED", "CRASHED")
 MEASURES = {
     "peak_error": "largest tracking error [rad]",
     "rms_torque": "torque, root mean square [N m]",

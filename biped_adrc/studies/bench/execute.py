@@ -15,11 +15,17 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from biped_adrc.errors import BipedError, InputError, SimulationError
-from biped_adrc.studies.bench.chunk import Function, Made, made, run_chunk
+from biped_adrc.errors import BipedError, InputError
+from biped_adrc.studies.bench.chunk import CRASHED, Function, Made, made, run_chunk
 from biped_adrc.studies.bench.points import Point, key_of, point, text_of
-from biped_adrc.studies.bench.store import CRASHED, Placed, Ran, Store
-from biped_adrc.studies.bench.workers import Workers, workers_of
+from biped_adrc.studies.bench.store import Placed, Ran, Store
+from biped_adrc.studies.bench.workers import (
+    Workers,
+    WorkersError,
+    held_back,
+    undisturbed,
+    workers_of,
+)
 
 LOOK_UP = 256
 """Points that are made and looked up at once."""
@@ -29,7 +35,10 @@ AHEAD = 3
 PATIENCE = 5.0
 """[s] without a result, after which the workers are asked whether they are still there."""
 MOST_DEATHS = 6
-"""Workers that die one after the other without a run between them, after which the study ends."""
+"""Workers that die one after the other, without a run between them or a record to blame, after which the
+study ends."""
+MOST_CRASHED = 20
+"""New records one after the other that kill their workers, after which the study ends."""
 
 
 class Progress(NamedTuple):
@@ -79,7 +88,7 @@ def run_study(
     first: the place in the study of the first of them.
     function: a row for each record of a list; it and its module can be found by name where the workers are.
     chunk: runs that are handed out at once, by `total` and the number of workers if None. Ctrl-C ends it, with
-    all that is finished in the store. Raises InputError, OutputError, and SimulationError when the workers die.
+    all that is finished in the store. Raises InputError, OutputError, and WorkersError when the workers die.
     """
     if chunk is not None and chunk < 1:
         raise InputError(f"the study asks for chunks of {chunk} runs, expected at least 1")
@@ -124,11 +133,18 @@ class _Flight:
     fresh: int = 0
     deaths: int = 0
     in_a_row: int = 0
+    crashed_in_a_row: int = 0
+    known: set[str] = field(default_factory=set)
+    """Keys on their way that had killed their workers before."""
     begin: float = field(default_factory=time.monotonic)
 
     def missing(self, points: Iterator[Point]) -> Iterator[Job]:
-        """The runs that have to be made, each once; where the points lie is stored on the way."""
+        """The runs that have to be made, each once, those that killed their workers before at the end.
+
+        Where the points lie is stored on the way.
+        """
         position = self.first
+        late: list[Job] = []
         while batch := list(itertools.islice(points, LOOK_UP)):
             jobs = [_job(p) for p in batch]
             self.store.place(
@@ -136,17 +152,22 @@ class _Flight:
                 for i, (job, p) in enumerate(zip(jobs, batch, strict=True))
             )
             position += len(batch)
-            there = self.store.finished([job.key for job in jobs])
+            keys = [job.key for job in jobs]
+            there, crashed = self.store.finished(keys), self.store.crashed(keys)
             new = {job.key: job for job in jobs if job.key not in there | self.keys}
             self.done += len(batch) - len(new)
             self.keys |= new.keys()
             self.tell()
-            yield from new.values()
+            self.known |= crashed & new.keys()
+            late += [job for job in new.values() if job.key in crashed]
+            yield from (job for job in new.values() if job.key not in crashed)
+        yield from late
 
     def send(self, chunk: Chunk) -> None:
         records = [job.record for job in chunk]
         try:
-            future = self.executor.submit(run_chunk, self.function, records)
+            with held_back():
+                future = self.executor.submit(run_chunk, self.function, records)
         except BaseException as error:
             if not self.crew.broken(error):
                 raise
@@ -163,6 +184,8 @@ class _Flight:
         if suspects:
             while self.pending:  # they would be suspects too
                 finished, _ = wait(self.pending, PATIENCE, FIRST_COMPLETED)
+                if not finished:
+                    self.crew.check(self.executor)
                 suspects += [c for future in finished if (c := self.take(future)) is not None]
             for chunk in suspects:
                 self.alone(chunk)
@@ -197,12 +220,23 @@ class _Flight:
         else:
             detail = "the worker process that ran it died, each time it was tried"
             self.keep(chunk, [made({"status": CRASHED, "detail": detail}, 0.0)], died=True)
+            self.blame(chunk[0])
+
+    def blame(self, job: Job) -> None:
+        """Count a record that killed its worker. Raises WorkersError when all of them seem to."""
+        self.crashed_in_a_row += job.key not in self.known
+        if self.crashed_in_a_row >= MOST_CRASHED:
+            raise WorkersError(
+                f"{self.crashed_in_a_row} runs one after the other killed their worker processes, each alone; "
+                "what they are is in the results file. Look for lack of memory, or for a fault in what they "
+                "run; the study goes on with the others when it is started again"
+            )
 
     def restart(self, error: BaseException) -> None:
         self.deaths += 1
         self.in_a_row += 1
         if self.in_a_row >= MOST_DEATHS:
-            raise SimulationError(
+            raise WorkersError(
                 f"{self.in_a_row} worker processes died one after the other, without a run between them "
                 f"({error}); look for lack of memory, or for a fault in what they import"
             ) from error
@@ -212,14 +246,19 @@ class _Flight:
     def keep(self, chunk: Chunk, rows: list[Made], died: bool = False) -> None:
         pairs = zip(chunk, rows, strict=True)
         self.store.add(_ran(job, row) for job, row in pairs)
-        self.in_a_row = self.in_a_row if died else 0
+        self.in_a_row = 0
+        self.crashed_in_a_row = self.crashed_in_a_row if died else 0
         self.done += len(chunk)
         self.fresh += len(chunk)
         self.keys -= {job.key for job in chunk}
         self.tell()
 
     def abandon(self) -> None:
-        """End the workers, and store what they had finished."""
+        """End the workers, and store what they had finished; Ctrl-C once more does not disturb that."""
+        with undisturbed():
+            self._abandon()
+
+    def _abandon(self) -> None:
         for future in self.pending:
             future.cancel()
         self.crew.stop(self.executor, True)
@@ -236,7 +275,7 @@ class _Flight:
         self.crew.check(self.executor)
         if isinstance(error, BipedError):
             return error
-        return SimulationError(
+        return WorkersError(
             f"a chunk of runs could not be handed to a worker or back: {type(error).__name__}: {error}. What "
             "was finished is kept; the function of the study has to be one that workers can import by name"
         )

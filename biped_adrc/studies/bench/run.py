@@ -19,15 +19,15 @@ from biped_adrc.errors import BipedError
 from biped_adrc.hardware.meter import reading
 from biped_adrc.hybrid.status import Status
 from biped_adrc.studies.bench.build import case, scene_of
-from biped_adrc.studies.bench.trial import Trial
+from biped_adrc.studies.bench.chunk import NO_WALK, REFUSED
+from biped_adrc.studies.bench.trial import Trial, reason
 
 Row = dict[str, float | int | str | None]
 
-REFUSED = "REFUSED"
 COLUMNS = {
     "status": "How the walk ended.",
     "detail": "More of it in words.",
-    "survived": "1 when all foot strikes were made.",
+    "survived": "1 when all foot strikes were made, 0 when not; None for what was no walk.",
     "impacts": "Foot strikes made.",
     "t_end": "[s]",
     "peak_error": "Largest |q_b - h(Theta)| at the ticks [rad].",
@@ -46,6 +46,8 @@ COLUMNS = {
     "engine": "What ran.",
 }
 """Of a row."""
+WORDS = ("status", "detail", "engine")
+"""Columns that are no numbers."""
 
 _PREPARING = Lock()
 """Robots and generated code are shared by the threads of a process."""
@@ -64,16 +66,17 @@ def run_trial(record: Mapping[str, Any]) -> Row:
             made = case(trial)
             run = run_case(made)
     except (BipedError, ValidationError) as error:
-        return _row({"status": REFUSED, "detail": str(error), "survived": 0, "impacts": 0})
+        return _row({"status": REFUSED, "detail": reason(error), "impacts": 0})
     return _row(measured(trial, made, run()))
 
 
 def measured(trial: Trial, made: Case, walked: Walked) -> Row:
     """The numbers of a walk."""
+    status = walked.status.name
     row: Row = {
-        "status": walked.status.name,
+        "status": status,
         "detail": walked.detail,
-        "survived": int(walked.status is Status.COMPLETED),
+        "survived": None if status in NO_WALK else int(walked.status is Status.COMPLETED),
         "impacts": walked.impacts,
         "t_end": walked.t_end,
         "engine": walked.engine,

@@ -19,24 +19,33 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, version
-from json import loads
+from json import JSONDecodeError, loads
 from pathlib import Path
 from typing import IO, Any, NamedTuple
 
 from biped_adrc.errors import InputError, OutputError
+from biped_adrc.studies.bench.chunk import CRASHED, NO_WALK
 from biped_adrc.studies.bench.points import text_of
 
-CRASHED = "CRASHED"
-"""Status of a run whose process died; it is tried again when the study goes on."""
-
-NUMERICAL = ("biped-adrc", "pin", "numpy", "scipy", "casadi", "numba", "llvmlite")
+SOURCE = "source of biped-adrc"
+NUMERICAL = (
+    "biped-adrc",
+    "pin",
+    "numpy",
+    "scipy",
+    "casadi",
+    "numba",
+    "llvmlite",
+    "qpsolvers",
+    "daqp",
+)
 
 
 @lru_cache(maxsize=1)
 def numerical_versions() -> Mapping[str, str]:
     """Of what the numbers of a run depend on, with a hash of this package's own lines, edited or not."""
     found = {"python": platform.python_version(), "machine": platform.machine()}
-    found["lines"] = _lines()
+    found[SOURCE] = _source()
     for package in NUMERICAL:
         try:
             found[package] = version(package)
@@ -45,7 +54,7 @@ def numerical_versions() -> Mapping[str, str]:
     return found
 
 
-def _lines() -> str:
+def _source() -> str:
     digest, root = hashlib.sha256(), Path(__file__).parents[2]
     for path in sorted(root.rglob("*.py")):
         digest.update(str(path.relative_to(root)).encode() + path.read_bytes())
@@ -118,10 +127,17 @@ class Store:
                 ((*run, which) for run in runs),
             )
 
+    def crashed(self, keys: Sequence[str]) -> set[str]:
+        """Those of the keys whose processes died, the last time they were tried."""
+        return self._keys(keys, f"status = '{CRASHED}'")
+
     def finished(self, keys: Sequence[str]) -> set[str]:
         """Those of the keys whose runs need not be made again."""
+        return self._keys(keys, f"status IS NOT '{CRASHED}'")
+
+    def _keys(self, keys: Sequence[str], condition: str) -> set[str]:
         marks = ",".join("?" * len(keys))
-        text = f"SELECT key FROM runs WHERE key IN ({marks}) AND status IS NOT '{CRASHED}'"
+        text = f"SELECT key FROM runs WHERE key IN ({marks}) AND {condition}"
         with self._reading():
             return {key for (key,) in self.connection.execute(text, tuple(keys))}
 
@@ -133,7 +149,8 @@ class Store:
             marks = ",".join("?" * len(part))
             text = f"SELECT key, row FROM runs WHERE key IN ({marks})"
             with self._reading():
-                found |= {k: loads(row) for k, row in self.connection.execute(text, tuple(part))}
+                for key, row in self.connection.execute(text, tuple(part)):
+                    found[key] = self._plain(key, row)
         return found
 
     def __len__(self) -> int:
@@ -147,12 +164,30 @@ class Store:
         with self._reading():
             return dict(self.connection.execute(text).fetchall())
 
+    def no_walks(self) -> dict[str, str]:
+        """What one run says of each status that is no walk."""
+        marks = ",".join("?" * len(NO_WALK))
+        text = f"SELECT status, row, min(key) FROM runs WHERE status IN ({marks}) GROUP BY 1"
+        with self._reading():
+            found = self.connection.execute(text, NO_WALK).fetchall()
+        return {s: str(self._plain(key, row).get("detail") or "") for s, row, key in found}
+
+    def _plain(self, key: str, text: str) -> dict[str, Any]:
+        try:
+            found = loads(text)
+            if isinstance(found, dict):
+                return found
+            reason = f"found {found!r}"
+        except JSONDecodeError as error:
+            reason = str(error)
+        raise damaged(self.path, f"the run {key} has no values, {reason}")
+
     def results(self) -> Iterator[Result]:
         """Points with finished runs, in the order of the study, a few at a time in memory."""
         text = "SELECT position, key, at, row FROM points JOIN runs USING (key) ORDER BY position"
         with self._reading():
             for position, key, at, row in self.connection.execute(text):
-                yield Result(position, key, loads(at), loads(row))
+                yield Result(position, key, self._plain(key, at), self._plain(key, row))
 
     def close(self) -> None:
         """Leave one file behind, and let go of the lock."""
@@ -181,16 +216,26 @@ class Store:
                 yield db
         except sqlite3.Error as error:
             raise cannot_write(self.path, error) from error
+        except OverflowError as error:
+            raise InputError(
+                f"a number of a run, such as its seed, is too large for the results file '{self.path}': {error}"
+                "; expected at most 2^63 - 1"
+            ) from error
 
     @contextmanager
     def _reading(self) -> Iterator[None]:
         try:
             yield
         except sqlite3.DatabaseError as error:
-            raise InputError(
-                f"the results file '{self.path}' cannot be read: {error}; it is damaged, take a copy of it or "
-                "begin anew in another folder"
-            ) from error
+            raise damaged(self.path, error) from error
+
+
+def damaged(path: Path, reason: object) -> InputError:
+    """The error to raise for a file that cannot be read."""
+    return InputError(
+        f"the results file '{path}' cannot be read: {reason}; it is damaged, take a copy of it or begin anew "
+        "in another folder"
+    )
 
 
 def cannot_write(path: Path, error: Exception) -> OutputError:

@@ -15,7 +15,7 @@ from typing import IO
 
 from biped_adrc.errors import InputError
 from biped_adrc.studies.bench.points import text_of
-from biped_adrc.studies.bench.store import About, Store, cannot_write
+from biped_adrc.studies.bench.store import About, Store, cannot_write, damaged
 
 APPLICATION = 0x62614452
 """SQLite's application_id of these files."""
@@ -134,9 +134,9 @@ def _about(path: Path, db: sqlite3.Connection) -> About:
     text = "SELECT name, hash, configuration, versions, points FROM study"
     try:
         name, key, configuration, versions, points = db.execute(text).fetchone()
-    except (sqlite3.DatabaseError, TypeError) as error:
-        raise InputError(f"the results file '{path}' is damaged: {error}") from error
-    return About(name, key, loads(configuration), loads(versions), points)
+        return About(name, key, loads(configuration), loads(versions), points)
+    except (sqlite3.DatabaseError, TypeError, ValueError) as error:
+        raise damaged(path, error) from error
 
 
 def _check_study(path: Path, found: About, asked: About, other_versions: bool) -> None:

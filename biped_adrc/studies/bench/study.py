@@ -21,6 +21,8 @@ from biped_adrc.studies.bench.samples import Draw
 from biped_adrc.studies.bench.trial import Trial
 
 CASE, SEED = "case", "seed"
+MOST_POINTS = 10**9
+"""Of a study."""
 
 
 class Named(BaseModel):
@@ -59,6 +61,21 @@ class Study(BaseModel):
         case = (CASE,) if self.cases else ()
         return (*case, *self.grid, *drawn, *((SEED,) if self.seeds else ()))
 
+    def levels(self, name: str) -> int:
+        """How many values of one of `varied` there may be."""
+        if name == CASE:
+            return len(self.cases)
+        if name in self.grid:
+            return len(self.grid[name])
+        if name == SEED and self.seeds:
+            return len(self.seeds)
+        if self.draw is None or name not in self.draw.ranges:
+            return 1
+        drawn = self.draw.ranges[name]
+        return min(
+            self.draw.count, int(drawn.high - drawn.low) + 1 if drawn.whole else self.draw.count
+        )
+
     def configuration(self) -> dict[str, Any]:
         """All of it as plain values."""
         return self.model_dump(mode="json")
@@ -83,6 +100,12 @@ class Study(BaseModel):
 
     def _samples(self) -> Iterator[dict[str, Any]]:
         return iter([{}]) if self.draw is None else self.draw.samples()
+
+
+def too_many(study: Study) -> str:
+    """In words, of a study with more than `MOST_POINTS`."""
+    found, most = f"{study.count:.3g}", f"{MOST_POINTS:.0e}"
+    return f"has {found} points, expected at most {most}; give fewer levels, samples or seeds"
 
 
 def record_of(values: dict[str, Value]) -> dict[str, Any]:

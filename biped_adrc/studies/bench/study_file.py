@@ -11,7 +11,6 @@ Values are numbers in the SI unit, or text such as "1.5 ms"; "none" for no value
 
 from __future__ import annotations
 
-import itertools
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -29,24 +28,26 @@ from biped_adrc.studies.bench.parameters import (
     check_name,
     is_number,
     is_whole,
+    nested,
     read,
 )
+from biped_adrc.studies.bench.rehearsal import some_points
 from biped_adrc.studies.bench.samples import Draw, Range
-from biped_adrc.studies.bench.study import SEED, Named, Study
-from biped_adrc.studies.bench.trial import Trial
+from biped_adrc.studies.bench.study import MOST_POINTS, SEED, Named, Study, too_many
+from biped_adrc.studies.bench.trial import MOST_SEED, Trial, reason
 
 TABLES = ("study", "fixed", "grid", "random", "sobol", "cases")
 MOST = 1_000_000
 """Levels of one parameter, and seeds."""
-MOST_LOOKED_AT = 4000
-"""Points that are looked at beforehand; a later one that does not fit has a row that says so."""
+SPREAD = 3000
+"""Points all over a study that are looked at beforehand; another that does not fit has a row that says so."""
 
 
 def load_study(path: Path | str) -> Study:
     """The study of a TOML file. Raises InputError with everything that is wrong in it."""
     path = Path(path)
     try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+        tables = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise InputError(
             f"cannot read the study file '{path}': {error.strerror}; expected a TOML file"
@@ -94,7 +95,7 @@ class _Reader:
         try:
             return read()
         except (Refused, ValidationError) as error:
-            self.wrong(key, error if isinstance(error, Refused) else _first(error))
+            self.wrong(key, error if isinstance(error, Refused) else reason(error))
             return None
 
     def known(self, key: str, names: tuple[str, ...], where: str) -> None:
@@ -146,12 +147,6 @@ def _joined(table: Mapping[str, Any]) -> dict[str, Any]:
         else:
             made[name] = x
     return made
-
-
-def _first(error: ValidationError) -> str:
-    reason = error.errors()[0]
-    name = "".join(f"{part}: " for part in reason["loc"])
-    return f"{name}{reason['msg'].removeprefix('Value error, ')}"
 
 
 def _levels(name: str, given: Any) -> tuple[Value, ...]:
@@ -218,11 +213,15 @@ def _seeds(r: _Reader, given: Any) -> tuple[int, ...]:
         return ()
     if type(given) is int and 1 <= given <= MOST:
         return tuple(range(given))
-    fits = isinstance(given, list) and given and all(type(x) is int and x >= 0 for x in given)
+    fits = isinstance(given, list) and given and all(map(_is_seed, given))
     if not fits or len(set(given)) < len(given):
         r.wrong("study.seeds", f"found {given!r}, expected how many, or a list of different seeds")
         return ()
     return tuple(given)
+
+
+def _is_seed(x: Any) -> bool:
+    return type(x) is int and 0 <= x <= MOST_SEED
 
 
 def _cases(r: _Reader, given: Any) -> tuple[Named, ...]:
@@ -254,6 +253,8 @@ def _together(r: _Reader, study: Study, where: str) -> Study:
                 seen[name] = place
             elif not (place.startswith("cases") and seen[name].startswith(("fixed", "cases"))):
                 r.wrong(f"{place}.{name}", f"is given in '{seen[name]}' too; expected one place")
+    if not r.problems and study.count > MOST_POINTS:
+        r.wrong("study", too_many(study))
     if not r.problems:
         _look(r, study)
     if r.problems:
@@ -262,16 +263,15 @@ def _together(r: _Reader, study: Study, where: str) -> Study:
 
 
 def _look(r: _Reader, study: Study) -> None:
-    """Whether values fit together, in the first points of each case, up to the first where they do not."""
-    most = MOST_LOOKED_AT // max(len(study.cases), 1) + 1
+    """Whether values fit together, up to the first point of each case where they do not."""
     for case in study.cases or (None,):
         alone = study.model_copy(update={"cases": () if case is None else (case,)})
-        for p in itertools.islice(alone.points(), most):
+        for values, at in some_points(alone, SPREAD // max(len(study.cases), 1)):
             try:
-                Trial.model_validate(p.record)
+                Trial.model_validate(nested(values))
             except ValidationError as error:
-                r.wrong(f"at {dict(p.at)}", _first(error))
-                return
+                r.wrong(f"at {at}", reason(error))
+                break
 
 
 def _error(r: _Reader, where: str) -> InputError:

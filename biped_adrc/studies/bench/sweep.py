@@ -1,12 +1,11 @@
 """A study from its file to its results: `sweep`, and what it leaves to look at.
 
-Everything is checked before the first walk: the study, a walk for each combination of what it names by words,
-the file that the results go to, and the workers.
+Everything is checked before the first walk: the study, walks of points that stand for all, the workers, the
+file that the results go to.
 """
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from contextlib import closing
@@ -18,22 +17,22 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from biped_adrc.errors import BipedError, InputError
+from biped_adrc.errors import InputError
 from biped_adrc.studies.bench.chunk import Function
 from biped_adrc.studies.bench.execute import Progress, Summary, run_study
-from biped_adrc.studies.bench.parameters import nested
+from biped_adrc.studies.bench.named_files import files_of_study, hashes
+from biped_adrc.studies.bench.rehearsal import rehearse
 from biped_adrc.studies.bench.store import About, Result, numerical_versions
 from biped_adrc.studies.bench.store_open import open_store, read_store
-from biped_adrc.studies.bench.study import Named, Study
+from biped_adrc.studies.bench.study import MOST_POINTS, Study, too_many
 from biped_adrc.studies.bench.study_file import load_study
-from biped_adrc.studies.bench.trial import Trial
+from biped_adrc.studies.bench.trial import reason
 from biped_adrc.studies.bench.workers import Workers, workers_of
 
 RESULTS = "results.sqlite"
 """In the folder of a sweep."""
 PARAMETER = "parameter."
 """Put before a parameter whose name a column of results has too."""
-MOST_REHEARSED = 200
 
 
 @dataclass(frozen=True)
@@ -51,11 +50,14 @@ class Table:
         return len(next(iter(self.columns.values()), ()))
 
     def where(self, keep: NDArray[np.bool_] | Mapping[str, Any]) -> Table:
-        """The rows of a mask (N,), or those that have these values. Raises InputError for an unknown column."""
+        """The rows of a mask (N,), or those that have these values, None for no value.
+
+        Raises InputError for an unknown column.
+        """
         mask = np.ones(len(self), dtype=bool)
         if isinstance(keep, Mapping):
             for name, x in keep.items():
-                mask &= self[name] == x
+                mask &= _equal(self[name], x)
         else:
             mask = keep
         return Table({name: column[mask] for name, column in self.columns.items()})
@@ -103,6 +105,11 @@ class Sweep:
         with closing(read_store(self.path)) as store:
             return store.statuses()
 
+    def no_walks(self) -> dict[str, str]:
+        """What one run says of each status that is no walk, such as REFUSED."""
+        with closing(read_store(self.path)) as store:
+            return store.no_walks()
+
     def _of_rows(self) -> list[str]:
         found: dict[str, None] = {}
         for result in self.results():
@@ -124,7 +131,7 @@ def sweep(
 
     workers: processes (one per core if None), `Threads`, `Cluster`, or any executor. function: what makes rows
     of records; walks if None. other_versions: go on with results of other versions.
-    Raises InputError, OutputError, SimulationError; Ctrl-C leaves what is finished, and the same call goes on.
+    Raises InputError, OutputError, WorkersError; Ctrl-C leaves what is finished, and the same call goes on.
     """
     study = study if isinstance(study, Study) else load_study(study)
     if function is None:
@@ -132,9 +139,10 @@ def sweep(
         from biped_adrc.studies.bench.run import run_trials
 
         function = run_trials
-    path = Path(out) / RESULTS
-    crew = workers_of(workers)
-    about = About(study.name, study.hash, study.configuration(), numerical_versions(), study.count)
+    check_folder(out)
+    path, crew = Path(out) / RESULTS, workers_of(workers)
+    about = about_study(study, crew)
+    crew.prepare()
     with open_store(path, about, other_versions) as store:
         summary = run_study(
             function,
@@ -148,6 +156,26 @@ def sweep(
     return Sweep(path, study, summary)
 
 
+def about_study(study: Study, crew: Workers) -> About:
+    """What its results are of and made with, the files that it names included. Raises InputError."""
+    if study.count > MOST_POINTS:
+        raise InputError(f"study '{study.name}' {too_many(study)}")
+    files = files_of_study(study)
+    if files and crew.elsewhere:
+        raise InputError(
+            f"study '{study.name}' names the files {[str(path) for path in files]}, which workers elsewhere "
+            "may not have, or have others; run it with processes or threads of this machine"
+        )
+    versions = {**numerical_versions(), **hashes(files)}
+    return About(study.name, study.hash, study.configuration(), versions, study.count)
+
+
+def check_folder(out: Path | str) -> None:
+    """Raises InputError for a file."""
+    if Path(out).is_file():
+        raise InputError(f"the results are to go to '{out}', which is a file; expected a folder")
+
+
 def load_sweep(out: Path | str) -> Sweep:
     """The results in a folder, or in a file, finished or not. Raises InputError."""
     path = Path(out) / RESULTS if Path(out).is_dir() else Path(out)
@@ -157,39 +185,17 @@ def load_sweep(out: Path | str) -> Sweep:
         return Sweep(path, Study.model_validate(configuration))
     except ValidationError as error:
         raise InputError(
-            f"the results file '{path}' holds no study of this program: {error}"
+            f"the results file '{path}' holds no study of this program: {reason(error)}"
         ) from error
 
 
-def rehearse(study: Study) -> None:
-    """Make a walk, without walking it, of each combination of what is named by words.
-
-    Raises InputError for robots, gaits, controllers or joints that there are not.
-    """
-    from biped_adrc.studies.bench.build import scene_of, walker
-
-    for values, name in _of_words(study):
-        try:
-            trial = Trial.model_validate(nested(values))
-            walker(trial, scene_of(trial))
-        except (BipedError, ValidationError) as error:
-            where = f"study '{study.name}'" + (f", case '{name}'" if name else "")
-            raise InputError(f"{where}: {error}") from error
-
-
-def _of_words(study: Study) -> Iterator[tuple[dict[str, Any], str]]:
-    """Values of a first point, with all combinations of grid levels that are texts."""
-    first = {
-        name: levels if isinstance(levels[0], str) else levels[:1]
-        for name, levels in study.grid.items()
-    }
-    drawn: dict[str, Any] = {} if study.draw is None else next(study.draw.samples())
-    every = (
-        (study.fixed | case.values | dict(zip(first, levels, strict=True)) | drawn, case.name)
-        for case in study.cases or (Named(name=""),)
-        for levels in itertools.product(*first.values())
-    )
-    return itertools.islice(every, MOST_REHEARSED)
+def _equal(column: NDArray[Any], x: Any) -> NDArray[np.bool_]:
+    """Rows with this value; NaN in a column of numbers is no value."""
+    if x is not None:
+        return np.asarray(column == x, dtype=bool)
+    if column.dtype == object:
+        return np.array([value is None for value in column], dtype=bool)
+    return np.asarray(column != column, dtype=bool)
 
 
 def _array(values: list[Any]) -> NDArray[Any]:

@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
 HARDWARE: dict[str, dict[str, Any]] = {
     "ideal": {},
@@ -25,6 +25,10 @@ HARDWARE: dict[str, dict[str, Any]] = {
 }
 """Sampling, encoders, torque and friction published for RABBIT (Chevallereau et al., IEEE Control Systems
 Magazine 2003; Westervelt, Buche, Grizzle, IJRR 2004); its rotors are in the preset 'identified'."""
+
+
+MOST_SEED = 2**63 - 1
+"""What a file of results can hold."""
 
 
 def value(default: Any, text: str, unit: str = "1", **limits: float) -> Any:
@@ -42,7 +46,7 @@ class Trial(BaseModel):
     preset: str | None = value(None, "Parameters of the robot; its record's default if not given.")
     gait: str = value("published", "Stored gait by name.")
     impacts: int = value(25, "Foot strikes to walk.", ge=1, le=10_000)
-    seed: int = value(0, "Of all that is drawn in this trial.", ge=0)
+    seed: int = value(0, "Of all that is drawn in this trial.", ge=0, le=MOST_SEED)
     # controller
     controller: str = value("ADRC", "Controller by its name in the bench.")
     K_p: float | None = value(
@@ -167,6 +171,15 @@ class Trial(BaseModel):
         """A name for this trial: two with the same values have the same."""
         text = json.dumps(self.record(), sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def reason(error: Exception) -> str:
+    """What an error says; of a trial's own the first thing that is wrong, without the validator's ornaments."""
+    if not isinstance(error, ValidationError):
+        return str(error)
+    found = error.errors()[0]
+    name = "".join(f"{part}: " for part in found["loc"])
+    return f"{name}{found['msg'].removeprefix('Value error, ')}"
 
 
 def _defaults() -> dict[str, Any]:

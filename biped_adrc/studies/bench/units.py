@@ -39,6 +39,8 @@ WHOLE: dict[str, Unit] = {
 }
 """These do not."""
 PREFIXES = {"k": 1e3, "M": 1e6, "c": 1e-2, "m": 1e-3, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "n": 1e-9}
+MOST_POWER = 9
+"""Of a symbol in a unit."""
 
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 _FACTOR = re.compile(r"([^\d\s/*^·+-]+|1)(?:\^?(-?\d+))?")
@@ -50,16 +52,21 @@ def quantity(text: str, unit: str) -> float:
     if match is None:
         raise ValueError(f"expected a number [{unit}] or a number and its unit")
     number, given = float(match[1]), match[2]
+    if not math.isfinite(number):
+        raise ValueError(f"{match[1]} is too large, expected a finite number [{unit}]")
     if not given:
         return number
     found, expected = unit_of(given), unit_of(unit)
     if found.powers != expected.powers:
         raise ValueError(f"'{given}' is another dimension, expected a unit such as '{unit}'")
-    return _scaled(number, found.factor / expected.factor)
+    scaled = _scaled(number, found.factor / expected.factor)
+    if not math.isfinite(scaled):
+        raise ValueError(f"it is too large, expected a finite number [{unit}]")
+    return scaled
 
 
 def unit_of(text: str) -> Unit:
-    """A unit from its text. Raises ValueError for a symbol that is not known."""
+    """A unit from its text. Raises ValueError for an unknown symbol or a power beyond `MOST_POWER`."""
     factor, powers = 1.0, (0, 0, 0, 0)
     over, *under = text.split("/")
     for sign, part in [(1, over), *((-1, part) for part in under)]:
@@ -69,6 +76,8 @@ def unit_of(text: str) -> Unit:
             powers = tuple(  # type: ignore[assignment]
                 a + sign * power * b for a, b in zip(powers, symbol.powers, strict=True)
             )
+    if not 0.0 < factor < math.inf:
+        raise ValueError(f"the unit '{text}' is out of range")
     return Unit(factor, powers)
 
 
@@ -78,7 +87,10 @@ def _factor(word: str, text: str) -> tuple[Unit, int]:
     if match is None or symbol is None:
         known = ", ".join([*SYMBOLS, *WHOLE])
         raise ValueError(f"the unit '{text}' is not known; units are made of {known}")
-    return symbol, int(match[2] or 1)
+    power = match[2] or "1"
+    if len(power) > 4 or abs(int(power)) > MOST_POWER:
+        raise ValueError(f"the unit '{text}' has the power {power}, expected at most {MOST_POWER}")
+    return symbol, int(power)
 
 
 def _symbol(name: str) -> Unit | None:

@@ -9,23 +9,44 @@ import multiprocessing
 import os
 import signal
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass
-from threading import Thread
-from typing import Any
+from multiprocessing import forkserver, resource_tracker
+from threading import Thread, current_thread, main_thread
+from typing import Any, ClassVar
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, SimulationError
 
 PRELOADED = ("biped_adrc.studies.bench.run",)
 """Imported once, before the processes are forked."""
+GUARD = (
+    "Worker processes import the script that starts them: what starts a study has to stand under "
+    "if __name__ == '__main__': in it. Otherwise use Threads, and look for lack of memory, or for a fault in "
+    "what they import"
+)
+
+
+class WorkersError(SimulationError):
+    """Workers, or what is between them and this process, are gone: no walk is to blame (exit code 3)."""
+
+    exit_code = 3
 
 
 class Workers(ABC):
     """What runs chunks."""
 
+    elsewhere: ClassVar[bool] = False
+    """Whether on other machines, with files of their own."""
+
     @abstractmethod
     def start(self) -> Executor:
         """An executor that works. Raises InputError."""
+
+    def prepare(self) -> None:
+        """Raise what `start` would, as far as that is soon known; asked before anything is written."""
+        return
 
     @abstractmethod
     def count(self, executor: Executor) -> int:
@@ -45,7 +66,7 @@ class Workers(ABC):
         return isinstance(error, BrokenExecutor)
 
     def check(self, executor: Executor) -> None:
-        """Asked when nothing has come for a while. Raises SimulationError when nothing will."""
+        """Asked when nothing has come for a while. Raises WorkersError when nothing will."""
         return
 
 
@@ -62,10 +83,30 @@ class Processes(Workers):
     def count(self, executor: Executor) -> int:
         return _number(self.number)
 
+    def prepare(self) -> None:
+        """Raises InputError in a process that is itself just starting."""
+        if getattr(multiprocessing.current_process(), "_inheriting", False):
+            raise InputError(GUARD)
+
     def start(self) -> ProcessPoolExecutor:
+        """Raises InputError, and WorkersError when the first process ends before it has done anything."""
+        self.prepare()
         context = multiprocessing.get_context("forkserver")
         context.set_forkserver_preload(list(self.preload))
-        return ProcessPoolExecutor(_number(self.number), context, initializer=_begin)
+        executor = ProcessPoolExecutor(_number(self.number), context, initializer=_begin)
+        try:
+            with held_back():
+                _start_forkserver()
+                first = executor.submit(os.getpid)
+            first.result()
+        except BrokenExecutor as error:
+            self.stop(executor, True)
+            raise WorkersError(f"the worker processes end as they start. {GUARD}") from error
+        except BaseException:
+            with undisturbed():
+                self.stop(executor, True)
+            raise
+        return executor
 
     def stop(self, executor: Executor, now: bool) -> None:
         processes: list[Any] = list((getattr(executor, "_processes", None) or {}).values())
@@ -76,9 +117,49 @@ class Processes(Workers):
         executor.shutdown(wait=True, cancel_futures=now)
 
 
+def _start_forkserver() -> None:
+    """With Ctrl-C blocked, so that it and its children begin so; what keeps track of them would let it in."""
+    resource_tracker.ensure_running()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        forkserver.ensure_running()
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """Without Ctrl-C, where it would be heard."""
+    if current_thread() is not main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before or signal.SIG_DFL)
+
+
+@contextmanager
+def held_back() -> Iterator[None]:
+    """Ctrl-C is heard at the end, so that no process is started and not known of."""
+    if current_thread() is not main_thread():
+        yield
+        return
+    came: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: came.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before or signal.SIG_DFL)
+        if came:
+            signal.raise_signal(signal.SIGINT)
+
+
 def _begin() -> None:
     """Ctrl-C reaches every process of the terminal, the parent alone answers it; without it no worker stays."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     Thread(target=_end_with_parent, daemon=True).start()
 
 
@@ -115,7 +196,7 @@ class Given(Workers):
     executor: Executor
 
     def count(self, executor: Executor) -> int:
-        return int(getattr(self.executor, "_max_workers", None) or os.cpu_count() or 1)
+        return int(getattr(self.executor, "_max_workers", None) or cores())
 
     def start(self) -> Executor:
         return self.executor
@@ -137,7 +218,14 @@ def workers_of(given: Workers | Executor | int | None) -> Workers:
 
 
 def _number(asked: int | None) -> int:
-    return asked or os.cpu_count() or 1
+    return asked or cores()
+
+
+def cores() -> int:
+    """Those that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def _check_number(number: int | None) -> None:
