@@ -27,6 +27,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.hardware.motors import IDEAL, Line, acting, sent, whole_and_part
 from biped_adrc.observers.gpi import gpi_flow
 from biped_adrc.observers.gpi_sampled import gpi_correct, gpi_predict
+from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.studies.observer_check import DelayCase, check_encoders, step_errors
 from biped_adrc.viz.observer_figure import observer_figure
 
@@ -304,6 +305,7 @@ def test_delayed_controller_names_bad_input(published):
         ((math.nan,), "delay is nan"),
         ((1e-3, 0), "order is 0"),
         ((1e-3, 11), "order is 11"),
+        ((1e-3, 4.0), "order is 4.0"),
         ((1e-3, 4, False, -1.0), "torque limit is -1"),
     ):
         with pytest.raises(InputError, match=word):
@@ -412,6 +414,71 @@ def test_verdicts(biped, gait):
         assert all(len(row) == len(section.header) for row in section.rows)
 
 
+@pytest.mark.parametrize(
+    ("observer_", "counts", "ratio"),
+    [
+        (TABLE_I, 2e7, 1.25),
+        (ba.GPIObserver.from_bandwidth(45.0, 5), 8192.0, 0.8),
+        (ba.GPIObserver.from_bandwidth(30.0, 7), 8192.0, 0.8),
+    ],
+    ids=["table 1", "m = 5", "m = 7"],
+)
+def test_an_observer_for_exact_inertias_alone_cannot_run(biped, gait, observer_, counts, ratio):
+    """Stable and quiet with the model's kappa; with the robot's off by the ratio the laws diverge."""
+    report = observer_report(observer_, robot=biped, gait=gait, counts=counts)
+    assert report.spectral_radius < 1.0
+    assert report.ripple < 15.0
+    assert not report.runs
+    assert "cannot run" in report.verdict
+    assert f"{ratio:g} times the model's kappa the sampled loop is unstable" in report.verdict
+    assert error_after(observer_, ratio, 4000) > 1e3
+    assert error_after(observer_, 1.0, 4000) < 1e-6
+
+
+def error_after(observer, ratio, ticks, T=1.5e-3):
+    """|e| by the laws from e = 1e-3 on, for a robot with that ratio of the model's kappa; it ends at 1e6."""
+    form, y, rate = observer.sampled(T), np.array([1e-3]), np.zeros(1)
+    Z = np.zeros((observer.order, 1))
+    for _ in range(ticks):
+        Z = gpi_correct(form.parameters, Z, y)
+        x = form.estimate(Z.ravel())
+        a = -K_P * x.position - K_D * x.velocity - x.disturbance
+        Z = gpi_predict(form.parameters, Z, a)
+        y, rate = y + T * rate + 0.5 * T**2 * ratio * a, rate + T * ratio * a
+        if abs(y[0]) > 1e6:
+            break
+    return abs(y[0])
+
+
+@pytest.mark.parametrize("m", [1, 5])
+def test_verdict_and_recommendation_agree(biped, gait, m):
+    """What is recommended runs; a little above it, where the table says why not, it does not."""
+    made = observer_report(ba.GPIObserver.from_bandwidth(50.0, m), robot=biped, gait=gait)
+    found = recommend(made.hardware, ba.Gains(), m)
+    for share, allowed in ((0.999, True), (1.002, False)):
+        observer_ = ba.GPIObserver.from_bandwidth(share * found.bandwidth, m)
+        report = observer_report(observer_, robot=biped, gait=gait)
+        assert report.runs is allowed
+        assert report.obstacle == ("" if allowed else found.because)
+        assert ("cannot run" in report.verdict or "not well" in report.verdict) is not allowed
+
+
+def test_verdict_says_when_no_observer_is_better(biped, gait):
+    """e'' = xi where estimates do not move: |e / xi| = 1 / w^2, against 1 / |s^2 + K_d s + K_p|."""
+    reports = {
+        (m, w): observer_report(ba.GPIObserver.from_bandwidth(w, m), robot=biped, gait=gait)
+        for m, w in ((1, 0.1), (1, 160.0), (0, 491.0))
+    }
+    s = 10.0j * math.pi
+    alone = 1.0 / abs(s**2 + K_D * s + K_P)
+    assert reports[1, 0.1].against_none == pytest.approx(1.0 / abs(s) ** 2 / alone, rel=0.05)
+    assert ["worse than no observer" in r.verdict for r in reports.values()] == [True, False, True]
+    assert ["no disturbance is estimated" in r.verdict for r in reports.values()] == [
+        False, False, True,
+    ]  # fmt: skip
+    assert not any("nan" in report.text() for report in reports.values())
+
+
 def test_recommended_bandwidth_is_the_last_that_is_allowed():
     hardware = Hardware(1.5e-3, 0.0, False, 8192.0, 150.0, 4.7)
     for m in (1, 5):
@@ -434,12 +501,24 @@ def test_report_names_bad_input(biped, gait):
         ({"counts": 0.5}, "0.5 counts"),
         ({"delay": -1e-3}, "delay is -0.001"),
         ({"torque_limit": math.nan}, "torque limit"),
-        ({"gains": ba.Gains(np.array([1.0, 2.0]), np.array([1.0, 2.0])), "joint": 2}, "joint 2"),
+        (
+            {"gains": ba.Gains(np.array([1.0, 2.0]), np.array([1.0, 2.0])), "joint": 2},
+            "gain K_p has 2",
+        ),
+        ({"joint": 7}, "joint 7 of 'rabbit' was asked for, expected 0 to 3"),
     ):
         with pytest.raises(InputError, match=word):
             observer_report(FIRST, robot=biped, gait=gait, **arguments)
     with pytest.raises(InputError, match="not stable"):
         observer_report([-1.0, 2.0, -3.0], robot=biped, gait=gait)
+    high = HighGainObserver.from_epsilon(2e-3)
+    with pytest.raises(InputError, match="report on a HighGainObserver"):
+        observer_report(high, robot=biped, gait=gait)
+    for m in (15, 200):
+        with pytest.raises(InputError, match=f"m = {m} was asked for, expected m <= 14"):
+            observer_report(ba.GPIObserver.from_bandwidth(50.0, m), robot=biped, gait=gait)
+    with pytest.raises(InputError, match="joint 2"):
+        observer_loop(FIRST, ba.Gains(np.array([1.0, 2.0]), np.array([1.0, 2.0])), 2)
     with pytest.raises(InputError, match="SampledGPIObserver"):
         observer_loop(FIRST.sampled(1e-3))
     with pytest.raises(InputError, match="kappa_ratio"):
@@ -453,6 +532,10 @@ def test_figure_shows_every_report(biped, gait):
     for axes in observer_figure(reports).axes:
         assert [line.get_label() for line in axes.lines[:2]] == ["Table I", "m = 1 at 500 rad/s"]
         assert axes.lines[2].get_xdata()[0] == pytest.approx(math.pi / 1.5e-3)
+    none = observer_report(OBSERVERS["m = 0"], robot=biped, gait=gait)
+    alone, beside = observer_figure([none]), observer_figure([reports[0], none])
+    assert [len(axes.lines) for axes in alone.axes] == [2, 0, 2]
+    assert [len(axes.lines) for axes in beside.axes] == [3, 2, 3]
     with pytest.raises(InputError, match="no report"):
         observer_figure([])
 

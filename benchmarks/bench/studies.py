@@ -1,10 +1,10 @@
-"""A study by `sweep`: wall time, walks per second and core, memory, and the same bits however it is carried out.
+"""A study by `sweep`: wall time, walks per second and core, memory, and the same bits wherever it runs.
 
 Run: python benchmarks/bench/studies.py [OUT] [--quick]
 
-Every walk has 25 impacts at 1 kHz under ADRC with a push of its own and counts its own error, torque and work. The
-hash is of every row, in the order of the study. `memory` is the highest that was resident in the process that
-carries the study out, `workers` in its largest child, both so far.
+Every walk has 25 impacts at 1 kHz under ADRC with a push of its own and counts its own error, torque and work.
+The hash is of every row, in the order of the study. `memory` is the highest that was resident in the process
+that carries the study out, `workers` in its largest child, both so far.
 """
 
 from __future__ import annotations
@@ -12,10 +12,13 @@ from __future__ import annotations
 import hashlib
 import json
 import resource
+import sys
 import tempfile
 import time
 from pathlib import Path
 from typing import Any
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from report import Table, arguments
 
@@ -75,7 +78,9 @@ def on_a_cluster(asked: Study) -> tuple[float, str] | None:
 def main() -> None:
     """Print the table, and write it when asked."""
     asked = arguments(__doc__).parse_args()
-    table = Table("Studies", "sampled ADRC walks of 25 impacts", "s and MB", ("numba", "distributed"))
+    table = Table(
+        "Studies", "sampled ADRC walks of 25 impacts", "s and MB", ("numba", "distributed")
+    )
     carried_out(study(4), Processes(2))  # whatever is compiled once
     size = 100 if asked.quick else 1000
     ways: dict[str, Any] = {

@@ -100,10 +100,20 @@ def ripple(hardware: Hardware, observer: GPIObserver, gains: Gains, joint: int =
     return sigma_a * hardware.inertia
 
 
+def weakest(
+    hardware: Hardware, observer: GPIObserver, gains: Gains, joint: int = 0
+) -> tuple[float, float]:
+    """The one of KAPPA_RATIOS with the largest spectral radius, and that radius."""
+    radii = {
+        ratio: loop_on(hardware, observer, gains, joint, ratio).spectral_radius
+        for ratio in KAPPA_RATIOS
+    }
+    return max(radii.items(), key=lambda found: found[1])
+
+
 def obstacle(hardware: Hardware, observer: GPIObserver, gains: Gains, joint: int = 0) -> str:
     """ "ripple", "stability", or "" for an observer that is allowed."""
-    loops = (loop_on(hardware, observer, gains, joint, ratio) for ratio in KAPPA_RATIOS)
-    if not all(loop.stable for loop in loops):
+    if not weakest(hardware, observer, gains, joint)[1] < 1.0:
         return "stability"
     allowed = SHARE * hardware.torque_limit
     return "" if ripple(hardware, observer, gains, joint) <= allowed else "ripple"
@@ -127,9 +137,14 @@ def recommend(hardware: Hardware, gains: Gains, m: int, joint: int = 0) -> Recom
         return Recommended(m, math.nan, "", math.nan, math.nan, math.nan)
     observer = GPIObserver.from_bandwidth(low, m)
     margin = largest_delay(observer, hardware.period, gains, joint=joint, known=hardware.known)
+    torque, error = ripple(hardware, observer, gains, joint), rejection(observer, gains, joint)
+    return Recommended(m, low, because, torque, margin, error)
+
+
+def rejection(observer: GPIObserver, gains: Gains, joint: int = 0) -> float:
+    """|e / xi| at REJECTED [s^2]."""
     error = observer_loop(observer, gains, joint).tracking_error(np.array([REJECTED]))
-    torque = ripple(hardware, observer, gains, joint)
-    return Recommended(m, low, because, torque, margin, float(np.abs(error[0])))
+    return float(np.abs(error[0]))
 
 
 def without_observer(gains: Gains, joint: int = 0) -> float:

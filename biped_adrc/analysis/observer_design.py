@@ -17,12 +17,14 @@ import numpy as np
 
 from biped_adrc.analysis.observer_choice import (
     ORDERS,
-    SHARE,
     Hardware,
     Recommended,
     loop_on,
+    obstacle,
     recommend,
+    rejection,
     ripple,
+    without_observer,
 )
 from biped_adrc.analysis.observer_impact import Impact, ImpactPeak, impact_peak, orbit_impact
 from biped_adrc.analysis.observer_loop import (
@@ -34,13 +36,13 @@ from biped_adrc.analysis.observer_loop import (
     observer_loop,
 )
 from biped_adrc.analysis.observer_sampled import largest_delay, largest_period
-from biped_adrc.analysis.observer_tables import Section, microseconds, sections
+from biped_adrc.analysis.observer_tables import Section, sections, verdict
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
-from biped_adrc.observers.base import ResetPolicy
+from biped_adrc.observers.base import Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, ComplexArray
@@ -182,37 +184,29 @@ class ObserverReport:
         """For each m of ORDERS what the encoders, the period and the delay allow."""
         return tuple(recommend(self.hardware, self.gains, m, self.joint) for m in ORDERS)
 
+    @cached_property
+    def obstacle(self) -> str:
+        """What forbids the observer, as in `recommended`: "stability", "ripple", or "" where nothing does."""
+        return obstacle(self.hardware, self.observer, self.gains, self.joint)
+
     @property
     def runs(self) -> bool:
-        """Whether the loop is stable and the ripple within SHARE of the torque limit."""
-        return self.ripple <= SHARE * self.hardware.torque_limit
+        """Whether it is allowed: stable for all KAPPA_RATIOS, the ripple within SHARE of the limit.
+
+        Not whether it is of use: see `against_none`.
+        """
+        return not self.obstacle
+
+    @cached_property
+    def against_none(self) -> float:
+        """The error that a 5 Hz disturbance leaves, over that with K_p and K_d alone."""
+        alone = without_observer(self.gains, self.joint)
+        return rejection(self.observer, self.gains, self.joint) / alone
 
     @property
     def verdict(self) -> str:
         """Whether the observer can run on this robot, in words, with the numbers that decide."""
-        k = self.hardware
-        limit, rate = k.torque_limit, 1.0 / k.period
-        where = f"on {self.robot} at {rate:.0f} Hz with {k.counts:g} counts per revolution"
-        late = f"a delay of {k.delay * 1e6:.0f} us" if k.delay > 0.0 else "no delay"
-        bears = (
-            f"it bears {microseconds(self.sampled_margins[int(k.known)])} of delay at this period"
-        )
-        if not math.isfinite(self.ripple):
-            return (
-                f"{self.name} cannot run {where}: with {late} the sampled loop is unstable, spectral radius "
-                f"{self.spectral_radius:.4g}; {bears}"
-            )
-        share = self.ripple / limit
-        part = f"{100.0 * share:.3g} % of" if share <= 1.0 else f"{share:.3g} times"
-        torque = (
-            f"one encoder count makes {self.ripple:.4g} N m rms, {part} the limit of {limit:g} N m"
-        )
-        if share > 1.0:
-            return f"{self.name} cannot run {where}: {torque}; {bears}"
-        wish = (
-            "" if self.runs else f", but not well: at most {100.0 * SHARE:g} % are asked for, and"
-        )
-        return f"{self.name} can run {where}{wish or ':'} {torque}; {bears}"
+        return verdict(self)
 
     @property
     def sections(self) -> list[Section]:
@@ -249,6 +243,11 @@ def observer_report(
     not; torque_limit [N m]: of the robot's record if not given; joint: whose gains, of one number per joint.
     Raises InputError for what is impossible, and names it.
     """
+    if isinstance(observer, Observer) and not isinstance(observer, GPIObserver):
+        raise InputError(
+            f"a report on a {type(observer).__name__} was asked for, expected a GPIObserver in continuous "
+            "time or its poles [rad/s]"
+        )
     if not isinstance(observer, GPIObserver):
         observer = GPIObserver.from_poles(observer)
     SampledTime(period, delay=delay)
@@ -260,13 +259,28 @@ def observer_report(
             f"the torque limit of '{robot.description.name}' is {limit} N m, expected a positive number; give "
             "torque_limit, or peak_torque in its record"
         )
-    observer_loop(observer, gains, joint)  # a joint without gains is refused here
+    _check_joint(robot, gains, joint)
     hardware = Hardware(
         period, delay, known, float(counts), float(limit), worst_inertia(robot, gait)
     )
+    loop_on(hardware, observer, gains, joint)  # an order that round-off spoils is refused here
     name = f"{robot.description.name} ({robot.preset})"
     impact = orbit_impact(robot, gait, observer.order)
     return ObserverReport(observer, gains, name, hardware, impact, joint)
+
+
+def _check_joint(robot: Biped, gains: Gains, joint: int) -> None:
+    """Raises InputError for a joint that the robot has not, and for gains of another number of joints."""
+    if not isinstance(joint, int) or joint not in range(robot.p):
+        raise InputError(
+            f"joint {joint!r} of '{robot.description.name}' was asked for, expected 0 to {robot.p - 1}"
+        )
+    for name, gain in (("K_p", gains.K_p), ("K_d", gains.K_d)):
+        if np.size(gain) not in (1, robot.p):
+            raise InputError(
+                f"gain {name} has {np.size(gain)} numbers, expected one, or {robot.p} for the joints of "
+                f"'{robot.description.name}'"
+            )
 
 
 def worst_inertia(biped: Biped, gait: Gait) -> float:

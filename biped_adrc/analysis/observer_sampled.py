@@ -40,13 +40,16 @@ RATIO = 1.05
 """Of one period of that search to the one before."""
 PARTS, MOST_PERIODS = 20, 50
 """Parts of a period by which the largest delay is looked for, and how many periods far."""
+HIGHEST = 14
+"""Largest m: with more, round-off moves poles of the discrete observer by more than the loop's do."""
 
 
 @dataclass(frozen=True)
 class SampledLoop:
     """The module's loop. K_p [1/s^2], K_d [1/s], T and delay [s]; kappa_ratio is g.
 
-    Raises InputError for what `SampledTime` refuses, a form that is neither, and a kappa_ratio <= 0.
+    Raises InputError for what `SampledTime` refuses, an m above HIGHEST, a form that is neither, and a
+    kappa_ratio <= 0.
     """
 
     observer: GPIObserver
@@ -60,6 +63,11 @@ class SampledLoop:
 
     def __post_init__(self) -> None:
         SampledTime(self.period, delay=self.delay)
+        if self.observer.m > HIGHEST:
+            raise InputError(
+                f"the sampled loop of an observer with m = {self.observer.m} was asked for, expected m <= "
+                f"{HIGHEST}: above it round-off decides what is stable"
+            )
         if self.form not in FORMS:
             raise InputError(f"the observer's form is '{self.form}', expected one of {list(FORMS)}")
         if not (np.isfinite(self.kappa_ratio) and self.kappa_ratio > 0.0):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from biped_adrc.analysis.observer_choice import KAPPA_RATIOS, SHARE, without_observer
+from biped_adrc.analysis.observer_choice import KAPPA_RATIOS, SHARE, weakest, without_observer
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.observer_design import ObserverReport
@@ -26,6 +26,68 @@ class Section(NamedTuple):
         return [self.title, *(f"  {line}".rstrip() for line in table)]
 
 
+# -- the verdict ---------------------------------------------------------------------------------
+def verdict(report: ObserverReport) -> str:
+    """Whether the observer can run on the robot, in words, with the numbers that decide."""
+    k = report.hardware
+    where = f"on {report.robot} at {1.0 / k.period:.0f} Hz with {k.counts:g} counts per revolution"
+    share, torque = _torque(report)
+    unstable = [_unstable(report)] if report.obstacle == "stability" else []
+    if unstable or share > 1.0:
+        reasons = [torque] if math.isfinite(share) else []
+        reasons = [*reasons, *unstable] if share > 1.0 else [*unstable, *reasons]
+        return f"{report.name} cannot run {where}: {'; '.join((*reasons, _bears(report)))}"
+    facts = [torque, _bears(report), _use(report)]
+    if not report.runs:
+        wish = f", but not well: at most {100.0 * SHARE:g} % are asked for, and "
+    elif report.against_none > 1.0:
+        wish, facts = ", but is worse than no observer: ", [*facts[2:], *facts[:2]]
+    else:
+        wish = ": "
+    return f"{report.name} can run {where}{wish}{'; '.join(facts)}"
+
+
+def _bears(report: ObserverReport) -> str:
+    margin = report.sampled_margins[int(report.hardware.known)]
+    if math.isinf(margin):
+        return "with the model's kappa no delay was found that it does not bear"
+    return f"with the model's kappa it bears {microseconds(margin)} of delay at this period"
+
+
+def _torque(report: ObserverReport) -> tuple[float, str]:
+    """The ripple over the torque limit, and in words."""
+    limit = report.hardware.torque_limit
+    share = report.ripple / limit
+    part = f"{100.0 * share:.3g} % of" if share <= 1.0 else f"{share:.3g} times"
+    return (
+        share,
+        f"one encoder count makes {report.ripple:.4g} N m rms, {part} the limit of {limit:g} N m",
+    )
+
+
+def _unstable(report: ObserverReport) -> str:
+    """Which ratio of the robot's kappa to the model's makes the sampled loop unstable."""
+    k, radius = report.hardware, report.spectral_radius
+    late = f"a delay of {k.delay * 1e6:.0f} us" if k.delay > 0.0 else "no delay"
+    if not radius < 1.0:
+        return f"with {late} the sampled loop is unstable, spectral radius {radius:.4g}"
+    ratio, radius = weakest(k, report.observer, report.gains, report.joint)
+    return (
+        f"with {late} and {ratio:g} times the model's kappa the sampled loop is unstable, spectral radius "
+        f"{radius:.4g} (stability is asked for from {KAPPA_RATIOS[0]:g} to {KAPPA_RATIOS[-1]:g} times)"
+    )
+
+
+def _use(report: ObserverReport) -> str:
+    """What the observer is good for, against none."""
+    times = report.against_none
+    error = f"a 5 Hz disturbance leaves {times:.2g} times the error of K_p and K_d alone"
+    if report.observer.m == 0:
+        error += "; with m = 0 no disturbance is estimated, and the weight is not compensated"
+    return error
+
+
+# -- the tables ----------------------------------------------------------------------------------
 def sections(report: ObserverReport) -> list[Section]:
     """All of it but the verdict."""
     return [
@@ -62,7 +124,11 @@ def _stability(report: ObserverReport) -> Section:
             for name, periods in report.largest_periods.items()
         ),
     ]
-    return Section("Stability of the linear loop", ("", "delay hidden", "known"), tuple(rows))
+    return Section(
+        "Stability of the linear loop, kappa as in the model",
+        ("", "delay hidden", "known"),
+        tuple(rows),
+    )
 
 
 def _responses(report: ObserverReport) -> Section:
@@ -70,8 +136,8 @@ def _responses(report: ObserverReport) -> Section:
         (
             f"|{name}|",
             f"{r.low:.3g}",
-            f"{r.peak:.4g} at {r.at:.4g} rad/s",
-            f"{r.bandwidth:.4g} rad/s",
+            f"{r.peak:.4g} at {r.at:.4g} rad/s" if r.peak > 0.0 else "0: no xi^",
+            f"{r.bandwidth:.4g} rad/s" if math.isfinite(r.bandwidth) else "",
         )
         for name, r in report.responses.items()
     )

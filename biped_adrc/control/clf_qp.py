@@ -6,11 +6,17 @@
     s.t. V' <= -c V / eps + delta                 c = 1 / (1 + sqrt 3)
          |u| <= u_max,   F_N >= F_min,   |F_T| <= friction F_N
 
-P solves the Riccati equation of the double integrator for Q = 1, c = 1 / lambda_max(P), so V falls as
-exp(-c t / eps) where no limit is in the way. V' + c V / eps = psi_0 + psi_1 mu is affine in mu, and so are
-u = kappa^-1 (a - xi), where a = M^-1 (mu + drift + H_N a_N), and the force of the ground F = F_a q'' + F_0 of
-the nominal model. With no limit active it is the law of least norm, which is tried first:
-mu = -psi_0 psi_1 / (|psi_1|^2 + 1 / p) for psi_0 > 0, else 0.
+P solves the Riccati equation of the double integrator for Q = 1, c = 1 / lambda_max(P).
+V' + c V / eps = psi_0 + psi_1 mu is affine in mu, and so are u = kappa^-1 (a - xi), where
+a = M^-1 (mu + drift + H_N a_N), and the force of the ground F = F_a q'' + F_0 of the nominal model. With no
+limit active it is the law of least norm, which is tried first:
+mu = -psi_0 psi_1 / (|psi_1|^2 + 1 / p) for psi_0 > 0, else 0. Where psi_0 > 0 then
+
+    V' + c V / eps = psi_0 / (1 + p |psi_1|^2),   psi_1 = 2 (y / eps + sqrt 3 y')
+
+V falls as exp(-c t / eps) only where p |psi_1|^2 >> 1. Where it is below 1 there is a dead zone: mu fades, and
+V may grow, by sqrt(3/2) V / eps at most, until it is left. At rest it is |y| < eps / (2 sqrt p), 5e-5 rad with
+the defaults; p = 1e9 makes it 1.6e-7 rad.
 
 Ames, Galloway, Sreenath, Grizzle, IEEE TAC 59(4), 2014; Galloway, Sreenath, Ames, Grizzle, IEEE Access 3, 2015.
 
@@ -29,7 +35,7 @@ import numpy as np
 from biped_adrc.control.base import Controller, Measurement, measured
 from biped_adrc.control.body import body_of
 from biped_adrc.control.output_adrc import output_matrix
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.linear import solve
 from biped_adrc.model.reduction import identity
@@ -87,7 +93,7 @@ def least_norm(d: Decrease, relaxation: float) -> Array:
 
 
 def affine(r: ReferencePoint, m: Measurement) -> Affine:
-    """Torque and ground force over mu. Raises SingularError where y'' does not follow the torque."""
+    """Torque and ground force over mu. Raises SingularError where L of y'' is exactly singular."""
     terms, body, p = m.terms, body_of(m), len(r.q_d)
     rest = r.drift + r.H[:, p:] @ terms.a_N
     columns = np.empty((p, p + 1))
@@ -104,8 +110,9 @@ def affine(r: ReferencePoint, m: Measurement) -> Affine:
 class CLFQPController(Controller):
     """The module's program; it has no laws and runs in Python.
 
-    epsilon [s]: V falls with c / eps; 1 / eps^2 and sqrt 3 / eps are like K_p and K_d. torque_limit [N m],
-    friction (of a flat ground) and least_force, F_min [N]: None for no such limit. relaxation: p.
+    epsilon [s]: V falls with c / eps outside the dead zone; 1 / eps^2 and sqrt 3 / eps are like K_p and K_d.
+    torque_limit [N m], friction (of a flat ground) and least_force, F_min [N]: None for no such limit.
+    relaxation: p.
     Raises InputError for numbers that are not positive; needs qpsolvers and daqp.
     """
 
@@ -131,6 +138,10 @@ class CLFQPController(Controller):
                 )
 
     def output(self, s: Array, m: Measurement) -> Array:
+        if not (np.isfinite(m.q).all() and np.isfinite(m.v).all()):
+            raise NotFiniteError(
+                f"the CLF-QP was asked for a torque at q = {m.q}, q' = {m.v}, expected finite numbers"
+            )
         r, x = self.reference(m.t, m.q, m.v), measured(m)
         d = decrease(x.position - r.q_d, x.velocity - r.dq_d, self.epsilon)
         to, mu = affine(r, m), least_norm(d, self.relaxation)

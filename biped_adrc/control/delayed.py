@@ -163,9 +163,10 @@ class Delayed(Controller):
                 f"the delay is {self.delay} s, expected a positive number; use {type(self.inner).__name__} "
                 "itself without one"
             )
-        if isinstance(self.order, bool) or self.order not in range(1, HIGHEST + 1):
+        is_whole = isinstance(self.order, (int, np.integer)) and not isinstance(self.order, bool)
+        if not (is_whole and 1 <= self.order <= HIGHEST):
             raise InputError(
-                f"the line's order is {self.order}, expected a whole number 1 to {HIGHEST}"
+                f"the line's order is {self.order!r}, expected a whole number 1 to {HIGHEST}"
             )
         limit = self.torque_limit
         if limit is not None and not (math.isfinite(limit) and limit > 0.0):

@@ -66,7 +66,10 @@ def output_input(r: ReferencePoint, terms: Reduction, u: Array) -> Array:
 
 
 def output_torque(k: TrackingParameters, r: ReferencePoint, x: Estimate, terms: Reduction) -> Array:
-    """u (p,) [N m] for estimates x of the output. Raises SingularError where M is singular."""
+    """u (p,) [N m] for estimates x of the output. Raises SingularError where M is exactly singular.
+
+    That is where a pivot of it is 0.0; near that u grows without bound and without an error.
+    """
     w = -k.K_p * x.position - k.K_d * x.velocity - x.disturbance
     a = solve(output_matrix(r, terms), w, "L of y'' = L u + xi_y, the output's decoupling matrix,")
     return terms.kappa_inverse @ a

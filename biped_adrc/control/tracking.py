@@ -82,7 +82,10 @@ def feedback(k: TrackingParameters | Gains, r: ReferencePoint, x1: Array, x2: Ar
 
 
 def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
-    """a (p,) of the module's equation. Raises SingularError when its matrix is singular."""
+    """a (p,) of the module's equation. Raises SingularError when its matrix is exactly singular.
+
+    That is where a pivot of it is 0.0; near that a grows without bound and without an error.
+    """
     p = len(f)
     H_b, H_N = r.H[:, :p], r.H[:, p:]
     return solve(

@@ -6,11 +6,13 @@ itself the observer matrix of Table I has condition number 3e29; scaled it has 5
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
+from biped_adrc.errors import InputError
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 from biped_adrc.types import Array
 
@@ -59,6 +61,51 @@ def chain_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) -> Ar
     if policy == MEASURED:
         swapped[0], swapped[1] = x.position, x.velocity / k.scale
     return swapped
+
+
+# -- what is asked of poles ----------------------------------------------------------------------
+def stable_poles(poles: Sequence[complex], what: str, because: str) -> tuple[complex, ...]:
+    """Two poles [rad/s] or more with negative real parts, complex ones in conjugate pairs.
+
+    `what` has them, `because` says why two. Raises InputError, with the pole that is wrong.
+    """
+    try:
+        numbers = tuple(complex(pole) for pole in poles)
+    except (TypeError, ValueError):
+        raise InputError(
+            f"the poles of {what} are {poles!r}, expected a sequence of numbers [rad/s] as (-300, -400)"
+        ) from None
+    if len(numbers) < 2:
+        raise InputError(f"{what} needs at least 2 poles{because}, found {len(numbers)}")
+    for pole in numbers:
+        if not np.isfinite(pole) or pole.real >= 0:
+            raise InputError(
+                f"observer pole {_show(pole)} rad/s is not stable; every real part must be < 0"
+            )
+        if numbers.count(pole) != numbers.count(pole.conjugate()):
+            raise InputError(f"observer pole {_show(pole)} rad/s has no conjugate beside it")
+    return numbers
+
+
+def equal_poles(bandwidth: float, number: int) -> tuple[complex, ...]:
+    """That many poles at -bandwidth [rad/s]. Raises InputError unless it is positive."""
+    if not (np.isfinite(bandwidth) and bandwidth > 0):
+        raise InputError(f"observer bandwidth is {bandwidth} rad/s, expected a positive number")
+    return (complex(-bandwidth),) * number
+
+
+def whole(number: int, least: int, name: str, what: str) -> int:
+    """The number as an int. Raises InputError unless it is whole and at least `least`."""
+    is_whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
+    if not (is_whole and number >= least):
+        raise InputError(
+            f"{what} is {name} = {number!r}, expected a whole number {name} >= {least}"
+        )
+    return int(number)
+
+
+def _show(pole: complex) -> str:
+    return f"{pole.real:g}" if pole.imag == 0 else f"{pole:g}"
 
 
 @dataclass(frozen=True)

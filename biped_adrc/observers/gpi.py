@@ -27,7 +27,10 @@ from biped_adrc.observers.chain import (
     chain_estimate,
     chain_reset,
     chain_state,
+    equal_poles,
     rows,
+    stable_poles,
+    whole,
 )
 from biped_adrc.observers.gpi_sampled import SampledGPIObserver
 from biped_adrc.types import Array
@@ -65,29 +68,19 @@ class GPIObserver(ChainObserver):
 
         m, when given, is checked against their number. Raises InputError.
         """
-        poles = tuple(complex(pole) for pole in poles)
+        poles = stable_poles(poles, "a GPI observer", " (m >= 0)")
         if m is not None and len(poles) != m + 2:
             raise InputError(f"a GPI observer with m = {m} has {m + 2} poles, found {len(poles)}")
-        if len(poles) < 2:
-            raise InputError(f"a GPI observer needs at least 2 poles (m >= 0), found {len(poles)}")
-        for pole in poles:
-            if not np.isfinite(pole) or pole.real >= 0:
-                raise InputError(
-                    f"observer pole {_show(pole)} rad/s is not stable; every real part must be < 0"
-                )
-            if abs(poles.count(pole) - poles.count(pole.conjugate())) > 0:
-                raise InputError(f"observer pole {_show(pole)} rad/s has no conjugate beside it")
         w = float(np.exp(np.mean(np.log(np.abs(poles)))))
         return cls(len(poles) - 2, w, poles)
 
     @classmethod
     def from_bandwidth(cls, bandwidth: float, m: int = 1) -> GPIObserver:
-        """All m + 2 poles at -bandwidth [rad/s]; m = 1 is the linear extended state observer."""
-        if not (np.isfinite(bandwidth) and bandwidth > 0):
-            raise InputError(f"observer bandwidth is {bandwidth} rad/s, expected a positive number")
-        if m < 0:
-            raise InputError(f"observer order is m = {m}, expected m >= 0")
-        return cls.from_poles([-bandwidth] * (m + 2))
+        """All m + 2 poles at -bandwidth [rad/s]; m = 1 is the linear extended state observer.
+
+        Raises InputError.
+        """
+        return cls.from_poles(equal_poles(bandwidth, whole(m, 0, "m", "observer order") + 2))
 
     @cached_property
     def parameters(self) -> GPIParameters:
@@ -119,7 +112,3 @@ class GPIObserver(ChainObserver):
         A = self.scale * np.eye(self.order, k=1)
         A[:, 0] = -self.scale * self.parameters.gains
         return ErrorSystem(A, 1.0 / self.scale)
-
-
-def _show(pole: complex) -> str:
-    return f"{pole.real:g}" if pole.imag == 0 else f"{pole:g}"

@@ -26,6 +26,7 @@ from biped_adrc.observers.chain import (
     chain_reset,
     chain_state,
     rows,
+    stable_poles,
 )
 from biped_adrc.types import Array
 
@@ -61,10 +62,14 @@ class SampledGPIObserver(ChainObserver):
 
     @classmethod
     def from_poles(cls, poles: Sequence[complex], period: float) -> SampledGPIObserver:
-        """Poles s [rad/s] of the continuous observer and the period T [s]. Raises InputError."""
+        """Poles s [rad/s] of the continuous observer, as those of GPIObserver, and the period T [s].
+
+        Raises InputError.
+        """
+        poles = stable_poles(poles, "a discrete GPI observer", " (m >= 0)")
         if not (np.isfinite(period) and period > 0):
             raise InputError(f"the sampling period is {period} s, expected a positive number")
-        return cls(len(poles) - 2, 1.0 / period, period, tuple(poles))
+        return cls(len(poles) - 2, 1.0 / period, period, poles)
 
     @cached_property
     def parameters(self) -> SampledGPIParameters:

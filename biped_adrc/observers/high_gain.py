@@ -29,6 +29,7 @@ from biped_adrc.observers.chain import (
     chain_reset,
     chain_state,
     rows,
+    whole,
 )
 from biped_adrc.observers.gpi import GPIParameters, gpi_flow
 from biped_adrc.observers.gpi_sampled import SampledGPIObserver
@@ -48,11 +49,7 @@ class HighGainObserver(ChainObserver):
         """epsilon [s]; alpha_1 .. alpha_(m+2), dimensionless, (s + 1)^(m+2) without. Raises InputError."""
         if not (np.isfinite(epsilon) and epsilon > 0):
             raise InputError(f"epsilon is {epsilon} s, expected a small positive number as 0.002")
-        if m < 1:
-            raise InputError(
-                f"observer order is m = {m}, expected m >= 1: an extended high-gain observer has a state for "
-                "the disturbance"
-            )
+        m = whole(m, 1, "m", "order of an observer with a state for the disturbance")
         if alpha is None:
             alpha = [comb(m + 2, i) for i in range(1, m + 3)]
         return cls(m, 1.0 / float(epsilon), _hurwitz(alpha, m))
@@ -100,7 +97,12 @@ class HighGainObserver(ChainObserver):
 
 def _hurwitz(alpha: Sequence[float], m: int) -> tuple[float, ...]:
     """alpha as floats. Raises InputError unless they are the coefficients of a Hurwitz polynomial."""
-    numbers = tuple(float(a) for a in alpha)
+    try:
+        numbers = tuple(float(a) for a in alpha)
+    except (TypeError, ValueError):
+        raise InputError(
+            f"alpha is {alpha!r}, expected {m + 2} numbers alpha_1 .. alpha_{m + 2}"
+        ) from None
     if len(numbers) != m + 2:
         raise InputError(
             f"a high-gain observer with m = {m} has {m + 2} numbers alpha, found {len(numbers)}"

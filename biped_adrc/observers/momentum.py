@@ -9,7 +9,11 @@ No acceleration and no inverse of D is needed. With one pole, r = l_1 (pi - pi^)
 Albu-Schaeffer, Haddadin, Hirzinger, IROS 2006; with two, r is a state of its own as in the disturbance observer
 of Chen, Ballance, Gawthrop, O'Reilly, IEEE Trans. Industrial Electronics 47(4), 2000, and a constant zeta is
 found without error while pi - pi^ goes to zero too; with k poles a polynomial of degree k - 2 is.
-zeta - r obeys s^(k-1) over the polynomial of the poles. States are scaled as in the GPI observer.
+With chi the polynomial of the poles
+
+    zeta - r = s^(k-1) (s + l_1) / chi(s) zeta
+
+States are scaled as in the GPI observer.
 
 The rows are of all n coordinates, q_N among them, so r has a part that no motor can cancel.
 """
@@ -24,9 +28,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import InputError
 from biped_adrc.observers.base import Estimate, Observer, ObserverLaws, ResetPolicy
-from biped_adrc.observers.chain import MODEL, NONE, RELABEL, Chain, rows
+from biped_adrc.observers.chain import (
+    MODEL,
+    NONE,
+    RELABEL,
+    Chain,
+    equal_poles,
+    rows,
+    stable_poles,
+    whole,
+)
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.gpi_sampled import (
     SampledGPIObserver,
@@ -121,19 +133,14 @@ class MomentumObserver(MomentumChain):
     @classmethod
     def from_poles(cls, poles: Sequence[complex]) -> MomentumObserver:
         """Two stable poles [rad/s] or more; complex ones in conjugate pairs. Raises InputError."""
-        if len(poles) < 2:
-            raise InputError(
-                f"a momentum observer needs at least 2 poles, one of them for r, found {len(poles)}"
-            )
-        checked = GPIObserver.from_poles(poles)
+        checked = GPIObserver.from_poles(_stable(poles))
         return cls(checked.poles, checked.scale)
 
     @classmethod
     def from_bandwidth(cls, bandwidth: float, order: int = 2) -> MomentumObserver:
         """All poles at -bandwidth [rad/s]. Raises InputError."""
-        if not (np.isfinite(bandwidth) and bandwidth > 0):
-            raise InputError(f"observer bandwidth is {bandwidth} rad/s, expected a positive number")
-        return cls.from_poles([-bandwidth] * order)
+        number = whole(order, 2, "k", "the number of poles of a momentum observer")
+        return cls.from_poles(equal_poles(bandwidth, number))
 
     @cached_property
     def parameters(self) -> MomentumParameters:
@@ -168,7 +175,7 @@ class SampledMomentumObserver(MomentumChain):
     @classmethod
     def from_poles(cls, poles: Sequence[complex], period: float) -> SampledMomentumObserver:
         """Poles s [rad/s] of the continuous observer and the period T [s]. Raises InputError."""
-        chain = SampledGPIObserver.from_poles(poles, period)
+        chain = SampledGPIObserver.from_poles(_stable(poles), period)
         return cls(chain.poles, chain.scale, period)
 
     @cached_property
@@ -195,3 +202,7 @@ class SampledMomentumObserver(MomentumChain):
 
     def predict(self, z: Array, input: Array) -> Array:
         return gpi_predict(self.parameters, rows(self, z), input).ravel()
+
+
+def _stable(poles: Sequence[complex]) -> tuple[complex, ...]:
+    return stable_poles(poles, "a momentum observer", ", one of them for r")

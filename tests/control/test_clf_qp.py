@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import linprog, nnls
 
 from biped_adrc.control.clf_qp import CLFQPController, affine, decrease, least_norm
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.walker import Mode, Walker
 
 LIMIT = 150.0
@@ -46,6 +46,54 @@ def test_the_lyapunov_function_falls_as_it_says(biped, gait):
             seen += 1
             assert rate == pytest.approx(bound, rel=1e-4)
     assert seen > 0
+
+
+@pytest.mark.parametrize("spread", [1e-6, 1e-5, 1e-3, 0.02])
+def test_the_relaxation_leaves_a_dead_zone_of_the_size_said(biped, gait, spread):
+    """V' + c V / eps = psi_0 / (1 + p |psi_1|^2) along the plant's motion, by differences, default p."""
+    law, h, growth, dead = CLFQPController(gait.constraint, **FREE), 1e-6, [], []
+    walker, c = Walker(biped, law), 1.0 / (1.0 + np.sqrt(3.0))
+    for m in clf_states(biped, gait, 20, spread):
+        a = walker.instant(0.0, np.concatenate((m.q, m.v)), Mode()).a
+
+        def V(t, m=m, a=a):
+            q, v = m.q + m.v * t + 0.5 * a * t**2, m.v + a * t
+            r = gait.constraint(0.0, q, v)
+            return decrease(q[:4] - r.q_d, v[:4] - r.dq_d, law.epsilon).V
+
+        rate, (d, _) = (V(h) - V(-h)) / (2 * h), parts(law, m)
+        if d.psi_0 > 0.0:
+            size = law.relaxation * (d.psi_1 @ d.psi_1)
+            excess = d.psi_0 / (1.0 + size)
+            bound = c * d.V / law.epsilon
+            assert rate == pytest.approx(excess - bound, rel=1e-3, abs=1e-4 * bound)
+            growth.append(law.epsilon * rate / d.V)
+            dead.append(size < 1.0)
+    assert max(growth) < np.sqrt(1.5)
+    if spread == 1e-6:
+        assert all(dead)
+        assert max(growth) > 0.2
+    if spread >= 1e-3:
+        assert not any(dead)
+        assert np.median(growth) == pytest.approx(-c, rel=0.05)
+
+
+def test_the_dead_zone_at_rest():
+    """p |psi_1|^2 = 1 at |y| = eps / (2 sqrt p), where mu is half of what it is for p without bound."""
+    eps, p = CLFQPController.epsilon, CLFQPController.relaxation
+    y = np.array([0.6, 0.0, 0.8, 0.0]) * eps / (2.0 * np.sqrt(p))
+    d = decrease(y, np.zeros(4), eps)
+    assert np.linalg.norm(y) == pytest.approx(5e-5)
+    assert d.psi_0 > 0.0
+    assert least_norm(d, p) == pytest.approx(0.5 * least_norm(d, 1e30), rel=1e-9)
+
+
+def test_a_state_that_is_not_finite_is_refused(biped, gait):
+    law = CLFQPController(gait.constraint)
+    m = next(clf_states(biped, gait, 1, 0.01))
+    for bad in (m._replace(q=m.q * np.nan), m._replace(v=m.v * np.inf)):
+        with pytest.raises(NotFiniteError, match="expected finite numbers"):
+            law.output(NO_STATE, bad)
 
 
 def test_without_limits_the_program_has_the_closed_form_s_solution(biped, gait):

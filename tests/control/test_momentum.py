@@ -9,7 +9,13 @@ import biped_adrc as ba
 from biped_adrc.control.momentum_dob import MomentumDOBController, known_force, momentum_of
 from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import InputError
-from biped_adrc.observers.momentum import MomentumObserver
+from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.observers.gpi_sampled import SampledGPIObserver
+from biped_adrc.observers.momentum import (
+    MomentumObserver,
+    SampledMomentumObserver,
+    momentum_flow,
+)
 from biped_adrc.walker import Mode, Walker
 
 NO_STATE = np.zeros(0)
@@ -27,6 +33,22 @@ def test_the_force_is_found_with_the_poles_chosen(biped, gait):
     r = np.array([law.observer.estimate(x[10:]).disturbance for x in arc.x])
     assert arc.t[-1] > 0.2
     assert np.max(np.abs(r - np.outer(1.0 - settled, zeta))) < 1e-5 * np.max(np.abs(zeta))
+
+
+@pytest.mark.parametrize("poles", [(-40.0, -60.0), (-30 + 20j, -30 - 20j, -50.0)])
+def test_the_error_has_the_transfer_function_of_the_module(poles):
+    """zeta - r = s^(k-1) (s + l_1) / chi(s) zeta, from the law's own matrices at s = i w."""
+    observer = MomentumObserver.from_poles(poles)
+    k, w = observer.parameters, 37.0
+    order, l_1 = observer.order, -float(np.sum(poles).real)
+    zero, unit = np.zeros((order, order)), np.eye(order)
+    A = momentum_flow(k, unit, zero[0], zero[0])
+    by_y = momentum_flow(k, np.zeros((order, 1)), np.ones(1), np.zeros(1))[:, 0]
+    s = 1j * w
+    Z = np.linalg.solve(s * unit - A, by_y / s)  # pi = zeta / s, with beta = 0
+    error = 1.0 - Z[1] * observer.scale
+    chi = np.prod([s - pole for pole in poles])
+    assert error == pytest.approx(s ** (order - 1) * (s + l_1) / chi, rel=1e-9)
 
 
 @pytest.mark.parametrize("poles", [(-40.0, -60.0), (-30 + 20j, -30 - 20j, -50.0)])
@@ -93,6 +115,20 @@ def test_an_impact_relabels_the_force_and_keeps_it(biped, gait):
         (lambda: MomentumObserver.from_poles([-3.0]), "at least 2 poles"),
         (lambda: MomentumObserver.from_poles([-3.0, 1.0]), "not stable"),
         (lambda: MomentumObserver.from_bandwidth(-3.0), "bandwidth is -3"),
+        (lambda: MomentumObserver.from_bandwidth(3.0, 1), "k = 1"),
+        (lambda: MomentumObserver.from_bandwidth(3.0, 2.5), "k = 2.5"),
+        (lambda: GPIObserver.from_bandwidth(500.0, 1.5), "m = 1.5"),
+        *(
+            (lambda kind=kind, poles=poles: kind.from_poles(poles, 1e-3), message)
+            for kind in (SampledGPIObserver, SampledMomentumObserver)
+            for poles, message in (
+                ([-3.0], "at least 2 poles"),
+                ([-3.0, 1.0], "pole 1 rad/s is not stable"),
+                ([-3.0, np.nan], "pole nan rad/s is not stable"),
+                ([-3.0, -1.0 + 1.0j], "no conjugate"),
+                (["a", -3.0], "expected a sequence of numbers"),
+            )
+        ),
         (lambda: MomentumObserver.from_bandwidth(3.0).sampled(0.0), "period is 0"),
         (lambda: MomentumObserver.from_bandwidth(3.0).predict(NO_STATE, NO_STATE), "sampled"),
     ],
