@@ -37,7 +37,7 @@ def trial(random):
     push = str(random.choice(PUSHES))
     return {
         **make,
-        "impacts": int(random.integers(1, 7)),
+        "impacts": int(random.integers(1, 4)),
         "seed": int(random.integers(1_000_000)),
         "K_p": log(1.0, 1e8),
         "K_d": log(0.1, 1e5),

@@ -88,7 +88,6 @@ def measurements(biped, gait, count=5):
 
 
 CONTROLLERS = {
-    "ADRC": lambda c: ba.ADRCController(c),
     "passive": lambda c: Passive(),
     "PD with gravity": lambda c: PDGravityController(c),
 }

@@ -58,10 +58,9 @@ def agree(law, examples, tolerance=1e-13):
 
 CONTROLLERS = {
     "NPD as printed": lambda c: ba.NPDController(c, solve_theta=False),
-    "ADRC with a gain for each joint": lambda c: ba.ADRCController(
-        c, GPIObserver.from_bandwidth(300.0, 0), ba.Gains([4e3, 5e3, 6e3, 7e3], 50.0)
-    ),
-    "ADRC in discrete time": lambda c: ba.ADRCController(c).sampled(1e-3),
+    "ADRC in discrete time": lambda c: ba.ADRCController(
+        c, GPIObserver.from_bandwidth(300.0, 1), ba.Gains([4e3, 5e3, 6e3, 7e3], 50.0)
+    ).sampled(1e-3),
     "passive": lambda c: Passive(),
 }
 
