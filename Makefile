@@ -4,8 +4,6 @@ PYTHON ?= python3
 OUT ?= out
 ARGS ?=
 BIN := .venv/bin
-# tests wait for processes and pages now and then, so one more than there are cores
-JOBS ?= $(shell $(PYTHON) -c 'import os; print((os.cpu_count() or 1) + 1)')
 BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine/batches engine/growth \
   engine/compiling peers/plant peers/closed_loop bench/studies pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
@@ -16,7 +14,7 @@ reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
 
 test: .venv/.test
-	$(BIN)/python -m pytest -rs --numprocesses $(JOBS) --dist loadgroup
+	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadgroup
 
 # the pages, in docs/_build/html
 docs: .venv/.dev
