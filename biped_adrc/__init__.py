@@ -32,9 +32,8 @@ if TYPE_CHECKING:
     from biped_adrc.disturbances.step import TorqueStep
     from biped_adrc.engine.batch import Case, simulate_many
     from biped_adrc.errors import BipedError
-    from biped_adrc.gait.constraint import VirtualConstraint
+    from biped_adrc.gait.constraint import VirtualConstraint, continued
     from biped_adrc.gait.conventions import convention
-    from biped_adrc.gait.corrected import continued
     from biped_adrc.gait.design.request import StepLimits
     from biped_adrc.gait.exchange.importing import export_gait, import_gait
     from biped_adrc.gait.exchange.record import GaitRecord
@@ -131,7 +130,7 @@ _HOMES = {
     "ZeroDynamics": "gait.zero_dynamics",
     "ZeroOrbits": "gait.zero_orbits",
     "biped_from_urdf": "model.own",
-    "continued": "gait.corrected",
+    "continued": "gait.constraint",
     "convention": "gait.conventions",
     "cycle_stability": "studies.cycle_stability",
     "design_gait": "studies.gait_design",

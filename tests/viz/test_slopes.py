@@ -17,7 +17,7 @@ import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.errors import InputError, SimulationError
-from biped_adrc.gait.corrected import continued
+from biped_adrc.gait.constraint import continued
 from biped_adrc.ground import StepDown
 from biped_adrc.hybrid.storage import save
 from biped_adrc.studies.figures import draw
