@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from biped_adrc.analysis.quadrature import largest
 from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Trajectory
@@ -81,6 +82,11 @@ class Signals:
         """(K, p) the rest of `xi_external`: what comes through the unactuated row of (12) [rad/s^2]."""
         unmatched: Array = self.xi_external - self.xi_matched
         return unmatched
+
+    @property
+    def peak_error(self) -> float:
+        """max |q_b - q_d| [rad], between the nodes too."""
+        return largest(self.t, self.error, self.v[:, : self.error.shape[1]] - self.dq_d)
 
     def of_step(self, step: int) -> Signals:
         """The rows of one single support."""

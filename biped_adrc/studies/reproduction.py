@@ -20,6 +20,7 @@ from biped_adrc.hybrid.storage import save
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
 from biped_adrc.studies.checks import Check
+from biped_adrc.studies.convergence import records
 from biped_adrc.studies.figures import push_window
 from biped_adrc.studies.findings import findings
 from biped_adrc.studies.laws import work_identity
@@ -80,6 +81,7 @@ def reproduce(
         "multipliers": {
             c: results[f"multipliers {c}"].record() for c in BOTH if f"multipliers {c}" in results
         },
+        "convergence": list(records(verdicts.run_twice(results))),
         "regression": {c: results[f"regression {c}"].record() for c in BOTH},
         "push_map": [cell.row() for cell in cells],
         "seconds": {name: found.seconds for name, found in zip(named, done, strict=True)},
@@ -104,6 +106,7 @@ def _checks(plan: Plan, results: dict[str, Any], cells: list[Cell]) -> list[Chec
         verdicts.consistency_checks(plan, results)
         + verdicts.push_checks(results)
         + verdicts.engine_checks(results)
+        + verdicts.convergence_checks(results)
         + verdicts.map_checks(cells)
         + verdicts.multiplier_checks(results)
         + verdicts.recipe_checks(plan, results)

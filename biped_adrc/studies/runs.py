@@ -6,7 +6,7 @@ A `Run` can be sent to another process, stored as JSON, and carried out again.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -20,7 +20,7 @@ from biped_adrc.control.base import Controller
 from biped_adrc.control.npd import NPDController
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.disturbances.base import Sum
-from biped_adrc.engine.choice import PINOCCHIO, check_engine
+from biped_adrc.engine.choice import COMPILED, PINOCCHIO, check_engine
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.reference import Reference
@@ -34,7 +34,15 @@ from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 from biped_adrc.studies.push import Push
 from biped_adrc.studies.recording import Recording
-from biped_adrc.studies.walk import Walk, walk, watched
+from biped_adrc.studies.walk import (
+    FINE_STEP,
+    Part,
+    Walk,
+    default_parts,
+    refined,
+    walk_in_parts,
+    watched,
+)
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
@@ -55,7 +63,8 @@ class Run:
 
     mass, inertia: factors of the plant's bodies while the model stays nominal. first_step: number of the
     first single support, so that a push in the 19th can be studied without walking there. engine: "pinocchio"
-    or "compiled".
+    or "compiled". h: step of the method [s]; fine: its step where a push switches and in the single support
+    after; without either they are those of `ba.walk`. tolerance: of the methods that choose their steps.
     """
 
     controller: str = "ADRC"
@@ -79,7 +88,8 @@ class Run:
     reset: str = "model"
     method: str | None = None
     h: float | None = None
-    store_every: int = 1
+    fine: float | None = None
+    tolerance: float = 1e-9
     engine: str = PINOCCHIO
 
     def record(self) -> dict[str, Any]:
@@ -122,21 +132,44 @@ class Run:
             f"controller '{self.controller}' is unknown; choose one of {list(CONTROLLERS)}"
         )
 
-    def one_step_method(self) -> OneStepMethod:
-        """The method asked for; by default exponential for ADRC in continuous time, RK4 otherwise."""
+    def one_step_method(self, h: float | None = None) -> OneStepMethod:
+        """The method asked for with step h [s], or the run's own; by default exponential for ADRC in continuous
+        time, RK4 otherwise."""
         stiff = self.controller == "ADRC" and self.period is None
         name = self.method or ("exponential" if stiff else "rk4")
         if name not in METHODS:
             raise InputError(f"method '{name}' is unknown; choose one of {sorted(METHODS)}")
+        h = self.h if h is None else h
+        if name in ("adaptive", "stiff") and (h or self.fine) is not None:
+            raise InputError(
+                f"method '{name}' chooses its own step; leave out h = {h or self.fine:g} s"
+            )
         if name in ("adaptive", "stiff"):
-            if self.h is not None:
-                raise InputError(
-                    f"method '{name}' chooses its own step; leave out h = {self.h:g} s"
-                )
-            made: OneStepMethod = METHODS[name]()
-            return made
-        method: OneStepMethod = METHODS[name](self.h) if self.h is not None else METHODS[name]()
+            chosen: OneStepMethod = METHODS[name](self.tolerance, self.tolerance)
+            return chosen
+        method: OneStepMethod = METHODS[name]() if h is None else METHODS[name](h)
         return method
+
+    def parts(self, walker: Walker) -> tuple[Part, ...]:
+        """How the walk is integrated: with `fine` where a push switches, with h elsewhere."""
+        if self.fine is not None:
+            fine = self.one_step_method(self.fine)
+            return refined(walker, self.impacts, self.first_step, self.one_step_method(), fine)
+        if self.h is None and self.method is None:
+            return default_parts(walker, self.impacts, self.first_step, self.engine)
+        return (Part(self.impacts, self.one_step_method()),)
+
+    def halved(self) -> Run:
+        """The same run with every step half as long; the tolerances of a method that chooses its own are a
+        hundredth."""
+        if self.method in ("adaptive", "stiff"):
+            return replace(self, tolerance=1e-2 * self.tolerance)
+        usual = self.one_step_method()
+        assert isinstance(usual, RK4 | Exponential)
+        fine = self.fine
+        if fine is None and self.h is None and self.method is None and self.engine == COMPILED:
+            fine = FINE_STEP if isinstance(usual, Exponential) else None
+        return replace(self, h=0.5 * usual.h, fine=None if fine is None else 0.5 * fine)
 
 
 @dataclass(frozen=True)
@@ -152,7 +185,7 @@ class Outcome:
     durations: Array
     """(impacts,) of the single supports [s]."""
     peak_error: float
-    """max |q_b - q_d| [rad]."""
+    """max |q_b - q_d| [rad], inside the steps of the method too."""
     rms_error: float
     """Root of the mean over time and joints of (q_b - q_d)^2 [rad]."""
     peak_torque: float
@@ -161,6 +194,8 @@ class Outcome:
     method: str
     engine: str
     """What ran."""
+    half: Outcome | None = None
+    """The same run with every step half as long; its own half is None."""
 
     @property
     def walked(self) -> bool:
@@ -185,6 +220,11 @@ def execute(run: Run) -> Outcome:
     return execute_fully(run).outcome
 
 
+def execute_twice(run: Run) -> Outcome:
+    """Carry out a run, and the same with every step half as long, which is in `Outcome.half`."""
+    return replace(execute(run), half=execute(run.halved()))
+
+
 def execute_fully(run: Run, progress: Progress | None = None) -> FullOutcome:
     """Carry out a run from the impact of the gait's periodic orbit, and keep the trajectory."""
     check_engine(run.engine)
@@ -192,13 +232,12 @@ def execute_fully(run: Run, progress: Progress | None = None) -> FullOutcome:
         raise InputError(f"the run asks for {run.impacts} impacts, expected at least 1")
     biped = run.biped()
     gait = load_gait(run.gait, biped)
-    made = walk(
-        run.build(biped, gait),
+    walker = run.build(biped, gait)
+    made = walk_in_parts(
+        walker,
         gait,
-        run.impacts,
-        run.one_step_method(),
+        run.parts(walker),
         first_step=run.first_step,
-        store_every=run.store_every,
         progress=progress,
         engine=run.engine,
     )
@@ -219,7 +258,7 @@ def _outcome(run: Run, made: Walk) -> Outcome:
         len(events),
         trajectory.before(FOOT_STRIKE),
         np.diff(times),
-        float(np.max(np.abs(s.error))),
+        s.peak_error,
         float(np.sqrt(mean)),
         float(np.max(np.abs(s.u))),
         made.certificates,
@@ -264,7 +303,7 @@ def load_walks(paths: Sequence[Path]) -> dict[str, Recording]:
 
 def from_record(record: dict[str, Any]) -> Run:
     """The run that `Run.record` came from. Raises InputError for keys that do not belong there."""
-    values = dict(record)
+    values = {key: value for key, value in record.items() if key != "store_every"}
     try:
         values["pushes"] = tuple(Push(**push) for push in values.get("pushes", ()))
         values["poles"] = tuple(values.get("poles", TABLE_I))
