@@ -64,7 +64,7 @@ def model_laws(preset: str, samples: int = 1000, seed: int = 1) -> list[Check]:
 
 
 def walk_laws(name: str, full: FullOutcome) -> list[Check]:
-    """Foot on the ground at located impacts; power balance over the pushed step, without a push over the first."""
+    """Foot on the ground at located impacts; power balance over the pushed step, or the first one."""
     b, o = full.walker.plant, full.outcome
     height = max(abs(float(b.swing_foot(x[: b.n])[1])) for x in o.x_minus)
     pushed = o.run.pushes[0].step if o.run.pushes else 1

@@ -93,8 +93,10 @@ class Headline:
 
 
 def headline(run: Run) -> tuple[Headline, list[Any]]:
-    """A run that is kept whole, and its laws; with its figures at half of its steps, and of the two single supports
-    from the push on at a quarter."""
+    """A run that is kept whole, and its laws.
+
+    Its figures are there at half of its steps too, and at a quarter for the two single supports from the push on.
+    """
     full = execute_fully(run)
     laws = walk_laws(f"{run.controller}, {run.preset}", full)
     half = run.halved()
