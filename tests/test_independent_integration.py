@@ -1,7 +1,7 @@
 """The errors that `reproduce` prints, by an integration that shares nothing with its methods.
 
-From the state stored before the pushed step SciPy's DOP853 integrates the Python right-hand side over that step,
-at a relative tolerance of 1e-12, piece by piece between the edges of the push.
+From the state stored before the pushed step SciPy's DOP853 integrates the Python right-hand side over that
+step, at a relative tolerance of 1e-12, piece by piece between the edges of the push.
 """
 
 from __future__ import annotations

@@ -95,7 +95,7 @@ class Headline:
 def headline(run: Run) -> tuple[Headline, list[Any]]:
     """A run that is kept whole, and its laws.
 
-    Its figures are there at half of its steps too, and at a quarter for the two single supports from the push on.
+    Its figures are there at half of its steps too, and at a quarter for the single supports from the push on.
     """
     full = execute_fully(run)
     laws = walk_laws(f"{run.controller}, {run.preset}", full)

@@ -22,6 +22,7 @@ from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.disturbances.base import Sum
 from biped_adrc.engine.choice import COMPILED, PINOCCHIO, check_engine
 from biped_adrc.errors import InputError
+from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.exponential import Exponential
@@ -64,7 +65,7 @@ class Run:
     mass, inertia: factors of the plant's bodies while the model stays nominal. first_step: number of the
     first single support, so that a push in the 19th can be studied without walking there. engine: "pinocchio"
     or "compiled". h: step of the method [s]; fine: its step where a push switches and in the single support
-    after; without either they are those of `ba.walk`. tolerance: of the methods that choose their steps.
+    after; without either they are those of `ba.walk`. continued: the constraint goes on smoothly past its ends. tolerance: of the methods that choose their steps.
     """
 
     controller: str = "ADRC"
@@ -84,6 +85,7 @@ class Run:
     poles: tuple[float, ...] = TABLE_I
     bandwidth: float | None = None
     order: int = 1
+    continued: bool = False
     solve_theta: bool = True
     reset: str = "model"
     method: str | None = None
@@ -99,6 +101,11 @@ class Run:
     def biped(self) -> Biped:
         """The nominal robot."""
         return Biped.load(self.robot, self.preset, self.friction)
+
+    def gait_of(self, biped: Biped) -> Gait:
+        """The gait, continued if asked for."""
+        found = load_gait(self.gait, biped)
+        return replace(found, constraint=continued(found.constraint)) if self.continued else found
 
     def build(self, biped: Biped, gait: Gait) -> Walker:
         """The walker of this run. Raises InputError naming what does not fit."""
@@ -231,7 +238,7 @@ def execute_fully(run: Run, progress: Progress | None = None) -> FullOutcome:
     if run.impacts < 1:
         raise InputError(f"the run asks for {run.impacts} impacts, expected at least 1")
     biped = run.biped()
-    gait = load_gait(run.gait, biped)
+    gait = run.gait_of(biped)
     walker = run.build(biped, gait)
     made = walk_in_parts(
         walker,
@@ -270,7 +277,7 @@ def _outcome(run: Run, made: Walk) -> Outcome:
 def replay(run: Run, trajectory: Trajectory) -> Walk:
     """The walk of a stored or sent trajectory: its walker is built again from the run."""
     biped = run.biped()
-    gait = load_gait(run.gait, biped)
+    gait = run.gait_of(biped)
     return watched(run.build(biped, gait), gait, trajectory)
 
 

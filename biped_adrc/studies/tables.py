@@ -49,6 +49,7 @@ def _row(o: Outcome) -> list[Any]:
         o.status,
         o.impacts,
         o.peak_error,
+        None if o.half is None else o.half.peak_error,
         o.rms_error,
         o.peak_torque,
         float(np.median([s.duration for s in steps])) if steps else None,
@@ -61,9 +62,14 @@ def _row(o: Outcome) -> list[Any]:
 
 def _runs(r: Results) -> dict[str, Any]:
     columns = ["run", "controller", "preset", "status", "impacts", "peak error [rad]"]
-    columns += ["rms error [rad]", "peak torque [N m]", "median step [s]", "friction needed"]
+    columns += ["at half the step [rad]", "rms error [rad]", "peak torque [N m]"]
+    columns += ["median step [s]", "friction needed"]
     columns += ["impulse ratio", "method", "engine"]
-    named = {k: v for k, v in r.items() if isinstance(v, Outcome) and not k.startswith("reset")}
+    named = {
+        k: v
+        for k, v in r.items()
+        if isinstance(v, Outcome) and not k.startswith(("reset", "engines"))
+    }
     heads = {f"push {c}": r[f"headline {c}"].outcome for c in BOTH}
     rows = [[name, *_row(o)] for name, o in {**heads, **named}.items()]
     return {"columns": columns, "rows": rows}
@@ -132,15 +138,18 @@ def _recipe(plan: Plan, r: Results) -> dict[str, Any]:
 
 
 def _literal(r: Results) -> dict[str, Any]:
-    columns = ["variant", "status", "impacts", "peak error [rad]", "peak torque [N m]"]
-    columns += ["median step [s]", "distance to x*"]
+    columns = ["variant", "status", "impacts", "peak error [rad]", "at half the step [rad]"]
+    columns += ["peak torque [N m]", "median step [s]", "distance to x*"]
     names = [f"as printed {c}" for c in BOTH]
     names += [f"reset {p}, {limit}" for p in POLICIES for limit in ("unlimited", "150 N m")]
     rows = []
     for name in names:
         o: Outcome = r[name]
         period = float(np.median(o.durations)) if len(o.durations) else None
-        rows.append([name, o.status, o.impacts, o.peak_error, o.peak_torque, period, distance(o)])
+        half = None if o.half is None else o.half.peak_error
+        figures = [o.peak_error, half] if o.walked else [None, None]
+        torque = o.peak_torque if o.walked else None
+        rows.append([name, o.status, o.impacts, *figures, torque, period, distance(o)])
     return {"columns": columns, "rows": rows}
 
 
