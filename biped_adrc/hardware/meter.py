@@ -16,6 +16,7 @@ whatever it does between them. A peak is that of the joint where it is largest.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -48,8 +49,11 @@ class MeterParameters(NamedTuple):
     weight: float
     friction: float
     torque: float
+    tan_slope: float
     period: float
     """[s]"""
+    rate: float
+    """1 / (W T) [1/s]."""
     lifting: float
     """[s]"""
     window: int
@@ -145,23 +149,23 @@ def metered(
     slides = judged * outside(k, k.along @ means, N)
     depth = np.where(since > k.lifting, scuffed(k, loads), 0.0)
     peak = largest(u)
-    broken = np.maximum(slides, np.where(peak > k.torque, 1.0, 0.0))
-    broken = np.maximum(broken, np.where(depth > 0.0, 1.0, 0.0))
+    broken = greater(slides, np.where(peak > k.torque, 1.0, 0.0))
+    broken = greater(broken, np.where(depth > 0.0, 1.0, 0.0))
     out = np.zeros(READINGS)
     out[0] = g[0] + 1.0
-    out[1], out[2] = np.maximum(g[1], largest(e)), g[2] + e @ e
-    out[3], out[4] = np.maximum(g[3], peak), g[4] + u @ u
+    out[1], out[2] = greater(g[1], largest(e)), g[2] + e @ e
+    out[3], out[4] = greater(g[3], peak), g[4] + u @ u
     out[5], out[6] = before[5], before[6]
-    out[7] = np.maximum(g[7], largest(matched))
-    out[8] = np.maximum(g[8], largest(unmatched))
-    out[9] = np.where(g[0] > 0.0, np.minimum(g[9], F_N), F_N)
-    out[10] = np.maximum(g[10], ratio(F_T, F_N))
+    out[7] = greater(g[7], largest(matched))
+    out[8] = greater(g[8], largest(unmatched))
+    out[9] = np.where(g[0] > 0.0, -greater(-g[9], -F_N), F_N)
+    out[10] = greater(g[10], ratio(F_T, F_N))
     out[11] = g[11] + outside(k, F_T, F_N)
     out[12] = g[12] + judged
-    least = np.where(g[12] > 0.0, np.minimum(g[13], N), N)
+    least = np.where(g[12] > 0.0, -greater(-g[13], -N), N)
     out[13] = np.where(judged > 0.0, least, g[13])
-    out[14] = np.maximum(g[14], judged * ratio(k.along @ means, N))
-    out[15] = np.maximum(g[15], depth)
+    out[14] = greater(g[14], judged * ratio(k.along @ means, N))
+    out[15] = greater(g[15], depth)
     out[16] = g[16]
     out[17] = np.where(g[17] > 0.0, g[17], broken * step)
     return np.concatenate((out, q[:p], mean, ground))
@@ -181,12 +185,12 @@ def carried(k: MeterParameters, g: Array, loads: Loads) -> Array:
 def mean_force(k: MeterParameters, before: Array, now: Array) -> Array:
     """Of the ground over the last W ticks (2,) [N]: `before` this one P reached back to it."""
     change = now[len(now) - 2 :] - before[3:5]
-    return change / (k.window * k.period) + k.weight * np.array([0.0, 1.0])
+    return change * k.rate + k.weight * np.array([0.0, 1.0])
 
 
 def ratio(F_T: Any, F_N: Any) -> Any:
     """|F_T| / F_N, 0 where the ground does not push."""
-    found = np.minimum(np.abs(F_T) / np.maximum(F_N, LEAST_FORCE), LARGEST_RATIO)
+    found = np.minimum(np.abs(F_T) / greater(F_N, LEAST_FORCE), LARGEST_RATIO)
     return np.where(F_N > 0.0, found, 0.0)
 
 
@@ -197,8 +201,8 @@ def outside(k: MeterParameters, F_T: Any, F_N: Any) -> Any:
 
 def scuffed(k: MeterParameters, loads: Loads) -> Any:
     """How deep the swing foot is below the lower of the footholds, measured along the vertical [m]."""
-    height = loads.foot[1] - k.along[1] / k.along[0] * loads.foot[0]
-    return np.maximum(-(height + np.maximum(loads.drop, 0.0)), 0.0)
+    height = loads.foot[1] + k.tan_slope * loads.foot[0]
+    return greater(-(height + greater(loads.drop, 0.0)), 0.0)
 
 
 def metered_impact(
@@ -210,8 +214,8 @@ def metered_impact(
     """
     p = len(q_minus)
     out = worked(g, q_minus)
-    found = np.abs(k.along @ impulse) / np.maximum(k.across @ impulse, LEAST_FORCE)
-    out[16] = np.maximum(out[16], np.minimum(found, LARGEST_RATIO))
+    found = np.abs(k.along @ impulse) / greater(k.across @ impulse, LEAST_FORCE)
+    out[16] = greater(out[16], np.minimum(found, LARGEST_RATIO))
     behind = g[READINGS + p : READINGS + 2 * p]
     return np.concatenate((out, q_plus, behind[swap], np.zeros(3 + 2 * k.window)))
 
@@ -229,12 +233,17 @@ def worked(g: Array, q_b: Array) -> Array:
     return out
 
 
-def largest(x: Array) -> float:
+def largest(x: Array) -> Any:
     """max |x|."""
     found = 0.0 * x[0]
     for i in range(len(x)):
-        found = np.maximum(found, np.abs(x[i]))
+        found = greater(found, np.abs(x[i]))
     return found
+
+
+def greater(a: Any, b: Any) -> Any:
+    """The greater of two numbers; in machine code half of what `np.maximum` costs."""
+    return np.where(a > b, a, b)
 
 
 @dataclass(frozen=True)
@@ -263,16 +272,18 @@ class Meter:
 
     def parameters(self, plant: Biped, period: float, slope: float) -> MeterParameters:
         """What the law `metered` needs."""
-        limits = self.limits.of(plant.description)
+        limits, window = self.limits.of(plant.description), self.window(period)
         return MeterParameters(
             self.constraint.parameters,
             *ground_axes(slope),
             float(plant.weight),
             limits.friction,
             limits.torque,
+            math.tan(slope),
             float(period),
+            1.0 / (window * period),
             float(self.lifting),
-            self.window(period),
+            window,
         )
 
 

@@ -74,6 +74,13 @@ def copy(x: Array, out: Array, size: int) -> None:
 
 
 @inner
+def copy_held(P: Ints, x: Array, out: Array) -> None:
+    """The torques on the joints, all that a flow looks at of what does not flow."""
+    for i in range(P[STATES] - P[JOINTS], P[STATES]):
+        out[i] = x[i]
+
+
+@inner
 def finite(x: Array, size: int) -> bool:
     """Whether the sum of squares is finite."""
     a = b = c = d = 0.0
@@ -127,7 +134,10 @@ def evaluate(
     """out = law(t, step, t_start, x, zeta)."""
     n, nx, inp, zeta = P[COORDINATES], P[STATES], row(P, W, INP), row(P, W, ZETA)
     inp[0], inp[1], inp[2] = min(t, W[LIMIT]), W[STEP], W[START]
-    copy(x, shift(inp, 3), nx)
+    given = nx if law == TICK else P[MOVING]
+    copy(x, shift(inp, 3), given)
+    if given < nx:
+        copy_held(P, x, shift(inp, 3))
     disturb(P, F, W, zeta)
     copy(zeta, shift(inp, 3 + nx), n)
     call(P[law], K, inp, out)
