@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from biped_adrc.model.arm import Arm
     from biped_adrc.model.biped import Biped
     from biped_adrc.model.errors import ModelErrors
+    from biped_adrc.model.limits import Limits
     from biped_adrc.model.own import biped_from_urdf
     from biped_adrc.observers.base import Observer, ResetPolicy
     from biped_adrc.observers.gpi import TABLE_I, GPIObserver
@@ -90,6 +91,7 @@ _HOMES = {
     "GaitLibrary": "studies.gait_library",
     "GaitRecord": "gait.exchange.record",
     "HipForce": "disturbances.hip_force",
+    "Limits": "model.limits",
     "LinearOutputs": "gait.outputs",
     "Measurement": "control.base",
     "Mode": "walker",
@@ -175,6 +177,7 @@ __all__ = [
     "GaitLibrary",
     "GaitRecord",
     "HipForce",
+    "Limits",
     "LinearOutputs",
     "Measurement",
     "Mode",

@@ -9,6 +9,7 @@ from functools import partial
 from itertools import groupby
 from typing import NamedTuple
 
+from biped_adrc.analysis.legality import until_illegal
 from biped_adrc.engine.choice import COMPILED, PINOCCHIO, simulate_by
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import Gait
@@ -17,6 +18,7 @@ from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.model.limits import Limits
 from biped_adrc.studies.recording import Recording, RecordingViewer
 from biped_adrc.types import Array
 from biped_adrc.walker import Mode, Walker
@@ -40,6 +42,15 @@ class Walk(Recording):
         """Controller, gait, robot and preset."""
         gait = self.gait
         return f"{self.controller_name} on gait '{gait.name}', {gait.robot} {gait.preset}"
+
+    def until_illegal(self, limits: Limits | None = None) -> Walk:
+        """The walk up to the first instant at which ground or motors could not have carried it.
+
+        Its status is then ILLEGAL and its detail says which limit, when, and by how much. None: the limits
+        of the robot's record.
+        """
+        cut = until_illegal(self.walker, self.trajectory, self.signals, limits)
+        return self if cut is self.trajectory else watched(self.walker, self.gait, cut)
 
 
 def watched(walker: Walker, gait: Gait, trajectory: Trajectory) -> Walk:
@@ -106,21 +117,24 @@ def walk(
     first_step: int = 1,
     progress: Progress | None = None,
     engine: str = PINOCCHIO,
+    legal: Limits | None = None,
 ) -> Walk:
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
 
     method: by default `default_parts`. engine: "pinocchio" or "compiled"; the trajectory's settings say what
     ran. Every step of the method is kept, so that peaks and certificates miss none. A fall is a status of the
-    trajectory. Raises InputError for parts that do not fit together.
+    trajectory. legal: the walk ends, with the status ILLEGAL, where it would leave these limits; without, they
+    are looked up in `Walk.legality` alone. Raises InputError for parts that do not fit together.
     """
     parts = (
         default_parts(walker, impacts, first_step, engine)
         if method is None
         else (Part(impacts, method),)
     )
-    return walk_in_parts(
+    made = walk_in_parts(
         walker, gait, parts, start=start, first_step=first_step, progress=progress, engine=engine
     )
+    return made if legal is None else made.until_illegal(legal)
 
 
 def walk_in_parts(
