@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.quadrature import integrate, largest
 from biped_adrc.engine.choice import COMPILED
 from biped_adrc.errors import InputError
+from biped_adrc.model.limits import KnownLimits
 from biped_adrc.studies.convergence import convergence_check, halved, observed_order
 from biped_adrc.studies.plan import BOTH, Plan, pushed_run
 from biped_adrc.studies.runs import Outcome, Run, execute_fully, execute_twice
@@ -56,6 +58,7 @@ def made_up(**values: object) -> Outcome:
         1e-4,
         100.0,
         (),
+        Legality(ba.Status.COMPLETED, (), 0.0, KnownLimits(0.6, 150.0, 5e-3)),
         "",
         "",
     )

@@ -58,6 +58,11 @@ class Disturbance(ABC):
         return total
 
     @property
+    def pulls(self) -> bool:
+        """Whether it has a resultant at all."""
+        return type(self).resultant is not Disturbance.resultant
+
+    @property
     def laws(self) -> tuple[DisturbanceLaw, ...] | None:
         """The torque is their sum; None for a disturbance written as a method alone."""
         return None
@@ -83,6 +88,10 @@ class Sum(Disturbance):
         for part in self.parts:
             total += part.resultant(t, step, t_start)
         return total
+
+    @property
+    def pulls(self) -> bool:
+        return any(part.pulls for part in self.parts)
 
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
         return tuple(s for part in self.parts for s in part.switching_times(step, t_start))

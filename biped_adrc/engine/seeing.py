@@ -108,7 +108,7 @@ def _external(walker: Walker, arc: Arc, mode: Mode) -> Array:
 
 
 def _resultants(walker: Walker, arc: Arc, mode: Mode) -> Any:
-    if walker.disturbance is None:
+    if walker.disturbance is None or not walker.disturbance.pulls:
         return 0.0
     return np.array(
         [walker.disturbance.resultant(float(t), mode.step, mode.start) for t in arc.seen]

@@ -8,7 +8,7 @@ import numpy as np
 
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.studies.plan import BOTH, Plan
-from biped_adrc.studies.verdicts import Results, map_counts
+from biped_adrc.studies.verdicts import Results
 
 
 def _entry(name: str, published: str, measured: str, good: bool, note: str = "") -> dict[str, Any]:
@@ -22,7 +22,7 @@ def _entry(name: str, published: str, measured: str, good: bool, note: str = "")
     }
 
 
-def figures_of_merit(plan: Plan, r: Results, cells: list[Any]) -> list[dict[str, Any]]:
+def figures_of_merit(plan: Plan, r: Results) -> list[dict[str, Any]]:
     """Each published figure of merit beside ours."""
     npd, adrc = (r[f"headline {c}"].outcome for c in BOTH)
     counted = "ADRC" if "multipliers ADRC" in r else "NPD"
@@ -30,7 +30,6 @@ def figures_of_merit(plan: Plan, r: Results, cells: list[Any]) -> list[dict[str,
     x = orbit.x_minus[: len(X_STAR)]
     recipe = [r[f"recipe {p} NPD"] for p in plan.presets]
     closing = [f.preset for f in recipe if f.closes and f.record.get("stable")]
-    counts = map_counts(cells)
     ratio = npd.peak_error / adrc.peak_error
     largest = float(np.abs(orbit.multipliers[0]))
     found = [
@@ -69,17 +68,4 @@ def figures_of_merit(plan: Plan, r: Results, cells: list[Any]) -> list[dict[str,
             "the claim is reproduced; the printed numbers come from a regression and are no target",
         ),
     ]
-    if cells:
-        found.append(_critical_phase(counts))
     return found
-
-
-def _critical_phase(counts: dict[str, dict[str, int]]) -> dict[str, Any]:
-    """Section VI, on the map of pushes."""
-    only_npd = {limit: c.get("only NPD falls", 0) for limit, c in counts.items()}
-    return _entry(
-        "NPD loses stability when pushed in a critical phase",
-        "NPD cannot guarantee stability, ADRC is not at risk",
-        "; ".join(f"{limit}: {count} pushes fell only NPD" for limit, count in only_npd.items()),
-        sum(only_npd.values()) > 0,
-    )

@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
-from biped_adrc.analysis.certificate import Certificate, certificates, supports
+from biped_adrc.analysis.certificate import Certificate, Support, certificates, supports
 from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.gait.reference import Reference
@@ -57,8 +57,10 @@ class Recording(ABC):
 
     def legal_within(self, limits: Limits) -> Legality:
         """`legality` within other limits."""
-        finished = self.certified(limits)
-        begun = supports(self.walker, self.trajectory, self.signals, limits)
+        finished = self.certificates if limits == Limits() else self.certified(limits)
+        begun: tuple[Support, ...] = ()
+        if len(finished) < len(self.trajectory.arcs):
+            begun = supports(self.walker, self.trajectory, self.signals, limits)
         return Legality(
             self.trajectory.status,
             (*finished, *begun[len(finished) :]),

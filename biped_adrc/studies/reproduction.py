@@ -30,7 +30,6 @@ from biped_adrc.studies.plan import BOTH, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.poincare import regression_of
 from biped_adrc.studies.pool import TaskProgress, run_tasks
-from biped_adrc.studies.push_map import Cell
 from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
 from biped_adrc.studies.versions import versions
@@ -64,7 +63,7 @@ def reproduce(
     for preset in plan.presets:
         laws = laws + results[f"model {preset}"]
         laws = laws + [work_identity(results[f"nominal {preset} {c}"]) for c in BOTH]
-    checks = _checks(plan, results, cells) + laws
+    checks = _checks(plan, results) + laws
     simulated = time.perf_counter()
     summary = {
         "command": command,
@@ -74,7 +73,7 @@ def reproduce(
         "settings": _settings(plan),
         "versions": versions(),
         "holds": all(check.holds for check in checks),
-        "figures_of_merit": figures_of_merit(plan, results, cells),
+        "figures_of_merit": figures_of_merit(plan, results),
         "checks": [check.record() for check in checks],
         "tables": tables(plan, results, cells, figures),
         "nominal": _nominal(plan, results),
@@ -100,14 +99,13 @@ def reproduce(
     return summary
 
 
-def _checks(plan: Plan, results: dict[str, Any], cells: list[Cell]) -> list[Check]:
+def _checks(plan: Plan, results: dict[str, Any]) -> list[Check]:
     """What the runs have to show, besides the laws each of them was held against."""
     return (
         verdicts.consistency_checks(plan, results)
         + verdicts.push_checks(results)
         + verdicts.engine_checks(results)
         + verdicts.convergence_checks(results)
-        + verdicts.map_checks(cells)
         + verdicts.multiplier_checks(results)
         + verdicts.recipe_checks(plan, results)
         + verdicts.certificate_checks(plan, results)

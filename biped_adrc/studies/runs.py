@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate
+from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Controller
@@ -64,8 +65,9 @@ class Run:
 
     mass, inertia: factors of the plant's bodies while the model stays nominal. first_step: number of the
     first single support, so that a push in the 19th can be studied without walking there. engine: "pinocchio"
-    or "compiled". h: step of the method [s]; fine: its step where a push switches and in the single support
-    after; without either they are those of `ba.walk`. continued: the constraint goes on smoothly past its ends. tolerance: of the methods that choose their steps.
+    or "compiled". continued: the constraint goes on smoothly past its ends.
+    h: step of the method [s]; fine: its step where a push switches and in the single support after; without
+    either they are those of `ba.walk`. tolerance: of the methods that choose their steps.
     """
 
     controller: str = "ADRC"
@@ -198,6 +200,8 @@ class Outcome:
     peak_torque: float
     """[N m]."""
     certificates: tuple[Certificate, ...]
+    legality: Legality
+    """What ground and motors would have had to give, within the limits of the robot's record."""
     method: str
     engine: str
     """What ran."""
@@ -269,6 +273,7 @@ def _outcome(run: Run, made: Walk) -> Outcome:
         float(np.sqrt(mean)),
         float(np.max(np.abs(s.u))),
         made.certificates,
+        made.legality,
         str(trajectory.settings["method"]),
         str(trajectory.settings["engine"]),
     )

@@ -10,8 +10,9 @@ from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies.plan import BOTH, POLICIES, Plan, RecipeResult
-from biped_adrc.studies.runs import Outcome
-from biped_adrc.studies.verdicts import Results, distance, map_counts
+from biped_adrc.studies.push_map import WORDS, counts
+from biped_adrc.studies.runs import CONTROLLERS, Outcome
+from biped_adrc.studies.verdicts import Results, distance
 
 PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)
 """As the paper prints them, with its thousands separators ("-11.020", "-19.836") read as such."""
@@ -154,7 +155,8 @@ def _literal(r: Results) -> dict[str, Any]:
 
 
 def _map(cells: list[Any]) -> dict[str, Any]:
-    verdicts = ["both walk", "only NPD falls", "only ADRC falls", "both fall"]
-    counts = map_counts(cells)
-    rows = [[limit, *(count.get(v, 0) for v in verdicts)] for limit, count in counts.items()]
-    return {"columns": ["preset, torque limit", *verdicts], "rows": rows}
+    found = counts(cells)
+    rows = [
+        [name, c, *(found[name][c][word] for word in WORDS)] for name in found for c in CONTROLLERS
+    ]
+    return {"columns": ["preset, torque limit", "controller", *WORDS], "rows": rows}

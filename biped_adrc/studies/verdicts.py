@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -165,28 +164,6 @@ def convergence_checks(r: Results) -> list[Check]:
 
 
 CHANGE = "largest change of a multiplier when the step is halved"
-
-
-def map_counts(cells: list[Any]) -> dict[str, dict[str, int]]:
-    """Verdicts by torque limit."""
-    counts: dict[str, Counter[str]] = {}
-    for cell in cells:
-        limit = "unlimited" if cell.torque_limit is None else f"{cell.torque_limit:g} N m"
-        limit = f"{cell.preset}, {limit}"
-        counts.setdefault(limit, Counter())[cell.verdict] += 1
-    return {limit: dict(counter) for limit, counter in counts.items()}
-
-
-def map_checks(cells: list[Any]) -> list[Check]:
-    """Section VI: there are pushes that NPD falls from and ADRC walks through."""
-    if not cells:
-        return []
-    total = Counter(cell.verdict for cell in cells)
-    fewer = total["only NPD falls"] - total["only ADRC falls"]
-    name = (
-        f"map of {len(cells)} pushes: cells where only NPD falls minus cells where only ADRC falls"
-    )
-    return [at_least(name, "reproduced", fewer, 1)]
 
 
 def recipe_checks(plan: Plan, r: Results) -> list[Check]:
