@@ -40,7 +40,7 @@ def largest(t: Array, y: Array, dy: Array) -> float:
     h = np.diff(t)[:, np.newaxis]
     rise, d0, d1 = np.diff(y, axis=0), h * dy[:-1], h * dy[1:]
     a, b, c = 3.0 * (d0 + d1 - 2.0 * rise), 2.0 * (3.0 * rise - 2.0 * d0 - d1), d0
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         root = -0.5 * (b + np.copysign(np.sqrt(b * b - 4.0 * a * c), b))
         found = [np.abs(y).max(initial=0.0)]
         for s in (root / a, c / root):

@@ -270,7 +270,7 @@ def _outcome(run: Run, made: Walk) -> Outcome:
         trajectory.before(FOOT_STRIKE),
         np.diff(times),
         s.peak_error,
-        float(np.sqrt(mean)),
+        float(np.sqrt(max(mean, 0.0))),
         float(np.max(np.abs(s.u))),
         made.certificates,
         made.legality,
