@@ -1,4 +1,4 @@
-"""What ground and motors could have carried: the mean force against momentum, hand-made steps, walks cut short."""
+"""What ground and motors could have carried: mean force against momentum, hand-made steps, walks cut short."""
 
 from dataclasses import fields, replace
 
@@ -75,7 +75,9 @@ def test_a_foot_that_is_lifted_needs_no_friction_and_is_illegal(walker):
 def test_friction_is_judged_in_the_mean_and_on_both_sides(walker):
     t = grid()
     for sign in (-1.0, 1.0):
-        s = support(walker, handmade(t, np.full(len(t), 100.0), np.full(len(t), 70.0 * sign)), KNOWN)
+        s = support(
+            walker, handmade(t, np.full(len(t), 100.0), np.full(len(t), 70.0 * sign)), KNOWN
+        )
         assert list(s.illegal()) == ["friction"]
         assert (s.mean_friction, s.friction) == pytest.approx((0.7, 0.7))
         assert not s.illegal(ba.Limits(friction=0.8))
@@ -150,7 +152,7 @@ PUSH = ba.TorquePulse([30.0, 30.0, 30.0, 30.0, 0.0], step=1, start=0.1, stop=0.2
 
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
 def test_the_mean_force_is_the_change_of_momentum(biped, gait, engine):
-    """m v_com from Pinocchio at the stored states, over windows that begin and end anywhere in a pushed step."""
+    """m v_com from Pinocchio at the stored states, over windows in a pushed step."""
     pull = ba.TorquePulse([-60.0, 20.0, 0.0], step=1, start=0.13, stop=0.21)
     push = PUSH + ba.OnLink(biped, biped.description.trunk, pull)
     heavier = biped.with_errors(mass={"torso": 1.1})
