@@ -158,9 +158,13 @@ def supports(
     """What every single support needed, the last unfinished one too; without limits, those of the robot."""
     k = (limits or Limits()).of(walker.plant.description)
     return tuple(
-        Support(**_needs(walker, signals.of_step(arc.mode.step), k, struck(arc)))
-        for arc in trajectory.arcs
+        support(walker, signals.of_step(arc.mode.step), k, struck(arc)) for arc in trajectory.arcs
     )
+
+
+def support(walker: Walker, s: Signals, k: KnownLimits, finished: bool = True) -> Support:
+    """What the single support in s needed; `finished` where it ended in a foot strike."""
+    return Support(**_needs(walker, s, k, finished))
 
 
 def struck(arc: Arc) -> bool:
