@@ -107,5 +107,5 @@ def _print(summary: dict[str, Any]) -> None:
     say(nominal_text(summary["nominal"]))
     console.print(table)
     say(summary["settings"])
-    for line in summary["findings"]:
+    for line in (line for family in summary["findings"].values() for line in family):
         say(line)

@@ -128,7 +128,7 @@ def push_figure(pushes: Sequence[Mapping[str, Any]]) -> Figure:
                 axes.axhline(k - 0.5, color="#bbbbbb", lw=0.6)
             axes.set_yticks(range(len(directions)), directions)
             axes.set_ylim(len(directions) - 0.5, -0.5)
-            axes.set_xlim(left=0.0)
+            axes.set_xlim(0.0, 1.12 * _farthest(pushes))
             label(axes, "largest push [N m]", "", f"{phase} in the step")
         for i, name in enumerate(columns):
             panels[0].plot(
@@ -136,6 +136,14 @@ def push_figure(pushes: Sequence[Mapping[str, Any]]) -> Figure:
             )
         figure.legend(loc="outside lower center", ncols=min(len(columns), 5))
         return figure
+
+
+def _farthest(pushes: Sequence[Mapping[str, Any]]) -> float:
+    """The largest push that is drawn [N m], with room for arrows."""
+    ends = [
+        x for p in pushes for k in ("legal", "survived") for x in p[k]["median"] + p[k]["seeds"]
+    ]
+    return max(1.0, *(float(x) for x in ends if x is not None))
 
 
 def _push(axes: Axes, push: Mapping[str, Any], y: float, i: int) -> None:

@@ -18,6 +18,7 @@ from biped_adrc.viz.comparison_text import (
     median_texts,
     nominal_text,
     push_texts,
+    said,
     share_texts,
 )
 from biped_adrc.viz.meshcat_page import POLICY
@@ -58,7 +59,7 @@ def comparison_html(summary: Mapping[str, Any], figures: Mapping[str, str]) -> s
     """The text of the page; figures: name -> SVG text. The same summary gives the same text."""
     shown = [name for name in CAPTIONS if name in figures]
     parts = {
-        "equal": ("At equal bandwidth", _equal(summary["equal_bandwidth"])),
+        "equal": ("At equal bandwidth", _equal(summary)),
         "figures": ("Figures", "\n".join(picture(*CAPTIONS[n], figures[n]) for n in shown)),
         "table": ("The table", _cells(summary)),
         "pushes": ("Largest pushes", _pushes(summary["pushes"])),
@@ -77,7 +78,7 @@ def comparison_html(summary: Mapping[str, Any], figures: Mapping[str, str]) -> s
         f"<p><strong>{text(summary['settings'])}</strong></p>\n"
         f"<p>{count} walks of RABBIT on the gait through the published x*, {summary['seeds']} seeds per "
         f"cell. Command: <code>{text(summary['command'])}</code></p>\n<p>{text(WHAT_COUNTS)}</p>\n"
-        f"{_list(summary['findings'])}</header>\n"
+        f"{_list(said(summary, equal=False))}</header>\n"
         + "\n".join(section(name, title, body) for name, (title, body) in parts.items())
         + "\n</main>\n</body>\n</html>\n"
     )
@@ -99,11 +100,14 @@ def _cells(summary: Mapping[str, Any]) -> str:
     )
 
 
-def _equal(equal: Sequence[Mapping[str, Any]]) -> str:
+def _equal(summary: Mapping[str, Any]) -> str:
+    equal = summary["equal_bandwidth"]
     if not equal:
         return ""
     words = "Observers at their own settings, and with all poles at one bandwidth; 95 % intervals"
-    return table(words, EQUAL, _escaped(equal_texts(equal)))
+    return (
+        f"{table(words, EQUAL, _escaped(equal_texts(equal)))}\n{_list(said(summary, equal=True))}"
+    )
 
 
 def _pushes(pushes: Sequence[Mapping[str, Any]]) -> str:

@@ -60,6 +60,16 @@ EQUAL = (
 """Of the observers at equal bandwidth."""
 
 
+EQUAL_FAMILY = "equal_bandwidth"
+"""Of the sentences about them; the others are about controllers at their own settings."""
+
+
+def said(summary: Mapping[str, Any], equal: bool) -> list[str]:
+    """The sentences about observers at equal bandwidth, or all others."""
+    families = summary["findings"].items()
+    return [line for name, lines in families if (name == EQUAL_FAMILY) == equal for line in lines]
+
+
 def interval(found: Sequence[float] | None, digits: int = 2, factor: float = 1.0) -> str:
     """A number with its interval."""
     if found is None:

@@ -1,7 +1,8 @@
 """Maps of a sweep: a result as colour over two parameters, in panels over a third.
 
-Colour is the mean over all points of a cell: of `survived`, the share of walks that survive. A parameter with
-few values has a cell for each of them; one that was drawn at random is cut into cells of equal width.
+Colour is the mean over all points of a cell: of `survived` the share of walks that make all steps, of `legal`
+that of walks that make them legally. A parameter with few values has a cell for each of them; one that was
+drawn at random is cut into cells of equal width.
 """
 
 from __future__ import annotations
@@ -25,6 +26,12 @@ CELLS = 20
 MOST_PANELS = 12
 WRITTEN = 120
 """Cells of a panel up to which their numbers are written in them."""
+
+SHARES = {
+    "survived": "share of walks that make all steps",
+    "legal": "share of walks that make all steps legally",
+}
+"""Columns of 0 and 1, and what their mean is called."""
 
 Columns = Mapping[str, NDArray[Any]]
 
@@ -136,7 +143,7 @@ def _numbers(column: NDArray[Any], name: str) -> Array:
 
 
 def _draw(maps: Maps, x: Cut, y: Cut, panels: Cut, means: list[Array]) -> Figure:
-    share = maps.value == "survived"
+    share = maps.value in SHARES
     shown = np.concatenate([m[np.isfinite(m)] for m in means])
     low, high = (0.0, 1.0) if share or not len(shown) else (float(shown.min()), float(shown.max()))
     columns = min(len(means), 4)
@@ -157,7 +164,7 @@ def _draw(maps: Maps, x: Cut, y: Cut, panels: Cut, means: list[Array]) -> Figure
                 axes, maps.name(maps.x) if bottom else "", maps.name(maps.y) if left else "", title
             )
             axes.tick_params(labelbottom=bottom)
-        text = "share of walks that survive" if share else f"mean of {maps.name(maps.value)}"
+        text = SHARES.get(maps.value, f"mean of {maps.name(maps.value)}")
         figure.colorbar(image, ax=grid, label=text, shrink=0.9)
         return figure
 

@@ -32,7 +32,7 @@ def said(
     every = answers(found)
     for answer in every:
         json.dumps(answer.row(), allow_nan=False)
-    return sentences(every)
+    return [line for family in sentences(every).values() for line in family]
 
 
 def errors(ratio, spread=0.0, flips=0):

@@ -30,6 +30,8 @@ from biped_adrc.studies.bench.statistics import (
 )
 from biped_adrc.studies.bench.trial import Trial
 
+EQUAL = "equal_bandwidth"
+"""The family of questions about observers at equal bandwidth."""
 REFERENCE = "NPD"
 """Whom the others are held against."""
 MARGIN = 1.1
@@ -99,15 +101,16 @@ def answers(c: Comparison) -> list[Answer]:
     ]
 
 
-def sentences(found: Sequence[Answer]) -> list[str]:
-    """What is carried, one sentence for each family and condition."""
-    said: dict[tuple[str, str], list[str]] = {}
+def sentences(found: Sequence[Answer]) -> dict[str, list[str]]:
+    """What is carried, by family: one sentence for each condition, and no family without one."""
+    words: dict[tuple[str, str], list[str]] = {}
     for a in found:
         if a.carried:
-            said.setdefault((a.question.family, a.question.condition), []).append(a.question.words)
-    return [
-        f"{what}: {OPENINGS[family]}: {'; '.join(words)}." for (family, what), words in said.items()
-    ]
+            words.setdefault((a.question.family, a.question.condition), []).append(a.question.words)
+    said: dict[str, list[str]] = {}
+    for (family, what), each in words.items():
+        said.setdefault(family, []).append(f"{what}: {OPENINGS[family]}: {'; '.join(each)}.")
+    return said
 
 
 OPENINGS = {
@@ -118,7 +121,7 @@ OPENINGS = {
     },
     "speed_change": f"the speed changes as under {REFERENCE}; median difference of the relative changes over "
     "pairs of legal walks (95 %)",
-    "equal_bandwidth": "ratio of the largest errors of two observers at their own settings, and all at equal "
+    EQUAL: "ratio of the largest errors of two observers at their own settings, and all at equal "
     "bandwidth, median over pairs of legal walks (95 %)",
     "pushes": f"the largest push that is walked legally, median over seeds, against that of {REFERENCE}",
 }
@@ -215,7 +218,7 @@ def _changed(own: Sequence[Cell], equal: Sequence[Cell]) -> Iterable[Question]:
         f"{equal[0].controller} to {equal[1].controller} {_interval(r.value)} and {_interval(s.value)} in "
         f"{found.pairs} pairs{', the order changes' if turned else ''}"
     )
-    yield _question("equal_bandwidth", equal[0], found, text, _beyond(found.value))
+    yield _question(EQUAL, equal[0], found, text, _beyond(found.value))
 
 
 def _pushes(pushes: Sequence[Largest], name: str) -> Iterable[Question]:
