@@ -100,7 +100,7 @@ def cut(column: NDArray[Any], log: bool) -> Cut:
     if len(levels) <= MOST_LEVELS or not numbers:
         place = {_order(x): k for k, x in enumerate(levels)}
         cell = np.array([place[_order(x)] for x in column.tolist()], np.intp)
-        return Cut(cell, [_text(x) for x in levels])
+        return Cut(cell, _texts(levels))
     known = column[np.isfinite(column)]
     low, high = float(known.min()), float(known.max())
     edges = np.geomspace(low, high, CELLS + 1) if log else np.linspace(low, high, CELLS + 1)
@@ -120,10 +120,21 @@ def _order(x: Any) -> tuple[int, Any]:
     return (1, 0.0) if x != x else (0, x)
 
 
-def _text(x: Any) -> str:
+def _texts(levels: list[Any]) -> list[str]:
+    """Each level with the fewest digits, from two, that tell all of them apart within 1 %."""
+    numbers = [x for x in levels if not isinstance(x, str) and x is not None and x == x]
+    for digits in range(2, 6):
+        shown = [float(f"{x:.{digits}g}") for x in numbers]
+        near = all(abs(a - x) <= 0.01 * abs(x) for a, x in zip(shown, numbers, strict=True))
+        if near and len(set(shown)) == len(set(numbers)):
+            break
+    return [_text(x, digits) for x in levels]
+
+
+def _text(x: Any, digits: int = 4) -> str:
     if isinstance(x, str):
         return x.replace("$", r"\$")  # no formula
-    return "none" if x is None or x != x else f"{x:.4g}"
+    return "none" if x is None or x != x else f"{float(f'{x:.{digits}g}'):.6g}"
 
 
 def cell_means(x: Cut, y: Cut, values: Array) -> Array:

@@ -249,6 +249,7 @@ def test_names_of_columns_are_those_of_the_rows():
     ("rows", "made", "legal"),
     [
         ([row(False)] * 3, 0, 0),
+        ([row(False) | {"legal": 1}] * 3, 0, 0),
         ([row(True, False, bad_friction=1)] * 3, 3, 0),
         ([row(False) | dict.fromkeys([*MEASURES, *NEEDS, "legal"])] * 3, 0, 0),
         ([row(True, **dict.fromkeys([*MEASURES, *NEEDS]))] * 3, 3, 3),

@@ -1,6 +1,7 @@
 """What a comparison shows: figures, page and documentation, read back from what they draw and write."""
 
 import importlib.util
+import math
 import sys
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from biped_adrc.studies.bench.comparison import compare
 from biped_adrc.studies.bench.run import COLUMNS
 from biped_adrc.viz.comparison_figure import measure_figure, push_figure, survival_figure
 from biped_adrc.viz.comparison_page import comparison_html
-from biped_adrc.viz.sweep_maps import Maps, sweep_map_figure
+from biped_adrc.viz.sweep_maps import Maps, cut, sweep_map_figure
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -162,3 +163,18 @@ def test_maps_say_which_share_they_show(value, label, limits):
     assert bar.get_ylim() == pytest.approx(
         (limits[0], limits[1]) if value in ("survived", "legal") else (0.25, 0.5)
     )
+
+
+def test_levels_have_as_few_digits_as_tell_them_apart():
+    """Within 1 %: a tick such as 534.7 says more than a map can show."""
+    assert cut(np.geomspace(100.0, 2000.0, 6), True).texts == [
+        "100",
+        "182",
+        "331",
+        "603",
+        "1100",
+        "2000",
+    ]
+    assert cut(np.array([1e-3, 1.5e-3, 2e-3]), False).texts == ["0.001", "0.0015", "0.002"]
+    assert cut(np.array([0.1, 0.1001]), False).texts == ["0.1", "0.1001"]
+    assert cut(np.array([-0.17453, 0.0, math.nan]), False).texts == ["-0.175", "0", "none"]
