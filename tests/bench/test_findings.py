@@ -126,6 +126,11 @@ def test_rows_without_numbers_make_no_pairs(missing):
     assert said(lambda r: row(**dict.fromkeys(MEASURES, missing))) == []
 
 
+@pytest.mark.parametrize("missing", [None, float("nan"), float("inf")])
+def test_speeds_without_numbers_are_not_alike(missing):
+    assert said(lambda r: row(speed_change=missing, peak_unmatched=8.5)) == []
+
+
 def test_one_controller_or_no_reference_says_nothing():
     better = errors(0.1)
     assert said(better, controllers=("NPD",), pushes=True) == []
