@@ -16,10 +16,12 @@ from typing import Any
 
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.studies.bench.catalogue import CONTROLLERS
-from biped_adrc.studies.bench.comparison import Comparison, check, compare
+from biped_adrc.studies.bench.cell import IMPULSE, NEEDS, REASONS, Row, is_legal, number
+from biped_adrc.studies.bench.comparison import NOMINAL, Comparison, check, compare
 from biped_adrc.studies.bench.conditions import BASE, CONDITIONS
+from biped_adrc.studies.bench.equal_bandwidth import NOT_ALIKE, OWN
 from biped_adrc.studies.bench.execute import LARGEST_CHUNK, Progress, run_study
-from biped_adrc.studies.bench.findings import findings
+from biped_adrc.studies.bench.findings import answers, sentences
 from biped_adrc.studies.bench.points import Point, key_of, text_of
 from biped_adrc.studies.bench.run import run_trials
 from biped_adrc.studies.bench.store import About, Store, numerical_versions
@@ -107,15 +109,27 @@ def run_comparison(
 
 def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, Any]:
     """Figures, summary.json and comparison.html; returns the summary. Raises OutputError."""
+    found_out = answers(found)
     summary = {
         "command": command,
         "walks": walks,
         "seeds": found.seeds,
-        "findings": findings(found),
+        "settings": NOT_ALIKE,
+        "nominal": nominal(found.nominal),
+        "findings": sentences(found_out),
         "controllers": {name: CONTROLLERS[name].words for name in found.controllers},
         "conditions": {name: CONDITIONS[name].words for name in found.conditions},
         "cells": [cell.row() for cell in found.cells],
+        "equal_bandwidth": [
+            {
+                "own": found.cell(x.controller, x.condition).row()
+                | {"bandwidth": OWN[x.controller]},
+                "equal": x.row(),
+            }
+            for x in found.equal
+        ],
         "pushes": [push.row() for push in found.pushes],
+        "tests": [answer.row() for answer in found_out],
         "base": dict(BASE),
         "versions": dict(numerical_versions()),
     }
@@ -126,6 +140,23 @@ def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, A
     write_text(out / "comparison.html", comparison_html(summary, texts))
     write_text(out / "summary.json", json.dumps(summary, indent=1) + "\n")
     return summary
+
+
+def nominal(row: Row) -> dict[str, Any]:
+    """What the undisturbed gait needs of ground and motors, and what is illegal about it, in words."""
+    needs = {name: number(row, name) for name in NEEDS}
+    broken = [
+        words
+        for name, words in {**REASONS, IMPULSE: "impulse at impact"}.items()
+        if row.get(name) == 1
+    ]
+    return {
+        "trial": dict(NOMINAL),
+        "status": str(row["status"]),
+        "legal": is_legal(row),
+        "needs": needs,
+        "broken": broken,
+    }
 
 
 def draw(summary: Mapping[str, Any]) -> dict[str, bytes]:
