@@ -21,7 +21,7 @@ from biped_adrc.control.npd import NPDController
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.disturbances.base import Sum
 from biped_adrc.engine.choice import PINOCCHIO, check_engine
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.exponential import Exponential
@@ -188,8 +188,7 @@ def execute(run: Run) -> Outcome:
 def execute_fully(run: Run, progress: Progress | None = None) -> FullOutcome:
     """Carry out a run from the impact of the gait's periodic orbit, and keep the trajectory."""
     check_engine(run.engine)
-    if run.impacts < 1:
-        raise InputError(f"the run asks for {run.impacts} impacts, expected at least 1")
+    check_count(run.impacts, f"the run asks for {run.impacts} impacts")
     biped = run.biped()
     gait = load_gait(run.gait, biped)
     made = walk(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from biped_adrc.engine.choice import PINOCCHIO, simulate_by
+from biped_adrc.errors import check_count
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.exponential import Exponential
@@ -64,6 +65,8 @@ def walk(
     engine: "pinocchio" or "compiled"; the trajectory's settings say what ran. A fall is a status of the
     trajectory. Raises InputError for parts that do not fit together.
     """
+    check_count(impacts, f"the walk asks for {impacts} impacts")
+    check_count(first_step, f"the walk begins in single support {first_step}")
     mode = Mode(first_step)
     q, v = gait.start(walker.nominal) if start is None else start
     trajectory = simulate_by(
