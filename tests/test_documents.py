@@ -27,6 +27,7 @@ from markdown_it import MarkdownIt
 
 from biped_adrc.cli import app, gait_app
 from biped_adrc.cli.robot import robot_app
+from biped_adrc.studies.bench.study_file import load_study
 
 from .preloaded import Preloaded
 
@@ -288,6 +289,54 @@ def test_tests_that_a_page_names_exist(page):
         if function:
             tree = ast.parse((ROOT / path).read_text())
             assert function in {n.name for n in tree.body if isinstance(n, ast.FunctionDef)}, name
+
+
+LINES = re.compile(r"\b(\w+) lines\b")
+NUMBERS = {
+    "ten": 10,
+    "twelve": 12,
+    "twenty": 20,
+    "thirty": 30,
+    "forty": 40,
+    "fifty": 50,
+    "sixty": 60,
+}
+
+
+def sentences(document):
+    """Of a document's text, without its blocks."""
+    text = re.sub(r"^```.*?^```", "", document.read_text(), flags=re.DOTALL | re.MULTILINE)
+    return [" ".join(part.split()) for part in re.split(r"\.\s|\n\n", text)]
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_what_is_said_of_an_example_is_so(document):
+    """How many lines it has, within 10 %, and the order of its observer."""
+    for sentence in sentences(document):
+        for name in re.findall(r"`(examples/\w+\.py)`", sentence):
+            count = len((ROOT / name).read_text().splitlines())
+            for word in LINES.findall(sentence):
+                said = NUMBERS.get(word) or int(word)
+                assert abs(said - count) <= 0.1 * count, f"{name} has {count} lines: {sentence}"
+        for m, name in re.findall(r"m = (\d+) \(`(examples/\w+\.toml)`\)", sentence):
+            assert tomllib.loads((ROOT / name).read_text())["fixed"]["order"] == int(m), sentence
+
+
+@pytest.mark.parametrize("name", ["sweep.toml", "robustness.toml"])
+def test_a_study_has_as_many_walks_as_it_says(name):
+    path = ROOT / "examples" / name
+    said = re.search(r"(\d+) walks\.", path.read_text())[1]
+    assert load_study(path).count == int(said)
+
+
+def test_the_package_claims_the_platforms_it_is_tested_on():
+    tested = re.search(r"^Tested on .*?\.\s", (ROOT / "README.md").read_text(), re.MULTILINE)[0]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    for claim in project["classifiers"]:
+        if claim.startswith(("Operating System ::", "Programming Language :: Python ::")):
+            assert claim.split(" :: ")[-1] in tested, claim
+    for page in PAGES:
+        assert "macOS" not in page.read_text(), page
 
 
 def test_every_package_is_in_the_reference():
