@@ -19,6 +19,7 @@ test: .venv/.test
 # the pages, in docs/_build/html
 docs: .venv/.dev
 	$(BIN)/sphinx-build -W --keep-going -n -E -q -b html docs docs/_build/html
+	$(BIN)/python docs/check_pages.py docs/_build/html
 
 # what the README shows, from the runs of 'make reproduce'
 pictures: .venv/.core

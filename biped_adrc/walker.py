@@ -32,7 +32,7 @@ from biped_adrc.linear import solve
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.reduction import Reduction, unknown_force
 from biped_adrc.split import SplitLaws, error_laws, loop_laws, split_of
-from biped_adrc.timing import ContinuousTime, SampledTime
+from biped_adrc.timing import ContinuousTime, SampledTime, check_timing
 from biped_adrc.types import Array
 
 FOOT_STRIKE = "foot_strike"
@@ -98,6 +98,12 @@ class Walker(HybridSystem):
             raise InputError(
                 f"the model has {self.model.n} coordinates, the plant {self.plant.n}; they must agree"
             )
+        if not (self.max_step_time > 0.0 and self.fall_height < 1.0):  # nor NaN
+            raise InputError(
+                f"max_step_time is {self.max_step_time} s and fall_height {self.fall_height}, expected a "
+                "positive time and a share of the height, below 1"
+            )
+        check_timing(self.timing)
         parts = (self.sensors, self.motors, self.meter)
         held.check_parts(self.plant.n, self.timing, *parts, self.impact_gain)
 

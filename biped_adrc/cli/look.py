@@ -8,6 +8,8 @@ from typing import Annotated
 import typer
 
 from biped_adrc.cli.app import app, console
+from biped_adrc.cli.output import FIGURES, say_written
+from biped_adrc.files import keep_inputs, output_path
 
 
 @app.command()
@@ -49,11 +51,13 @@ def animate(
 ) -> None:
     """Write the walk as a page, a picture or a strip; or show it live."""
     from biped_adrc.studies.runs import load_walks
-    from biped_adrc.viz.export import Clip, check_suffix, export
+    from biped_adrc.viz.export import SUFFIXES, Clip, check_suffix, export
 
+    runs = [*(ghost or []), run]
     if not live:
         check_suffix(out)
-    walks = load_walks([*(ghost or []), run])
+        keep_inputs((output_path(out, SUFFIXES),), runs)
+    walks = load_walks(runs)
     if live:
         from biped_adrc.viz.live import play
         from biped_adrc.viz.meshcat import Look
@@ -64,7 +68,7 @@ def animate(
         )
         return
     export(out, walks, Clip(start, stop, fps, view))
-    console.print(f"written to {out}")
+    say_written(out)
 
 
 @app.command()
@@ -89,6 +93,8 @@ def plot(
     from biped_adrc.studies.runs import load_walks
     from biped_adrc.viz.style import render
 
-    walks = load_walks([run, *(beside or [])])
+    runs = [run, *(beside or [])]
+    keep_inputs((output_path(out, FIGURES),), runs)
+    walks = load_walks(runs)
     write_bytes(out, render(draw(figure, walks), out.suffix.lower().removeprefix(".")))
-    console.print(f"written to {out}")
+    say_written(out)

@@ -9,6 +9,7 @@ import typer
 from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, bar, console
+from biped_adrc.cli.output import inputs, run_path, say_written, write_run
 from biped_adrc.errors import InputError
 
 if TYPE_CHECKING:
@@ -21,23 +22,19 @@ def simulate_passive(
     context: typer.Context, robot: str, preset: str | None, impacts: int, out: Path | None
 ) -> None:
     """Walk, print the steps, write the run. Raises InputError for an option that needs motors."""
-    from biped_adrc.hybrid.storage import save
     from biped_adrc.studies.passive_walk import passive_walk
-    from biped_adrc.studies.versions import versions
 
     _refuse_what_needs_motors(context, robot)
+    out = run_path(out, inputs(robot))
     with bar() as shown:
         task = shown.add_task("walking, passive", total=impacts)
         walk = passive_walk(
             robot, impacts, preset=preset, progress=lambda t, n: shown.update(task, completed=n)
         )
+    if out is not None:
+        write_run(walk, out, {})  # first, as printing may fail
     _print_steps(walk)
-    if out is not None and out.suffix == ".mat":
-        walk.export(out)
-        console.print(f"written to {out}")
-    elif out is not None:
-        save(walk.trajectory, out, {"versions": versions()})
-        console.print(f"written to {out.with_suffix('.npz')}")
+    say_written(out)
     if not walk.trajectory.status.ok:
         raise typer.Exit(EXIT_FELL)
 

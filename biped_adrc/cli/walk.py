@@ -18,6 +18,7 @@ from biped_adrc.cli.app import (
     console,
     parse_pushes,
 )
+from biped_adrc.cli.output import inputs, run_path, say_written, write_run
 from biped_adrc.cli.passive import simulate_passive
 from biped_adrc.errors import InputError
 
@@ -111,28 +112,23 @@ def simulate(
         engine=engine,
         **extra,
     )
-    _walk(run, out)
+    _walk(run, run_path(out, inputs(robot, gait)))
 
 
 def _walk(run: Run, out: Path | None) -> None:
     """Carry out a run, print it, and write it where it is asked for."""
-    from biped_adrc.hybrid.storage import save
     from biped_adrc.studies.runs import execute_fully
-    from biped_adrc.studies.versions import versions
 
     with bar() as shown:
         task = shown.add_task(f"walking, {run.controller}", total=run.impacts)
         full = execute_fully(run, lambda t, n: shown.update(task, completed=n))
     o = full.outcome
+    if out is not None:
+        write_run(full, out, {"run": run.record()})  # first, as printing may fail
     _print_steps(o)
     if "why" in full.trajectory.settings:
         console.print(full.trajectory.settings["why"])
-    if out is not None and out.suffix == ".mat":
-        full.export(out)
-        console.print(f"written to {out}")
-    elif out is not None:
-        save(full.trajectory, out, {"run": run.record(), "versions": versions()})
-        console.print(f"written to {out.with_suffix('.npz')}")
+    say_written(out)
     if not o.walked:
         raise typer.Exit(EXIT_FELL)
 

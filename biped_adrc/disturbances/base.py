@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_count
 from biped_adrc.types import Array
 
 GAUSS = 0.5773502691896257
@@ -153,8 +153,9 @@ class Windowed(Disturbance):
             raise InputError(
                 f"torque window is [{self.start}, {self.stop}] s, expected 0 <= start < stop"
             )
-        if self.step is not None and self.step < 1:
-            raise InputError(f"torque step is {self.step}; single supports are counted from 1")
+        if self.step is not None:
+            what = f"torque step is {self.step}; single supports are counted from 1"
+            check_count(self.step, what)
         amplitude.setflags(write=False)
         object.__setattr__(self, "amplitude", amplitude)
 

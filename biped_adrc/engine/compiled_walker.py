@@ -29,7 +29,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.split import SplitLaws
-from biped_adrc.timing import SampledTime
+from biped_adrc.timing import LONGEST_PERIOD, SampledTime
 from biped_adrc.types import Array
 from biped_adrc.walker import LEAST_STEP, Walker
 
@@ -72,7 +72,7 @@ class CompiledWalker:
         bare = replace(
             walker,
             controller=Passive(),
-            timing=SampledTime(1.0),
+            timing=SampledTime(LONGEST_PERIOD),
             sensors=None,
             meter=None,
             motors=None if walker.motors is None else replace(walker.motors, rate_limit=None),

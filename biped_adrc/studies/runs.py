@@ -22,7 +22,7 @@ from biped_adrc.control.npd import NPDController
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.disturbances.base import Sum
 from biped_adrc.engine.choice import COMPILED, PINOCCHIO, check_engine
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.reference import Reference
@@ -239,8 +239,7 @@ def execute_twice(run: Run) -> Outcome:
 def execute_fully(run: Run, progress: Progress | None = None) -> FullOutcome:
     """Carry out a run from the impact of the gait's periodic orbit, and keep the trajectory."""
     check_engine(run.engine)
-    if run.impacts < 1:
-        raise InputError(f"the run asks for {run.impacts} impacts, expected at least 1")
+    check_count(run.impacts, f"the run asks for {run.impacts} impacts")
     biped = run.biped()
     gait = run.gait_of(biped)
     walker = run.build(biped, gait)

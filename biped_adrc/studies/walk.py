@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from biped_adrc.analysis.legality import until_illegal
 from biped_adrc.engine.choice import COMPILED, PINOCCHIO, simulate_by
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.exponential import Exponential
@@ -126,6 +126,7 @@ def walk(
     trajectory. legal: the walk ends, with the status ILLEGAL, where it would leave these limits; without, they
     are looked up in `Walk.legality` alone. Raises InputError for parts that do not fit together.
     """
+    check_count(impacts, f"the walk asks for {impacts} impacts")
     parts = (
         default_parts(walker, impacts, first_step, engine)
         if method is None
@@ -156,6 +157,7 @@ def walk_in_parts(
             f"the walk has {len(parts)} parts, and its clock does not restart at impact; expected one part, or "
             "SampledTime(..., restart=True)"
         )
+    check_count(first_step, f"the walk begins in single support {first_step}")
     mode = Mode(first_step)
     q, v = gait.start(walker.nominal) if start is None else start
     x, runs = walker.initial_state(q, v, mode), list[Trajectory]()
