@@ -43,16 +43,23 @@ def labels(figure) -> list[tuple[str, str]]:
 def test_tracking_figure(walks: dict[str, Walk]) -> None:
     s = walks["NPD"].signals
     figure = tracking_figure(s, "NPD", (0.5, 0.6), 150.0)
-    assert len(figure.axes) == 8
-    assert [len(axes.get_lines()) for axes in figure.axes[1::2]] == [4, 4, 6, 4]
-    units = [y for _, y in labels(figure)][::2]
-    assert units[:3] == ["angle [rad]", "angle [rad]", "torque [N m]"]
-    assert re.fullmatch(r"tracking error \[(n|µ|m|)rad\]", units[3])
-    assert figure.axes[-1].get_xlabel() == "time [s]"
+    whole, around, begins, ends = (
+        figure.axes[a:b] for a, b in ((0, 5), (5, 10), (10, 13), (13, 16))
+    )
+    assert [len(axes.get_lines()) for axes in around] == [4, 4, 5, 6, 4]
+    units = [axes.get_ylabel() for axes in whole]
+    assert units[:4] == ["angle [rad]", "angle [rad]", r"push $\zeta$ [N m]", "torque [N m]"]
+    assert re.fullmatch(r"tracking error \[(n|µ|m|)rad\]", units[4])
+    for column in (begins, ends):
+        assert [axes.get_ylabel() for axes in column] == units[2:]
+        assert column[-1].get_xlabel() == "after the edge [ms]"
+    assert begins[0].get_xlim() == pytest.approx((0.499, 0.506))
+    assert ends[0].get_xlim() == pytest.approx((0.599, 0.606))
+    assert whole[-1].get_xlabel() == "time [s]"
     t, q = figure.axes[0].get_lines()[0].get_data()
     assert np.isnan(q).sum() == 2  # the line breaks at both impacts inside
     np.testing.assert_array_equal(q[~np.isnan(q)], s.q[:, 0])
-    assert figure.axes[1].get_xlim()[0] == pytest.approx(0.2)
+    assert around[0].get_xlim()[0] == pytest.approx(0.2)
     assert len(t) == len(s.t) + 2
     assert len(tracking_figure(s, "no push").axes) == 4
 
@@ -192,7 +199,8 @@ def test_the_friction_cone_has_its_slope(pushed: dict[str, Walk]) -> None:
 def test_controllers_side_by_side(pushed: dict[str, Walk]) -> None:
     signals = {name: found.signals for name, found in pushed.items()}
     figure = comparison_figure(signals, (0.5, 0.7))
-    over_time, sizes, torque = figure.axes
+    pushes, over_time, sizes, torque = (figure.axes[k] for k in (0, 1, 6, 7))
+    assert drawn_lines(pushes)[r"$\zeta_3$"].min() == -10.0
     assert over_time.get_yscale() == sizes.get_yscale() == "log"
     for i, (name, s) in enumerate(signals.items()):
         peak = np.max(np.abs(s.error))
@@ -201,7 +209,7 @@ def test_controllers_side_by_side(pushed: dict[str, Walk]) -> None:
         bars = torque.containers[i]
         np.testing.assert_array_equal([b.get_height() for b in bars], np.max(np.abs(s.u), axis=0))
     assert [a.get_ylabel() for a in figure.axes] == [
-        "largest tracking error [rad]",
+        *[r"push $\zeta$ [N m]", "largest tracking error [rad]"] * 3,
         "tracking error [rad]",
         "peak torque [N m]",
     ]
