@@ -35,6 +35,16 @@ def animate(
     fps: Annotated[
         float | None, typer.Option(help="Frames per second; 60, or 25 for a .gif.")
     ] = None,
+    apart: Annotated[
+        bool, typer.Option("--apart", help="The walks of a .gif side by side, their errors below.")
+    ] = False,
+    magnify: Annotated[
+        float | None,
+        typer.Option(help="With --apart: draw deviations from the reference so many times."),
+    ] = None,
+    slower: Annotated[
+        float, typer.Option(help="How many times slower than the walk a .gif plays.")
+    ] = 1.0,
     live: Annotated[
         bool,
         typer.Option("--live", help="Show it in the browser from a server on 127.0.0.1 instead."),
@@ -63,7 +73,7 @@ def animate(
             play(walks, look, port=port, open_browser=browser, wait=wait, say=console.print)
         )
         return
-    export(out, walks, Clip(start, stop, fps, view))
+    export(out, walks, Clip(start, stop, fps, view, apart, magnify, slower))
     console.print(f"written to {out}")
 
 
