@@ -93,17 +93,18 @@ def _range(values: Array) -> list[float | None]:
 
 def rounded(values: Any) -> list[float | None]:
     """To five significant digits, None for what is not finite."""
-    flat = np.atleast_1d(np.asarray(values, dtype=float))
+    flat = np.ravel(np.asarray(values, dtype=float))
     return [float(f"{v:.5g}") if math.isfinite(v) else None for v in flat]
 
 
 def as_text(numbers: Numbers) -> str:
-    """As JSON; every item of a list at the top has a line of its own."""
+    """As JSON; every panel has a line of its own."""
     parts = []
     for name, value in numbers.items():
-        items = value if isinstance(value, list) else [value]
-        lines = ",\n".join("  " + json.dumps(item, ensure_ascii=False) for item in items)
-        body = f"[\n{lines}\n ]" if isinstance(value, list) else lines.strip()
+        body = json.dumps(value, ensure_ascii=False)
+        if isinstance(value, list) and value and isinstance(value[0], dict):
+            lines = ",\n".join("  " + json.dumps(item, ensure_ascii=False) for item in value)
+            body = f"[\n{lines}\n ]"
         parts.append(f" {json.dumps(name, ensure_ascii=False)}: {body}")
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
