@@ -58,11 +58,17 @@ def animate(
     ] = 120.0,
 ) -> None:
     """Write the walk as a page, a picture or a strip; or show it live."""
+    from biped_adrc.errors import InputError
     from biped_adrc.studies.runs import load_walks
     from biped_adrc.viz.export import Clip, check_suffix, export
 
+    clip = Clip(start, stop, fps, view, apart, magnify, slower)
     if not live:
         check_suffix(out)
+    elif clip.moving:
+        raise InputError(
+            "--apart, --magnify and --slower are of a .gif; leave them out with --live"
+        )
     walks = load_walks([*(ghost or []), run])
     if live:
         from biped_adrc.viz.live import play
@@ -73,7 +79,7 @@ def animate(
             play(walks, look, port=port, open_browser=browser, wait=wait, say=console.print)
         )
         return
-    export(out, walks, Clip(start, stop, fps, view, apart, magnify, slower))
+    export(out, walks, clip)
     console.print(f"written to {out}")
 
 

@@ -124,7 +124,8 @@ class _Panel:
             return
         found = self.largest(self.start, t)
         unit, factor = angle_unit(np.array([found]))
-        self.text.set_text(f"largest error so far {factor * found:.3g} {unit}")
+        size = f"{factor * found:.3g} {unit}" if found >= 1e-9 else "below 1 nrad"
+        self.text.set_text(f"largest error so far {size}")
 
     def largest(self, start: float, t: float) -> float:
         """max_i |q_i - q_di| [rad] from start to t [s], at the nodes of the walk."""
@@ -181,7 +182,7 @@ def _legend(figure: Figure, panels: list[_Panel], magnified: Magnified, height: 
     said = []
     if magnified.factor is not None:
         entries.append(Patch(color=REFERENCE, label="reference"))
-        said.append(f"deviation from the reference drawn {magnified.factor:g} times")
+        said.append(f"deviation from the reference drawn {magnified.factor:g} times as large")
     if magnified.slower != 1.0:
         said.append(f"{magnified.slower:g} times slower")
     figure.legend(

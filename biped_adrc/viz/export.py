@@ -43,6 +43,11 @@ class Clip:
     magnify: float | None = None
     slower: float = 1.0
 
+    @property
+    def moving(self) -> bool:
+        """Whether something is asked for that only a moving picture has."""
+        return self.apart or self.magnify is not None or self.slower != 1.0
+
     def motion(self) -> Motion:
         """Of a moving picture. Raises InputError."""
         fps = 25.0 if self.fps is None else self.fps
@@ -56,7 +61,7 @@ def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) 
     suffix = check_suffix(path)
     if not walks:
         raise InputError("there is no walk to draw; expected at least one")
-    if suffix != ".gif" and (clip.apart or clip.magnify is not None or clip.slower != 1.0):
+    if suffix != ".gif" and clip.moving:
         raise InputError(
             f"'{path}' is no moving picture, and apart, magnify and slower are of one; write a .gif"
         )

@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
 from PIL import Image
+from typer.testing import CliRunner
 
+from biped_adrc.cli import app
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event
@@ -225,6 +227,10 @@ def test_a_strip_says_how_a_walk_ended(walks: dict[str, Walk]) -> None:
     assert "stalled at" in axes.get_title(loc="left")
     with style():
         axes = new_figure(6.0, 4.0).subplots()
+        strip(axes, walks["NPD"], 0.0, 1.2, poses=13)
+    assert axes.get_title(loc="left") == "a pose every 100 ms"
+    with style():
+        axes = new_figure(6.0, 4.0).subplots()
         strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"), 0.1, 0.4)
     assert "stalled" not in axes.get_title(loc="left")
 
@@ -240,3 +246,21 @@ def test_an_arrow_never_leaves_the_picture() -> None:
         cosine = np.dot(tip - start, force) / np.linalg.norm(tip - start) / np.linalg.norm(force)
         assert cosine == pytest.approx(1.0)
     np.testing.assert_array_equal(cut(start, np.array([np.nan, np.inf]), x, z), [0.0, 0.0])
+
+
+def test_every_option_of_the_command_reaches_the_picture(
+    walks: dict[str, Walk], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = []
+    monkeypatch.setattr("biped_adrc.studies.runs.load_walks", lambda paths: walks)
+    monkeypatch.setattr("biped_adrc.viz.export.export", lambda *given: asked.append(given))
+    words = "--from 0.1 --to 0.3 --fps 20 --view perspective --apart --magnify 30 --slower 5"
+    command = ["animate", "a.npz", "--ghost", "b.npz", "-o", str(tmp_path / "w.gif")]
+    done = CliRunner().invoke(app, [*command, *words.split()])
+    assert done.exit_code == 0, done.output
+    clip = Clip(0.1, 0.3, 20.0, "perspective", True, 30.0, 5.0)
+    assert asked == [(tmp_path / "w.gif", walks, clip)]
+    assert clip.motion() == Motion(True, 30.0, 5.0, 20.0, 800)
+    done = CliRunner().invoke(app, ["animate", "a.npz", "--live", "--slower", "2"])
+    assert done.exit_code != 0
+    assert "leave them out with --live" in str(done.exception)

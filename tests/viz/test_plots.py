@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import fields, replace
 
 import matplotlib as mpl
 import numpy as np
@@ -19,7 +20,7 @@ from biped_adrc.gait.gait import load_gait
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies.figures import NAMES, draw
+from biped_adrc.studies.figures import NAMES, draw, push_window
 from biped_adrc.studies.walk import Walk
 from biped_adrc.studies.walk import walk as walk_of
 from biped_adrc.viz import plots
@@ -31,6 +32,7 @@ from biped_adrc.viz.figures import (
     return_map_figure,
     tracking_figure,
 )
+from biped_adrc.viz.plots.lines import angle_unit
 from biped_adrc.viz.robot_figure import robot_figure
 from biped_adrc.viz.style import render
 from biped_adrc.walker import Walker
@@ -194,6 +196,57 @@ def test_the_friction_cone_has_its_slope(pushed: dict[str, Walk]) -> None:
         plots.friction_cone(axes, s, mu=0.0)
     axes = plots.ground_reaction(axes_of_my_own(), s)
     np.testing.assert_array_equal(drawn_lines(axes)["$F_T$"], s.ground_reaction[:, 0])
+
+
+@pytest.mark.parametrize(
+    ("largest", "unit", "factor"),
+    [(0.7, "rad", 1.0), (7.5e-3, "mrad", 1e3), (1.1e-6, "µrad", 1e6), (4e-10, "nrad", 1e9)],
+)
+def test_units_of_angles(largest: float, unit: str, factor: float) -> None:
+    assert angle_unit(np.array([0.1 * largest, -largest])) == (unit, factor)
+
+
+def test_the_size_of_a_sine_is_its_amplitude_and_that_over_the_root_of_two(
+    pushed: dict[str, Walk],
+) -> None:
+    t = np.linspace(0.0, 1.0, 1001)
+    error = 0.02 * np.sin(2 * np.pi * 5 * t)
+    sine = replace(pushed["NPD"].signals, t=t, error=np.column_stack((error, -error, error, error)))
+    axes = plots.error_sizes(axes_of_my_own(), {"NPD": sine})
+    np.testing.assert_allclose(
+        axes.get_lines()[0].get_ydata(), [0.02, 0.02 / np.sqrt(2)], rtol=1e-4
+    )
+    assert [text.get_text() for text in axes.texts] == ["2.0e-02", "1.4e-02"]
+
+
+def test_both_edges_of_a_push_are_shown_with_all_that_happens_there(
+    pushed: dict[str, Walk],
+) -> None:
+    """A spike of 0.2 ms after the edge, put into the torque, is in the drawn line and within the limits."""
+    s = pushed["ADRC"].signals
+    window = push_window(s)
+    assert window is not None
+    t0 = float(s.t[s.step == 2][0])
+    np.testing.assert_allclose(window, (t0 + 0.1, t0 + 0.3), atol=1e-9)
+    fine = np.sort(np.concatenate([s.t, *(edge + np.arange(-50, 300) * 2e-5 for edge in window)]))
+    signals = {}
+    for f in fields(s):
+        column = getattr(s, f.name)
+        columns = column.reshape(len(s.t), -1).T
+        made = np.column_stack([np.interp(fine, s.t, c) for c in columns])
+        signals[f.name] = made.reshape(len(fine), *column.shape[1:])
+    signals["step"] = np.searchsorted(s.t[1:][np.diff(s.step) > 0], fine, side="left") + 1
+    for k, edge in enumerate(window):
+        signals["u"][:, k] += 100.0 * np.exp(-(((fine - edge - 5e-4) / 1e-4) ** 2))
+    figure = tracking_figure(replace(s, **signals), "spikes", window)
+    for k, axes in ((0, figure.axes[11]), (1, figure.axes[14])):
+        assert axes.get_ylabel() == "torque [N m]"
+        t, u = axes.get_lines()[k].get_data()
+        top = np.nanargmax(u)
+        assert t[top] == pytest.approx(window[k] + 5e-4, abs=3e-5)
+        assert u[top] == signals["u"][:, k][np.abs(fine - window[k] - 5e-4) < 1e-3].max()
+        assert axes.get_xlim() == pytest.approx((window[k] - 1e-3, window[k] + 6e-3))
+        assert axes.get_ylim()[0] < u[top] < axes.get_ylim()[1]
 
 
 def test_controllers_side_by_side(pushed: dict[str, Walk]) -> None:
