@@ -116,9 +116,9 @@ def files(out: Path, root: Path = ROOT) -> dict[Path, str]:
             (root / "README.md").read_text(encoding="utf-8"), summary
         ),
     }
-    for name in SHOWN:
-        text = (out / f"{name}.svg").read_text(encoding="utf-8")
-        texts[root / "docs" / "results" / f"{name}.svg"] = text
+    for name in [f"{name}{suffix}" for name in SHOWN for suffix in (".svg", ".json")]:
+        text = (out / name).read_text(encoding="utf-8")
+        texts[root / "docs" / "results" / name] = text
     return texts
 
 

@@ -96,6 +96,7 @@ def project(tmp_path: Path, writer, readme: str) -> tuple[Path, Path]:
     (out / "summary.json").write_text(json.dumps(SUMMARY), encoding="utf-8")
     for name in writer.SHOWN:
         (out / f"{name}.svg").write_text(f"<svg>{name}</svg>", encoding="utf-8")
+        (out / f"{name}.json").write_text(f'{{"panels": "{name}"}}', encoding="utf-8")
     (root / "README.md").write_text(readme, encoding="utf-8")
     return out, root
 
@@ -116,6 +117,7 @@ def test_results_are_written_from_the_summary(tmp_path: Path, writer) -> None:
     for name in writer.SHOWN:
         assert f"results/{name}.svg" in page
         assert texts[root / "docs" / "results" / f"{name}.svg"] == f"<svg>{name}</svg>"
+        assert texts[root / "docs" / "results" / f"{name}.json"] == f'{{"panels": "{name}"}}'
     assert texts == writer.files(out, root)
 
 
