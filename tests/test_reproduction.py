@@ -76,8 +76,18 @@ SUMMARY = {
     "wall_time_s": 12.0,
     "left_out": [],
     "findings": ["One | two *three*.", "Error 1.1e-05 rad."],
-    "figures_of_merit": [
-        {"name": "a", "published": "1", "measured": "2", "verdict": "reproduced", "note": "<n>"}
+    "claims_preface": "Replication, no <data>.",
+    "claims_words": {"depends": "in a share"},
+    "claims": [
+        {
+            "claim": "a",
+            "where": "II",
+            "word": "depends",
+            "number": "1",
+            "share": "1 of 2",
+            "convergence": "2 %",
+            "reason": "<n>",
+        }
     ],
     "checks": [
         {"name": "c", "kind": "law", "value": 1e-12, "limit": "<= 1e-9", "holds": True},
@@ -121,7 +131,9 @@ def test_results_are_written_from_the_summary(tmp_path: Path, writer) -> None:
     page = texts[root / "docs" / "results.md"]
     assert "**1 of 2 checks hold.**" in page
     assert "| d | 2 | \\<= 1 | does not hold |" in page
-    assert "| a | 1 | 2 | reproduced | \\<n> |" in page
+    assert "| a | II | depends | 1 | 1 of 2 | 2 % | \\<n> |" in page
+    assert page.index("Replication, no \\<data>.") < page.index("| a | II |")
+    assert "- **depends**: in a share" in page
     assert "| p | 0.5, – |" in page
     for name in writer.SHOWN:
         assert f"results/{name}.svg" in page

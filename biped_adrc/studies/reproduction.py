@@ -20,16 +20,16 @@ from biped_adrc.hybrid.storage import save
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
 from biped_adrc.studies.checks import Check
+from biped_adrc.studies.claims.table import PREFACE, claims
+from biped_adrc.studies.claims.words import MEANINGS, claim_checks
 from biped_adrc.studies.figures import push_window
 from biped_adrc.studies.findings import findings
 from biped_adrc.studies.laws import work_identity
-from biped_adrc.studies.merits import figures_of_merit
 from biped_adrc.studies.pictures import draw_all
 from biped_adrc.studies.plan import BOTH, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.poincare import regression_of
 from biped_adrc.studies.pool import TaskProgress, run_tasks
-from biped_adrc.studies.push_map import Cell
 from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
 from biped_adrc.studies.versions import versions
@@ -63,7 +63,8 @@ def reproduce(
     for preset in plan.presets:
         laws = laws + results[f"model {preset}"]
         laws = laws + [work_identity(results[f"nominal {preset} {c}"]) for c in BOTH]
-    checks = _checks(plan, results, cells) + laws
+    found = claims(plan.presets, results)
+    checks = _checks(plan, results) + claim_checks(found) + laws
     simulated = time.perf_counter()
     summary = {
         "command": command,
@@ -73,7 +74,9 @@ def reproduce(
         "settings": _settings(plan),
         "versions": versions(),
         "holds": all(check.holds for check in checks),
-        "figures_of_merit": figures_of_merit(plan, results, cells),
+        "claims_preface": PREFACE,
+        "claims_words": MEANINGS,
+        "claims": [claim.record() for claim in found],
         "checks": [check.record() for check in checks],
         "tables": tables(plan, results, cells, figures),
         "nominal": _nominal(plan, results),
@@ -98,13 +101,12 @@ def reproduce(
     return summary
 
 
-def _checks(plan: Plan, results: dict[str, Any], cells: list[Cell]) -> list[Check]:
+def _checks(plan: Plan, results: dict[str, Any]) -> list[Check]:
     """What the runs have to show, besides the laws each of them was held against."""
     return (
         verdicts.consistency_checks(plan, results)
         + verdicts.push_checks(results)
         + verdicts.engine_checks(results)
-        + verdicts.map_checks(cells)
         + verdicts.multiplier_checks(results)
         + verdicts.recipe_checks(plan, results)
         + verdicts.certificate_checks(plan, results)
@@ -186,8 +188,5 @@ def failed(checks: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def main_table(summary: dict[str, Any]) -> list[tuple[str, str, str, str]]:
-    """Name, published, measured, verdict: what the command prints."""
-    return [
-        (row["name"], row["published"], row["measured"], row["verdict"])
-        for row in summary["figures_of_merit"]
-    ]
+    """Claim, place, word, share of the cases: what the command prints."""
+    return [(row["claim"], row["where"], row["word"], row["share"]) for row in summary["claims"]]

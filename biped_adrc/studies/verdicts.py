@@ -141,18 +141,6 @@ def map_counts(cells: list[Any]) -> dict[str, dict[str, int]]:
     return {limit: dict(counter) for limit, counter in counts.items()}
 
 
-def map_checks(cells: list[Any]) -> list[Check]:
-    """Section VI: there are pushes that NPD falls from and ADRC walks through."""
-    if not cells:
-        return []
-    total = Counter(cell.verdict for cell in cells)
-    fewer = total["only NPD falls"] - total["only ADRC falls"]
-    name = (
-        f"map of {len(cells)} pushes: cells where only NPD falls minus cells where only ADRC falls"
-    )
-    return [at_least(name, "reproduced", fewer, 1)]
-
-
 def recipe_checks(plan: Plan, r: Results) -> list[Check]:
     """Gait (b) closes in a stable cycle; its certificates are reported, not asserted."""
     found = []
