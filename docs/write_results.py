@@ -15,7 +15,7 @@ from typing import Any
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
-from biped_adrc.viz.report import FIGURES, KINDS
+from biped_adrc.viz.report import CLAIM_COLUMNS, FIGURES, KINDS
 from biped_adrc.viz.report_parts import plain
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -47,14 +47,10 @@ def results(summary: dict[str, Any]) -> str:
         f"Written by `python docs/write_results.py` from the run of `{summary['command']}`, preset "
         f"`{summary['preset']}`, {summary['wall_time_s']:.0f} s. **{held} of {len(checks)} checks hold.**",
         bullets(summary["findings"]),
-        "## Published and measured",
-        table(
-            ["figure of merit", "published", "measured", "verdict", "note"],
-            [
-                [m[k] for k in ("name", "published", "measured", "verdict", "note")]
-                for m in summary["figures_of_merit"]
-            ],
-        ),
+        "## The claims of the paper",
+        cell(summary["claims_preface"]),
+        "\n".join(f"- **{word}**: {cell(m)}" for word, m in summary["claims_words"].items()),
+        table(list(CLAIM_COLUMNS), [[c[key] for key in CLAIM_COLUMNS] for c in summary["claims"]]),
         "## Figures",
         *(figure(name) for name in SHOWN),
         "## Checks",

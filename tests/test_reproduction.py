@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from biped_adrc.errors import InputError
+from biped_adrc.model.biped import Biped
 from biped_adrc.studies.plan import PAPER_PUSH, SINE, Plan, base_runs, tasks
 from biped_adrc.studies.push import Push, parse_push
 
@@ -53,10 +54,19 @@ def test_both_controllers_are_run_alike() -> None:
         SINE,
         Push({"q1": 30.0, "q3": -20.5, "q4": -20.5}, 7, 0.05, 0.15),
         Push({"q5": 20.0}, 2, 0.1, float("inf"), "step"),
+        Push({"q1": 30.0}, 19, 0.1, 0.3, rise=0.01),
+        Push({"q1": 30.0}, 19, 0.1, 0.3, rise=1e-05),
     ],
 )
 def test_a_push_is_said_as_it_is_read(push: Push) -> None:
     assert parse_push(push.text()) == push
+
+
+def test_only_a_pulse_rises() -> None:
+    with pytest.raises(InputError, match="which has a stop, has a rise"):
+        parse_push("q1=30@19:0.1-:rise=0.01")
+    with pytest.raises(InputError, match="'sine' has no rise"):
+        Push({"q1": 30.0}, kind="sine", rise=0.01).disturbance(Biped.load("rabbit"))
 
 
 # -- the results in the documentation ----------------------------------------------------------------
@@ -66,8 +76,18 @@ SUMMARY = {
     "wall_time_s": 12.0,
     "left_out": [],
     "findings": ["One | two *three*.", "Error 1.1e-05 rad."],
-    "figures_of_merit": [
-        {"name": "a", "published": "1", "measured": "2", "verdict": "reproduced", "note": "<n>"}
+    "claims_preface": "Replication, no <data>.",
+    "claims_words": {"depends": "in a share"},
+    "claims": [
+        {
+            "claim": "a",
+            "where": "II",
+            "word": "depends",
+            "number": "1",
+            "share": "1 of 2",
+            "convergence": "2 %",
+            "reason": "<n>",
+        }
     ],
     "checks": [
         {"name": "c", "kind": "law", "value": 1e-12, "limit": "<= 1e-9", "holds": True},
@@ -112,7 +132,9 @@ def test_results_are_written_from_the_summary(tmp_path: Path, writer) -> None:
     page = texts[root / "docs" / "results.md"]
     assert "**1 of 2 checks hold.**" in page
     assert "| d | 2 | \\<= 1 | does not hold |" in page
-    assert "| a | 1 | 2 | reproduced | \\<n> |" in page
+    assert "| a | II | depends | 1 | 1 of 2 | 2 % | \\<n> |" in page
+    assert page.index("Replication, no \\<data>.") < page.index("| a | II |")
+    assert "- **depends**: in a share" in page
     assert "| p | 0.5, – |" in page
     for name in writer.SHOWN:
         assert f"results/{name}.svg" in page

@@ -51,7 +51,8 @@ Pushes = Annotated[
     typer.Option(
         "--push",
         help="Torque [N m] on joints in one single support, JOINTS=TORQUE@STEP:START-STOP [s]; e.g. "
-        "'q1,q2=30@19:0.1-0.3'. End with ':sine=5' for a sine of 5 Hz, or give 'START-' for one that stays. "
+        "'q1,q2=30@19:0.1-0.3'. End with ':sine=5' for a sine of 5 Hz, ':rise=0.01' for edges of 10 ms, or "
+        "give 'START-' for one that stays. "
         "Joints are q1..q5 or names of the URDF; q5 is the unactuated torso. May be repeated; "
         "several joints with different torques: 'q1=30,q3=-20@19:0.1-0.3'.",
     ),

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.markup import escape
 from rich.table import Table
 
 from biped_adrc.cli.app import (
@@ -39,7 +40,7 @@ def reproduce(
     ] = False,
     workers: Annotated[int | None, typer.Option(help="Processes; by default one per core.")] = None,
 ) -> None:
-    """Reproduce the paper: runs, figures 1, 4, 5, 6, Tables I and II, stability, and a verdict."""
+    """Reproduce the paper: runs, figures 1, 4, 5, 6, Tables I and II, stability, and a word for each claim."""
     from biped_adrc.model.robots import load_description
     from biped_adrc.studies.plan import PAPER_PUSH, Plan
     from biped_adrc.studies.reproduction import failed, main_table
@@ -58,9 +59,9 @@ def reproduce(
             shown.update(task, completed=done, total=total, description=name)
 
         summary = run(plan, out, command(), workers, progress)
-    table = Table("", "paper", "here", "verdict", title="Reproduction")
+    table = Table("claim", "section", "word", "holds in", title="The claims of the paper")
     for row in main_table(summary):
-        table.add_row(*row)
+        table.add_row(*(escape(cell) for cell in row))
     console.print(table)
     if plan.left_out:
         console.print(f"left out of this run: {', '.join(plan.left_out)}")

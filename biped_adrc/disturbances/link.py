@@ -17,7 +17,7 @@ import numpy as np
 
 from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, Windowed, WindowParameters
 from biped_adrc.disturbances.noise import NoiseParameters, noise_torque
-from biped_adrc.disturbances.pulse import pulse_torque
+from biped_adrc.disturbances.pulse import PulseParameters, pulse_torque
 from biped_adrc.disturbances.sine import SineParameters, sine_torque
 from biped_adrc.disturbances.step import step_torque
 from biped_adrc.errors import InputError
@@ -36,7 +36,7 @@ class LinkParameters(NamedTuple, Generic[_K]):
 
 
 def link_pulse(
-    k: LinkParameters[WindowParameters], t: float, step: int, t_start: float, q: Array, v: Array
+    k: LinkParameters[PulseParameters], t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
     """zeta (n,) [N m]."""
     return wrench_torque(k.point, q, pulse_torque(k.wave, t, step, t_start, q, v))
@@ -64,7 +64,7 @@ def link_noise(
 
 
 def pulse_force(
-    k: LinkParameters[WindowParameters], t: float, step: int, t_start: float, q: Array, v: Array
+    k: LinkParameters[PulseParameters], t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
     """(F_x, F_z) [N]."""
     return pulse_torque(k.wave, t, step, t_start, q, v)[:2]

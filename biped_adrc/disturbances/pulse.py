@@ -1,34 +1,77 @@
-"""A constant torque over a window: zeta = amplitude for start <= t < stop."""
+"""A torque over a window, with vertical edges or edges of finite slope.
+
+    zeta = amplitude (r(t - start) - r(t - stop)),   r(s) = s / rise between 0 and 1
+
+Its integral is amplitude (stop - start) whatever the rise; without a rise r is the unit step.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters, since_onset
+from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
 
+class PulseParameters(NamedTuple):
+    """The window in which the torque is not zero, the rise and the time from edge to edge, both [s]."""
+
+    window: WindowParameters
+    rise: float
+    width: float
+
+
 def pulse_torque(
-    k: WindowParameters, t: float, step: int, t_start: float, q: Array, v: Array
+    k: PulseParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
     """zeta (n,) [N m]."""
-    is_on = since_onset(k, t, step, t_start) >= 0.0
-    return k.amplitude.copy() if is_on else np.zeros(len(k.amplitude))
+    s = since_onset(k.window, t, step, t_start)
+    if s < 0.0:
+        return np.zeros(len(k.window.amplitude))
+    if k.rise == 0.0:
+        return k.window.amplitude.copy()
+    up = min(s / k.rise, 1.0)
+    down = min(max((s - k.width) / k.rise, 0.0), 1.0)
+    return (up - down) * k.window.amplitude
 
 
 @dataclass(frozen=True)
 class TorquePulse(Windowed):
-    """The push of the paper: amplitude (n,) [N m] over [start, stop) [s] of one step."""
+    """The push of the paper: amplitude (n,) [N m] over [start, stop) [s] of one step.
+
+    rise [s]: the torque grows from `start` to start + rise and falls from `stop` to stop + rise, in straight
+    lines; 0 for vertical edges. Raises InputError for a rise that is negative or not finite.
+    """
+
+    rise: float = field(default=0.0, kw_only=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not (math.isfinite(self.rise) and self.rise >= 0):
+            raise InputError(f"pulse rise is {self.rise} s, expected a finite number >= 0")
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         return pulse_torque(self.parameters, t, step, t_start, q, v)
 
-    @property
-    def parameters(self) -> WindowParameters:
+    @cached_property
+    def parameters(self) -> PulseParameters:
         """What the law `pulse_torque` needs."""
-        return self.window
+        rise, width = float(self.rise), float(self.stop) - float(self.start)
+        return PulseParameters(self.window._replace(stop=float(self.stop) + rise), rise, width)
+
+    @property
+    def switches(self) -> tuple[tuple[int, float], ...]:
+        """As `DisturbanceLaw.switches`: the four corners, two where the edges are vertical."""
+        step = self.step or 0
+        rises = (0.0, float(self.rise)) if self.rise > 0 else (0.0,)
+        corners = (end + rise for end in (float(self.start), float(self.stop)) for rise in rises)
+        return tuple((step, s) for s in corners if math.isfinite(s))
 
     @property
     def laws(self) -> tuple[DisturbanceLaw, ...]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters
-from biped_adrc.disturbances.pulse import pulse_torque
+import numpy as np
+
+from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters, since_onset
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
@@ -14,9 +15,9 @@ def step_torque(
     k: WindowParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
     """zeta (n,) [N m]."""
-    if 0 < k.step < step:
+    if 0 < k.step < step or since_onset(k, t, step, t_start) >= 0.0:
         return k.amplitude.copy()
-    return pulse_torque(k, t, step, t_start, q, v)
+    return np.zeros(len(k.amplitude))
 
 
 @dataclass(frozen=True)

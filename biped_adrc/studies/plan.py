@@ -12,6 +12,7 @@ from biped_adrc.gait.gait import load_gait
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.studies.claims.gathered import claim_tasks
 from biped_adrc.studies.laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.studies.poincare import poincare_twice, return_map_samples
 from biped_adrc.studies.pool import Task
@@ -224,6 +225,7 @@ def tasks(plan: Plan) -> dict[str, Task]:
         "numerics": Task("orders and (23)", numerics_laws, (plan.preset,)),
         "return map": Task("return map", return_map_samples, (npd,)),
     }
+    out |= claim_tasks(plan.presets)
     for preset in plan.presets:
         out[f"model {preset}"] = Task(f"laws of the model, {preset}", model_laws, (preset,))
         for c in BOTH:

@@ -18,7 +18,8 @@ from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
 
 _PUSH = re.compile(
-    r"(?P<joints>[^@]+)@(?P<step>\d+):(?P<start>[0-9.eE+]+)-(?P<stop>[0-9.eE+]*)(:sine=(?P<f>[0-9.eE+]+))?"
+    r"(?P<joints>[^@]+)@(?P<step>\d+):(?P<start>[0-9.eE+]+)-(?P<stop>[0-9.eE+]*)"
+    r"(:sine=(?P<f>[0-9.eE+]+)|:rise=(?P<rise>[0-9.eE+-]+))?"
 )
 
 
@@ -26,7 +27,7 @@ _PUSH = re.compile(
 class Push:
     """A disturbance by name: torques [N m] on joints in single support `step`, [start, stop) s.
 
-    kind: pulse, sine (with `frequency` [Hz]) or step (from `start` on, for good).
+    kind: pulse (with edges of `rise` [s]), sine (with `frequency` [Hz]) or step (from `start` on, for good).
     """
 
     torque: dict[str, float]
@@ -35,14 +36,17 @@ class Push:
     stop: float = 0.3
     kind: str = "pulse"
     frequency: float = 5.0
+    rise: float = 0.0
 
     def disturbance(self, biped: Biped) -> Disturbance:
         """The disturbance for this robot. Raises InputError for an unknown kind or joint."""
         amplitude = np.zeros(biped.n)
         for joint, value in self.torque.items():
             amplitude[biped.description.joint_index(joint)] += value
+        if self.rise and self.kind != "pulse":
+            raise InputError(f"a push of kind '{self.kind}' has no rise; only a pulse has one")
         if self.kind == "pulse":
-            return TorquePulse(amplitude, self.step, self.start, self.stop)
+            return TorquePulse(amplitude, self.step, self.start, self.stop, rise=self.rise)
         if self.kind == "sine":
             return TorqueSine(amplitude, self.step, self.start, self.stop, self.frequency)
         if self.kind == "step":
@@ -56,20 +60,23 @@ class Push:
             for torque, group in groupby(self.torque.items(), lambda item: item[1])
         ]
         sine = f", a sine of {self.frequency:g} Hz," if self.kind == "sine" else ""
+        edges = f", each edge taking {self.rise:g} s" if self.rise else ""
         until = " s on" if self.kind == "step" else f" to {self.stop:g} s"
-        return (
-            f"{' and '.join(parts)}{sine} from {self.start:g}{until} in single support {self.step}"
-        )
+        return f"{' and '.join(parts)}{sine} from {self.start:g}{until} in single support {self.step}{edges}"
 
     def text(self) -> str:
-        """As on the command line, JOINTS=TORQUE@STEP:START-STOP [N m], [s]; `parse_push` reads it."""
+        """As on the command line, JOINTS=TORQUE@STEP:START-STOP [N m], [s]; `parse_push` reads it.
+
+        A sine ends in :sine=HERTZ, a pulse with sloping edges in :rise=SECONDS.
+        """
         groups = [
             f"{','.join(joint for joint, _ in group)}={torque:g}"
             for torque, group in groupby(self.torque.items(), lambda item: item[1])
         ]
         stop = "" if self.kind == "step" else f"{self.stop:g}"
         sine = f":sine={self.frequency:g}" if self.kind == "sine" else ""
-        return f"{','.join(groups)}@{self.step}:{self.start:g}-{stop}{sine}"
+        rise = f":rise={self.rise:g}" if self.rise else ""
+        return f"{','.join(groups)}@{self.step}:{self.start:g}-{stop}{sine}{rise}"
 
 
 def parse_push(text: str) -> Push:
@@ -94,10 +101,13 @@ def parse_push(text: str) -> Push:
         start = float(match["start"])
         stop = float(match["stop"]) if match["stop"] else float("inf")
         frequency = float(match["f"]) if match["f"] else 5.0
+        rise = float(match["rise"]) if match["rise"] else 0.0
+        if rise and not match["stop"]:
+            raise ValueError("only a pulse, which has a stop, has a rise")
     except ValueError as error:
         raise InputError(f"push '{text}': {error}") from error
     kind = "sine" if match["f"] else "pulse" if match["stop"] else "step"
-    return Push(torque, int(match["step"]), start, stop, kind, frequency)
+    return Push(torque, int(match["step"]), start, stop, kind, frequency, rise)
 
 
 def joints_push(torque: float, joints: Sequence[str], **window: Any) -> Push:

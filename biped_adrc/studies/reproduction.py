@@ -20,11 +20,12 @@ from biped_adrc.hybrid.storage import save
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
 from biped_adrc.studies.checks import Check
+from biped_adrc.studies.claims.table import PREFACE, claims
+from biped_adrc.studies.claims.words import MEANINGS, claim_checks
 from biped_adrc.studies.convergence import records
 from biped_adrc.studies.figures import push_window
 from biped_adrc.studies.findings import findings
 from biped_adrc.studies.laws import work_identity
-from biped_adrc.studies.merits import figures_of_merit
 from biped_adrc.studies.pictures import draw_all
 from biped_adrc.studies.plan import BOTH, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
@@ -63,7 +64,8 @@ def reproduce(
     for preset in plan.presets:
         laws = laws + results[f"model {preset}"]
         laws = laws + [work_identity(results[f"nominal {preset} {c}"]) for c in BOTH]
-    checks = _checks(plan, results) + laws
+    found = claims(plan.presets, results)
+    checks = _checks(plan, results) + claim_checks(found) + laws
     simulated = time.perf_counter()
     summary = {
         "command": command,
@@ -73,7 +75,9 @@ def reproduce(
         "settings": _settings(plan),
         "versions": versions(),
         "holds": all(check.holds for check in checks),
-        "figures_of_merit": figures_of_merit(plan, results),
+        "claims_preface": PREFACE,
+        "claims_words": MEANINGS,
+        "claims": [claim.record() for claim in found],
         "checks": [check.record() for check in checks],
         "tables": tables(plan, results, cells, figures),
         "nominal": _nominal(plan, results),
@@ -187,8 +191,5 @@ def failed(checks: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def main_table(summary: dict[str, Any]) -> list[tuple[str, str, str, str]]:
-    """Name, published, measured, verdict: what the command prints."""
-    return [
-        (row["name"], row["published"], row["measured"], row["verdict"])
-        for row in summary["figures_of_merit"]
-    ]
+    """Claim, place, word, share of the cases: what the command prints."""
+    return [(row["claim"], row["where"], row["word"], row["share"]) for row in summary["claims"]]

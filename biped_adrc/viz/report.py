@@ -74,6 +74,8 @@ FIGURES = {
 }
 """Heading of each figure and what to look for in it, by the start of its name."""
 
+CLAIM_COLUMNS = ("claim", "where", "word", "number", "share", "convergence", "reason")
+
 KINDS = {
     "reproduced": "what the paper claims and what could have failed",
     "law": "physics and numerics that hold whatever the paper says",
@@ -103,7 +105,7 @@ def report_html(
     """The text of the page of `write_report`; the same summary gives the same text."""
     parts = {
         "walk": ("The walks", "" if animation is None else _walks(animation)),
-        "merits": ("Published and measured", _merits(summary.get("figures_of_merit", []))),
+        "claims": ("The claims of the paper", _claims(summary)),
         "figures": ("Figures", "\n".join(_figure(n, source) for n, source in figures.items())),
         "checks": ("Checks", _checks(summary.get("checks", []))),
         "tables": ("Tables", _tables(summary.get("tables", {}))),
@@ -150,21 +152,25 @@ def _walks(animation: str) -> str:
     )
 
 
-def _merits(merits: Sequence[Mapping[str, Any]]) -> str:
-    if not merits:
+def _claims(summary: Mapping[str, Any]) -> str:
+    """What the words mean, then one row for each claim."""
+    claims = summary.get("claims", [])
+    if not claims:
         return ""
     rows = [
-        [
-            text(m["name"]),
-            text(m["published"]),
-            text(m["measured"]),
-            mark(m["verdict"], not str(m["verdict"]).startswith("not")),
-            text(m.get("note", "")),
-        ]
-        for m in merits
+        [_word(c[key]) if key == "word" else text(c[key]) for key in CLAIM_COLUMNS] for c in claims
     ]
-    columns = ("figure of merit", "published", "measured", "verdict", "note")
-    return table("Each published figure of merit beside ours", columns, rows)
+    words = summary.get("claims_words", {})
+    meaning = "".join(f"<li><b>{text(word)}</b>: {text(m)}</li>" for word, m in words.items())
+    preface = text(summary.get("claims_preface", ""))
+    shown = table("Each claim of the paper, and the word for it", CLAIM_COLUMNS, rows)
+    return f"<p>{preface}</p>\n<ul>{meaning}</ul>\n{shown}"
+
+
+def _word(word: str) -> str:
+    """A word, marked where it is a verdict for or against the claim."""
+    for_or_against = {"replicated": True, "contradicted": False}
+    return mark(word, for_or_against[word]) if word in for_or_against else text(word)
 
 
 def _figure(name: str, source: str | Path) -> str:

@@ -1,5 +1,6 @@
 """Forces on links and band-limited noise: by Pinocchio's frames, by virtual work, by spectra, and compiled."""
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +20,7 @@ F = (12.0, -7.0, 3.0)  # [N, N, N m]
 PULSE = ba.TorquePulse(F, step=1, start=0.1, stop=0.2)
 WAVES = {
     "pulse": PULSE,
+    "pulse with sloping edges": ba.TorquePulse(F, step=1, start=0.1, stop=0.2, rise=0.03),
     "step": ba.TorqueStep(F, step=1, start=0.1),
     "sine": ba.TorqueSine(F, start=0.05, stop=0.3, frequency=4.0),
     "noise": TorqueNoise(F, bandwidth=8.0, seed=2),
@@ -43,6 +45,41 @@ def placement(biped, q, link):
 def turned(before, after):
     """Angle from one placement to the next, counter-clockwise with x to the right and z up [rad]."""
     return -pin.log3(after.rotation @ before.rotation.T)[1]
+
+
+# -- a pulse with sloping edges ---------------------------------------------------------------------
+@pytest.mark.parametrize("rise", [0.0, 0.01, 0.04, 0.25])
+def test_the_area_of_a_pulse_is_amplitude_times_width_whatever_its_rise(rise):
+    pulse = ba.TorquePulse(F, step=2, start=0.1, stop=0.2, rise=rise)
+    corners = sorted({1.0, *pulse.switching_times(2, 1.0), 1.6})
+    still, area = np.zeros(3), np.zeros(3)
+    for a, b in itertools.pairwise(corners):  # straight between corners: the midpoint rule is exact
+        area += (b - a) * pulse.torque(0.5 * (a + b), 2, 1.0, still, still)
+    assert area == pytest.approx(0.1 * np.array(F), rel=1e-12)
+
+
+def test_the_edges_of_a_pulse_are_straight_and_its_corners_are_told():
+    pulse = ba.TorquePulse(F, step=2, start=0.1, stop=0.2, rise=0.04)
+    assert pulse.switching_times(2, 1.0) == pytest.approx([1.1, 1.14, 1.2, 1.24], abs=1e-12)
+    assert len(ba.TorquePulse(F, step=2, start=0.1, stop=0.2).switching_times(2, 1.0)) == 2
+    still = np.zeros(3)
+    for quarter in (0.25, 0.5, 0.75):
+        up = pulse.torque(1.1 + 0.04 * quarter, 2, 1.0, still, still)
+        down = pulse.torque(1.2 + 0.04 * quarter, 2, 1.0, still, still)
+        assert up == pytest.approx(quarter * np.array(F), abs=1e-11)
+        assert down == pytest.approx((1.0 - quarter) * np.array(F), abs=1e-11)
+    for t, level in ((1.0999, 0.0), (1.141, 1.0), (1.1999, 1.0), (1.2401, 0.0)):
+        assert pulse.torque(t, 2, 1.0, still, still) == pytest.approx(level * np.array(F))
+    assert not np.any(pulse.torque(1.15, 3, 1.0, still, still))
+
+
+def test_a_pulse_that_never_ends_may_rise():
+    pulse, still = ba.TorquePulse(F, start=0.1, rise=0.2), np.zeros(3)
+    assert pulse.torque(0.2, 1, 0.0, still, still) == pytest.approx(0.5 * np.array(F))
+    assert pulse.torque(9.0, 1, 0.0, still, still) == pytest.approx(F)
+    for rise in (-0.01, np.nan, np.inf):
+        with pytest.raises(ba.BipedError, match="pulse rise"):
+            ba.TorquePulse(F, rise=rise)
 
 
 # -- a force and a moment on a link ----------------------------------------------------------------

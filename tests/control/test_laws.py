@@ -193,6 +193,7 @@ def test_a_force_on_the_hip(biped):
     "wave",
     [
         ba.TorquePulse([3.0, -2.0, 1.0], step=2, start=0.1, stop=0.2),
+        ba.TorquePulse([3.0, -2.0, 1.0], step=2, start=0.1, stop=0.2, rise=0.04),
         ba.TorqueStep([3.0, -2.0, 1.0], step=2, start=0.1),
         ba.TorqueSine([3.0, -2.0, 1.0], frequency=5.0),
         TorqueNoise([3.0, -2.0, 1.0], bandwidth=10.0, seed=1, sines=4),

@@ -19,15 +19,27 @@ SUMMARY = {
     "preset": "identified",
     "command": "biped-adrc reproduce --out <dir>",
     "versions": {"python": "3.11"},
-    "figures_of_merit": [
+    "claims_preface": "no <data>",
+    "claims_words": {"replicated": "held", "contradicted": "did not"},
+    "claims": [
         {
-            "name": "a<b>",
-            "published": "1 & 2",
-            "measured": "3",
-            "verdict": "reproduced",
-            "note": '"',
+            "claim": "a<b>",
+            "where": "II",
+            "word": "replicated",
+            "number": "1 & 2",
+            "share": "2 of 2",
+            "convergence": "1 %",
+            "reason": '"',
         },
-        {"name": "c", "published": "1", "measured": "2", "verdict": "not reproduced", "note": ""},
+        {
+            "claim": "c",
+            "where": "VI",
+            "word": "contradicted",
+            "number": "1",
+            "share": "0 of 2",
+            "convergence": "",
+            "reason": "",
+        },
     ],
     "checks": [
         {"name": "energy", "kind": "law", "value": 1.23456e-12, "limit": "<= 1e-9", "holds": True},
@@ -83,7 +95,7 @@ def test_report_is_well_formed_for_readers_of_every_kind(svg: str) -> None:
     assert page.pictures == page.alternatives == 1
     links = {link.removeprefix("#") for link in page.links}
     assert links <= page.ids
-    assert {"walk", "merits", "figures", "checks", "tables", "notes", "settings"} <= links
+    assert {"walk", "claims", "figures", "checks", "tables", "notes", "settings"} <= links
 
 
 class Outline(HTMLParser):
@@ -127,8 +139,9 @@ def test_report_states_the_verdicts(tmp_path) -> None:
     text = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "1 of 2 checks hold" in text
     assert "✗ does not hold" in text
-    assert "✓ reproduced" in text
-    assert "✗ not reproduced" in text
+    assert "✓ replicated" in text
+    assert "✗ contradicted" in text
+    assert text.index("no &lt;data&gt;") < text.index("a&lt;b&gt;")
     assert "1.235e-12" in text
     assert "0.5, –" in text
     assert "<iframe" not in text

@@ -1,0 +1,282 @@
+"""Runs and closed forms on which the claims beside the push on the joints rest."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from biped_adrc.analysis.certificate import Certificate
+from biped_adrc.analysis.regression import regress_multipliers
+from biped_adrc.control.tracking import TABLE_II
+from biped_adrc.engine.choice import COMPILED
+from biped_adrc.errors import BipedError
+from biped_adrc.gait.recipe import impact_smoothness
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.studies.claims.admissible import declared, method
+from biped_adrc.studies.claims.legality import illegal
+from biped_adrc.studies.claims.walks import nominal, prepared, track
+from biped_adrc.studies.claims.words import Figure
+from biped_adrc.studies.poincare import poincare
+from biped_adrc.studies.push import Push, joints_push
+from biped_adrc.studies.runs import CONTROLLERS, Run
+from biped_adrc.studies.walk import watched
+from biped_adrc.types import Array
+from biped_adrc.walker import FOOT_STRIKE
+
+GAITS = ("published", "recipe")
+TEN = 10
+"""Numbers in the state of the paper's robot."""
+
+
+class Cycle(NamedTuple):
+    """The walking cycle of a gait under a controller; NaN where none was found."""
+
+    name: str
+    preset: str
+    gait: str
+    controller: str
+    theta: str
+    multiplier: Figure
+    """Largest |lambda| by central differences of the return map."""
+    rate: Figure
+    """Theta' before the impact [rad/s]."""
+    period: float
+    """Of a step of the stored gait [s]."""
+
+
+def cycles(preset: str) -> tuple[Cycle, ...]:
+    """Of both gaits under both controllers, and of gait (a) with Theta'' as printed."""
+    found = [_cycle(preset, gait, c, "solved") for gait in GAITS for c in CONTROLLERS]
+    return (*found, *(_cycle(preset, "published", c, "printed") for c in CONTROLLERS))
+
+
+def _cycle(preset: str, gait: str, controller: str, theta: str) -> Cycle:
+    h = declared()["steps"]["plain"]
+    run = Run(
+        controller,
+        preset=preset,
+        gait=gait,
+        solve_theta=theta == "solved",
+        method=method(controller),
+        engine=COMPILED,
+    )
+    made, rates = [], []
+    biped, of = nominal(preset, gait)
+    for step in (h, 0.5 * h):
+        try:
+            orbit = poincare(replace(run, h=step), with_states=False).orbit
+            made.append(float(abs(orbit.multipliers[0])))
+            rates.append(float(biped.phase @ orbit.x_minus[biped.n : 2 * biped.n]))
+        except BipedError:
+            made.append(float("nan"))
+            rates.append(float("nan"))
+    name = f"gait ({'a' if gait == 'published' else 'b'}), {preset}, {controller}, Theta'' {theta}"
+    return Cycle(name, preset, gait, controller, theta, Figure(*made), Figure(*rates), of.period)
+
+
+class Needs(NamedTuple):
+    """What a gait asks of the ground and the motors over its cycle, undisturbed."""
+
+    name: str
+    preset: str
+    gait: str
+    friction: Figure
+    impulse_ratio: Figure
+    torque: Figure
+    """[N m]."""
+    cost: Figure
+    """Cost of transport."""
+    work: Figure
+    """Net joint work per step length [J/m]."""
+    rate_jump: float
+    """Largest jump of a joint's rate against its reference at impact [rad/s]."""
+    illegal: tuple[str, ...]
+
+
+def needs(preset: str) -> tuple[Needs, ...]:
+    """Of both gaits under NPD."""
+    return tuple(_needs(preset, gait) for gait in GAITS)
+
+
+def _needs(preset: str, gait: str) -> Needs:
+    h = declared()["steps"]["plain"]
+    run = Run("NPD", preset=preset, gait=gait, engine=COMPILED)
+    steps: list[Certificate] = []
+    why: tuple[str, ...] = ()
+    made = prepared(run)
+    for step in (h, 0.5 * h):
+        found = watched(made.walker, made.gait, made.simulate(step, 2)).certificates
+        steps.append(found[-1])
+        why = illegal(found[-1:])
+    biped = nominal(preset, gait)[0]
+
+    def figure(name: str) -> Figure:
+        return Figure(*(float(getattr(one, name)) for one in steps))
+
+    return Needs(
+        f"gait ({'a' if gait == 'published' else 'b'}), {preset}",
+        preset,
+        gait,
+        figure("friction"),
+        figure("impulse_ratio"),
+        figure("peak_torque"),
+        figure("cost_of_transport"),
+        Figure(*(one.joint_work / one.step_length for one in steps)),
+        float(np.max(np.abs(impact_smoothness(made.gait, biped)))),
+        why,
+    )
+
+
+class Pair(NamedTuple):
+    """Two walks that differ in the controller alone."""
+
+    name: str
+    peak: dict[str, Figure]
+    """max |q_b - q_d| over all steps [rad], by controller."""
+    delay: dict[str, Figure]
+    """Largest change of a step's time against the first undisturbed one [s], by controller."""
+    made: dict[str, bool]
+    """Whether all impacts were made, by controller."""
+
+
+def _pair(name: str, runs: dict[str, Run]) -> Pair:
+    peak, delay = {}, {}
+    made: dict[str, bool] = {}
+    h = declared()["steps"]["plain"]
+    for c, run in runs.items():
+        peaks, delays = [], []
+        ready = prepared(run)
+        for step in (h, 0.5 * h):
+            walk = ready.simulate(step, run.impacts)
+            arcs = [replace(walk, arcs=(arc,)) for arc in walk.arcs]
+            tracks = [track(ready.gait.constraint, one) for one in arcs]
+            peaks.append(max(t.peak for t in tracks))
+            delays.append(max(abs(t.period - ready.gait.period) for t in tracks))
+            made[c] = made.get(c, True) and len(walk.events(FOOT_STRIKE)) == run.impacts
+        peak[c], delay[c] = Figure(*peaks), Figure(*delays)
+    return Pair(name, peak, delay, made)
+
+
+def _both(**settings: Any) -> dict[str, Run]:
+    return {c: Run(c, method=method(c), engine=COMPILED, **settings) for c in CONTROLLERS}
+
+
+def torso_push(torque: float) -> Push:
+    """On the coordinate that no motor drives [N m]."""
+    step = declared()["push"]["step"]
+    return Push({"q5": torque}, step=step, start=0.1, stop=0.3)
+
+
+def unmatched(preset: str) -> tuple[Pair, ...]:
+    """Pushes on the torso; the last one is the fatal one."""
+    k = declared()["unmatched"]
+    found = []
+    for torque in (*k["amplitudes"], k["fatal"]):
+        push = torso_push(torque)
+        runs = _both(preset=preset, pushes=(push,), first_step=push.step, impacts=4)
+        found.append(_pair(f"{preset}, {torque:g} N m on the torso", runs))
+    return tuple(found)
+
+
+def uncertainty(preset: str) -> tuple[Pair, ...]:
+    """A plant heavier than the model."""
+    k = dict(declared()["uncertainty"])
+    impacts = k.pop("impacts")
+    return tuple(
+        _pair(f"{preset}, heavier {kind}", _both(preset=preset, impacts=impacts, **factors))
+        for kind, factors in k.items()
+    )
+
+
+def pushed_recipe(preset: str) -> tuple[Pair, ...]:
+    """Gait (b) under a push on the joints."""
+    torque, step = declared()["disturbed_recipe"]["amplitude"], declared()["push"]["step"]
+    push = joints_push(torque, ("q1", "q2", "q3", "q4"), step=step, start=0.1, stop=0.3)
+    runs = _both(preset=preset, gait="recipe", pushes=(push,), first_step=step, impacts=4)
+    return (_pair(f"{preset}, gait (b)", runs),)
+
+
+class Start(NamedTuple):
+    """A walk from a speed of one's choice after the impact."""
+
+    name: str
+    least: float
+    """Speed that reaches the next impact, of the gait's own, by one quadrature of the zero "
+    "dynamics."""
+    factor: float
+    """Speed of this start over the least."""
+    impacts: dict[str, int]
+    """Made, by controller."""
+    asked: int
+
+
+def basin(preset: str) -> tuple[Start, ...]:
+    """Starts on the constraint just below and above the least speed."""
+    k, h = declared()["basin"], declared()["steps"]["plain"]
+    runs = _both(preset=preset)
+    least = least_speed(runs["NPD"])
+    found = []
+    for factor in k["factors"]:
+        made = {}
+        for c, run in runs.items():
+            walk = prepared(run, speed=factor * least).simulate(h, k["impacts"])
+            made[c] = len(walk.events(FOOT_STRIKE))
+        name = f"{preset}, {factor * least:.3f} of the gait's speed after impact"
+        found.append(Start(name, least, factor, made, k["impacts"]))
+    return tuple(found)
+
+
+def least_speed(run: Run) -> float:
+    """Share of the gait's speed after impact with which sigma^2 stays positive up to the next "
+    "impact."""
+    biped, gait = nominal(run.preset, run.gait)
+    zero = ZeroDynamics.of(biped, gait.constraint)
+    sigma = biped.angular_momentum(*gait.start(biped))
+    gained = zero.sigma_squared(0.0)
+    return float(np.sqrt(max(-float(np.min(gained)), 0.0)) / abs(sigma))
+
+
+class Jumps(NamedTuple):
+    """How far the total disturbance xi of (13) is from smooth, largest over the joints "
+    "[rad/s^2]."""
+
+    name: str
+    at_impact: float
+    at_edge: float
+    """Of a push of 30 N m on all joints."""
+
+
+def jumps(preset: str) -> tuple[Jumps, ...]:
+    """Of xi on gait (a)."""
+    run = Run("NPD", preset=preset)
+    biped, gait = nominal(run.preset, run.gait)
+    before = biped.reduction(gait.q_minus, gait.v_minus)
+    after = biped.reduction(*gait.start(biped))
+    swap = biped.relabelling[: biped.p]
+    edge = after.kappa @ np.full(biped.p, 30.0)
+    jump = float(np.max(np.abs(after.xi - before.xi[swap])))
+    return (Jumps(preset, jump, float(np.max(np.abs(edge)))),)
+
+
+def fastest_decay(period: float) -> float:
+    """What is left of a tracking error after a step under Table II: exp(-K_d T / 2)."""
+    return float(np.exp(-0.5 * float(np.max(TABLE_II.K_d)) * period))
+
+
+def longest_step(multiplier: float) -> float:
+    """Step after which a tracking error under Table II has decayed to no less than this share "
+    "[s]."""
+    return float(-2.0 * np.log(multiplier) / float(np.max(TABLE_II.K_d)))
+
+
+def noise_spectrum() -> Array:
+    """Medians of the ten sorted |lambda| that (26), (27) give for independent normal numbers."""
+    k = declared()["noise"]
+    random = np.random.default_rng(k["seed"])
+    found = [
+        regress_multipliers(random.normal(size=(k["impacts"], TEN)), np.zeros(TEN)).magnitudes
+        for _ in range(k["draws"])
+    ]
+    return np.median(found, axis=0)

@@ -1,0 +1,206 @@
+"""Walks for the claims: what is kept of them is a handful of numbers, at a step and at half of "
+"it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.engine.choice import simulate_by
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.gait import Gait, load_gait
+from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.model.biped import Biped
+from biped_adrc.studies.claims.admissible import Member, declared
+from biped_adrc.studies.claims.legality import illegal
+from biped_adrc.studies.claims.words import Figure
+from biped_adrc.studies.runs import CONTROLLERS, Run
+from biped_adrc.studies.walk import watched
+from biped_adrc.types import Array
+from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
+
+
+class Walked(NamedTuple):
+    """What is left of a walk from the pushed step on."""
+
+    status: str
+    impacts: int
+    asked: int
+    peak: Figure
+    """max |q_b - q_d| in the pushed step [rad]."""
+    deviation: Figure
+    """The same of the error less that of the walk without a push, from the onset on [rad]."""
+    rate: Figure
+    """Theta' at the end of the pushed step less that of the walk without a push [rad/s]."""
+    period: Figure
+    """Of the pushed step [s]."""
+    illegal: tuple[str, ...]
+    """What the ground or the motors could not have given, by step."""
+
+    @property
+    def made(self) -> bool:
+        """Whether all steps asked for were made."""
+        return self.status == "COMPLETED" and self.impacts == self.asked
+
+
+@dataclass(frozen=True)
+class MemberOutcome:
+    """A member of the set under both controllers."""
+
+    member: Member
+    walked: dict[str, Walked]
+
+    @property
+    def tracking(self) -> Figure:
+        """Peak error of ADRC over NPD's."""
+        return quotient(self.walked["ADRC"].peak, self.walked["NPD"].peak)
+
+    @property
+    def rejection(self) -> Figure:
+        """Deviation that the push makes under ADRC over that under NPD."""
+        return quotient(self.walked["ADRC"].deviation, self.walked["NPD"].deviation)
+
+
+def quotient(one: Figure, other: Figure) -> Figure:
+    """One over the other at either step; infinite over zero."""
+    return Figure(*(a / b if b else float("inf") for a, b in zip(one, other, strict=True)))
+
+
+class Prepared(NamedTuple):
+    """A run, ready to be integrated with one step or another."""
+
+    run: Run
+    gait: Gait
+    walker: Walker
+    x0: Array
+
+    def simulate(self, h: float, impacts: int) -> Trajectory:
+        """From the gait's orbit on."""
+        mode = Mode(self.run.first_step)
+        return simulate_by(
+            self.run.engine,
+            self.walker,
+            self.x0,
+            mode,
+            replace(self.run, h=h).one_step_method(),
+            t_end=impacts * self.walker.max_step_time,
+            impacts=impacts,
+        )
+
+
+@lru_cache(maxsize=16)
+def nominal(preset: str, gait: str) -> tuple[Biped, Gait]:
+    """RABBIT in a preset and one of its gaits."""
+    biped = Run(preset=preset).biped()
+    return biped, load_gait(gait, biped)
+
+
+def prepared(run: Run, zero: bool = False, speed: float = 1.0) -> Prepared:
+    """At the impact of the gait's orbit; with `zero` the observer starts at xi^ = 0.
+
+    speed: factor on the rates after impact, which leaves the gait's orbit along its constraint.
+    """
+    biped, gait = nominal(run.preset, run.gait)
+    walker = run.build(biped, gait)
+    q, v = gait.start(biped)
+    x = walker.initial_state(q, speed * v, Mode(run.first_step))
+    if zero and run.controller == "ADRC":
+        x[2 * biped.n + 2 * biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
+    return Prepared(run, gait, walker, x)
+
+
+class Track(NamedTuple):
+    """The error over time in the first step, and Theta' before the impact that ends it."""
+
+    t: Array
+    error: Array
+    """(K, p) [rad]."""
+    rate: float
+    """[rad/s], NaN when there is no impact."""
+    period: float
+    """[s], NaN when there is no impact."""
+
+    @property
+    def peak(self) -> float:
+        """[rad]."""
+        return float(np.max(np.abs(self.error)))
+
+    def away_from(self, usual: Track, onset: float) -> float:
+        """max |error - that of `usual`| from the onset on, while both last [rad]."""
+        seen = (self.t >= onset) & (self.t <= usual.t[-1])
+        if not np.any(seen):
+            return float("nan")
+        t, first = np.unique(usual.t, return_index=True)
+        there = np.stack([np.interp(self.t[seen], t, e) for e in usual.error[first].T], axis=1)
+        return float(np.max(np.abs(self.error[seen] - there)))
+
+
+def track(constraint: VirtualConstraint, one: Trajectory) -> Track:
+    """What the first arc of a trajectory says."""
+    arc = one.arcs[0]
+    struck = arc.event is not None and arc.event.guard == FOOT_STRIKE
+    n = len(constraint.phase)
+    rate = float(constraint.phase @ arc.x[-1, n : 2 * n]) if struck else float("nan")
+    period = float(arc.t[-1] - arc.t[0]) if struck else float("nan")
+    return Track(arc.t - arc.t[0], _errors(constraint, arc), rate, period)
+
+
+def _errors(constraint: VirtualConstraint, arc: Arc) -> Array:
+    """q_b - h(Theta) at the nodes of an arc (K, p) [rad]."""
+    k = constraint.parameters
+    q = arc.x[:, : len(k.c)]
+    s = k.rate * (q @ k.c - k.theta_plus)
+    p = k.curve.stacked.shape[0] // 3
+    h: Array = s[:, np.newaxis] ** k.curve.powers @ k.curve.stacked[:p].T
+    return q[:, :p] - h
+
+
+@lru_cache(maxsize=64)
+def _undisturbed(preset: str, controller: str, gait: str, start: str, theta: str) -> Track:
+    """The same walk without a push, its error at nodes close enough for straight lines between "
+    "them."""
+    steps = declared()["steps"]
+    plain = Member(preset, 0.0, 0.0, ("q1",), 0.0, start, theta).run(controller, steps["plain"])
+    made = prepared(replace(plain, pushes=(), gait=gait), start == "zero")
+    return track(made.gait.constraint, made.simulate(steps["undisturbed"], 1))
+
+
+def walked(run: Run, start: str = "model") -> Walked:
+    """The pushed step with run.h and half of it, and all impacts with the step for what comes "
+    "later."""
+    steps = declared()["steps"]
+    theta = "solved" if run.solve_theta else "printed"
+    usual = _undisturbed(run.preset, run.controller, run.gait, start, theta)
+    made = prepared(run, start == "zero")
+    assert run.h is not None
+    constraint, onset = made.gait.constraint, min(push.start for push in run.pushes)
+    fine, half = (track(constraint, made.simulate(h, 1)) for h in (run.h, 0.5 * run.h))
+    survey = made.simulate(steps["later"], run.impacts)
+    events = survey.events(FOOT_STRIKE)
+    finite = all(bool(np.all(np.isfinite(arc.x))) for arc in survey.arcs)
+    why = illegal(watched(made.walker, made.gait, survey).certificates) if finite else ()
+    return Walked(
+        survey.status.name,
+        len(events),
+        run.impacts,
+        Figure(fine.peak, half.peak),
+        Figure(fine.away_from(usual, onset), half.away_from(usual, onset)),
+        Figure(fine.rate - usual.rate, half.rate - usual.rate),
+        Figure(fine.period, half.period),
+        why,
+    )
+
+
+def tried(member: Member) -> MemberOutcome:
+    """Carry a member out under both controllers."""
+    steps = declared()["steps"]
+    runs = {c: member.run(c, steps[c], steps["impacts"]) for c in CONTROLLERS}
+    return MemberOutcome(member, {c: walked(run, member.start) for c, run in runs.items()})
+
+
+def tried_all(members: tuple[Member, ...]) -> tuple[MemberOutcome, ...]:
+    """Carry out a part of the set."""
+    return tuple(tried(member) for member in members)

@@ -1,0 +1,205 @@
+"""The words for claims, and the rules by which cases earn them; pure functions of numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from biped_adrc.studies.checks import Check, at_least
+from biped_adrc.viz.report import CLAIM_COLUMNS
+
+REPLICATED = "replicated"
+DEPENDS = "depends"
+BY_CONSTRUCTION = "by construction"
+CONTRADICTED = "contradicted"
+NOT_TESTABLE = "not testable"
+
+MEANINGS = {
+    REPLICATED: "it could have failed, and holds for every case declared before the run",
+    DEPENDS: "it holds in a share of the cases",
+    BY_CONSTRUCTION: "it was put in, or follows from what was put in",
+    CONTRADICTED: "it holds in none of the cases, or a case shows the opposite",
+    NOT_TESTABLE: "what is printed does not determine it",
+}
+"""Every word, and what it says of a claim."""
+
+
+class Figure(NamedTuple):
+    """A number at the step used and at half of it."""
+
+    value: float
+    at_half: float
+
+    @property
+    def change(self) -> float:
+        """|value - at_half| over |at_half|; NaN where one is not finite."""
+        if not (math.isfinite(self.value) and math.isfinite(self.at_half)):
+            return math.nan
+        gap = abs(self.value - self.at_half)
+        return gap / abs(self.at_half) if self.at_half else (0.0 if gap == 0.0 else math.inf)
+
+    def converged(self, convergence: float, round_off: float) -> bool:
+        """Whether halving the step moves it by less than a share or than round-off.
+
+        A number that is finite at neither step is as good at one as at the other.
+        """
+        if not math.isfinite(self.value) and not math.isfinite(self.at_half):
+            return True
+        return self.change <= convergence or abs(self.value - self.at_half) <= round_off
+
+
+class Case(NamedTuple):
+    """One of the choices under which a claim was tried."""
+
+    name: str
+    figure: Figure
+    """What the verdict rests on."""
+    holds: bool
+    marginal: bool = False
+    """The figure is not converged, or the verdict at half of the step is another."""
+
+
+def below_limit(name: str, figure: Figure, limit: float, convergence: Sequence[float]) -> Case:
+    """A case that holds for a number <= limit; NaN does not hold."""
+    verdicts = (bool(figure.value <= limit), bool(figure.at_half <= limit))
+    doubtful = not figure.converged(*convergence) or verdicts[0] != verdicts[1]
+    return Case(name, figure, verdicts[1], doubtful)
+
+
+def above_limit(name: str, figure: Figure, limit: float, convergence: Sequence[float]) -> Case:
+    """A case that holds for a number >= limit; NaN does not hold."""
+    verdicts = (bool(figure.value >= limit), bool(figure.at_half >= limit))
+    doubtful = not figure.converged(*convergence) or verdicts[0] != verdicts[1]
+    return Case(name, figure, verdicts[1], doubtful)
+
+
+@dataclass(frozen=True)
+class Tally:
+    """What a set of cases comes to. No claim rests on the marginal ones."""
+
+    cases: tuple[Case, ...]
+
+    @property
+    def firm(self) -> tuple[Case, ...]:
+        """Those that are not marginal."""
+        return tuple(case for case in self.cases if not case.marginal)
+
+    @property
+    def marginal(self) -> tuple[str, ...]:
+        """Names of the others."""
+        return tuple(case.name for case in self.cases if case.marginal)
+
+    @property
+    def held(self) -> int:
+        """How many firm cases hold."""
+        return sum(case.holds for case in self.firm)
+
+    @property
+    def word(self) -> str:
+        """Replicated only when every case declared is firm and holds."""
+        if not self.firm:
+            return NOT_TESTABLE
+        if self.held == len(self.cases):
+            return REPLICATED
+        return DEPENDS if self.held else CONTRADICTED
+
+    @property
+    def share(self) -> str:
+        """In words, with Wilson's interval, and the marginal cases by name."""
+        from biped_adrc.studies.bench.statistics import share
+
+        text = "no case is converged"
+        if self.firm:
+            found = share(self.held, len(self.firm))
+            text = (
+                f"{self.held} of {len(self.firm)}, between {found.low:.2f} and {found.high:.2f} "
+                "with 95 %"
+            )
+        if self.marginal:
+            text += f"; marginal: {'; '.join(self.marginal)}"
+        return text
+
+    @property
+    def convergence(self) -> str:
+        """The largest change when the step is halved, over the firm cases with finite numbers."""
+        return changes([case.figure for case in self.firm])
+
+
+def changes(figures: Sequence[Figure], relevant: float = 0.1) -> str:
+    """The largest change of numbers when the step is halved, in words.
+
+    Numbers that change by more than the share `relevant` and were taken as converged are round-off: of them
+    the change itself is said.
+    """
+    known = [f for f in figures if math.isfinite(f.change)]
+    if not known:
+        return "no finite number"
+    small = [abs(f.value - f.at_half) for f in known if f.change > relevant]
+    parts = [f.change for f in known if f.change <= relevant]
+    said = [f"at most {100.0 * max(parts):.2g} %"] if parts else []
+    said += [f"round-off, at most {max(small):.1g}, in {len(small)}"] if small else []
+    return f"half the step: {'; '.join(said)}"
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One row of the table. `asserted` is the share of cases that a check of the reproduction "
+    "demands."""
+
+    claim: str
+    where: str
+    word: str
+    number: str
+    reason: str
+    share: str = ""
+    convergence: str = ""
+    asserted: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.word not in MEANINGS:
+            raise ValueError(f"word '{self.word}' is none of {list(MEANINGS)}")
+
+    def record(self) -> dict[str, Any]:
+        """As plain values, the columns of the table."""
+        return {key: getattr(self, key) for key in CLAIM_COLUMNS}
+
+
+def judged(
+    claim: str, where: str, tally: Tally, number: str, reason: str, asserted: bool = False
+) -> Claim:
+    """The row of a claim that was tried on cases; `asserted` makes a check of it."""
+    value = tally.held / len(tally.cases) if tally.cases else math.nan
+    return Claim(
+        claim,
+        where,
+        tally.word,
+        number,
+        reason,
+        tally.share,
+        tally.convergence,
+        value if asserted else None,
+    )
+
+
+def claim_checks(claims: Sequence[Claim]) -> list[Check]:
+    """Every claim that is said to be replicated has to stay so: all of its cases hold, none is "
+    "marginal."""
+    return [
+        at_least(f"claim, {c.where}: {c.claim}: share of its cases", "reproduced", c.asserted, 1.0)
+        for c in claims
+        if c.asserted is not None
+    ]
+
+
+def span(values: Sequence[float], form: str = ".3g") -> str:
+    """From the smallest to the largest; NaN is said."""
+    known = [v for v in values if not math.isnan(v)]
+    if not known:
+        return "none"
+    low, high = min(known), max(known)
+    text = f"{low:{form}}" if low == high else f"{low:{form}} to {high:{form}}"
+    return text + (
+        f" ({len(values) - len(known)} are no numbers)" if len(known) < len(values) else ""
+    )

@@ -1,0 +1,391 @@
+"""The words for claims, on made-up outcomes; and the set on which they rest."""
+
+import itertools
+import math
+from dataclasses import replace
+from importlib.resources import files
+
+import numpy as np
+import pytest
+
+from biped_adrc.studies.claims import rows_control, rows_gait, rows_push
+from biped_adrc.studies.claims.admissible import Member, convergence, declared, members
+from biped_adrc.studies.claims.evidence import Cycle, Jumps, Needs, Pair, Start
+from biped_adrc.studies.claims.gathered import Evidence
+from biped_adrc.studies.claims.orders import Order
+from biped_adrc.studies.claims.table import rows
+from biped_adrc.studies.claims.walks import MemberOutcome, Track, Walked, tried
+from biped_adrc.studies.claims.words import (
+    MEANINGS,
+    Case,
+    Claim,
+    Figure,
+    Tally,
+    below_limit,
+    claim_checks,
+)
+from biped_adrc.viz.report import CLAIM_COLUMNS
+
+NUMERICS = {
+    "tracking error per unit disturbance on a held joint, simulated [s^2]": 2e-5,
+    "the same by (23) corrected [s^2]": 2e-5,
+    "the same by (23) as printed [s^2]": 1e-5,
+}
+
+
+def figure(value, change=1e-3):
+    return Figure(value * (1.0 + change), value)
+
+
+def walk(error, *, made=4, rate=1e-9, change=1e-3, period=0.4, illegal=()):
+    status = "COMPLETED" if made == 4 else "FELL"
+    f = figure(error, change)
+    return Walked(status, made, 4, f, f, figure(rate), figure(period), illegal)
+
+
+def outcome(npd=None, adrc=None, member=None):
+    npd, adrc = npd or walk(1e-2, rate=1e-3), adrc or walk(1e-6)
+    return MemberOutcome(member or members()[0], {"NPD": npd, "ADRC": adrc})
+
+
+def of(rule, odd, usual=5):
+    """The claim of a rule on some usual outcomes and an odd one."""
+    return rule([outcome()] * usual + [odd])
+
+
+# -- the set -------------------------------------------------------------------------------------
+def test_the_set_is_in_the_package_and_is_balanced():
+    assert files("biped_adrc.studies.claims").joinpath("admissible.toml").is_file()
+    found, factors = members(), declared()["factors"]
+    assert len(found) == len(set(found)) == 36
+    assert found == members()
+    for one, other in itertools.combinations(factors, 2):
+        count = {}
+        for m in found:
+            pair = getattr(m, one), getattr(m, other)
+            count[pair] = count.get(pair, 0) + 1
+        assert len(count) == len(factors[one]) * len(factors[other])
+        assert len(set(count.values())) == 1, (one, other)
+
+
+def test_the_limits_are_those_of_the_paper_s_words():
+    limits = declared()["limits"]
+    assert (limits["ratio"], limits["deviation"], limits["speed"]) == (0.01, 1e-3, 0.05)
+    assert limits["friction"] == 0.6
+    assert convergence() == (0.01, 1e-9)
+
+
+def test_pushes_end_before_the_step_does():
+    shortest = 0.39  # [s], of the three presets
+    assert all(m.push.stop + m.rise < shortest for m in members())
+    assert {m.push.step for m in members()} == {19}
+
+
+def test_a_member_carried_out_is_what_it_says():
+    member = Member("identified", 30.0, 0.12, ("q3", "q4"), 0.01, "zero", "printed")
+    run = member.run("ADRC", 1e-4, 4)
+    assert (run.solve_theta, run.reset, run.first_step) == (False, "measured", 19)
+    assert run.pushes[0].rise == 0.01
+    assert run.pushes[0].torque == {"q3": 30.0, "q4": 30.0}
+    done = tried(member)
+    assert done.walked["ADRC"].made
+    assert done.walked["NPD"].made
+    assert done.rejection.at_half < 1e-4 < 0.05 < done.tracking.at_half
+    assert done.rejection.converged(*convergence())
+
+
+def test_a_deviation_is_taken_from_the_onset_on_against_the_walk_without_a_push():
+    t = np.linspace(0.0, 1.0, 101)
+    usual = Track(t, np.column_stack((t, -t)), -1.0, 1.0)
+    pushed = usual.error + np.where((t > 0.5)[:, np.newaxis], [[0.0, 0.25]], [[3.0, 3.0]])
+    found = Track(t, pushed, -1.0, 1.0).away_from(usual, 0.505)
+    assert found == pytest.approx(0.25, abs=1e-12)
+
+
+# -- cases and tallies -----------------------------------------------------------------------------
+def test_a_number_is_judged_at_both_steps():
+    just = below_limit("a", Figure(0.0099, 0.0101), 0.01, (0.05, 0.0))
+    assert just.marginal
+    assert not below_limit("a", Figure(0.0098, 0.0099), 0.01, (0.05, 0.0)).marginal
+    assert below_limit("a", Figure(0.002, 0.001), 0.01, (0.01, 1e-9)).marginal
+    assert not below_limit("a", Figure(2e-10, 1e-10), 0.01, (0.01, 1e-9)).marginal
+    for bad in (math.nan, math.inf):
+        case = below_limit("a", Figure(bad, bad), 0.01, (0.01, 1e-9))
+        assert (case.holds, case.marginal) == (False, False)
+    assert below_limit("a", Figure(math.nan, 0.001), 0.01, (0.01, 1e-9)).marginal
+
+
+def test_a_tally_counts_what_is_firm():
+    good, bad = Case("g", figure(1.0), True), Case("b", figure(1.0), False)
+    doubtful = Case("m", figure(1.0), True, marginal=True)
+    assert Tally((good,) * 4).word == "replicated"
+    assert Tally((good, bad)).word == "depends"
+    assert Tally((bad, bad)).word == "contradicted"
+    assert Tally((good, good, doubtful)).word == "depends"
+    assert "marginal: m" in Tally((good, good, doubtful)).share
+    assert Tally((doubtful,)).word == "not testable"
+    assert Tally(()).word == "not testable"
+
+
+def test_the_interval_is_wilson_s():
+    z, n, k = 1.959963984540054, 36, 18
+    p = k / n
+    middle = (p + z * z / (2 * n)) / (1 + z * z / n)
+    half = z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n)) / (1 + z * z / n)
+    tally = Tally(tuple(Case("c", figure(1.0), i < k) for i in range(n)))
+    assert f"between {middle - half:.2f} and {middle + half:.2f}" in tally.share
+    assert tally.share.startswith("18 of 36")
+
+
+def test_a_word_is_one_of_five():
+    assert len(MEANINGS) == 5
+    with pytest.raises(ValueError, match="'reproduced' is none of"):
+        Claim("c", "I", "reproduced", "", "")
+
+
+# -- the push --------------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("odd", "word"),
+    [
+        (outcome(), "replicated"),
+        (outcome(adrc=walk(1.01e-4)), "depends"),  # a ratio of 0.0101
+        (outcome(adrc=walk(0.99e-4)), "replicated"),
+        (outcome(adrc=walk(math.nan)), "depends"),
+        (outcome(adrc=walk(1e-6, change=0.02)), "depends"),  # marginal
+        (outcome(npd=walk(0.0)), "depends"),  # NPD does not deviate: nothing to be rejected
+    ],
+)
+def test_rejection(odd, word):
+    for rule in (rows_push.rejection, rows_push.tracking):
+        claim = of(rule, odd)
+        assert claim.word == word
+        checks = claim_checks([claim])
+        if rule is rows_push.rejection:
+            assert [check.holds for check in checks] == [word == "replicated"]
+        else:
+            assert checks == []
+    assert of(rows_push.rejection, outcome(adrc=walk(1.0)), usual=0).word == "contradicted"
+
+
+def test_a_marginal_member_is_named_and_counts_for_nothing():
+    odd = outcome(adrc=walk(1e-6, change=0.02))
+    claim = of(rows_push.rejection, odd)
+    assert claim.share.startswith("5 of 5")
+    assert odd.member.name in claim.share
+    assert claim.asserted == 5 / 6
+
+
+@pytest.mark.parametrize("controller", ["NPD", "ADRC"])
+def test_a_fall(controller):
+    fallen = walk(math.nan, made=1, period=math.nan)
+    odd = outcome(**{controller.lower(): fallen})
+    claim = of(rows_push.walks_on, odd)
+    assert claim.word == "depends"
+    assert claim.share.startswith("5 of 6")
+    assert not claim_checks([claim])[0].holds
+    assert of(rows_push.walks_on, outcome()).word == "replicated"
+
+
+def test_a_walk_that_ends_otherwise_has_not_made_its_steps():
+    assert not walk(1e-3)._replace(status="STALLED").made
+    assert not walk(1e-3)._replace(impacts=3).made
+    assert walk(1e-3).made
+
+
+def test_the_cycle_after_the_push():
+    assert of(rows_push.unaffected, outcome()).word == "replicated"
+    assert of(rows_push.unaffected, outcome(adrc=walk(1e-6, rate=1.1e-5))).word == "depends"
+    assert of(rows_push.unaffected, outcome(adrc=walk(1e-6, rate=-1.1e-5))).word == "depends"
+
+
+def test_npd_has_to_deviate():
+    assert of(rows_push.deviates, outcome(npd=walk(0.9e-3))).word == "depends"
+    assert of(rows_push.deviates, outcome(npd=walk(1.1e-3))).word == "replicated"
+
+
+def test_what_the_ground_could_not_give():
+    claim = of(rows_push.legal, outcome(adrc=walk(1e-6, illegal=("step 19: F_N = -3 N",))))
+    assert claim.word == "depends"
+    assert "F_N = -3 N" in claim.number
+    assert claim_checks([claim]) == []
+
+
+def test_a_critical_phase_needs_a_member_that_throws_npd():
+    assert of(rows_push.critical_phase, outcome()).word == "not testable"
+    fallen = walk(math.nan, made=0, period=math.nan)
+    assert of(rows_push.critical_phase, outcome(npd=fallen)).word == "replicated"
+    assert of(rows_push.critical_phase, outcome(npd=fallen, adrc=fallen)).word == "contradicted"
+
+
+def test_the_long_walks():
+    assert rows_push.long_walk({"NPD": (25, 25), "ADRC": (25, 25)}).word == "replicated"
+    short = rows_push.long_walk({"NPD": (25, 25), "ADRC": (24, 25)})
+    assert short.word == "depends"
+    assert not claim_checks([short])[0].holds
+
+
+# -- the controller --------------------------------------------------------------------------------
+def pair(ratio=1.0, *, made=True, name="identified, 20 N m on the torso"):
+    peaks = {"NPD": figure(1e-2), "ADRC": figure(1e-2 * ratio)}
+    return Pair(name, peaks, peaks, {"NPD": made, "ADRC": made})
+
+
+@pytest.mark.parametrize(
+    ("ratio", "word"), [(1.0, "contradicted"), (0.0099, "replicated"), (math.nan, "contradicted")]
+)
+def test_unmatched_torques_model_errors_and_gait_b(ratio, word):
+    pairs = [pair(ratio)] * 3
+    assert rows_control.unmatched_rejection(pairs).word == word
+    assert rows_control.independent_of_the_gait(pairs).word == word
+    assert rows_control.model_uncertainty(pairs)[0].word == word
+
+
+def test_less_error_of_a_heavier_plant():
+    less = rows_control.model_uncertainty([pair(0.7), pair(0.99)])[1]
+    more = rows_control.model_uncertainty([pair(0.7), pair(1.02)])[1]
+    assert (less.word, more.word) == ("replicated", "depends")
+    assert [c.holds for c in claim_checks([less, more])] == [True, False]
+
+
+def test_risk_needs_one_counterexample():
+    assert rows_control.not_at_risk([pair(), pair()]).word == "not testable"
+    assert rows_control.not_at_risk([pair(), pair(made=False)]).word == "contradicted"
+
+
+def order(name, gain, noise, m=1):
+    return Order(name, m, 500.0, gain, noise, 1e-3, 1e-6, 1e-5, figure(1e-4))
+
+
+@pytest.mark.parametrize(
+    ("gain", "noise", "word"),
+    [(2.0, 2.0, "contradicted"), (2.0, 0.5, "depends"), (0.5, 0.5, "replicated")],
+)
+def test_gains_are_compared_both_ways(gain, noise, word):
+    found = [
+        order("Table I", gain, noise, 7),
+        order("m = 1, equal bandwidth", 1.0, 1.0),
+        order("m = 1, equal delay margin", 1.0, 1.0),
+    ]
+    assert rows_control.high_gains(found).word == word
+
+
+def test_an_error_that_stays():
+    assert rows_control.tends_to_zero(NUMERICS).word == "contradicted"
+    assert rows_control.tends_to_zero({}).word == "not testable"
+    other = {**NUMERICS, "the same by (23) corrected [s^2]": 3e-5}
+    assert rows_control.tends_to_zero(other).word == "not testable"
+
+
+# -- the gait --------------------------------------------------------------------------------------
+def cycle(multiplier=0.7, rate=-1.25, gait="published", controller="NPD"):
+    f, r = figure(multiplier, 1e-5), figure(rate, 1e-6)
+    return Cycle("c", "identified", gait, controller, "solved", f, r, 0.4)
+
+
+@pytest.mark.parametrize(
+    ("multiplier", "word"),
+    [(0.999, "replicated"), (1.001, "depends"), (1.0, "depends"), (math.nan, "depends")],
+)
+def test_stability(multiplier, word):
+    odd = cycle()._replace(multiplier=Figure(multiplier, multiplier))
+    for rule in (rows_gait.stable, rows_gait.recipe_stable):
+        claim = rule([cycle(), odd])
+        assert claim.word == word
+        assert claim_checks([claim])[0].holds == (word == "replicated")
+
+
+def test_the_speed_of_the_recipe():
+    assert pytest.approx(-1.257, abs=1e-12) == rows_gait.PRINTED_SPEED
+    assert rows_gait.recipe_speed([cycle(rate=-1.257 * 1.049)]).word == "replicated"
+    assert rows_gait.recipe_speed([cycle(rate=-1.257 * 1.051)]).word == "contradicted"
+    assert rows_gait.recipe_speed([cycle(rate=-1.257 * 0.949)]).word == "contradicted"
+
+
+def need(gait="recipe", *, impulse=0.5, cost=1.0, jump=1.0, illegal=()):
+    return Needs(
+        f"{gait}",
+        "identified",
+        gait,
+        figure(0.5),
+        figure(impulse),
+        figure(100.0),
+        figure(cost, 1e-5),
+        figure(10.0),
+        jump,
+        illegal,
+    )
+
+
+def test_what_gaits_need():
+    assert rows_gait.recipe_needs([need(), need(illegal=("friction",))]).word == "depends"
+    assert rows_gait.pinned_at_impact([need(impulse=0.61)]).word == "contradicted"
+    assert rows_gait.pinned_at_impact([need(impulse=0.59)]).word == "replicated"
+    assert rows_gait.not_smooth([need(jump=1e-4)]).word == "contradicted"
+    assert rows_gait.not_smooth([need(jump=0.1)]).word == "replicated"
+    for cost, word in ((1.01, "replicated"), (0.99, "contradicted")):
+        assert rows_gait.not_optimal([need(cost=cost), need("published")]).word == word
+
+
+def test_a_need_that_is_not_converged_is_said_to_be():
+    odd = need()._replace(friction=Figure(9.6, 10.1))
+    assert "not converged" in rows_gait.recipe_needs([odd]).number
+
+
+def test_a_basin_that_ends():
+    below = Start("b", 0.58, 0.97, {"NPD": 0, "ADRC": 0}, 3)
+    above = Start("a", 0.58, 1.03, {"NPD": 3, "ADRC": 3}, 3)
+    assert rows_gait.global_stability([below, above]).word == "contradicted"
+    walks = below._replace(impacts={"NPD": 3, "ADRC": 3})
+    assert rows_gait.global_stability([walks, above]).word == "not testable"
+
+
+def test_printed_multipliers_would_need_short_steps():
+    assert rows_gait.printed_multipliers([0.4]).word == "contradicted"
+    assert rows_gait.printed_multipliers([0.07]).word == "not testable"
+    assert "79 ms" in rows_gait.printed_multipliers([0.4]).number
+
+
+# -- the table -------------------------------------------------------------------------------------
+EVIDENCE = Evidence(
+    members=(outcome(),) * 3,
+    cycles=(cycle(), cycle(gait="recipe"), cycle(gait="recipe", controller="ADRC")),
+    needs=(need(cost=1.1), need("published")),
+    unmatched=(pair(), pair(name="identified, 120 N m on the torso", made=False)),
+    uncertainty=(pair(0.5),),
+    pushed_recipe=(pair(),),
+    basin=(Start("b", 0.58, 0.97, {"NPD": 0, "ADRC": 0}, 3),),
+    jumps=(Jumps("identified", 20.0, 30.0),),
+    orders=(
+        order("Table I", 2.0, 0.5, 7),
+        order("m = 1, equal bandwidth", 1.0, 1.0),
+        order("m = 1, equal delay margin", 1.0, 1.0),
+    ),
+)
+MADE = {"NPD": (25, 25), "ADRC": (25, 25)}
+
+
+def test_every_claim_has_a_row_with_every_column():
+    table = rows(EVIDENCE, NUMERICS, MADE, 1e-5)
+    assert len(table) == len({claim.claim for claim in table}) > 30
+    assert {claim.word for claim in table} == set(MEANINGS)
+    for claim in table:
+        assert tuple(claim.record()) == CLAIM_COLUMNS
+        assert claim.claim
+        assert claim.where
+        assert claim.number
+        assert claim.reason
+    assert all(check.holds for check in claim_checks(table))
+    assert all(check.kind == "reproduced" for check in claim_checks(table))
+
+
+def test_one_bad_member_breaks_one_claim_and_its_check():
+    bad = replace(EVIDENCE, members=(*EVIDENCE.members, outcome(adrc=walk(1.01e-4))))
+    words = {
+        name: {claim.claim: claim.word for claim in rows(e, NUMERICS, MADE, 1e-5)}
+        for name, e in (("good", EVIDENCE), ("bad", bad))
+    }
+    changed = [c for c, word in words["good"].items() if words["bad"][c] != word]
+    assert len(changed) == 2  # rejection, and what figure 5 shows
+    broken = [c for c in claim_checks(rows(bad, NUMERICS, MADE, 1e-5)) if not c.holds]
+    assert len(broken) == 1
+    assert broken[0].value == 0.75

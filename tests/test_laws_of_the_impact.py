@@ -1,0 +1,47 @@
+"""The laws of the impact in the reproduction notice an impact that breaks them."""
+
+import math
+
+import numpy as np
+import pytest
+
+from biped_adrc.model.momentum import LinkMotion
+from biped_adrc.studies.laws import impact_momenta, model_laws
+
+
+@pytest.fixture
+def state(biped):
+    random = np.random.default_rng(4)
+    return random.uniform(-math.pi, math.pi, biped.n), random.normal(0.0, 3.0, biped.n)
+
+
+@pytest.mark.parametrize("preset", ["identified", "identified-bare", "tac2003"])
+def test_they_hold(preset):
+    checks = model_laws(preset, samples=20)
+    assert len(checks) == 5
+    assert [c.name for c in checks if not c.holds] == []
+
+
+def test_another_velocity_after_impact_is_noticed(biped, state):
+    q, v = state
+    hit = biped.impact(q, v)
+    assert np.max(impact_momenta(biped, q, v, hit)) < 1e-10
+    for k, law in ((0, [0, 2]), (2, [1, 2])):  # a hip; the knee of the old leg
+        v_e = hit.v_e.copy()
+        v_e[k] += 1e-3
+        broken = impact_momenta(biped, q, v, hit._replace(v_e=v_e))
+        assert all(broken[i] > 1e-5 for i in law)
+
+
+def test_legs_that_do_not_swap_are_noticed(biped, state):
+    q, v = state
+    hit = biped.impact(q, v)
+    unswapped = hit._replace(q=q, v=hit.v_e[: biped.n])
+    assert impact_momenta(biped, q, v, unswapped)[2] > 1e-3
+
+
+def test_momentum_about_the_stance_foot_is_sigma(biped, state):
+    """The row of q_N of D_s q', in the pinned model, by the links' own velocities."""
+    q, v = state
+    motion = LinkMotion(biped.floating, q, np.append(v, [0.0, 0.0]))
+    assert motion.about(np.zeros(2)) == pytest.approx(biped.angular_momentum(q, v), rel=1e-11)
