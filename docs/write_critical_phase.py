@@ -2,9 +2,7 @@
 
 Run: python docs/write_critical_phase.py OUT
 
-OUT: folder for critical_phase.json with every cell; a file that is there is used as it is. On two cores the
-study takes about five minutes. Pushes of 0.2 s over onset, amplitude up to the motors' limit, joints and
-presets, with the motors' limit and without; every walk at two steps.
+OUT: folder of `biped-adrc reproduce --full`, or docs/critical_phase, where summary.json has the cells of the page.
 """
 
 from __future__ import annotations
@@ -12,60 +10,42 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from write_results import table
 
-from biped_adrc.engine.choice import COMPILED
+from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.studies.bench.statistics import share
-from biped_adrc.studies.pool import Task, run_tasks
-from biped_adrc.studies.push_map import (
-    PATTERNS,
-    WORDS,
-    Cell,
-    Fate,
-    apart,
-    certain,
-    counts,
-    push_map,
-    pushes,
-    settings_of,
-)
-from biped_adrc.studies.runs import CONTROLLERS, Run, execute
+from biped_adrc.studies.push_map import WORDS, Cell, Fate, apart, certain, counts, settings_of
+from biped_adrc.studies.runs import CONTROLLERS
 from biped_adrc.viz.figures import push_map_figure
+from biped_adrc.viz.numbers import as_text, numbers_of
 from biped_adrc.viz.style import render
 
-ROOT = Path(__file__).resolve().parents[1]
-PRESETS = ("identified", "identified-bare", "tac2003")
-ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
-"""[s]; a single support takes about 0.4 s."""
-AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
-"""[N m], up to what RABBIT's motors give."""
-LIMITS = (None, 150.0)
+PAGE = Path(__file__).resolve().parent / "critical_phase.md"
+FOLDER = PAGE.parent / "critical_phase"
 
 
-def study() -> list[Cell]:
-    """All cells, a task for every preset, limit and pattern."""
-    for c in CONTROLLERS:  # builds the engine once, before the processes
-        execute(Run(c, h=1e-3, impacts=1, engine=COMPILED, continued=True))
-    tasks = [
-        Task(f"{preset}, {limit}, {pattern}", push_map, (Run(preset=preset), tried))
-        for preset in PRESETS
-        for limit in LIMITS
-        for pattern in PATTERNS
-        if (tried := pushes(ONSETS, AMPLITUDES, (pattern,), (limit,)))
-    ]
-    done = run_tasks(tasks, None, lambda k, of, name: print(f"{k} of {of}: {name}", flush=True))
-    return [cell for found in done for cell in found.value]
+def presets_of(cells: Sequence[Cell]) -> list[str]:
+    """In their order."""
+    return list(dict.fromkeys(cell.preset for cell in cells))
 
 
 def read(path: Path) -> list[Cell]:
-    """The cells of a file."""
-    rows = json.loads(path.read_text(encoding="utf-8"))
+    """The cells in a summary. Raises InputError where it has none."""
+    rows = json.loads(path.read_text(encoding="utf-8"))["push_map"]
+    if not rows:
+        raise InputError(f"'{path}' has no map of pushes; run 'biped-adrc reproduce --full' first")
     names = ("preset", "onset", "amplitude", "pattern", "torque_limit")
     return [Cell(*(row[n] for n in names), Fate(**row["npd"]), Fate(**row["adrc"])) for row in rows]
+
+
+def onsets(cells: Sequence[Cell]) -> list[float]:
+    """[s], in their order."""
+    return sorted({cell.onset for cell in cells})
 
 
 def by_onset(cells: Sequence[Cell]) -> list[list[Any]]:
@@ -74,7 +54,7 @@ def by_onset(cells: Sequence[Cell]) -> list[list[Any]]:
     for name, here in settings_of(cells):
         for c in CONTROLLERS:
             shares = []
-            for onset in ONSETS:
+            for onset in onsets(cells):
                 words = [getattr(x, c.lower()).word for x in certain(here) if x.onset == onset]
                 shares.append(
                     f"{100.0 * words.count('legal') / len(words):.0f} %" if words else "–"
@@ -147,12 +127,12 @@ def page(cells: Sequence[Cell]) -> str:
         "# A critical phase?",
         INTRODUCTION.format(
             count=len(cells),
-            presets=len(PRESETS),
-            first=ONSETS[0],
-            last=ONSETS[-1],
-            least=AMPLITUDES[0],
-            most=AMPLITUDES[-1],
-            patterns=len(PATTERNS),
+            presets=len(presets_of(cells)),
+            first=onsets(cells)[0],
+            last=onsets(cells)[-1],
+            least=min(cell.amplitude for cell in cells),
+            most=max(cell.amplitude for cell in cells),
+            patterns=len({cell.pattern for cell in cells}),
         ),
         verdict(cells),
         *sentences(cells),
@@ -163,8 +143,8 @@ def page(cells: Sequence[Cell]) -> str:
         "made: all steps, beyond friction or torque. pulled: all steps, but the ground would have had to pull.",
         "## Is there a critical phase?",
         "Share of the pushes that are walked through legally, by their onset in the step:",
-        table([*headings, *(f"{o:g} s" for o in ONSETS)], by_onset(cells)),
-        *(picture(preset) for preset in PRESETS),
+        table([*headings, *(f"{o:g} s" for o in onsets(cells))], by_onset(cells)),
+        *(picture(preset) for preset in presets_of(cells)),
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -175,20 +155,23 @@ def picture(preset: str) -> str:
     return f"## {name}\n\n![{name}](critical_phase/{preset}.svg)\n\nUpper left of a cell NPD, lower right ADRC."
 
 
+def compact(cells: Sequence[Cell]) -> str:
+    """The cells as `read` reads them, a line each."""
+    rows = (json.dumps(asdict(cell), separators=(",", ":")) for cell in cells)
+    return '{"push_map": [\n' + ",\n".join(rows) + "\n]}\n"
+
+
 def main() -> None:
-    """Study, write."""
+    """Read, write."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
-    path = parser.parse_args().out / "critical_phase.json"
-    if not path.is_file():
-        rows = [cell.row() for cell in study()]
-        write_text(path, json.dumps(rows) + "\n")
-    cells = read(path)
-    for preset in PRESETS:
-        rows = [cell.row() for cell in cells if cell.preset == preset]
-        picture = render(push_map_figure(rows), "svg")
-        write_bytes(ROOT / "docs" / "critical_phase" / f"{preset}.svg", picture)
-    write_text(ROOT / "docs" / "critical_phase.md", page(cells))
+    cells = read(parser.parse_args().out / "summary.json")
+    for preset in presets_of(cells):
+        figure = push_map_figure([cell.row() for cell in cells if cell.preset == preset])
+        write_bytes(FOLDER / f"{preset}.svg", render(figure, "svg"))
+        write_text(FOLDER / f"{preset}.json", as_text(numbers_of(figure)))
+    write_text(FOLDER / "summary.json", compact(cells))
+    write_text(PAGE, page(cells))
 
 
 if __name__ == "__main__":

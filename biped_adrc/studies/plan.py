@@ -34,8 +34,10 @@ SINE = joints_push(40.0, MOTORS, step=19, start=0.05, stop=0.3, kind="sine", fre
 TORSO = Push({"q5": 20.0}, step=19, start=0.1, stop=0.3)
 HEAVIER = {"torso": 1.2, "thigh": 1.15}
 POLICIES = ("none", "relabel", "measured", "model")
-FULL_ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
-FULL_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
+MAP_ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
+"""[s]; a single support takes about 0.4 s."""
+MAP_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
+"""[N m], up to what RABBIT's motors give."""
 STEPS = {"NPD": (1e-3, 1e-3), "ADRC": (5e-4, 5e-5)}
 """[s], of every run, and where a push switches and in the single support after; halved, no figure of merit
 changes by more than 1 % or its resolution (`studies.convergence`)."""
@@ -51,9 +53,9 @@ RISE = 0.01
 
 @dataclass(frozen=True)
 class Plan:
-    """What to reproduce. `pushes` replace the paper's push; `full` refines the map of pushes.
+    """What to reproduce. `pushes` replace the paper's push.
 
-    quick: a first look, without what `left_out` names.
+    full: the map of pushes too, which takes minutes. quick: a first look, without what `left_out` names.
     """
 
     preset: str = "identified"
@@ -73,8 +75,10 @@ class Plan:
     @property
     def left_out(self) -> tuple[str, ...]:
         """What a quick run does without."""
-        if not self.quick:
+        if self.full:
             return ()
+        if not self.quick:
+            return ("the map of pushes (--full)",)
         return (
             "the map of pushes",
             "the multipliers of ADRC, its observer's states included",
@@ -233,28 +237,20 @@ def tasks(plan: Plan) -> dict[str, Task]:
             out[name] = Task(f"gait (b), {preset}, {c}", recipe_result, (preset, c))
     for name, run in base_runs(plan).items():
         out[name] = Task(name, execute_twice, (run,))
-    if not plan.quick:
+    if plan.full:
         out |= map_tasks(plan)
     return out
 
 
 def map_tasks(plan: Plan) -> dict[str, Task]:
-    """The map of pushes of each preset: coarse, or fine with `full`."""
-    onsets: tuple[float, ...] = (0.05, 0.3)
-    amplitudes: tuple[float, ...] = (90.0, 150.0)
-    if plan.full:
-        onsets, amplitudes = FULL_ONSETS, FULL_AMPLITUDES
+    """The map of pushes: a task for every preset, torque limit [N m] and joint pattern."""
     return {
-        f"map {preset}": Task(
-            f"map of pushes, {preset}",
+        f"map {preset}, {limit}, {pattern}": Task(
+            f"map of pushes, {preset}, {pattern}",
             push_map,
-            (Run(preset=preset), pushes(onsets, amplitudes, tuple(PATTERNS), limits)),
+            (Run(preset=preset), pushes(MAP_ONSETS, MAP_AMPLITUDES, (pattern,), (limit,))),
         )
-        for preset, limits in map_presets(plan).items()
+        for preset in plan.presets
+        for limit in (None, 150.0)
+        for pattern in PATTERNS
     }
-
-
-def map_presets(plan: Plan) -> dict[str, tuple[float | None, ...]]:
-    """Torque limits [N m] by preset: the plan's own, and RABBIT without rotors, as published gaits."""
-    limits: dict[str, tuple[float | None, ...]] = {plan.preset: (None, 150.0)}
-    return {"identified-bare": (None,), **limits}
