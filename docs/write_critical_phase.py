@@ -2,7 +2,7 @@
 
 Run: python docs/write_critical_phase.py OUT
 
-OUT: folder of `biped-adrc reproduce --full`, or docs/critical_phase, where summary.json has the cells of the page.
+OUT: folder of `biped-adrc reproduce --full`, or docs/critical_phase, whose summary.json has all the cells.
 """
 
 from __future__ import annotations

@@ -14,7 +14,12 @@ from biped_adrc.analysis.quadrature import integrate, largest
 from biped_adrc.engine.choice import COMPILED
 from biped_adrc.errors import InputError
 from biped_adrc.model.limits import KnownLimits
-from biped_adrc.studies.convergence import convergence_check, halved, observed_order
+from biped_adrc.studies.convergence import (
+    convergence_check,
+    error_text,
+    halved,
+    observed_order,
+)
 from biped_adrc.studies.plan import BOTH, Plan, pushed_run
 from biped_adrc.studies.runs import Outcome, Run, execute_fully, execute_twice
 from biped_adrc.studies.walk import FINE_STEP, Part, refined, walk_in_parts
@@ -88,6 +93,20 @@ def test_a_difference_below_the_resolution_is_none():
     assert convergence_check("x", o).holds
     assert not convergence_check("x", replace(o, peak_error=5e-8)).holds
     assert {h.name for h in halved(o)} > {"peak error", "peak torque", "longest step"}
+
+
+@pytest.mark.parametrize(
+    ("half", "word"),
+    [
+        ({"peak_error": 1.001e-3}, "rad (1.001e-03 at half the step)"),
+        ({"peak_error": 2e-3}, "mostly an error of integration: shorten the step"),
+        ({"status": "FELL", "impacts": 1}, "the walk ends as FELL after 1 impacts"),
+    ],
+)
+def test_an_error_is_printed_with_what_the_step_does_to_it(half, word):
+    text = error_text(made_up(half=made_up(**half)))
+    assert text.startswith("1.000e-03 rad (")
+    assert word in text
 
 
 def test_a_walk_that_ends_early_has_to_end_alike():

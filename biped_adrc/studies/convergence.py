@@ -98,6 +98,19 @@ def convergence_check(name: str, o: Outcome) -> Check:
     return at_most(text, "law", gap, AGREE)
 
 
+def error_text(o: Outcome) -> str:
+    """The largest tracking error with that at half the step, and a word where the step decides it."""
+    assert o.half is not None
+    text = f"{o.peak_error:.3e} rad ({o.half.peak_error:.3e} at half the step)"
+    if (o.status, o.impacts) != (o.half.status, o.half.impacts):
+        ends = f"at half the step the walk ends as {o.half.status} after {o.half.impacts} impacts"
+        return f"{text}; {ends}: shorten the step"
+    found = next(h for h in halved(o) if h.name == "peak error")
+    if found.agrees:
+        return text
+    return f"{text}, mostly an error of integration: shorten the step"
+
+
 def observed_order(o: Outcome, of: Callable[[Outcome], float]) -> float:
     """Order of a quantity from the run, its half and its quarter; NaN where a difference is zero."""
     assert o.half is not None

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import groupby
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 from biped_adrc.analysis.legality import until_illegal
 from biped_adrc.engine.choice import COMPILED, PINOCCHIO, simulate_by
@@ -43,14 +43,14 @@ class Walk(Recording):
         gait = self.gait
         return f"{self.controller_name} on gait '{gait.name}', {gait.robot} {gait.preset}"
 
-    def until_illegal(self, limits: Limits | None = None) -> Walk:
+    def until_illegal(self, limits: Limits | None = None) -> Self:
         """The walk up to the first instant at which ground or motors could not have carried it.
 
         Its status is then ILLEGAL and its detail says which limit, when, and by how much. None: the limits
         of the robot's record.
         """
         cut = until_illegal(self.walker, self.trajectory, self.signals, limits)
-        return self if cut is self.trajectory else watched(self.walker, self.gait, cut)
+        return self if cut is self.trajectory else replace(self, trajectory=cut)
 
 
 def watched(walker: Walker, gait: Gait, trajectory: Trajectory) -> Walk:
