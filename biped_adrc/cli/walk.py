@@ -128,6 +128,8 @@ def _walk(run: Run, out: Path | None) -> None:
     _print_steps(o)
     if "why" in full.trajectory.settings:
         console.print(full.trajectory.settings["why"])
+    for remark in full.remarks:
+        console.print(f"note: {remark}", markup=False, highlight=False, soft_wrap=True)
     say_written(out)
     if not o.walked:
         raise typer.Exit(EXIT_FELL)

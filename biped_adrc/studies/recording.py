@@ -12,6 +12,7 @@ from biped_adrc.analysis.certificate import Certificate, certificates
 from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.studies.edges import edge_remarks
 from biped_adrc.walker import FOOT_STRIKE, Walker
 
 if TYPE_CHECKING:
@@ -43,6 +44,11 @@ class Recording(ABC):
     def certificates(self) -> tuple[Certificate, ...]:
         """What each step would have asked of a real robot on dry ground."""
         return certificates(self.walker, self.trajectory, self.signals)
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What was not as it was asked for, such as a push that an impact cut off; a sentence each."""
+        return edge_remarks(self.walker, self.trajectory)
 
     @property
     def controller_name(self) -> str:
