@@ -158,6 +158,8 @@ def _walk(run: Run, limits: Limits, end_illegal: bool, out: Path | None) -> None
     _print_steps(o, full.legal_within(limits))
     if "why" in full.trajectory.settings:
         console.print(full.trajectory.settings["why"])
+    for remark in full.remarks:
+        console.print(f"note: {remark}", markup=False, highlight=False, soft_wrap=True)
     say_written(out)
     if not o.walked:
         raise typer.Exit(EXIT_FELL)

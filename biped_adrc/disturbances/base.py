@@ -67,6 +67,11 @@ class Disturbance(ABC):
         """The torque is their sum; None for a disturbance written as a method alone."""
         return None
 
+    @property
+    def switches(self) -> tuple[tuple[int, float], ...]:
+        """(step, s) as `DisturbanceLaw.switches`; of a disturbance without laws, none that are known."""
+        return tuple(edge for law in self.laws or () for edge in law.switches)
+
     def __add__(self, other: Disturbance) -> Disturbance:
         return Sum((*terms(self), *terms(other)))
 

@@ -14,6 +14,7 @@ from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.limits import Limits
+from biped_adrc.studies.edges import edge_remarks
 from biped_adrc.walker import FOOT_STRIKE, Walker
 
 if TYPE_CHECKING:
@@ -67,6 +68,11 @@ class Recording(ABC):
             max((c.impulse_ratio for c in finished), default=0.0),
             limits.of(self.walker.plant.description),
         )
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What was not as it was asked for, such as a push that an impact cut off; a sentence each."""
+        return edge_remarks(self.walker, self.trajectory)
 
     @property
     def controller_name(self) -> str:

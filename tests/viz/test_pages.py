@@ -29,6 +29,7 @@ def imported(name: str) -> ModuleType:
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """One page, built with the configuration of the documentation."""
+    pytest.importorskip("sphinx-mathjax-offline", reason="pip install 'biped-adrc[docs]'")
     source, pages = tmp_path_factory.mktemp("source"), tmp_path_factory.mktemp("pages")
     (source / "index.md").write_text(MATHEMATICS)
     build = [sys.executable, "-m", "sphinx", "-W", "-q", "-c", ROOT / "docs", source, pages]
