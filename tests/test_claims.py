@@ -16,7 +16,7 @@ from biped_adrc.studies.claims.evidence import Cycle, Jumps, Needs, Pair, Start
 from biped_adrc.studies.claims.gathered import Evidence
 from biped_adrc.studies.claims.orders import Order, bandwidth_with
 from biped_adrc.studies.claims.table import rows
-from biped_adrc.studies.claims.walks import MemberOutcome, Track, Walked, tried
+from biped_adrc.studies.claims.walks import MemberOutcome, Track, Walked, prepared, tried
 from biped_adrc.studies.claims.words import (
     MEANINGS,
     Case,
@@ -94,6 +94,19 @@ def test_a_member_carried_out_is_what_it_says():
     assert done.walked["NPD"].made
     assert done.rejection.at_half < 1e-4 < 0.05 < done.tracking.at_half
     assert done.rejection.converged(*convergence())
+    for one in done.walked.values():  # made at two steps, not twice at one
+        assert one.peak.change > 0.0
+
+
+def test_an_observer_that_starts_at_zero_knows_the_rates_and_no_disturbance():
+    run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "zero", "solved").run("ADRC", 1e-4)
+    for zero in (True, False):
+        made = prepared(run, zero)
+        q, v, s = made.walker.split_state(made.x0)
+        found = made.walker.controller.observer.estimate(s)
+        assert np.array_equal(found.position, q[:4])
+        assert found.velocity == pytest.approx(v[:4], rel=1e-12)
+        assert np.any(found.disturbance) != zero
 
 
 def test_a_deviation_is_taken_from_the_onset_on_against_the_walk_without_a_push():
