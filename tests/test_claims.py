@@ -8,13 +8,15 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from biped_adrc.studies.claims import rows_control, rows_gait, rows_push
+from biped_adrc.analysis.observer_loop import observer_loop
+from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.studies.claims import evidence, rows_control, rows_gait, rows_push
 from biped_adrc.studies.claims.admissible import Member, convergence, declared, members
 from biped_adrc.studies.claims.evidence import Cycle, Jumps, Needs, Pair, Start
 from biped_adrc.studies.claims.gathered import Evidence
-from biped_adrc.studies.claims.orders import Order
+from biped_adrc.studies.claims.orders import Order, bandwidth_with
 from biped_adrc.studies.claims.table import rows
-from biped_adrc.studies.claims.walks import MemberOutcome, Track, Walked, tried
+from biped_adrc.studies.claims.walks import MemberOutcome, Track, Walked, prepared, tried
 from biped_adrc.studies.claims.words import (
     MEANINGS,
     Case,
@@ -92,6 +94,19 @@ def test_a_member_carried_out_is_what_it_says():
     assert done.walked["NPD"].made
     assert done.rejection.at_half < 1e-4 < 0.05 < done.tracking.at_half
     assert done.rejection.converged(*convergence())
+    for one in done.walked.values():  # made at two steps, not twice at one
+        assert one.peak.change > 0.0
+
+
+def test_an_observer_that_starts_at_zero_knows_the_rates_and_no_disturbance():
+    run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "zero", "solved").run("ADRC", 1e-4)
+    for zero in (True, False):
+        made = prepared(run, zero)
+        q, v, s = made.walker.split_state(made.x0)
+        found = made.walker.controller.observer.estimate(s)
+        assert np.array_equal(found.position, q[:4])
+        assert found.velocity == pytest.approx(v[:4], rel=1e-12)
+        assert np.any(found.disturbance) != zero
 
 
 def test_a_deviation_is_taken_from_the_onset_on_against_the_walk_without_a_push():
@@ -236,7 +251,8 @@ def pair(ratio=1.0, *, made=True, name="identified, 20 N m on the torso"):
 def test_unmatched_torques_model_errors_and_gait_b(ratio, word):
     pairs = [pair(ratio)] * 3
     assert rows_control.unmatched_rejection(pairs).word == word
-    assert rows_control.independent_of_the_gait(pairs).word == word
+    on_gait_b = outcome(adrc=walk(1e-2 * ratio))
+    assert rows_control.independent_of_the_gait([on_gait_b] * 3).word == word
     assert rows_control.model_uncertainty(pairs)[0].word == word
 
 
@@ -352,7 +368,7 @@ EVIDENCE = Evidence(
     needs=(need(cost=1.1), need("published")),
     unmatched=(pair(), pair(name="identified, 120 N m on the torso", made=False)),
     uncertainty=(pair(0.5),),
-    pushed_recipe=(pair(),),
+    pushed_recipe=(outcome(),),
     basin=(Start("b", 0.58, 0.97, {"NPD": 0, "ADRC": 0}, 3),),
     jumps=(Jumps("identified", 20.0, 30.0),),
     orders=(
@@ -389,3 +405,48 @@ def test_one_bad_member_breaks_one_claim_and_its_check():
     broken = [c for c in claim_checks(rows(bad, NUMERICS, MADE, 1e-5)) if not c.holds]
     assert len(broken) == 1
     assert broken[0].value == 0.75
+
+
+# -- the runs --------------------------------------------------------------------------------------
+def test_the_least_speed_of_the_zero_dynamics_parts_the_starts():
+    below, above = evidence.basin("identified-bare")
+    assert below.impacts == {"NPD": 0, "ADRC": 0}
+    assert above.impacts == {"NPD": 3, "ADRC": 3}
+    assert 0.5 < below.least < 0.65
+
+
+def test_the_needs_of_the_recipe():
+    a, b = evidence.needs("identified")
+    assert not a.illegal
+    assert b.illegal
+    assert b.friction.at_half == pytest.approx(0.57, abs=0.005)
+    assert b.torque.at_half == pytest.approx(315.0, rel=0.01)
+    assert a.rate_jump < 1e-9 < 1.0 < b.rate_jump
+
+
+def test_a_torque_on_the_torso_and_a_heavier_plant():
+    *slow, fatal = evidence.unmatched("tac2003")
+    assert [p.made for p in slow] == [{"NPD": True, "ADRC": True}] * 2
+    assert fatal.made == {"NPD": False, "ADRC": False}
+    for p in slow:
+        assert p.delay["ADRC"].at_half == pytest.approx(p.delay["NPD"].at_half, rel=0.02)
+        assert p.peak["ADRC"].at_half < 0.5 * p.peak["NPD"].at_half
+
+
+def test_a_tracking_error_decays_by_the_gains_of_table_two():
+    poles = np.roots([1.0, 50.0, 5000.0])
+    assert evidence.fastest_decay(0.4) == pytest.approx(np.exp(0.4 * poles.real.max()))
+    assert evidence.fastest_decay(evidence.longest_step(0.138)) == pytest.approx(0.138)
+
+
+def test_noise_gives_a_spectrum_inside_the_unit_circle():
+    medians = evidence.noise_spectrum()
+    assert np.array_equal(medians, evidence.noise_spectrum())
+    assert np.all(np.diff(medians) < 0)
+    assert 0.1 < medians[-1] < medians[0] < 0.8
+
+
+def test_an_observer_with_a_given_margin():
+    bandwidth = bandwidth_with(1e-3, 1)
+    margin = observer_loop(GPIObserver.from_bandwidth(bandwidth, 1)).delay_margin().delay
+    assert margin == pytest.approx(1e-3, rel=1e-6)

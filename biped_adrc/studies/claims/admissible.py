@@ -36,12 +36,15 @@ class Member:
     """model or zero."""
     theta: str
     """solved or printed."""
+    gait: str = "published"
 
     @property
     def name(self) -> str:
         """For a reader."""
+        gait = "" if self.gait == "published" else f"gait '{self.gait}', "
         return (
-            f"{self.preset}, {self.amplitude:g} N m on {'+'.join(self.joints)} from {self.onset:g} "
+            f"{gait}{self.preset}, {self.amplitude:g} N m on {'+'.join(self.joints)} from "
+            f"{self.onset:g} "
             "s, "
             f"rise {1e3 * self.rise:g} ms, xi^ {self.start}, Theta'' {self.theta}"
         )
@@ -59,6 +62,7 @@ class Member:
         return Run(
             controller,
             preset=self.preset,
+            gait=self.gait,
             pushes=(self.push,),
             first_step=self.push.step,
             impacts=impacts,

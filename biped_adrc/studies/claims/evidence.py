@@ -14,12 +14,12 @@ from biped_adrc.engine.choice import COMPILED
 from biped_adrc.errors import BipedError
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.studies.claims.admissible import declared, method
+from biped_adrc.studies.claims.admissible import Member, declared, method
 from biped_adrc.studies.claims.legality import illegal
-from biped_adrc.studies.claims.walks import nominal, prepared, track
+from biped_adrc.studies.claims.walks import MemberOutcome, nominal, prepared, track, tried
 from biped_adrc.studies.claims.words import Figure
 from biped_adrc.studies.poincare import poincare
-from biped_adrc.studies.push import Push, joints_push
+from biped_adrc.studies.push import Push
 from biped_adrc.studies.runs import CONTROLLERS, Run
 from biped_adrc.studies.walk import watched
 from biped_adrc.types import Array
@@ -190,12 +190,11 @@ def uncertainty(preset: str) -> tuple[Pair, ...]:
     )
 
 
-def pushed_recipe(preset: str) -> tuple[Pair, ...]:
+def pushed_recipe(preset: str) -> tuple[MemberOutcome, ...]:
     """Gait (b) under a push on the joints."""
-    torque, step = declared()["disturbed_recipe"]["amplitude"], declared()["push"]["step"]
-    push = joints_push(torque, ("q1", "q2", "q3", "q4"), step=step, start=0.1, stop=0.3)
-    runs = _both(preset=preset, gait="recipe", pushes=(push,), first_step=step, impacts=4)
-    return (_pair(f"{preset}, gait (b)", runs),)
+    k = declared()["disturbed_recipe"]
+    joints, usual = tuple(declared()["factors"]["joints"][0]), ("model", "solved", "recipe")
+    return (tried(Member(preset, k["amplitude"], k["onset"], joints, 0.0, *usual)),)
 
 
 class Start(NamedTuple):

@@ -24,7 +24,7 @@ class Evidence:
     needs: tuple[Needs, ...]
     unmatched: tuple[Pair, ...]
     uncertainty: tuple[Pair, ...]
-    pushed_recipe: tuple[Pair, ...]
+    pushed_recipe: tuple[MemberOutcome, ...]
     basin: tuple[Start, ...]
     jumps: tuple[Jumps, ...]
     orders: tuple[Order, ...]
