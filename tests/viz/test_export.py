@@ -158,6 +158,16 @@ def test_a_magnified_posture_is_the_reference_and_so_many_times_the_error(
         assert np.min(np.hypot(*(bent.segments(t).reshape(-1, 2) - foot).T)) < 1e-9
 
 
+def test_a_deviation_at_an_impact_is_that_of_the_step_asked_for(walks: dict[str, Walk]) -> None:
+    s, t = walks["ADRC"].signals, float(walks["ADRC"].trajectory.arcs[0].t[-1])
+    deviation = Deviation.of(walks["ADRC"], 2.0)
+    before, after = s.error[s.step == 1][-1], s.error[s.step == 2][0]
+    assert not np.allclose(before, after, rtol=0.1, atol=0.0)
+    for step, error in ((1, before), (2, after)):
+        np.testing.assert_allclose(deviation.error(t, step), error, rtol=1e-9)
+        np.testing.assert_allclose(deviation.change(t, step), error, rtol=1e-9)
+
+
 def test_walks_side_by_side(walks: dict[str, Walk], tmp_path: Path) -> None:
     motion = Motion(apart=True, magnify=30.0, slower=2.0, fps=10.0, width=400)
     for name in ("a.gif", "b.gif"):

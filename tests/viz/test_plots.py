@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from dataclasses import fields, replace
 
@@ -34,8 +35,10 @@ from biped_adrc.viz.figures import (
 )
 from biped_adrc.viz.plots.lines import angle_unit
 from biped_adrc.viz.robot_figure import robot_figure
-from biped_adrc.viz.style import render
+from biped_adrc.viz.style import render, style
 from biped_adrc.walker import Walker
+
+NUMBER = rb"-?\d+\.?\d*"
 
 
 def labels(figure) -> list[tuple[str, str]]:
@@ -348,3 +351,19 @@ def test_figures_repeat_byte_for_byte_and_leave_matplotlib_alone(biped: Biped) -
     assert dict(mpl.rcParams) == settings
     with pytest.raises(InputError, match="expected 'png' or 'svg'"):
         render(robot_figure(biped), "bmp")
+
+
+def test_paths_keep_hundredths_and_nothing_else_changes() -> None:
+    figure = Figure(figsize=(4.0, 4.0))
+    figure.add_axes((0.0, 0.0, 1.0, 1.0)).plot([0.123456, 0.5, 0.9], [0.1, 0.777777, 0.3])
+    whole = io.BytesIO()
+    with style():
+        figure.savefig(whole, format="svg", metadata={"Date": None})
+    long, short = (
+        [float(n) for path in re.findall(rb'\bd="([^"]*)"', svg) for n in re.findall(NUMBER, path)]
+        for svg in (whole.getvalue(), render(figure, "svg"))
+    )
+    assert max(abs(a - b) for a, b in zip(long, short, strict=True)) <= 0.005 + 1e-9
+    assert any(a != b for a, b in zip(long, short, strict=True))
+    rest = [re.sub(rb'\bd="[^"]*"', b"", svg) for svg in (whole.getvalue(), render(figure, "svg"))]
+    assert rest[0] == rest[1]

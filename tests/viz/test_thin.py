@@ -12,13 +12,15 @@ from biped_adrc.viz.numbers import as_text, differences, numbers_of
 from biped_adrc.viz.thin import thin, thinned
 
 WIDTH = 1.0 / 600
+SPIKE, JUMP = 180.5 * WIDTH, 300.5 * WIDTH
+"""In the middle of a column, so that they are not its ends."""
 
 
 def spiked(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """A sine with a spike 0.1 ms wide, a jump at t = 0.5 and a gap at t = 0.75."""
-    t = np.sort(np.concatenate((np.linspace(0.0, 1.0, count), [0.5, 0.5, 0.3])))
-    y = np.sin(2.0 * np.pi * 3.0 * t) + 5.0 * np.exp(-(((t - 0.3) / 1e-4) ** 2))
-    second = np.flatnonzero(t == 0.5)[-1]
+    """A sine with a spike 0.1 ms wide, a jump and a gap at t = 0.75."""
+    t = np.sort(np.concatenate((np.linspace(0.0, 1.0, count), [JUMP, JUMP, SPIKE])))
+    y = np.sin(2.0 * np.pi * 3.0 * t) + 5.0 * np.exp(-(((t - SPIKE) / 1e-4) ** 2))
+    second = np.flatnonzero(t == JUMP)[-1]
     y[second:] -= 2.0
     y[np.searchsorted(t, 0.75)] = np.nan
     return t, y
@@ -32,8 +34,8 @@ def test_extremes_ends_jumps_and_gaps_survive() -> None:
     assert (np.nanmin(y[kept]), np.nanmax(y[kept])) == (np.nanmin(y), np.nanmax(y))
     assert (kept[0], kept[-1]) == (0, len(t) - 1)
     assert np.isnan(y[kept]).sum() == 1
-    before, after = (y[np.flatnonzero(t == 0.5)[k]] for k in (0, -1))
-    at_jump = y[kept][t[kept] == 0.5]
+    before, after = (y[np.flatnonzero(t == JUMP)[k]] for k in (0, -1))
+    at_jump = y[kept][t[kept] == JUMP]
     assert before in at_jump
     assert after in at_jump
     # in every column that has points the drawn line spans what the whole one spans
@@ -63,7 +65,9 @@ def drawn(count: int, zoom: bool = False) -> Figure:
     axes = figure.subplots()
     axes.plot(*spiked(count), label="error")
     axes.bar([0, 1], [3.0, 4.0], label="torque")
-    axes.set(xlabel="t [s]", ylabel="e [rad]", xlim=(0.2999, 0.3001) if zoom else (0.0, 1.0))
+    axes.set(
+        xlabel="t [s]", ylabel="e [rad]", xlim=(SPIKE - 1e-4, SPIKE + 1e-4) if zoom else (0.0, 1.0)
+    )
     return figure
 
 
@@ -73,8 +77,8 @@ def test_limits_stay_and_a_zoom_keeps_what_it_shows() -> None:
     assert thin(figure).axes[0].get_ylim() == limits
     t, y = thin(drawn(100_000, zoom=True)).axes[0].get_lines()[0].get_data()
     assert len(t) <= 23  # 21 nodes are in the window, and one before and after it
-    assert t[0] < 0.2999
-    assert y.max() == pytest.approx(5.0 + np.sin(2 * np.pi * 0.9))
+    assert t[0] < SPIKE - 1e-4
+    assert y.max() == pytest.approx(5.0 + np.sin(6 * np.pi * SPIKE))
 
 
 @pytest.mark.parametrize("zoom", [False, True])
@@ -84,7 +88,9 @@ def test_numbers_depend_neither_on_thinning_nor_on_nodes(zoom: bool) -> None:
     assert differences(numbers, numbers_of(thin(drawn(100_000, zoom)))) == []
     panel = numbers["panels"][0]
     assert panel["bars"] == {"torque": [3.0, 4.0]}
-    assert panel["lines"]["error"]["y"][1] == pytest.approx(5.0 + np.sin(2 * np.pi * 0.9), rel=1e-4)
+    assert panel["lines"]["error"]["y"][1] == pytest.approx(
+        5.0 + np.sin(6 * np.pi * SPIKE), rel=1e-4
+    )
     assert json.loads(as_text(numbers)) == numbers
 
 
