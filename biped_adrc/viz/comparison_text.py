@@ -118,7 +118,8 @@ def median_texts(cell: Mapping[str, Any]) -> list[str]:
 def push_texts(push: Mapping[str, Any]) -> list[str]:
     """A row of the largest pushes."""
     spans = [span(push[kind][of]) for kind in ("legal", "survived") for of in ("median", "seeds")]
-    return [push["direction"], push["phase"], push["controller"], *spans]
+    at = "" if push["bandwidth"] is None else f", {push['bandwidth']:.0f} rad/s"
+    return [push["direction"], push["phase"], push["controller"] + at, *spans]
 
 
 def by_direction(pushes: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:

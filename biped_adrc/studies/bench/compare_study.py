@@ -165,5 +165,5 @@ def draw(summary: Mapping[str, Any]) -> dict[str, bytes]:
     figures = {"survival": survival_figure(cells)}
     figures |= {name: measure_figure(cells, name, title) for name, title in TITLES.items()}
     if pushes:
-        figures["pushes"] = push_figure(pushes)
+        figures["pushes"] = push_figure([p for p in pushes if p["bandwidth"] is None])
     return {name: render(figures[name], "svg") for name in CAPTIONS if name in figures}
