@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from biped_adrc.model.arm import Arm
     from biped_adrc.model.biped import Biped
     from biped_adrc.model.errors import ModelErrors
+    from biped_adrc.model.limits import Limits
     from biped_adrc.model.own import biped_from_urdf
     from biped_adrc.observers.base import Observer, ResetPolicy
     from biped_adrc.observers.gpi import TABLE_I, GPIObserver
@@ -91,6 +92,7 @@ _HOMES = {
     "GaitLibrary": "studies.gait_library",
     "GaitRecord": "gait.exchange.record",
     "HipForce": "disturbances.hip_force",
+    "Limits": "model.limits",
     "LinearOutputs": "gait.outputs",
     "Measurement": "control.base",
     "Mode": "walker",
@@ -176,6 +178,7 @@ __all__ = [
     "GaitLibrary",
     "GaitRecord",
     "HipForce",
+    "Limits",
     "LinearOutputs",
     "Measurement",
     "Mode",

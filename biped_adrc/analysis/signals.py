@@ -53,9 +53,10 @@ class Signals:
     xi_estimate: Array
     """(K, p) estimate of xi [rad/s^2]; NaN without an observer."""
     xi_external: Array
-    """(K, p) the part of xi that zeta makes, matched and unmatched [rad/s^2]."""
+    """(K, p) the part of xi that the nominal model does not know, matched and unmatched: what zeta makes, and
+    errors of the model, friction among them [rad/s^2]. It is xi - xi_nominal."""
     xi_matched: Array
-    """(K, p) kappa zeta_b, the matched part of it: what a motor could cancel [rad/s^2]."""
+    """(K, p) kappa xi~_b, the matched part of it, with xi~ of (11): what a motor could cancel [rad/s^2]."""
     xi_nominal: Array
     """(K, p) (14) without xi~: the part of xi the nominal model knows [rad/s^2]."""
     zeta_estimate: Array
@@ -125,7 +126,7 @@ def _row(
     r = reference(t, q, v)
     estimate = walker.law.estimate(i.s, m)
     xi_estimate = np.full(p, np.nan) if estimate is None else estimate.disturbance
-    matched, unmatched = disturbance_parts(m.terms, i.zeta)
+    matched, unmatched = disturbance_parts(m.terms, walker.unknown(m.terms, a, i.u, i.zeta))
     return (
         t,
         mode.step,

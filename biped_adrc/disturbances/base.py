@@ -7,12 +7,16 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
+
+GAUSS = 0.5773502691896257
+"""1 / sqrt(3): nodes of Gauss's rule on [-1, 1], both of weight 1."""
 
 
 class DisturbanceLaw(NamedTuple):
@@ -23,6 +27,8 @@ class DisturbanceLaw(NamedTuple):
     torque: Callable[..., Array]
     switches: tuple[tuple[int, float], ...] = ()
     """(step, s): not smooth s [s] after that single support began, or for step 0 at the time s of the run."""
+    resultant: Callable[..., Array] | None = None
+    """`Disturbance.resultant` as resultant(parameters, t, step, t_start, q, v), of time alone; None is zero."""
 
 
 class Disturbance(ABC):
@@ -40,6 +46,16 @@ class Disturbance(ABC):
         """Force (F_x, F_z) [N] from outside on the robot as a whole, zero for torques; what the ground does not
         carry."""
         return np.zeros(2)
+
+    def impulse(self, t0: float, t1: float, step: int, t_start: float) -> Array:
+        """The integral of `resultant` from t0 to t1 (2,) [N s], by two points of Gauss in each smooth piece."""
+        inside = sorted(s for s in self.switching_times(step, t_start) if t0 < s < t1)
+        total = np.zeros(2)
+        for a, b in pairwise([t0, *inside, t1]):
+            middle, half = 0.5 * (a + b), 0.5 * (b - a)
+            for node in (middle - GAUSS * half, middle + GAUSS * half):
+                total += half * self.resultant(node, step, t_start)
+        return total
 
     @property
     def laws(self) -> tuple[DisturbanceLaw, ...] | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -146,15 +147,24 @@ def _push(disturbance: Disturbance | None, n: int) -> Push:
         np.concatenate([np.zeros(0), *numbers]),
         np.cumsum([0, *(len(k) for k in numbers)]),
         np.array([switch for law in laws for switch in law.switches]).reshape(-1, 2),
+        tuple(_resultant(law, n) for law in laws),
     )
 
 
 def _address(law: DisturbanceLaw, n: int) -> int:
-    key = law.torque, skeleton(law.parameters), n
+    return _native(law.torque, law.parameters, n, n)
+
+
+def _resultant(law: DisturbanceLaw, n: int) -> int:
+    return 0 if law.resultant is None else _native(law.resultant, law.parameters, n, 2)
+
+
+def _native(law: Callable[..., Array], parameters: Any, n: int, size: int) -> int:
+    key = law, skeleton(parameters), n
     if key not in _NATIVE:
         q = np.zeros(n)
         try:
-            _NATIVE[key] = native_law(law.torque, (law.parameters, 0.0, 1, 0.0, q, q), n)
+            _NATIVE[key] = native_law(law, (parameters, 0.0, 1, 0.0, q, q), size)
         except InputError as reason:
             raise NotCompiled(str(reason)) from reason
     return _NATIVE[key].address

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from biped_adrc.analysis.legality import until_illegal
 from biped_adrc.engine.choice import PINOCCHIO, simulate_by
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference
@@ -11,6 +12,7 @@ from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.model.limits import Limits
 from biped_adrc.studies.recording import Recording, RecordingViewer
 from biped_adrc.types import Array
 from biped_adrc.walker import Mode, Walker
@@ -35,6 +37,15 @@ class Walk(Recording):
         gait = self.gait
         return f"{self.controller_name} on gait '{gait.name}', {gait.robot} {gait.preset}"
 
+    def until_illegal(self, limits: Limits | None = None) -> Walk:
+        """The walk up to the first instant at which ground or motors could not have carried it.
+
+        Its status is then ILLEGAL and its detail says which limit, when, and by how much. None: the limits
+        of the robot's record.
+        """
+        cut = until_illegal(self.walker, self.trajectory, self.signals, limits)
+        return self if cut is self.trajectory else watched(self.walker, self.gait, cut)
+
 
 def watched(walker: Walker, gait: Gait, trajectory: Trajectory) -> Walk:
     """The walk whose trajectory can draw itself."""
@@ -58,11 +69,13 @@ def walk(
     store_every: int = 1,
     progress: Progress | None = None,
     engine: str = PINOCCHIO,
+    legal: Limits | None = None,
 ) -> Walk:
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
 
     engine: "pinocchio" or "compiled"; the trajectory's settings say what ran. A fall is a status of the
-    trajectory. Raises InputError for parts that do not fit together.
+    trajectory. legal: the walk ends, with the status ILLEGAL, where it would leave these limits; without, they
+    are looked up in `Walk.legality` alone. Raises InputError for parts that do not fit together.
     """
     mode = Mode(first_step)
     q, v = gait.start(walker.nominal) if start is None else start
@@ -77,4 +90,5 @@ def walk(
         store_every=store_every,
         progress=progress,
     )
-    return watched(walker, gait, trajectory)
+    made = watched(walker, gait, trajectory)
+    return made if legal is None else made.until_illegal(legal)
