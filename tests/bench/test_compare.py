@@ -283,7 +283,8 @@ def test_the_trial_of_the_gait_itself_is_disturbed_by_nothing():
     )
     text = comparison_text.nominal_text(found)
     assert "is not legal; beyond its limit already: friction, impulse at impact" in text
-    assert "9.65" in text
+    assert "friction 9.65 of 0.6 (mean over 5 ms)" in text
+    assert "friction 0.85 of 0.6 for the impulse at impact" in text
     legal = comparison_text.nominal_text(compare_study.nominal(row(True)))
     assert "is legal." in legal
     fell = row(False, **dict.fromkeys(NEEDS))

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from biped_adrc.cli.app import command
 from biped_adrc.errors import InputError
 from biped_adrc.studies.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS
 from biped_adrc.studies.bench.compare_study import draw, write
@@ -178,3 +179,10 @@ def test_levels_have_as_few_digits_as_tell_them_apart():
     assert cut(np.array([1e-3, 1.5e-3, 2e-3]), False).texts == ["0.001", "0.0015", "0.002"]
     assert cut(np.array([0.1, 0.1001]), False).texts == ["0.1", "0.1001"]
     assert cut(np.array([-0.17453, 0.0, math.nan]), False).texts == ["-0.175", "0", "none"]
+
+
+def test_the_command_can_be_typed_again(monkeypatch):
+    """With the quotes that a condition of several words needs."""
+    given = ["biped-adrc", "compare", "--conditions", "push on joints,delay"]
+    monkeypatch.setattr(sys, "argv", given)
+    assert command() == "biped-adrc compare --conditions 'push on joints,delay'"
