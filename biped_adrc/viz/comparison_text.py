@@ -118,7 +118,8 @@ def median_texts(cell: Mapping[str, Any]) -> list[str]:
 def push_texts(push: Mapping[str, Any]) -> list[str]:
     """A row of the largest pushes."""
     spans = [span(push[kind][of]) for kind in ("legal", "survived") for of in ("median", "seeds")]
-    return [push["direction"], push["phase"], push["controller"], *spans]
+    at = "" if push["bandwidth"] is None else f", {push['bandwidth']:.0f} rad/s"
+    return [push["direction"], push["phase"], push["controller"] + at, *spans]
 
 
 def by_direction(pushes: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
@@ -154,16 +155,22 @@ def equal_texts(equal: Sequence[Mapping[str, Any]]) -> list[list[str]]:
 
 def nominal_text(nominal: Mapping[str, Any]) -> str:
     """What the undisturbed walk needs, and what of it is illegal already."""
-    needs = ", ".join(
-        f"{words} {nominal['needs'][name]:.3g}"
-        for name, words in NEEDS.items()
-        if nominal["needs"][name] is not None
-    )
-    walk = "The gait itself, walked by NPD with nothing wrong and started on it"
+    walk = "The gait itself, walked by NPD from its own start with nothing wrong,"
     if nominal["status"] != "COMPLETED":
-        return f"{walk}, does not make all steps: {nominal['status'].lower()}."
+        return f"{walk} does not make all steps: {nominal['status'].lower()}."
     verdict = "is legal" if nominal["legal"] else "is not legal"
-    broken = (
-        f"; beyond its limit already: {', '.join(nominal['broken'])}" if nominal["broken"] else ""
-    )
-    return f"{walk}, {verdict}{broken}. It needs {needs or 'what was not measured'}."
+    broken = ", ".join(nominal["broken"])
+    beyond = f"; beyond its limit already: {broken}" if broken else ""
+    limits = nominal["limits"]
+    units = {
+        "mean_friction": f"friction {{}} of {limits['friction']:g} (mean over 5 ms)",
+        "mean_normal_force": "a normal force down to {} N (mean over 5 ms)",
+        "peak_torque": f"{{}} of {limits['torque']:g} N m",
+        "impulse_ratio": f"friction {{}} of {limits['friction']:g} for the impulse at impact",
+    }
+    needs = [
+        words.format(f"{nominal['needs'][name]:.3g}")
+        for name, words in units.items()
+        if nominal["needs"][name] is not None
+    ]
+    return f"{walk} {verdict}{beyond}. It needs {', '.join(needs) or 'what was not measured'}."

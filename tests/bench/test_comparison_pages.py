@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from biped_adrc.cli.app import command
 from biped_adrc.errors import InputError
 from biped_adrc.studies.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS
 from biped_adrc.studies.bench.compare_study import draw, write
@@ -86,7 +87,7 @@ def test_marks_are_hollow_where_no_walk_is_legal(summary):
 
 
 def test_pushes_that_pass_the_highest_rung_have_an_arrow(summary):
-    panels = push_figure(summary["pushes"]).axes
+    panels = push_figure([p for p in summary["pushes"] if p["bandwidth"] is None]).axes
     assert len(panels) == 3
     arrows = [a for a in panels[0].texts if a.arrow_patch is not None]
     assert len(arrows) == 2 * 3  # torso +, survived and legal, three controllers
@@ -131,17 +132,17 @@ def test_the_documentation_is_made_from_the_summary(summary, script):
 
 def test_the_guide_gets_the_observers_at_equal_bandwidth(summary, script):
     page = f"before\n\n{script.BEGIN}\nold\n{script.END}\n\nafter\n"
-    text = script.put(page, script.equal_part(summary))
+    text = script.put(page, script.guide_part(summary))
     assert text.startswith("before")
     assert text.endswith("after\n")
     assert "old" not in text
     assert "| push on joints | DOB | 1890 |" in text
     assert "| push on joints | DOB, own settings | 200 |" in text
-    assert script.put(text, script.equal_part(summary)) == text
+    assert script.put(text, script.guide_part(summary)) == text
     with pytest.raises(InputError, match="put them where"):
         script.put("no marks", "part")
-    with pytest.raises(InputError, match="two of ADRC"):
-        script.equal_part(summary | {"equal_bandwidth": []})
+    with pytest.raises(InputError, match="LESO or DOB"):
+        script.guide_part(summary | {"equal_bandwidth": []})
     guide = (DOCS / "guide" / "observer.md").read_text()
     assert script.put(guide, "part") != guide
 
@@ -178,3 +179,10 @@ def test_levels_have_as_few_digits_as_tell_them_apart():
     assert cut(np.array([1e-3, 1.5e-3, 2e-3]), False).texts == ["0.001", "0.0015", "0.002"]
     assert cut(np.array([0.1, 0.1001]), False).texts == ["0.1", "0.1001"]
     assert cut(np.array([-0.17453, 0.0, math.nan]), False).texts == ["-0.175", "0", "none"]
+
+
+def test_the_command_can_be_typed_again(monkeypatch):
+    """With the quotes that a condition of several words needs."""
+    given = ["biped-adrc", "compare", "--conditions", "push on joints,delay"]
+    monkeypatch.setattr(sys, "argv", given)
+    assert command() == "biped-adrc compare --conditions 'push on joints,delay'"

@@ -184,6 +184,42 @@ def test_the_order_of_observers_at_equal_bandwidth(own, equal, said_so, turned):
         assert ("the order changes" in lines[0]) == turned
 
 
+@pytest.mark.parametrize(
+    ("equal", "there"), [(0.3, True), (0.95, False), (1.2, False), (None, False)]
+)
+def test_an_error_has_to_hold_at_equal_bandwidth_too(equal, there):
+    """At its own settings LESO has a fifth of NPD's error."""
+
+    def walk(r):
+        found = row(peak_error=0.2 if r["controller"] == "LESO" else 1.0)
+        if "bandwidth" in r:
+            found |= {"peak_error": equal or 0.3, "legal": int(equal is not None)}
+        return found
+
+    lines = [line for line in said(walk, ("NPD", "LESO")) if "largest tracking error" in line]
+    assert len(lines) == int(there)
+    if there:
+        assert "LESO 0.2 (0.2 to 0.2)" in lines[0]
+
+
+@pytest.mark.parametrize(("equal", "there"), [(10, True), (15, False), (17, False), (20, False)])
+def test_legality_and_alike_speeds_have_to_hold_at_equal_bandwidth_too(equal, there):
+    """At its own settings LESO walks legally in 5 of 20 seeds; at equal bandwidth in `equal`."""
+
+    def walk(r):
+        most = SEEDS if r["controller"] == "NPD" else equal if "bandwidth" in r else 5
+        return row(legal=int(r.get("seed", 0) < most))
+
+    assert len([x for x in said(walk, ("NPD", "LESO")) if "legal walks, in" in x]) == int(there)
+
+    def push(r):
+        changed = 0.0 if there or "bandwidth" not in r else 0.02
+        return row(speed_change=changed, peak_unmatched=8.5)
+
+    lines = said(push, ("NPD", "LESO"), ("push on the torso",))
+    assert len(lines) == int(there)
+
+
 def limits(joints, torso=50.0):
     """Largest legal push of ADRC on joints and on the torso; 60 N m of NPD; all survive twice as much."""
 
@@ -210,6 +246,12 @@ def test_larger_pushes_are_said_where_the_sign_test_carries_them():
     assert "ADRC larger in 0, smaller in 12 of 12" in line
     (line,) = pushed(limits(lambda r: 1e9))
     assert "larger in 12" in line
+
+
+def test_larger_pushes_have_to_hold_at_equal_bandwidth_too():
+    for equal, there in ((90.0, True), (60.0, False), (30.0, False)):
+        lines = pushed(limits(lambda r, x=equal: x if "bandwidth" in r else 100.0))
+        assert len(lines) == int(there)
 
 
 def test_pushes_that_are_alike_go_both_ways_or_are_open_are_not_said():

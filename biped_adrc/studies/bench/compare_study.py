@@ -15,6 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from biped_adrc.files import write_bytes, write_text
+from biped_adrc.model.limits import Limits
+from biped_adrc.studies.bench.build import scene_of
 from biped_adrc.studies.bench.catalogue import CONTROLLERS
 from biped_adrc.studies.bench.cell import IMPULSE, NEEDS, REASONS, Row, is_legal, number
 from biped_adrc.studies.bench.comparison import NOMINAL, Comparison, check, compare
@@ -155,6 +157,7 @@ def nominal(row: Row) -> dict[str, Any]:
         "status": str(row["status"]),
         "legal": is_legal(row),
         "needs": needs,
+        "limits": dict(Limits().of(scene_of(Trial(**NOMINAL)).biped.description)._asdict()),
         "broken": broken,
     }
 
@@ -165,5 +168,5 @@ def draw(summary: Mapping[str, Any]) -> dict[str, bytes]:
     figures = {"survival": survival_figure(cells)}
     figures |= {name: measure_figure(cells, name, title) for name, title in TITLES.items()}
     if pushes:
-        figures["pushes"] = push_figure(pushes)
+        figures["pushes"] = push_figure([p for p in pushes if p["bandwidth"] is None])
     return {name: render(figures[name], "svg") for name in CAPTIONS if name in figures}

@@ -14,7 +14,12 @@ from biped_adrc.studies.bench.catalogue import CONTROLLERS
 from biped_adrc.studies.bench.cell import Cell, Row
 from biped_adrc.studies.bench.chunk import NO_WALK
 from biped_adrc.studies.bench.conditions import BASE, CONDITIONS, record
-from biped_adrc.studies.bench.equal_bandwidth import BANDWIDTH, equal_record, walked_again
+from biped_adrc.studies.bench.equal_bandwidth import (
+    BANDWIDTH,
+    equal_record,
+    equal_values,
+    walked_again,
+)
 from biped_adrc.studies.bench.largest_push import (
     Carry,
     Largest,
@@ -40,13 +45,19 @@ class Comparison:
     """Of the trial `NOMINAL`."""
     cells: tuple[Cell, ...]
     equal: tuple[Cell, ...]
-    """Some of the cells once more, all observers at the same bandwidth."""
+    """The cells of controllers with an observer once more, all at the same bandwidth."""
     pushes: tuple[Largest, ...]
+    """At their own settings, then at equal bandwidth."""
 
     def cell(self, controller: str, condition: str) -> Cell:
         """Of the table."""
         at = self.controllers.index(controller) * len(self.conditions)
         return self.cells[at + self.conditions.index(condition)]
+
+    def at_equal(self, controller: str, condition: str) -> Cell | None:
+        """The cell at equal bandwidth; None for a controller without an observer."""
+        found = [c for c in self.equal if (c.controller, c.condition) == (controller, condition)]
+        return found[0] if found else None
 
 
 def check(controllers: Sequence[str], conditions: Sequence[str], seeds: int) -> None:
@@ -74,7 +85,7 @@ def compare(
     """The whole comparison; `carry` walks trials, here or anywhere. Raises InputError as `check`."""
     check(controllers, conditions, seeds)
     names = [(c, d) for c in controllers for d in conditions]
-    again = walked_again(controllers, conditions)
+    again = [(c, d) for c in walked_again(controllers) for d in conditions]
     records = [
         NOMINAL,
         *(record(d, c, seed) for c, d in names for seed in range(seeds)),
@@ -88,7 +99,8 @@ def compare(
     ]
     found: list[Largest] = []
     if pushes:
-        begun = searches(controllers, min(seeds, PUSH_SEEDS))
+        few = min(seeds, PUSH_SEEDS)
+        begun = searches(controllers, few) + searches(walked_again(controllers), few, equal_values)
         found = gathered(largest_pushes(begun, lambda records: walked_rows(carry(records))))
     return Comparison(
         tuple(controllers),

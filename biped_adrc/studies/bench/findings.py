@@ -1,9 +1,10 @@
 """What a comparison says in words: a sentence is there when a test of paired walks carries it, or absent.
 
-Controllers are held against NPD, which has the same gains and no observer; two observers only at equal
-bandwidth beside their own. Walks are paired by seed, and what is compared of a pair asks both to be legal. Each
-family of questions has a sign test or McNemar's, corrected by Holm for all questions of the family; an effect
-must lie beyond a margin with its whole interval of 95 %.
+Controllers are held against NPD, which has the same gains and no observer, and a sentence about one with an
+observer has to hold at equal bandwidth too; two observers are held against each other at both. Walks are paired
+by seed, and what is compared of a pair asks both to be legal. Each family of questions has a sign test or
+McNemar's, corrected by Holm for all questions of the family; an effect must lie beyond a margin with its whole
+interval of 95 %.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ import numpy as np
 from biped_adrc.studies.bench.cell import Cell, is_legal, number
 from biped_adrc.studies.bench.comparison import Comparison
 from biped_adrc.studies.bench.conditions import record
-from biped_adrc.studies.bench.largest_push import MATCHED, Largest, median_span
+from biped_adrc.studies.bench.largest_push import MATCHED, PHASES, Largest, median_span
 from biped_adrc.studies.bench.statistics import (
     CONFIDENCE,
     Interval,
@@ -142,41 +143,65 @@ def _questions(c: Comparison) -> Iterable[Question]:
             if not bandwidth_decides(condition):
                 usual = c.cell(REFERENCE, condition)
                 for name in others:
-                    yield from _against(c.cell(name, condition), usual)
+                    again = c.at_equal(name, condition)
+                    yield from _against(c.cell(name, condition), again, usual)
         for name in others:
             yield from _pushes(c.pushes, name)
     yield from _equal(c)
 
 
-def _against(cell: Cell, usual: Cell) -> Iterable[Question]:
-    """One controller against the reference, under one condition."""
-    yield _legality(cell, usual)
+def _against(cell: Cell, again: Cell | None, usual: Cell) -> Iterable[Question]:
+    """One controller against the reference under one condition; again: the same at equal bandwidth."""
+    settings = [cell] if again is None else [cell, again]
+    yield _legality(settings, usual)
     for name in RATIOS:
-        a, b = _both_legal([cell, usual], name)
-        found = paired_ratio(a, b, MARGIN)
-        if found is not None:
-            text = f"{cell.controller} {_interval(found.value)} in {found.pairs} pairs"
-            yield _question(name, cell, found, text, _beyond(found.value))
+        each = [_ratio(x, usual, name) for x in settings]
+        if each[0] is not None:
+            held = {_side(x) for x in each} in ({-1}, {1})
+            yield _question(name, cell, each[0], held)
     unmatched = usual.medians({"peak_unmatched": ""})["peak_unmatched"]
     if unmatched is not None and unmatched.low > 0.0:
-        a, b = _both_legal([cell, usual], "speed_change", positive=False)
-        found = paired_equal(a, b, SPEED)
-        if found is not None:
-            text = f"{cell.controller} {_interval(found.value)} in {found.pairs} pairs"
-            alike = found.value.low > -SPEED and found.value.high < SPEED
-            yield _question("speed_change", cell, found, text, alike)
+        alike = [_difference(x, usual) for x in settings]
+        if alike[0] is not None:
+            held = all(
+                x is not None and x.value.low > -SPEED and x.value.high < SPEED for x in alike
+            )
+            yield _question("speed_change", cell, alike[0], held)
 
 
-def _question(family: str, cell: Cell, found: Tested, text: str, beyond: bool) -> Question:
+def _ratio(cell: Cell, usual: Cell, name: str) -> Tested | None:
+    a, b = _both_legal([cell, usual], name)
+    return paired_ratio(a, b, MARGIN)
+
+
+def _difference(cell: Cell, usual: Cell) -> Tested | None:
+    a, b = _both_legal([cell, usual], "speed_change", positive=False)
+    return paired_equal(a, b, SPEED)
+
+
+def _side(found: Tested | None) -> int:
+    """-1, 1: the interval of the ratio lies below, above 1 by more than the margin; 0: neither."""
+    if found is None:
+        return 0
+    return int(found.value.low > MARGIN) - int(found.value.high < 1.0 / MARGIN)
+
+
+def _question(family: str, cell: Cell, found: Tested, beyond: bool, text: str = "") -> Question:
+    words = text or f"{cell.controller} {_interval(found.value)} in {found.pairs} pairs"
     return Question(
-        family, cell.condition, cell.controller, found.pairs, text, found.p, beyond, found.value
+        family, cell.condition, cell.controller, found.pairs, words, found.p, beyond, found.value
     )
 
 
-def _legality(cell: Cell, usual: Cell) -> Question:
-    a, b = ([is_legal(w) for w in x.walks] for x in (cell, usual))
-    text = f"{cell.controller} {sum(a)}, {REFERENCE} {sum(b)} of {len(a)}"
-    return Question("legal", cell.condition, cell.controller, len(a), text, mcnemar(a, b), True)
+def _legality(settings: Sequence[Cell], usual: Cell) -> Question:
+    """The first of the settings is the controller's own; the others have to agree with it."""
+    b = [is_legal(w) for w in usual.walks]
+    each = [[is_legal(w) for w in cell.walks] for cell in settings]
+    more = {sum(a) > sum(b) for a in each}
+    held = len(more) == 1 and all(mcnemar(a, b) < 1.0 - CONFIDENCE for a in each)
+    a, own = each[0], settings[0]
+    text = f"{own.controller} {sum(a)}, {REFERENCE} {sum(b)} of {len(a)}"
+    return Question("legal", own.condition, own.controller, len(a), text, mcnemar(a, b), held)
 
 
 def _both_legal(cells: Sequence[Cell], name: str, positive: bool = True) -> list[list[float]]:
@@ -188,10 +213,6 @@ def _both_legal(cells: Sequence[Cell], name: str, positive: bool = True) -> list
         if known and all(is_legal(w) for w in walks):
             found.append([x for x in values if x is not None])
     return [list(column) for column in zip(*found, strict=True)] or [[] for _ in cells]
-
-
-def _beyond(ratio: Interval) -> bool:
-    return ratio.high < 1.0 / MARGIN or ratio.low > MARGIN
 
 
 def _equal(c: Comparison) -> Iterable[Question]:
@@ -218,7 +239,7 @@ def _changed(own: Sequence[Cell], equal: Sequence[Cell]) -> Iterable[Question]:
         f"{equal[0].controller} to {equal[1].controller} {_interval(r.value)} and {_interval(s.value)} in "
         f"{found.pairs} pairs{', the order changes' if turned else ''}"
     )
-    yield _question(EQUAL, equal[0], found, text, _beyond(found.value))
+    yield _question(EQUAL, equal[0], found, _side(found) != 0, text)
 
 
 def _pushes(pushes: Sequence[Largest], name: str) -> Iterable[Question]:
@@ -227,18 +248,28 @@ def _pushes(pushes: Sequence[Largest], name: str) -> Iterable[Question]:
     The units of the test are the combinations of joints and phase; one counts where the medians' intervals do
     not overlap.
     """
-    spans = {(p.controller, p.direction, p.phase): median_span(p.legal) for p in pushes}
-    places = [key[1:] for key in spans if key[0] == REFERENCE and key[1] in MATCHED]
-    both = [(spans[name, *place], spans[REFERENCE, *place]) for place in places]
-    larger = sum(a.low >= b.high for a, b in both)
-    smaller = sum(a.high <= b.low for a, b in both)
-    if places:
+    settings: dict[float | None, tuple[int, int]] = {}
+    spans = {
+        (p.controller, p.bandwidth, p.direction, p.phase): median_span(p.legal) for p in pushes
+    }
+    for who, bandwidth, direction, phase in spans:
+        usual = (REFERENCE, None, direction, phase)
+        if who == name and direction in MATCHED and usual in spans:
+            a, b = spans[who, bandwidth, direction, phase], spans[usual]
+            larger, smaller = settings.get(bandwidth, (0, 0))
+            settings[bandwidth] = (larger + (a.low >= b.high), smaller + (a.high <= b.low))
+    if None in settings:
+        larger, smaller = settings[None]
+        held = len({x > y for x, y in settings.values()}) == 1 and all(
+            sign_test(*x) < 1.0 - CONFIDENCE for x in settings.values()
+        )
+        count = len(MATCHED) * len(PHASES)
         text = (
-            f"{name} larger in {larger}, smaller in {smaller} of {len(places)} combinations of "
-            "joints and phase"
+            f"{name} larger in {larger}, smaller in {smaller} of {count} combinations of joints and "
+            "phase"
         )
         p = sign_test(larger, smaller)
-        yield Question("pushes", "pushes on joints", name, len(places), text, p, True)
+        yield Question("pushes", "pushes on joints", name, count, text, p, held)
 
 
 def _interval(x: Interval) -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -87,6 +87,8 @@ class Search:
     seed: int
     survived: Bracket = Bracket()
     legal: Bracket = Bracket()
+    setting: Mapping[str, Any] = field(default_factory=dict)
+    """Values of the trial in place of the controller's own."""
 
     def record(self, amplitude: float) -> dict[str, Any]:
         """The trial with this amplitude."""
@@ -101,6 +103,7 @@ class Search:
             "amplitude": amplitude,
             "controller": self.controller,
             "seed": self.seed,
+            **self.setting,
         }
 
     def middles(self) -> list[float]:
@@ -109,10 +112,14 @@ class Search:
         return sorted(a for a in found if a is not None)
 
 
-def searches(controllers: Sequence[str], seeds: int) -> list[Search]:
-    """All of them, not yet begun."""
+def searches(
+    controllers: Sequence[str],
+    seeds: int,
+    setting: Callable[[str], Mapping[str, Any]] = lambda controller: {},
+) -> list[Search]:
+    """All of them, not yet begun; setting: of a controller, in place of its own."""
     return [
-        Search(controller, direction, phase, seed)
+        Search(controller, direction, phase, seed, setting=setting(controller))
         for controller in controllers
         for direction in DIRECTIONS
         for phase in PHASES
@@ -179,6 +186,8 @@ class Largest:
     phase: str
     survived: tuple[Bracket, ...]
     legal: tuple[Bracket, ...]
+    bandwidth: float | None = None
+    """Of the observer [rad/s]; None for the controller's own settings."""
 
     def row(self) -> dict[str, Any]:
         """As plain values; beyond: seeds that passed the highest rung."""
@@ -187,6 +196,7 @@ class Largest:
             "controller": self.controller,
             "direction": self.direction,
             "phase": self.phase,
+            "bandwidth": self.bandwidth,
             "seeds": len(self.legal),
             **{
                 kind: {
@@ -201,11 +211,19 @@ class Largest:
 
 
 def gathered(done: Sequence[Search]) -> list[Largest]:
-    """The searches by controller, direction and phase."""
-    found: dict[tuple[str, str, str], list[Search]] = {}
+    """The searches by controller, direction, phase and bandwidth."""
+    found: dict[tuple[str, str, str, float | None], list[Search]] = {}
     for s in done:
-        found.setdefault((s.controller, s.direction, s.phase), []).append(s)
+        key = (s.controller, s.direction, s.phase, s.setting.get("bandwidth"))
+        found.setdefault(key, []).append(s)
     return [
-        Largest(*key, tuple(s.survived for s in here), tuple(s.legal for s in here))
-        for key, here in found.items()
+        Largest(
+            controller,
+            direction,
+            phase,
+            tuple(s.survived for s in here),
+            tuple(s.legal for s in here),
+            bandwidth,
+        )
+        for (controller, direction, phase, bandwidth), here in found.items()
     ]
