@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import importlib
+import json
 from pathlib import Path
 
 import pytest
+
+from biped_adrc.studies.plan import BOTH
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -28,3 +31,14 @@ def test_the_page_of_the_map_is_that_of_its_cells(script):
     cells = module.read(module.FOLDER / "summary.json")
     assert module.PAGE.read_text(encoding="utf-8") == module.page(cells)
     assert module.compact(cells) == (module.FOLDER / "summary.json").read_text(encoding="utf-8")
+
+
+def test_the_caption_of_the_readme_has_the_numbers_of_the_runs():
+    stored = (ROOT / "docs" / "results" / "summary.json").read_text(encoding="utf-8")
+    runs = json.loads(stored)["tables"]["Runs"]
+    peak = runs["columns"].index("peak error [rad]")
+    npd, adrc = (next(r[peak] for r in runs["rows"] if r[0] == f"push {c}") for c in BOTH)
+    readme = (ROOT / "README.md").read_text(encoding="utf-8").replace("\n", " ")
+    assert (
+        f"NPD leaves its reference by {1e3 * npd:.1f} mrad, ADRC by {1e6 * adrc:.1f} µrad" in readme
+    )
