@@ -5,7 +5,7 @@ OUT ?= out
 ARGS ?=
 BIN := .venv/bin
 BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine/batches engine/growth \
-  engine/compiling peers/plant peers/closed_loop bench/studies pinocchio_calls
+  engine/compiling engine/continued peers/plant peers/closed_loop bench/studies pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
 .PHONY: reproduce test docs pictures comparison results verification dev lint format types imports bench clean
@@ -19,6 +19,7 @@ test: .venv/.test
 # the pages, in docs/_build/html
 docs: .venv/.dev
 	$(BIN)/sphinx-build -W --keep-going -n -E -q -b html docs docs/_build/html
+	$(BIN)/python docs/check_pages.py docs/_build/html
 
 # what the README shows, from the runs of 'make reproduce'
 pictures: .venv/.core

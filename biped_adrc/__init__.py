@@ -32,9 +32,8 @@ if TYPE_CHECKING:
     from biped_adrc.disturbances.step import TorqueStep
     from biped_adrc.engine.batch import Case, simulate_many
     from biped_adrc.errors import BipedError
-    from biped_adrc.gait.constraint import VirtualConstraint
+    from biped_adrc.gait.constraint import VirtualConstraint, continued
     from biped_adrc.gait.conventions import convention
-    from biped_adrc.gait.corrected import continued
     from biped_adrc.gait.design.request import StepLimits
     from biped_adrc.gait.exchange.importing import export_gait, import_gait
     from biped_adrc.gait.exchange.record import GaitRecord
@@ -54,6 +53,7 @@ if TYPE_CHECKING:
     from biped_adrc.model.arm import Arm
     from biped_adrc.model.biped import Biped
     from biped_adrc.model.errors import ModelErrors
+    from biped_adrc.model.limits import Limits
     from biped_adrc.model.own import biped_from_urdf
     from biped_adrc.observers.base import Observer, ResetPolicy
     from biped_adrc.observers.gpi import TABLE_I, GPIObserver
@@ -91,6 +91,7 @@ _HOMES = {
     "GaitLibrary": "studies.gait_library",
     "GaitRecord": "gait.exchange.record",
     "HipForce": "disturbances.hip_force",
+    "Limits": "model.limits",
     "LinearOutputs": "gait.outputs",
     "Measurement": "control.base",
     "Mode": "walker",
@@ -131,7 +132,7 @@ _HOMES = {
     "ZeroDynamics": "gait.zero_dynamics",
     "ZeroOrbits": "gait.zero_orbits",
     "biped_from_urdf": "model.own",
-    "continued": "gait.corrected",
+    "continued": "gait.constraint",
     "convention": "gait.conventions",
     "cycle_stability": "studies.cycle_stability",
     "design_gait": "studies.gait_design",
@@ -176,6 +177,7 @@ __all__ = [
     "GaitLibrary",
     "GaitRecord",
     "HipForce",
+    "Limits",
     "LinearOutputs",
     "Measurement",
     "Mode",

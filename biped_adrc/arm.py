@@ -21,7 +21,7 @@ from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Clock, HybridSystem, Mode
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.arm import Arm
-from biped_adrc.timing import ContinuousTime, SampledTime
+from biped_adrc.timing import ContinuousTime, SampledTime, check_timing
 from biped_adrc.types import Array
 
 
@@ -41,6 +41,7 @@ class ArmSystem(HybridSystem):
     limited: bool = True
 
     def __post_init__(self) -> None:
+        check_timing(self.timing)
         if self.nominal.n != self.plant.n:
             raise InputError(
                 f"the model has {self.nominal.n} joints, the plant {self.plant.n}; they must agree"

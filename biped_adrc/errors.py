@@ -1,9 +1,11 @@
-"""Errors: one base class, and the exit code of the command for each kind.
+"""Errors: one base class, and the exit code of the command for each kind; and a check that many share.
 
 A message says what was asked, what was found, what was expected and what to try.
 """
 
 from __future__ import annotations
+
+from numbers import Integral
 
 
 class BipedError(Exception):
@@ -44,3 +46,9 @@ class OutputError(BipedError, OSError):
     """A result cannot be written (exit code 5)."""
 
     exit_code = 5
+
+
+def check_count(count: object, what: str) -> None:
+    """Raise InputError, beginning with `what`, unless `count` is a whole number from 1 on; True is none."""
+    if isinstance(count, bool) or not isinstance(count, Integral) or int(count) < 1:
+        raise InputError(f"{what}, expected a whole number, at least 1")

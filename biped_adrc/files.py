@@ -1,12 +1,54 @@
-"""Writing a file whole or not at all: temporary file, fsync, rename."""
+"""Files that are written: their names, and writing them whole or not at all."""
 
 from __future__ import annotations
 
 import os
+import re
 import tempfile
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from biped_adrc.errors import OutputError
+from biped_adrc.errors import InputError, OutputError
+
+_KIND = re.compile(r"\.[A-Za-z]\w*")
+"""The end of a name that says what is in a file; '.1' of 'push_0.1' does not."""
+
+
+def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False) -> Path:
+    """The file that a name asks for: as it is given where it ends in one of `suffixes`.
+
+    default: a name that says no kind, such as 'push_0.1', has the first of `suffixes` put behind it. Raises
+    InputError for another kind, and OutputError for a folder or a device.
+    """
+    path = Path(path)
+    if path.exists() and not path.is_file():
+        raise OutputError(f"'{path}' is a folder or a device, expected the name of a file to write")
+    if path.suffix.lower() in suffixes:
+        return path
+    if default and not _KIND.fullmatch(path.suffix):
+        return output_path(path.with_name(path.name + suffixes[0]), suffixes)
+    raise InputError(
+        f"cannot write '{path}': the name ends in '{path.suffix}', expected {' or '.join(suffixes)}"
+    )
+
+
+def keep_inputs(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
+    """Raises InputError where a file that is to be written is one of those that are read."""
+    outputs, inputs = tuple(outputs), tuple(inputs)
+    for read in inputs:
+        if any(_same(read, written) for written in outputs):
+            written = " and ".join(f"'{path}'" for path in outputs)
+            raise InputError(
+                f"this would write {written}, and '{read}' is what it reads; choose another name for the output"
+            )
+
+
+def _same(a: Path, b: Path) -> bool:
+    """Whether two names are of one file, or would be."""
+    try:
+        return os.path.samefile(a, b)
+    except OSError:
+        return os.path.realpath(a) == os.path.realpath(b)
 
 
 def write_text(path: Path, text: str) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_count
 from biped_adrc.types import Array
 
 
@@ -80,8 +80,7 @@ def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp,
 
 
 def _check(step: int, height: float, way: str, other: str) -> None:
-    if step < 1:
-        raise InputError(f"the step {way} is in single support {step}; they are counted from 1")
+    check_count(step, f"the step {way} is in single support {step}; they are counted from 1")
     if not (math.isfinite(height) and height > 0.0):
         raise InputError(
             f"the step {way} is {height} m high, expected a positive number; a step {other} is a "

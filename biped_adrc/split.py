@@ -34,7 +34,7 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.errors import InputError
-from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint
+from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, path
 from biped_adrc.gait.curves import CurveParameters, Polynomial, curve
 from biped_adrc.hybrid.system import Split
 from biped_adrc.observers.base import ErrorSystem
@@ -116,12 +116,6 @@ def error_remainder(
 
 
 # -- the feedback in it too ----------------------------------------------------------------------
-def loop_path(k: LoopParameters, theta: Any) -> tuple[Array, Array, Array]:
-    """h, dh/dTheta, d2h/dTheta2 at theta [rad], each (p,)."""
-    h, dh, ddh = curve(k.h.curve, k.h.rate * (theta - k.h.theta_plus))
-    return h, k.h.rate * dh, k.h.rate * k.h.rate * ddh
-
-
 def loop_row(k: LoopParameters, theta: Any) -> tuple[Array, Array]:
     """r and dr/dTheta at theta [rad], each (n,)."""
     r, dr, _ = curve(k.r, k.h.rate * (theta - k.h.theta_plus))
@@ -134,7 +128,7 @@ def loop_to(k: LoopParameters, x: Array) -> tuple[Array, Array]:
     q, v, z = x[:n], x[n : 2 * n], x[2 * n : end]
     c = k.h.c.reshape(1, -1)
     theta, dtheta = c @ q, c @ v
-    h, dh, _ = loop_path(k, theta[0])
+    h, dh, _ = path(k.h, theta[0])
     r, _ = loop_row(k, theta[0])
     eps = (q[:p] - h, k.scale * (v[:p] - dh * dtheta))
     e = (q[:p] - z[:p], k.scale * v[:p] - z[p : 2 * p], -z[2 * p :])
@@ -144,7 +138,7 @@ def loop_to(k: LoopParameters, x: Array) -> tuple[Array, Array]:
 
 def loop_back(k: LoopParameters, w: Array, E: Array) -> Array:
     """x."""
-    h, _, _ = loop_path(k, w[0])
+    h, _, _ = path(k.h, w[0])
     q, v = _with_unactuated(k, w[0], h + E[0]), loop_velocity(k, w, E)
     z = (q[: k.p] - E[2], k.scale * v[: k.p] - E[3], -E[4:].ravel())
     return np.concatenate((q, v, *z, w[2:]))
@@ -152,7 +146,7 @@ def loop_back(k: LoopParameters, w: Array, E: Array) -> Array:
 
 def loop_velocity(k: LoopParameters, w: Array, E: Array) -> Array:
     """q' (n,): with the Theta' for which r q' = w[1]."""
-    _, dh, _ = loop_path(k, w[0])
+    _, dh, _ = path(k.h, w[0])
     r, _ = loop_row(k, w[0])
     along, aside = _with_unactuated(k, 1.0, dh), _with_unactuated(k, 0.0, E[1] / k.scale)
     return along * ((w[1] - r @ aside) / (r @ along)) + aside
@@ -168,7 +162,7 @@ def loop_remainder(
 ) -> tuple[Array, Array]:
     """N_w, and scale N and scale xi_total (2, p), for q'' (n,), kappa u (p,) and the derivative of the rest."""
     v, c, a_b = loop_velocity(k, w, E), k.h.c.reshape(1, -1), a[: k.p]
-    _, dh, ddh = loop_path(k, w[0])
+    _, dh, ddh = path(k.h, w[0])
     r, dr = loop_row(k, w[0])
     dtheta = c @ v
     eps = k.scale * (a_b - ddh * (dtheta * dtheta) - dh * (c @ a)) - k.row @ E

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 from biped_adrc.errors import InputError
 
+LONGEST_PERIOD = 0.1
+"""[s]. A body whose hip is l = 0.8 m high falls over its foot in sqrt(l / g) = 0.29 s: a torque that is held
+for more than a third of that is no feedback, and a longer period a mistake of units."""
 LONGEST_DELAY = 100
 """Periods; more torques on their way than this are a mistake of units."""
 
@@ -25,7 +28,8 @@ class SampledTime:
     delay [s]: from a tick to the instant at which its torque begins to act, for the computation. A clock that
     restarts at impact ticks there early; what is on its way is then up to one period sooner.
     delay_known: the controller's observer is fed with the torque that acts until the next tick, instead of the
-    one just asked for. Raises InputError for a period that is not positive or a delay that is negative.
+    one just asked for. Raises InputError for a period that is not positive or longer than `LONGEST_PERIOD`, and
+    for a delay that is negative.
     """
 
     period: float
@@ -34,10 +38,22 @@ class SampledTime:
     delay_known: bool = False
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.period) and self.period > 0):
-            raise InputError(f"the sampling period is {self.period} s, expected a positive number")
+        if not (math.isfinite(self.period) and 0.0 < self.period <= LONGEST_PERIOD):
+            raise InputError(
+                f"the sampling period is {self.period} s, expected a positive number, at most "
+                f"{LONGEST_PERIOD} s"
+            )
         if not 0.0 <= self.delay <= LONGEST_DELAY * self.period:
             raise InputError(
                 f"the computation delay is {self.delay} s, expected 0 to {LONGEST_DELAY} periods of "
                 f"{self.period} s"
             )
+
+
+def check_timing(timing: object) -> None:
+    """Raise InputError for what is no timing, such as a period alone."""
+    if isinstance(timing, ContinuousTime | SampledTime):
+        return
+    number = isinstance(timing, int | float) and not isinstance(timing, bool)
+    meant = f"SampledTime({timing:g})" if number else "SampledTime(period)"
+    raise InputError(f"timing is {timing!r}, expected {meant} or ContinuousTime()")

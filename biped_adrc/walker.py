@@ -23,15 +23,16 @@ from biped_adrc.errors import InputError, NotFiniteError, SimulationError
 from biped_adrc.ground import StepDown, StepUp
 from biped_adrc.hardware import held
 from biped_adrc.hardware.held import Held, HeldParameters
-from biped_adrc.hardware.meter import Meter, metered
-from biped_adrc.hardware.motors import Motors, acting, limited, mean_torque, sent
+from biped_adrc.hardware.meter import Loads, Meter, metered
+from biped_adrc.hardware.motors import Line, Motors, acting, limited, mean_torque, sent
 from biped_adrc.hardware.sensors import Sensors, sense
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, Guard, HybridSystem, Split
 from biped_adrc.linear import solve
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.reduction import Reduction, unknown_force
 from biped_adrc.split import SplitLaws, error_laws, loop_laws, split_of
-from biped_adrc.timing import ContinuousTime, SampledTime
+from biped_adrc.timing import ContinuousTime, SampledTime, check_timing
 from biped_adrc.types import Array
 
 FOOT_STRIKE = "foot_strike"
@@ -97,6 +98,12 @@ class Walker(HybridSystem):
             raise InputError(
                 f"the model has {self.model.n} coordinates, the plant {self.plant.n}; they must agree"
             )
+        if not (self.max_step_time > 0.0 and self.fall_height < 1.0):  # nor NaN
+            raise InputError(
+                f"max_step_time is {self.max_step_time} s and fall_height {self.fall_height}, expected a "
+                "positive time and a share of the height, below 1"
+            )
+        check_timing(self.timing)
         parts = (self.sensors, self.motors, self.meter)
         held.check_parts(self.plant.n, self.timing, *parts, self.impact_gain)
 
@@ -121,7 +128,7 @@ class Walker(HybridSystem):
     @cached_property
     def held(self) -> HeldParameters | None:
         """What is held between ticks; None in continuous time."""
-        time = self.timing
+        time, meter = self.timing, self.meter
         if not isinstance(time, SampledTime):
             return None
         return held.held_parameters(
@@ -132,7 +139,7 @@ class Walker(HybridSystem):
             time.delay_known,
             self.sensors,
             self.motors,
-            self.meter,
+            None if meter is None else meter.parameters(self.plant, time.period, self.slope),
         )
 
     @cached_property
@@ -209,7 +216,13 @@ class Walker(HybridSystem):
         u = self._motor_torque(x) if self.sampled else self.saturate(self.law.output(s, m))
         zeta = self._external(t, q, v, mode)
         force = self._force(u, zeta)
-        return Instant(m, s, u, zeta, force, self._acceleration(m, force))
+        return Instant(m, s, u, zeta, force, self._acceleration(m.terms, q, v, force))
+
+    def unknown(self, terms: Reduction, a: Array, u: Array, zeta: Array) -> Array:
+        """xi~ of (11) (n,) [N m]: zeta, and with a plant that is not the model all that is wrong with it."""
+        if self.model is None and not self.plant.friction:
+            return zeta
+        return unknown_force(terms, a, u)
 
     def ground_reaction(self, i: Instant, mode: Mode) -> Array:
         """Force of the ground on the stance foot (F_T, F_N) [N], forces from outside taken off."""
@@ -219,11 +232,30 @@ class Walker(HybridSystem):
             return F
         return F - self.disturbance.resultant(m.t, mode.step, mode.start)
 
-    def _acceleration(self, m: Measurement, force: Array) -> Array:
+    def _acceleration(self, terms: Reduction, q: Array, v: Array, force: Array) -> Array:
         """q'' of the plant; where it is the nominal model, D_s and Omega are at hand already."""
         if self.model is None and not self.plant.friction:
-            return solve(m.terms.D, force - m.terms.Omega, "D_s")
-        return self.plant.acceleration(m.q, m.v, force)
+            return solve(terms.D, force - terms.Omega, "D_s")
+        return self.plant.acceleration(q, v, force)
+
+    def _metered(
+        self, t: float, g: Array, q: Array, v: Array, line: Line, terms: Reduction, mode: Mode
+    ) -> Array:
+        """The meter's state after a tick at which `line` is sent."""
+        k, plant, push = self.held, self.plant, self.disturbance
+        assert k is not None
+        u, mean = held.motor_torque(line), mean_torque(k.motors, line)
+        zeta = self._external(t, q, v, mode)
+        a = self._acceleration(terms, q, v, self._force(u, zeta))
+        force, impulse = plant.ground_reaction(q, v, a), np.zeros(2)
+        if push is not None:
+            force = force - push.resultant(t, mode.step, mode.start)
+            impulse = push.impulse(t - k.meter.period, t, mode.step, mode.start)
+        momentum, foot = plant.momentum(q, v), plant.swing_foot(q)
+        loads = Loads(momentum, force, impulse, foot, self.drop(mode.step))
+        unknown = self.unknown(terms, a, u, zeta)
+        since = t - mode.start
+        return metered(k.meter, g, q, v, u, mean, unknown, terms, mode.step, since, loads)
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
         if self.sampled:
@@ -260,9 +292,7 @@ class Walker(HybridSystem):
         g = h.g
         if k.sizes.meter:
             terms = self.nominal.reduction(q, v) if k.sizes.sensors else m.terms
-            zeta = self._external(t, q, v, mode)
-            u, mean = held.motor_torque(line), mean_torque(k.motors, line)
-            g = metered(k.meter, g, q, v, u, mean, zeta, terms)
+            g = self._metered(t, g, q, v, line, terms, mode)
         return np.concatenate((q, v, s, held.written(Held(w, g, line))))
 
     def _release(self, t: float, x: Array, mode: Mode) -> Array:
@@ -305,7 +335,8 @@ class Walker(HybridSystem):
             h, expected = self.held_at(x), v_plus
             if self.held.sizes.sensors:
                 expected = self.nominal.impact(h.w[:n], h.w[n : 2 * n]).v
-            h = held.after_impact(self.held, h, self._swap, q, impact.q, v_plus, expected)
+            struck = (q, impact.q, v_plus, expected, impact.impulse)
+            h = held.after_impact(self.held, h, self._swap, *struck)
             tail = held.written(h)
             if self.held.sizes.sensors:
                 seen = h.w[:n], h.w[n : 2 * n]

@@ -1,6 +1,6 @@
 """Sphinx configuration. Build: sphinx-build -W --keep-going -n -E -b html docs docs/_build/html
 
-The build needs no network: pages load MathJax from its CDN when they are read.
+Neither the build nor a page that is read needs a network: MathJax lies beside the pages.
 """
 
 import sys
@@ -20,7 +20,7 @@ copyright = "the biped_adrc authors, BSD-3-Clause"
 version = release = biped_adrc.__version__
 html_title = f"biped_adrc {release}"
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.mathjax"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "sphinx-mathjax-offline"]
 exclude_patterns = ["_build", "**/.ipynb_checkpoints", "jupyter_execute"]
 nitpicky = True
 nitpick_ignore_regex = [
@@ -71,6 +71,9 @@ html_theme_options = {"top_of_page_buttons": []}
 
 
 def setup(app):
+    app.config.mathjax_path = (
+        "mathjax/tex-svg.js"  # fonts inside: browsers refuse those of other files
+    )
     app.connect("autodoc-process-docstring", docstrings.plain)
     app.connect("autodoc-process-signature", docstrings.signature)
     app.connect("autodoc-process-bases", docstrings.bases)

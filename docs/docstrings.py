@@ -8,7 +8,7 @@ import re
 
 import biped_adrc.types
 
-_SPECIAL = re.compile(r"([\\*|])|(?<=\w)(_)(?=\W|$)")
+_SPECIAL = re.compile(r"([\\*|@])|(?<=\w)(_)(?=\W|$)")
 _EQUATION = re.compile(r"\(([1-9]|1\d|2[0-8])\)")
 _OTHER_PAPERS = ("biped_adrc.hybrid.",)  # number the equations of another paper
 

@@ -2,21 +2,27 @@
 
 Run: python docs/make_maps.py OUT
 
-OUT: folder for the results, which are gone on with where there are some.
+OUT: folder for the results, which are gone on with where there are some. Beside each map a JSON file holds the
+result of every point in the order of its study; docs/check_pictures.py runs some of them again.
 """
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
-from biped_adrc.files import write_bytes
+from biped_adrc.files import write_bytes, write_text
 from biped_adrc.studies.bench.maps import sweep_map
-from biped_adrc.studies.bench.sweep import sweep
+from biped_adrc.studies.bench.run import run_trials
+from biped_adrc.studies.bench.study_file import load_study
+from biped_adrc.studies.bench.sweep import Sweep, sweep
+from biped_adrc.viz.numbers import Numbers, as_text
 from biped_adrc.viz.style import render
 from biped_adrc.viz.sweep_maps import Maps
 
 ROOT = Path(__file__).resolve().parents[1]
+IMAGES = ROOT / "docs" / "images"
 UNITS = {
     "start.q5": "rad",
     "start.v5": "rad/s",
@@ -31,6 +37,27 @@ PICTURES = {
         Maps("bandwidth", "period", "noise", "survived", UNITS, frozenset({"bandwidth"})),
     ),
 }
+AGAIN = 6
+"""Points of each study that are run again to check its map."""
+
+
+def numbers(done: Sweep, maps: Maps) -> Numbers:
+    """What is shown, of every point."""
+    values = [result.row.get(maps.value) for result in done.results()]
+    return {"points": done.study.count, maps.value: values}
+
+
+def again(name: str, old: Numbers) -> Numbers:
+    """The numbers in the file with `AGAIN` of them run again, spread evenly over the study."""
+    source, maps = PICTURES[name]
+    study = load_study(ROOT / "examples" / source)
+    values: list[Any] = list(old.get(maps.value, []))
+    values += [None] * (study.count - len(values))
+    chosen = [(2 * k + 1) * study.count // (2 * AGAIN) for k in range(AGAIN)]
+    records = [point.record for k, point in enumerate(study.points()) if k in chosen]
+    for k, row in zip(chosen, run_trials(records), strict=True):
+        values[k] = row.get(maps.value)
+    return {"points": study.count, maps.value: values}
 
 
 def main() -> None:
@@ -40,8 +67,8 @@ def main() -> None:
     out = parser.parse_args().out
     for name, (study, maps) in PICTURES.items():
         done = sweep(ROOT / "examples" / study, out / name)
-        picture = render(sweep_map(done, maps), "svg")
-        write_bytes(ROOT / "docs" / "images" / f"{name}.svg", picture)
+        write_bytes(IMAGES / f"{name}.svg", render(sweep_map(done, maps), "svg"))
+        write_text(IMAGES / f"{name}.json", as_text(numbers(done, maps)))
 
 
 if __name__ == "__main__":

@@ -1,45 +1,101 @@
 """Make the pictures README.md opens with, from the runs of a reproduction, and that of the zero dynamics.
 
 Run: python docs/make_pictures.py OUT
+
+Beside each picture a JSON file holds the numbers that it shows; docs/check_pictures.py compares them with runs.
 """
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
+from matplotlib.figure import Figure
+
 from biped_adrc.analysis.zero_report import zero_report
-from biped_adrc.files import write_bytes
+from biped_adrc.files import write_bytes, write_text
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.model.biped import Biped
 from biped_adrc.studies.figures import draw, push_window
+from biped_adrc.studies.recording import Recording
 from biped_adrc.studies.runs import load_walks
-from biped_adrc.viz.gif import write_gif
+from biped_adrc.viz.gif import Motion, write_gif
+from biped_adrc.viz.numbers import SHARES, Numbers, as_text, numbers_of, rounded
+from biped_adrc.viz.placement import Scene
 from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
+from biped_adrc.viz.side_view import SideView
 from biped_adrc.viz.style import render
 
 IMAGES = Path(__file__).resolve().parent / "images"
-BEFORE, AFTER = 0.5, 1.3
+BEFORE, AFTER = 0.15, 0.25
 """[s], shown before and after the push."""
+MOTION = Motion(apart=True, magnify=30.0, slower=5.0, width=800)
+Walks = Mapping[str, Recording]
+
+
+def load(out: Path) -> Walks:
+    """The pushed walks of a reproduction by controller."""
+    return load_walks([out / "walk-npd.npz", out / "walk-adrc.npz"])
+
+
+def part(walks: Walks) -> tuple[float, float]:
+    """What of the walks the animation shows: the push and what is around it [s]."""
+    window = push_window(walks["NPD"].signals)
+    return (7.4, 8.2) if window is None else (window[0] - BEFORE, window[1] + AFTER)
+
+
+def figures(walks: Walks) -> dict[str, Figure]:
+    """The figures by name."""
+    return {"comparison": draw("comparison", walks), "zero": zero_picture()}
+
+
+def zero_picture() -> Figure:
+    """What the zero dynamics say of RABBIT at 0.8 m/s."""
+    biped = Biped.load("rabbit", "identified-bare")
+    report = zero_report(biped, load_gait("v0.8", biped).constraint)
+    return zero_dynamics_figure(report)
+
+
+def numbers(walks: Walks) -> dict[str, Numbers]:
+    """What the pictures show, by name."""
+    drawn = {name: numbers_of(figure) for name, figure in figures(walks).items()}
+    return {"walk": animated(walks), **drawn}
+
+
+def animated(walks: Walks) -> Numbers:
+    """What the animation shows: its part and speed; error, hip and push over time."""
+    start, stop = part(walks)
+    times = start + np.array(SHARES) * (stop - start)
+    error, hip, push = {}, {}, {}
+    for name, walk in walks.items():
+        s, view = walk.signals, SideView(Scene.of(walk))
+        rows = (s.t >= start) & (s.t <= stop)
+        sizes = np.max(np.abs(s.error[rows]), axis=1)
+        found = np.interp(times, s.t[rows], sizes)
+        error[name] = {"y": rounded([sizes.min(), sizes.max()]), "samples": rounded(found)}
+        hip[name] = rounded([view.points(float(t))[:2] for t in times])
+        push[name] = rounded(np.max(np.abs(s.zeta[rows]), axis=0))
+    shown = {"start": start, "stop": stop, "magnified": MOTION.magnify, "slower": MOTION.slower}
+    return {
+        "clip": {**shown, "frames per second": MOTION.fps, "width": MOTION.width},
+        "largest error [rad]": {"lines": error},
+        "hip, x and z [m]": hip,
+        "largest push on each joint [N m]": push,
+    }
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("out", type=Path, help="folder of 'biped-adrc reproduce'")
-    out = parser.parse_args().out
-    walks = load_walks([out / "walk-npd.npz", out / "walk-adrc.npz"])
-    window = push_window(walks["NPD"].signals)
-    start, stop = (7.4, 8.4) if window is None else (window[0] - BEFORE, window[1] + AFTER)
-    write_gif(IMAGES / "walk.gif", walks, start=start, stop=stop, fps=25.0)
-    write_bytes(IMAGES / "comparison.svg", render(draw("comparison", walks), "svg"))
-    zero_picture()
-
-
-def zero_picture() -> None:
-    """What the zero dynamics say of RABBIT at 0.8 m/s."""
-    biped = Biped.load("rabbit", "identified-bare")
-    report = zero_report(biped, load_gait("v0.8", biped).constraint)
-    write_bytes(IMAGES / "zero.svg", render(zero_dynamics_figure(report), "svg"))
+    walks = load(parser.parse_args().out)
+    start, stop = part(walks)
+    write_gif(IMAGES / "walk.gif", walks, start=start, stop=stop, motion=MOTION)
+    for name, figure in figures(walks).items():
+        write_bytes(IMAGES / f"{name}.svg", render(figure, "svg"))
+    for name, found in numbers(walks).items():
+        write_text(IMAGES / f"{name}.json", as_text(found))
 
 
 if __name__ == "__main__":

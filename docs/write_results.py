@@ -2,7 +2,7 @@
 
 Run: python docs/write_results.py OUT [--check]
 
-OUT: folder of `biped-adrc reproduce`. --check: write nothing, and fail if a file would change.
+OUT: folder of `biped-adrc reproduce`, or docs/results. --check: write nothing, and fail if a file would change.
 """
 
 from __future__ import annotations
@@ -22,6 +22,10 @@ ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- results: begin -->", "<!-- results: end -->"
 SHOWN = ("figure1", "figure4", "figure5", "figure6", "comparison", "disturbance")
 """Figures of the page of results; the others are in the report."""
+
+
+LEFT_OUT = ("push_map", "nominal", "convergence", "seconds")
+"""Of the summary, what no page shows; the rest is kept in docs/results/summary.json."""
 
 
 def cell(value: Any) -> str:
@@ -112,9 +116,11 @@ def files(out: Path, root: Path = ROOT) -> dict[Path, str]:
             (root / "README.md").read_text(encoding="utf-8"), summary
         ),
     }
-    for name in SHOWN:
-        text = (out / f"{name}.svg").read_text(encoding="utf-8")
-        texts[root / "docs" / "results" / f"{name}.svg"] = text
+    kept = {key: value for key, value in summary.items() if key not in LEFT_OUT}
+    texts[root / "docs" / "results" / "summary.json"] = json.dumps(kept, indent=1) + "\n"
+    for name in [f"{name}{suffix}" for name in SHOWN for suffix in (".svg", ".json")]:
+        text = (out / name).read_text(encoding="utf-8")
+        texts[root / "docs" / "results" / name] = text
     return texts
 
 

@@ -77,8 +77,10 @@ def test_certificate_says_what_dry_ground_would_not_bear(biped, gait):
     c = made.certificates[-1]
     assert c.joint_work == pytest.approx(c.energy_lost, rel=1e-4)
     assert c.violations() == ()
-    assert c.violations(friction=0.1) == (f"friction {c.friction:.3g} > 0.1",)
-    assert "torque" in c.violations(torque=50.0)[0]
+    assert c.violations(ba.Limits(friction=0.1)) == (
+        f"friction {c.mean_friction:.3g} > 0.1 over 5 ms",
+    )
+    assert "torque" in c.violations(ba.Limits(torque=50.0))[0]
     assert c.step_length == pytest.approx(0.3124, abs=1e-4)
     assert len(made.signals.of_step(2).t) < len(made.signals.t)
 

@@ -14,10 +14,8 @@ from __future__ import annotations
 
 import ast
 import json
-import os
 import re
 import shlex
-import subprocess
 import sys
 import tomllib
 import xml.etree.ElementTree as ET
@@ -29,6 +27,9 @@ from markdown_it import MarkdownIt
 
 from biped_adrc.cli import app, gait_app
 from biped_adrc.cli.robot import robot_app
+from biped_adrc.studies.bench.study_file import load_study
+
+from .preloaded import Preloaded
 
 ROOT = Path(__file__).resolve().parents[1]
 BUILT = {"_build", "jupyter_execute"}
@@ -85,29 +86,22 @@ def commands(text: str) -> list[str]:
     return [line for line in stripped if line and not line.startswith("#")]
 
 
-def run(command: str, folder: Path) -> None:
+def run(command: str, folder: Path, preloaded: Preloaded) -> None:
     """Run one documented command in `folder`."""
     words = shlex.split(command, comments=True)
-    tool = Path(sys.executable).with_name(words[0])
-    if words[0] == "python" and len(words) > 1 and words[1].endswith(".py"):
-        words = [sys.executable, "-W", "error", *words[1:]]
+    python = words[0] == "python" and len(words) > 1 and words[1].endswith(".py")
+    if python:
+        script, *words = words[1:]
     elif words[0] == "biped-adrc":
-        assert tool.is_file(), f"{tool} is missing: install the package"
-        words[0] = str(tool)
+        script, *words = str(Path(sys.executable).with_name("biped-adrc")), *words[1:]
+        assert Path(script).is_file(), f"{script} is missing: install the package"
     else:
         check_run_by_ci(command)
         return
     for option, more in UNATTENDED.items():
         words += more if option in words else []
-    done = subprocess.run(
-        words,
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        env={**os.environ, "MPLBACKEND": "agg"},
-    )
-    assert done.returncode == 0, f"'{command}' ended with {done.returncode}: {done.stderr[-2000:]}"
+    ended = preloaded.run(Path(script), words, folder, strict=python)
+    assert ended.code == 0, f"'{command}' ended with {ended.code}: {ended.stderr[-2000:]}"
 
 
 def check_run_by_ci(command: str) -> None:
@@ -133,11 +127,13 @@ def write(text: str, folder: Path) -> Path | None:
     return None
 
 
-def execute(block: Block, names: dict[str, object], folder: Path, document: Path) -> None:
+def execute(
+    block: Block, names: dict[str, object], folder: Path, document: Path, preloaded: Preloaded
+) -> None:
     """Run or check one block."""
     if block.info in SHELLS:
         for command in commands(block.text):
-            run(command, folder)
+            run(command, folder, preloaded)
     elif block.info == "python":
         if write(block.text, folder) is None:
             padded = "\n" * block.line + block.text  # tracebacks point into the document
@@ -161,17 +157,26 @@ def execute(block: Block, names: dict[str, object], folder: Path, document: Path
         )
 
 
+@pytest.fixture(scope="session")
+def preloaded():
+    """One process for all commands that this worker runs, with figures drawn into files."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("MPLBACKEND", "agg")
+        process = Preloaded()
+        yield process
+        process.close()
+
+
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
-def test_every_block_runs(document, tmp_path, monkeypatch):
+def test_every_block_runs(document, tmp_path, monkeypatch, preloaded):
     (tmp_path / "tests").symlink_to(ROOT / "tests")
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(str(tmp_path))
-    monkeypatch.setenv("MPLBACKEND", "agg")
     before = set(sys.modules)
     names: dict[str, object] = {"__name__": "document"}
     try:
         for block in blocks(document.read_text()):
-            execute(block, names, tmp_path, document)
+            execute(block, names, tmp_path, document, preloaded)
     finally:
         for module in set(sys.modules) - before:
             origin = getattr(sys.modules[module], "__file__", None) or ""
@@ -206,14 +211,14 @@ def test_blocks_are_found():
         ("```{code-cell} ipython3\n1\n```", "outside of a notebook"),
     ],
 )
-def test_a_block_that_cannot_run_fails(text, message, tmp_path):
+def test_a_block_that_cannot_run_fails(text, message, tmp_path, preloaded):
     document = tmp_path / "page.md"
     document.write_text(text)
     *before, last = blocks(text)
     for block in before:
-        execute(block, {}, tmp_path, document)
+        execute(block, {}, tmp_path, document, preloaded)
     with pytest.raises(AssertionError, match=re.escape(message)):
-        execute(last, {}, tmp_path, document)
+        execute(last, {}, tmp_path, document, preloaded)
 
 
 @pytest.mark.parametrize(
@@ -224,9 +229,41 @@ def test_a_block_that_cannot_run_fails(text, message, tmp_path):
         ("```xml\n<a>\n```", ET.ParseError),
     ],
 )
-def test_a_block_that_raises_fails(text, error, tmp_path):
+def test_a_block_that_raises_fails(text, error, tmp_path, preloaded):
     with pytest.raises(error):
-        execute(blocks(text)[0], {}, tmp_path, tmp_path / "page.md")
+        execute(blocks(text)[0], {}, tmp_path, tmp_path / "page.md", preloaded)
+
+
+@pytest.mark.parametrize(
+    ("lines", "strict", "code", "stderr"),
+    [
+        ("import time; time.sleep(60)", True, -9, ""),
+        ("import os; os.kill(os.getpid(), 15)", True, -15, ""),
+        (
+            "import atexit; atexit.register(print, 'bye', file=__import__('sys').stderr)",
+            True,
+            0,
+            "bye",
+        ),
+        ("import warnings; warnings.warn('careful')", True, 1, "UserWarning: careful"),
+        ("import warnings; warnings.warn('careful')", False, 0, "UserWarning: careful"),
+        ("import helper, sys; sys.exit(helper.__file__ != sys.argv[1])", True, 0, ""),
+        ("import threading; assert threading.active_count() == 1", True, 0, ""),
+    ],
+)
+def test_a_fork_is_as_a_fresh_process(lines, strict, code, stderr, tmp_path, preloaded):
+    """Its exit code, its warnings, its path; one that hangs or is killed does not touch the next."""
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    (tmp_path / "helper.py").write_text("")
+    script = tmp_path / "script.py"
+    script.write_text(lines + "\n")
+    name = Path("..", "script.py")
+    ended = preloaded.run(
+        name, [str(tmp_path / "helper.py")], folder, strict, 1 if code == -9 else 60
+    )
+    assert ended.code == code
+    assert stderr in ended.stderr
 
 
 def test_commands_left_to_ci_are_in_ci():
@@ -252,6 +289,54 @@ def test_tests_that_a_page_names_exist(page):
         if function:
             tree = ast.parse((ROOT / path).read_text())
             assert function in {n.name for n in tree.body if isinstance(n, ast.FunctionDef)}, name
+
+
+LINES = re.compile(r"\b(\w+) lines\b")
+NUMBERS = {
+    "ten": 10,
+    "twelve": 12,
+    "twenty": 20,
+    "thirty": 30,
+    "forty": 40,
+    "fifty": 50,
+    "sixty": 60,
+}
+
+
+def sentences(document):
+    """Of a document's text, without its blocks."""
+    text = re.sub(r"^```.*?^```", "", document.read_text(), flags=re.DOTALL | re.MULTILINE)
+    return [" ".join(part.split()) for part in re.split(r"\.\s|\n\n", text)]
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_what_is_said_of_an_example_is_so(document):
+    """How many lines it has, within 10 %, and the order of its observer."""
+    for sentence in sentences(document):
+        for name in re.findall(r"`(examples/\w+\.py)`", sentence):
+            count = len((ROOT / name).read_text().splitlines())
+            for word in LINES.findall(sentence):
+                said = NUMBERS.get(word) or int(word)
+                assert abs(said - count) <= 0.1 * count, f"{name} has {count} lines: {sentence}"
+        for m, name in re.findall(r"m = (\d+) \(`(examples/\w+\.toml)`\)", sentence):
+            assert tomllib.loads((ROOT / name).read_text())["fixed"]["order"] == int(m), sentence
+
+
+@pytest.mark.parametrize("name", ["sweep.toml", "robustness.toml"])
+def test_a_study_has_as_many_walks_as_it_says(name):
+    path = ROOT / "examples" / name
+    said = re.search(r"(\d+) walks\.", path.read_text())[1]
+    assert load_study(path).count == int(said)
+
+
+def test_the_package_claims_the_platforms_it_is_tested_on():
+    tested = re.search(r"^Tested on .*?\.\s", (ROOT / "README.md").read_text(), re.MULTILINE)[0]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    for claim in project["classifiers"]:
+        if claim.startswith(("Operating System ::", "Programming Language :: Python ::")):
+            assert claim.split(" :: ")[-1] in tested, claim
+    for page in PAGES:
+        assert "macOS" not in page.read_text(), page
 
 
 def test_every_package_is_in_the_reference():

@@ -9,7 +9,7 @@ import biped_adrc as ba
 from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.errors import InputError
-from biped_adrc.gait.corrected import continued
+from biped_adrc.gait.constraint import continued
 from biped_adrc.ground import StepDown
 
 METHOD = ba.RK4(2e-3)

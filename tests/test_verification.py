@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import math
+import re
 import sys
 from functools import partial
 from pathlib import Path
@@ -45,11 +46,50 @@ PARTS: dict[str, Maker] = {
 }
 
 
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "verification.md"
+CELL = re.compile(r"(?<!\\)\|")
+
+
+def printed() -> dict[tuple[str, str], list[dict[str, str]]]:
+    """The rows of docs/verification.md by system and quantity, cells by column."""
+    found: dict[tuple[str, str], list[dict[str, str]]] = {}
+    columns: list[str] = []
+    for line in PAGE.read_text(encoding="utf-8").splitlines():
+        cells = [cell.strip().replace("\\", "") for cell in CELL.split(line)[1:-1]]
+        if cells[:2] == list(COLUMNS[:2]):
+            columns = cells
+        elif columns and len(cells) == len(columns):
+            row = dict(zip(columns, cells, strict=True))
+            found.setdefault((cells[0], cells[1]), []).append(row)
+    return found
+
+
+def is_printed(row: Row, shown: dict[str, str]) -> bool:
+    """Whether the page has this row's numbers: within 1 %, or within what the row allows."""
+    allowed = {Measure.ABSOLUTE: row.tolerance or 0.0, Measure.AT_MOST: row.expected}
+    limit = max(0.01 * abs(row.found), allowed.get(row.measure, 0.0))
+    expected = float(shown["expected"].removeprefix("at most "))
+    close = abs(expected - row.expected) <= max(1e-6 * abs(row.expected), 1e-12)
+    return close and shown["verdict"] == "holds" and abs(float(shown["found"]) - row.found) <= limit
+
+
 def check(rows: tuple[Row, ...]) -> None:
+    """They hold, and docs/verification.md prints these numbers."""
     targets = [row for row in rows if row.has_target]
     assert targets
+    page = printed()
     for row in targets:
         assert row.holds, (row.system, row.quantity, row.expected, row.found)
+        lines = page[row.system, row.quantity]
+        assert any(is_printed(row, shown) for shown in lines), (row.expected, row.found, lines)
+
+
+def test_a_number_changed_in_the_page_is_noticed() -> None:
+    row = passive.ball_rows()[0]
+    shown = printed()[row.system, row.quantity][0]
+    assert is_printed(row, shown)
+    assert not is_printed(row, {**shown, "found": f"{1.02 * row.found}"})
+    assert not is_printed(row, {**shown, "expected": f"{1.001 * row.expected}"})
 
 
 @pytest.mark.parametrize("name", PARTS)

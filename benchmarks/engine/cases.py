@@ -14,6 +14,7 @@ sys.path[:0] = [str(BENCHMARKS), str(BENCHMARKS / "peers")]
 
 import biped_adrc as ba  # noqa: E402
 from biped_adrc.engine.batch import Case, Walked, run_case  # noqa: E402
+from biped_adrc.engine.simulate import simulate  # noqa: E402
 from biped_adrc.hybrid.integrators import OneStepMethod  # noqa: E402
 from biped_adrc.studies.plan import PAPER_PUSH  # noqa: E402
 from biped_adrc.studies.runs import Run  # noqa: E402
@@ -32,10 +33,15 @@ class Setting(NamedTuple):
         """The walk of so many impacts."""
         return Case(self.walker, *self.gait.start(self.walker.plant), method, impacts)
 
-    def walk(self, method: OneStepMethod, engine: str, every: int = 1) -> ba.Trajectory:
-        """The paper's 25 impacts, every so many steps a node."""
-        made = ba.walk(self.walker, self.gait, IMPACTS, method, store_every=every, engine=engine)
-        return made.trajectory
+    def walk(self, method: OneStepMethod, engine: str) -> ba.Trajectory:
+        """The paper's 25 impacts."""
+        return ba.walk(self.walker, self.gait, IMPACTS, method, engine=engine).trajectory
+
+    def thinned(self, method: OneStepMethod, every: int) -> ba.Trajectory:
+        """The same on the compiled engine, every so many steps a node: for angles, not for peaks."""
+        x, limit = self.walker.initial_state(*self.gait.start(self.walker.plant)), IMPACTS * 2.0
+        asked = {"t_end": limit, "impacts": IMPACTS, "store_every": every}
+        return simulate(self.walker, x, ba.Mode(), method, **asked)
 
 
 def paper(controller: str = "ADRC", period: float | None = None, push: bool = True) -> Setting:

@@ -62,7 +62,7 @@ def difference(one: tuple[Array, Array], other: tuple[Array, Array]) -> tuple[fl
 def reference(setting: Setting, method: OneStepMethod) -> tuple[Array, Array]:
     """Angles, with nodes kept as they are needed."""
     every = round(APART / method.h)  # type: ignore[attr-defined]
-    return angles(setting.walk(method, "compiled", every), setting.walker.plant.p)
+    return angles(setting.thinned(method, every), setting.walker.plant.p)
 
 
 def peers(table: Table) -> dict[str, tuple[Callable[[], object], int, float]]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from biped_adrc.analysis.quadrature import largest
 from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Trajectory
@@ -53,9 +54,10 @@ class Signals:
     xi_estimate: Array
     """(K, p) estimate of xi [rad/s^2]; NaN without an observer."""
     xi_external: Array
-    """(K, p) the part of xi that zeta makes, matched and unmatched [rad/s^2]."""
+    """(K, p) the part of xi that the nominal model does not know, matched and unmatched: what zeta makes, and
+    errors of the model, friction among them [rad/s^2]. It is xi - xi_nominal."""
     xi_matched: Array
-    """(K, p) kappa zeta_b, the matched part of it: what a motor could cancel [rad/s^2]."""
+    """(K, p) kappa xi~_b, the matched part of it, with xi~ of (11): what a motor could cancel [rad/s^2]."""
     xi_nominal: Array
     """(K, p) (14) without xi~: the part of xi the nominal model knows [rad/s^2]."""
     zeta_estimate: Array
@@ -81,6 +83,11 @@ class Signals:
         """(K, p) the rest of `xi_external`: what comes through the unactuated row of (12) [rad/s^2]."""
         unmatched: Array = self.xi_external - self.xi_matched
         return unmatched
+
+    @property
+    def peak_error(self) -> float:
+        """max |q_b - q_d| [rad], between the nodes too."""
+        return largest(self.t, self.error, self.v[:, : self.error.shape[1]] - self.dq_d)
 
     def of_step(self, step: int) -> Signals:
         """The rows of one single support."""
@@ -125,7 +132,7 @@ def _row(
     r = reference(t, q, v)
     estimate = walker.law.estimate(i.s, m)
     xi_estimate = np.full(p, np.nan) if estimate is None else estimate.disturbance
-    matched, unmatched = disturbance_parts(m.terms, i.zeta)
+    matched, unmatched = disturbance_parts(m.terms, walker.unknown(m.terms, a, i.u, i.zeta))
     return (
         t,
         mode.step,

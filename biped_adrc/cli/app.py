@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from typing import TYPE_CHECKING, Annotated
 
@@ -66,7 +67,8 @@ def parse_pushes(texts: list[str] | None) -> tuple[Push, ...]:
 
 
 def command() -> str:
-    return "biped-adrc " + " ".join(sys.argv[1:])
+    """The command as a shell takes it."""
+    return shlex.join(["biped-adrc", *sys.argv[1:]])
 
 
 def bar() -> Progress:

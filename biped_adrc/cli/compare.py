@@ -31,7 +31,8 @@ def compare(
     ] = None,
     seeds: Annotated[int, typer.Option(help="Walks in each cell of the table.")] = 20,
     pushes: Annotated[
-        bool, typer.Option(help="Look for the largest push survived, by bisection.")
+        bool,
+        typer.Option(help="Look for the largest push walked legally, and survived, by bisection."),
     ] = True,
     workers: Annotated[
         int | None, typer.Option(help="Processes or threads; by default one per core.")
@@ -46,7 +47,7 @@ def compare(
         bool, typer.Option("--other-versions", help="Go on with results of other versions.")
     ] = False,
 ) -> None:
-    """Which controller survives what: controllers x conditions x seeds, with confidence intervals."""
+    """Which controller walks legally under what: controllers x conditions x seeds, with intervals and tests."""
     from biped_adrc.studies.bench.catalogue import CONTROLLERS
     from biped_adrc.studies.bench.compare_study import RESULTS, run_comparison
     from biped_adrc.studies.bench.conditions import CONDITIONS
@@ -89,12 +90,22 @@ def _names(text: str | None, every: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _print(summary: dict[str, Any]) -> None:
-    """The share of walks that survive."""
+    """The share of walks that are legal, and of those that make all steps, in brackets."""
+    from biped_adrc.viz.comparison_text import nominal_text
+
     controllers = list(summary["controllers"])
-    table = Table("condition", *controllers, title="walks that make all steps, %")
-    found = {(c["condition"], c["controller"]): c["survived"][0] for c in summary["cells"]}
+    table = Table("condition", *controllers, title="legal walks, % (all that make all steps, %)")
+    found = {
+        (
+            c["condition"],
+            c["controller"],
+        ): f"{100 * c['legal'][0]:.0f} ({100 * c['survived'][0]:.0f})"
+        for c in summary["cells"]
+    }
     for condition in summary["conditions"]:
-        table.add_row(condition, *(f"{100 * found[condition, name]:.0f}" for name in controllers))
+        table.add_row(condition, *(found[condition, name] for name in controllers))
+    say(nominal_text(summary["nominal"]))
     console.print(table)
-    for line in summary["findings"]:
+    say(summary["settings"])
+    for line in (line for family in summary["findings"].values() for line in family):
         say(line)

@@ -10,7 +10,9 @@ from rich.status import Status
 from rich.table import Table
 
 from biped_adrc.cli.app import Robot, RobotPreset, console, gait_app
+from biped_adrc.cli.output import GAITS, inputs, say_written
 from biped_adrc.errors import GaitError, InputError
+from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
     from biped_adrc.gait.design.ipopt import Progress
@@ -58,6 +60,8 @@ def gait_design(
     from biped_adrc.model.biped import Biped
     from biped_adrc.studies.gait_design import design_gait
 
+    out = None if out is None else output_path(out, GAITS, default=True)
+    keep_inputs((out,) if out else (), inputs(robot))
     biped = Biped.load(robot, preset)
     limits = _limits(torque, friction, impulse_friction, clearance)
     with console.status("building the programme") as shown:
@@ -74,9 +78,9 @@ def gait_design(
             progress=_progress(shown),
         )
     console.print(found.text(), highlight=False)
-    path = out or Path(f"{found.gait.name}-{biped.preset}.json")
+    path = out or Path(found.gait.file_name)
     found.gait.save(path)
-    console.print(f"written to {path}")
+    say_written(path)
 
 
 @gait_app.command("library")
@@ -106,7 +110,7 @@ def gait_library(
             except GaitError as error:
                 missed.append(f"{speed:g} m/s: {error}")
                 continue
-        found.gait.save(out / f"{found.gait.name}-{biped.preset}.json")
+        found.gait.save(out / found.gait.file_name)
         c = found.certificate
         table.add_row(
             f"{found.speed:.3f}",

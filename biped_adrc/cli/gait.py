@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from biped_adrc.cli.app import Preset, Robot, RobotPreset, StoredGait, console, gait_app
+from biped_adrc.cli.output import GAITS, inputs, say_written
+from biped_adrc.files import keep_inputs, output_path
 
 
 @gait_app.command("published")
@@ -18,6 +21,7 @@ def gait_published(
     ] = None,
 ) -> None:
     """Design gait (a): the constraint of least torque whose orbit passes through the published x*."""
+    out = None if out is None else output_path(out, GAITS, default=True)
     from biped_adrc.gait.published import design_published_gait
     from biped_adrc.model.biped import Biped
 
@@ -32,6 +36,7 @@ def gait_recipe(
     ] = None,
 ) -> None:
     """Design gait (b): hip sine, inverse kinematics and polynomial regression, section IV."""
+    out = None if out is None else output_path(out, GAITS, default=True)
     from biped_adrc.model.biped import Biped
     from biped_adrc.studies.recipe_orbit import design_recipe_orbit
 
@@ -64,10 +69,12 @@ def gait_show(
     )
 
 
-def _save(gait: Any, out: Path | None) -> None:
-    path = out or Path(f"{gait.name}-{gait.preset}.json")
+def _save(gait: Any, out: Path | None, read: Iterable[Path] = ()) -> None:
+    path = out or Path(gait.file_name)
+    keep_inputs((path,), read)
     gait.save(path)
-    console.print(f"period {gait.period:.6f} s; written to {path}")
+    console.print(f"period {gait.period:.6f} s", highlight=False)
+    say_written(path)
 
 
 @gait_app.command("export")
@@ -85,8 +92,10 @@ def gait_export(
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.model.biped import Biped
 
-    export_gait(load_gait(gait, Biped.load(robot, preset)), out, convention)
-    console.print(f"written to {out}")
+    path = output_path(out, (".json", ".mat"), default=True)
+    keep_inputs((path,), inputs(robot, gait))
+    export_gait(load_gait(gait, Biped.load(robot, preset)), path, convention)
+    say_written(path)
 
 
 @gait_app.command("import")
@@ -108,4 +117,7 @@ def gait_import(
     from biped_adrc.gait.exchange.importing import import_gait
     from biped_adrc.model.biped import Biped
 
-    _save(import_gait(file, Biped.load(robot, preset), convention, slopes=slopes), out)
+    read = (file, *inputs(robot))
+    out = None if out is None else output_path(out, GAITS, default=True)
+    keep_inputs((out,) if out else (), read)
+    _save(import_gait(file, Biped.load(robot, preset), convention, slopes=slopes), out, read)

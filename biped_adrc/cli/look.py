@@ -8,6 +8,8 @@ from typing import Annotated
 import typer
 
 from biped_adrc.cli.app import app, console
+from biped_adrc.cli.output import FIGURES, say_written
+from biped_adrc.files import keep_inputs, output_path
 
 
 @app.command()
@@ -35,6 +37,16 @@ def animate(
     fps: Annotated[
         float | None, typer.Option(help="Frames per second; 60, or 25 for a .gif.")
     ] = None,
+    apart: Annotated[
+        bool, typer.Option("--apart", help="The walks of a .gif side by side, their errors below.")
+    ] = False,
+    magnify: Annotated[
+        float | None,
+        typer.Option(help="With --apart: draw deviations from the reference so many times."),
+    ] = None,
+    slower: Annotated[
+        float, typer.Option(help="How many times slower than the walk a .gif plays.")
+    ] = 1.0,
     live: Annotated[
         bool,
         typer.Option("--live", help="Show it in the browser from a server on 127.0.0.1 instead."),
@@ -48,12 +60,19 @@ def animate(
     ] = 120.0,
 ) -> None:
     """Write the walk as a page, a picture or a strip; or show it live."""
+    from biped_adrc.errors import InputError
     from biped_adrc.studies.runs import load_walks
-    from biped_adrc.viz.export import Clip, check_suffix, export
+    from biped_adrc.viz.export import SUFFIXES, Clip, check_suffix, export
 
+    runs, clip = [*(ghost or []), run], Clip(start, stop, fps, view, apart, magnify, slower)
     if not live:
         check_suffix(out)
-    walks = load_walks([*(ghost or []), run])
+        keep_inputs((output_path(out, SUFFIXES),), runs)
+    elif clip.moving:
+        raise InputError(
+            "--apart, --magnify and --slower are of a .gif; leave them out with --live"
+        )
+    walks = load_walks(runs)
     if live:
         from biped_adrc.viz.live import play
         from biped_adrc.viz.meshcat import Look
@@ -63,8 +82,8 @@ def animate(
             play(walks, look, port=port, open_browser=browser, wait=wait, say=console.print)
         )
         return
-    export(out, walks, Clip(start, stop, fps, view))
-    console.print(f"written to {out}")
+    export(out, walks, clip)
+    say_written(out)
 
 
 @app.command()
@@ -89,6 +108,8 @@ def plot(
     from biped_adrc.studies.runs import load_walks
     from biped_adrc.viz.style import render
 
-    walks = load_walks([run, *(beside or [])])
+    runs = [run, *(beside or [])]
+    keep_inputs((output_path(out, FIGURES),), runs)
+    walks = load_walks(runs)
     write_bytes(out, render(draw(figure, walks), out.suffix.lower().removeprefix(".")))
-    console.print(f"written to {out}")
+    say_written(out)

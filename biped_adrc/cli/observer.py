@@ -11,7 +11,9 @@ from rich.markup import escape
 from rich.table import Table
 
 from biped_adrc.cli.app import Robot, RobotPreset, app, bar, console
+from biped_adrc.cli.output import FIGURES, say_written
 from biped_adrc.errors import InputError
+from biped_adrc.files import output_path, write_bytes
 
 if TYPE_CHECKING:
     from biped_adrc.control.tracking import Gains
@@ -61,7 +63,7 @@ def observer_command(
     from biped_adrc.model.biped import Biped
 
     chosen, gains = _observer(poles, bandwidth, order), Gains(k_p, k_d)
-    kind = _figure_kind(out)
+    path = None if out is None else output_path(out, FIGURES)
     biped = Biped.load(robot, preset)
     found = load_gait(gait, biped)
     report = observer_report(
@@ -76,13 +78,13 @@ def observer_command(
         console.print(table)
     if confirm:
         _confirm(biped, found, chosen, gains, (period, counts, delay, known))
-    if out is not None:
-        from biped_adrc.files import write_bytes
+    if path is not None:
         from biped_adrc.viz.observer_figure import observer_figure
         from biped_adrc.viz.style import render
 
-        write_bytes(out, render(observer_figure([report]), kind))
-        console.print(f"written to {out}")
+        kind = path.suffix.lower().removeprefix(".")
+        write_bytes(path, render(observer_figure([report]), kind))
+        say_written(path)
 
 
 def _observer(poles: str | None, bandwidth: float | None, order: int | None) -> GPIObserver:
@@ -101,13 +103,6 @@ def _observer(poles: str | None, bandwidth: float | None, order: int | None) -> 
             f"--poles is '{poles}', expected numbers separated by commas, as -300,-400+50j,-400-50j"
         ) from None
     return GPIObserver.from_poles(values, order)
-
-
-def _figure_kind(out: Path | None) -> str:
-    kind = "" if out is None else out.suffix.lower().removeprefix(".")
-    if out is not None and kind not in ("png", "svg"):
-        raise InputError(f"a figure was asked for as '{out}', expected a name in .png or .svg")
-    return kind
 
 
 def _confirm(

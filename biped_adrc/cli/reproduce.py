@@ -30,13 +30,13 @@ def reproduce(
     push: Pushes = None,
     full: Annotated[
         bool,
-        typer.Option("--full", help="A finer map of pushes: 8 onsets, 5 amplitudes."),
+        typer.Option(
+            "--full", help="The map of pushes too: 2400 pushes of both controllers, minutes."
+        ),
     ] = False,
     quick: Annotated[
         bool,
-        typer.Option(
-            "--quick", help="A first look: no map of pushes, one preset, no multipliers of ADRC."
-        ),
+        typer.Option("--quick", help="A first look: one preset, no multipliers of ADRC."),
     ] = False,
     workers: Annotated[int | None, typer.Option(help="Processes; by default one per core.")] = None,
 ) -> None:

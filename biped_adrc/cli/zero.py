@@ -8,6 +8,8 @@ from typing import Annotated
 import typer
 
 from biped_adrc.cli.app import Robot, RobotPreset, StoredGait, console, gait_app
+from biped_adrc.cli.output import FIGURES, say_written
+from biped_adrc.files import output_path, write_bytes
 
 
 @gait_app.command("zero")
@@ -30,11 +32,11 @@ def gait_zero(
 ) -> None:
     """Say what the zero dynamics of a gait allow: orbit, stability, domain of attraction, speeds."""
     from biped_adrc.analysis.zero_report import zero_report
-    from biped_adrc.files import write_bytes
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.gait.zero_limits import Limits
     from biped_adrc.model.biped import Biped
 
+    plot = None if plot is None else output_path(plot, FIGURES)
     biped = Biped.load(robot, preset)
     mu = biped.description.friction_coefficient if friction is None else friction
     found = load_gait(gait, biped)
@@ -47,4 +49,4 @@ def gait_zero(
 
         kind = plot.suffix.lower().removeprefix(".")
         write_bytes(plot, render(zero_dynamics_figure(report), kind))
-        console.print(f"written to {plot}")
+        say_written(plot)

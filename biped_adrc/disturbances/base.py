@@ -7,12 +7,16 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_count
 from biped_adrc.types import Array
+
+GAUSS = 0.5773502691896257
+"""1 / sqrt(3): nodes of Gauss's rule on [-1, 1], both of weight 1."""
 
 
 class DisturbanceLaw(NamedTuple):
@@ -23,6 +27,8 @@ class DisturbanceLaw(NamedTuple):
     torque: Callable[..., Array]
     switches: tuple[tuple[int, float], ...] = ()
     """(step, s): not smooth s [s] after that single support began, or for step 0 at the time s of the run."""
+    resultant: Callable[..., Array] | None = None
+    """`Disturbance.resultant` as resultant(parameters, t, step, t_start, q, v), of time alone; None is zero."""
 
 
 class Disturbance(ABC):
@@ -41,10 +47,30 @@ class Disturbance(ABC):
         carry."""
         return np.zeros(2)
 
+    def impulse(self, t0: float, t1: float, step: int, t_start: float) -> Array:
+        """The integral of `resultant` from t0 to t1 (2,) [N s], by two points of Gauss in each smooth piece."""
+        inside = sorted(s for s in self.switching_times(step, t_start) if t0 < s < t1)
+        total = np.zeros(2)
+        for a, b in pairwise([t0, *inside, t1]):
+            middle, half = 0.5 * (a + b), 0.5 * (b - a)
+            for node in (middle - GAUSS * half, middle + GAUSS * half):
+                total += half * self.resultant(node, step, t_start)
+        return total
+
+    @property
+    def pulls(self) -> bool:
+        """Whether it has a resultant at all."""
+        return type(self).resultant is not Disturbance.resultant
+
     @property
     def laws(self) -> tuple[DisturbanceLaw, ...] | None:
         """The torque is their sum; None for a disturbance written as a method alone."""
         return None
+
+    @property
+    def switches(self) -> tuple[tuple[int, float], ...]:
+        """(step, s) as `DisturbanceLaw.switches`; of a disturbance without laws, none that are known."""
+        return tuple(edge for law in self.laws or () for edge in law.switches)
 
     def __add__(self, other: Disturbance) -> Disturbance:
         return Sum((*terms(self), *terms(other)))
@@ -67,6 +93,10 @@ class Sum(Disturbance):
         for part in self.parts:
             total += part.resultant(t, step, t_start)
         return total
+
+    @property
+    def pulls(self) -> bool:
+        return any(part.pulls for part in self.parts)
 
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
         return tuple(s for part in self.parts for s in part.switching_times(step, t_start))
@@ -128,8 +158,9 @@ class Windowed(Disturbance):
             raise InputError(
                 f"torque window is [{self.start}, {self.stop}] s, expected 0 <= start < stop"
             )
-        if self.step is not None and self.step < 1:
-            raise InputError(f"torque step is {self.step}; single supports are counted from 1")
+        if self.step is not None:
+            what = f"torque step is {self.step}; single supports are counted from 1"
+            check_count(self.step, what)
         amplitude.setflags(write=False)
         object.__setattr__(self, "amplitude", amplitude)
 

@@ -55,6 +55,13 @@ def hip_push(
     return wrench_torque(k.hip, q, np.array([F[0], F[1], 0.0]))
 
 
+def hip_resultant(
+    k: HipPushParameters, t: float, step: int, t_start: float, q: Array, v: Array
+) -> Array:
+    """F (2,) [N]."""
+    return hip_force(k.force, step)
+
+
 @dataclass(frozen=True)
 class HipForce(Disturbance):
     """F = force (F_x, F_z) [N] on the hip of `biped`, the plant.
@@ -93,6 +100,5 @@ class HipForce(Disturbance):
 
     @cached_property
     def laws(self) -> tuple[DisturbanceLaw, ...]:
-        return (
-            DisturbanceLaw(HipPushParameters(self.parameters, hip_point(self.biped)), hip_push),
-        )
+        k = HipPushParameters(self.parameters, hip_point(self.biped))
+        return (DisturbanceLaw(k, hip_push, (), hip_resultant),)

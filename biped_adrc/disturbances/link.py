@@ -63,12 +63,41 @@ def link_noise(
     return wrench_torque(k.point, q, noise_torque(k.wave, t, step, t_start, q, v))
 
 
-_ON_LINK: dict[Callable[..., Array], Callable[..., Array]] = {
-    pulse_torque: link_pulse,
-    step_torque: link_step,
-    sine_torque: link_sine,
-    noise_torque: link_noise,
+def pulse_force(
+    k: LinkParameters[PulseParameters], t: float, step: int, t_start: float, q: Array, v: Array
+) -> Array:
+    """(F_x, F_z) [N]."""
+    return pulse_torque(k.wave, t, step, t_start, q, v)[:2]
+
+
+def step_force(
+    k: LinkParameters[WindowParameters], t: float, step: int, t_start: float, q: Array, v: Array
+) -> Array:
+    """(F_x, F_z) [N]."""
+    return step_torque(k.wave, t, step, t_start, q, v)[:2]
+
+
+def sine_force(
+    k: LinkParameters[SineParameters], t: float, step: int, t_start: float, q: Array, v: Array
+) -> Array:
+    """(F_x, F_z) [N]."""
+    return sine_torque(k.wave, t, step, t_start, q, v)[:2]
+
+
+def noise_force(
+    k: LinkParameters[NoiseParameters], t: float, step: int, t_start: float, q: Array, v: Array
+) -> Array:
+    """(F_x, F_z) [N]."""
+    return noise_torque(k.wave, t, step, t_start, q, v)[:2]
+
+
+_ON_LINK: dict[Callable[..., Array], tuple[Callable[..., Array], Callable[..., Array]]] = {
+    pulse_torque: (link_pulse, pulse_force),
+    step_torque: (link_step, step_force),
+    sine_torque: (link_sine, sine_force),
+    noise_torque: (link_noise, noise_force),
 }
+"""Torque and resultant, by the law of the wave."""
 
 
 @dataclass(frozen=True)
@@ -129,4 +158,5 @@ class OnLink(Disturbance):
             return None
         law = waves[0]
         k = LinkParameters(self.point, law.parameters)
-        return (DisturbanceLaw(k, _ON_LINK[law.torque], law.switches),)
+        torque, resultant = _ON_LINK[law.torque]
+        return (DisturbanceLaw(k, torque, law.switches, resultant),)

@@ -30,8 +30,8 @@ def simulate_by(
     method: OneStepMethod,
     *,
     t_end: float,
+    t0: float = 0.0,
     impacts: int | None = None,
-    store_every: int = 1,
     progress: Progress | None = None,
 ) -> Trajectory:
     """`hybrid.simulate` with Pinocchio's dynamics, or the compiled run.
@@ -51,8 +51,8 @@ def simulate_by(
                 mode,
                 method,
                 t_end=t_end,
+                t0=t0,
                 impacts=impacts,
-                store_every=store_every,
                 progress=progress,
             )
         except ModelError as error:
@@ -63,8 +63,8 @@ def simulate_by(
         mode,
         method,
         t_end=t_end,
+        t0=t0,
         stop_after=None if impacts is None else (FOOT_STRIKE, impacts),
-        store_every=store_every,
         progress=progress,
     )
     return replace(run, settings={**run.settings, "engine": PINOCCHIO, **why})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -28,7 +29,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.split import SplitLaws
-from biped_adrc.timing import SampledTime
+from biped_adrc.timing import LONGEST_PERIOD, SampledTime
 from biped_adrc.types import Array
 from biped_adrc.walker import LEAST_STEP, Walker
 
@@ -71,7 +72,7 @@ class CompiledWalker:
         bare = replace(
             walker,
             controller=Passive(),
-            timing=SampledTime(1.0),
+            timing=SampledTime(LONGEST_PERIOD),
             sensors=None,
             meter=None,
             motors=None if walker.motors is None else replace(walker.motors, rate_limit=None),
@@ -146,15 +147,24 @@ def _push(disturbance: Disturbance | None, n: int) -> Push:
         np.concatenate([np.zeros(0), *numbers]),
         np.cumsum([0, *(len(k) for k in numbers)]),
         np.array([switch for law in laws for switch in law.switches]).reshape(-1, 2),
+        tuple(_resultant(law, n) for law in laws),
     )
 
 
 def _address(law: DisturbanceLaw, n: int) -> int:
-    key = law.torque, skeleton(law.parameters), n
+    return _native(law.torque, law.parameters, n, n)
+
+
+def _resultant(law: DisturbanceLaw, n: int) -> int:
+    return 0 if law.resultant is None else _native(law.resultant, law.parameters, n, 2)
+
+
+def _native(law: Callable[..., Array], parameters: Any, n: int, size: int) -> int:
+    key = law, skeleton(parameters), n
     if key not in _NATIVE:
         q = np.zeros(n)
         try:
-            _NATIVE[key] = native_law(law.torque, (law.parameters, 0.0, 1, 0.0, q, q), n)
+            _NATIVE[key] = native_law(law, (parameters, 0.0, 1, 0.0, q, q), size)
         except InputError as reason:
             raise NotCompiled(str(reason)) from reason
     return _NATIVE[key].address

@@ -1,10 +1,12 @@
 """The equations of a walker on symbols, one straight-line function each, from the laws' own lines.
 
     flow    (t, step, t_start, x, zeta) -> x'            (10); between ticks the torque is held
-    tick    (t, step, t_start, x, zeta) -> x, q''        sensors, controller, motors and meter at a tick
+    tick    (t, step, t_start, x, zeta, outside) -> x, q''   sensors, controller, motors and meter at a tick
     strike  (t, step, x) -> x+                           (7), (8), relabelling, and the controller's jump
     watch   (q) -> clearance, x of the swing foot, height of the hip
 
+`outside` are five numbers for the meter: the resultant of the forces from outside (2) [N], their impulse
+since the last tick (2) [N s], and how far the ground falls to where the step ends [m].
 flow, tick and strike add, after x, the least pivot of the matrices inverted by the controller. With coordinates
 for the exponential method there are `to`, `back` and `remainder`.
 """
@@ -42,14 +44,17 @@ from biped_adrc.hardware.held import (
     read,
     written,
 )
-from biped_adrc.hardware.meter import metered
+from biped_adrc.hardware.meter import Loads, metered
 from biped_adrc.hardware.motors import acting, limited, mean_torque, sent
 from biped_adrc.hardware.sensors import sense
 from biped_adrc.model.biped import STICTION_SPEED
-from biped_adrc.model.reduction import Reduction, reduce
+from biped_adrc.model.reduction import Reduction, reduce, unknown_force
 from biped_adrc.observers.base import Estimate
 from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
+
+OUTSIDE = 5
+"""Numbers for the meter."""
 
 
 class Numbers(NamedTuple):
@@ -119,6 +124,8 @@ class At(NamedTuple):
     held: Held | None
     """In sampled time."""
     zeta: Any
+    outside: Any
+    """For the meter, in `tick` alone."""
 
     @property
     def u(self) -> Any:
@@ -205,14 +212,14 @@ class Equations:
     def at(self, back: Callable[[Any], Any] = lambda x: x) -> At:
         """The symbols of an instant; `back` makes x of what is given in its place."""
         robot, size = self.make.robot, self.make.size
-        inp = Vector("inp", 3 + self.nx + robot.n)
+        inp = Vector("inp", 3 + self.nx + robot.n + OUTSIDE)
         t, step, start = inp.take(), inp.take(), inp.take()
         x, n = back(inp.take(self.nx)), robot.n
         q, v, s = x[:n], x[n : 2 * n], x[2 * n : 2 * n + size]
         held = None if self.make.held is None else read(self.make.held, x[2 * n + size :])
         trace = Tracer()
         m = self.measured(trace, t, step, t - start, q, v)
-        return At(inp, trace, m, s, held, inp.take(n))
+        return At(inp, trace, m, s, held, inp.take(n), inp.take(OUTSIDE))
 
     def saturated(self, u: Any) -> Any:
         """u within the torque limit."""
@@ -284,13 +291,32 @@ class Equations:
         fed = acting(k.motors, line) if k.sizes.known else u
         s = self.law(at, "predict", s, fed) if laws.predict is not None else s
         u, g = motor_torque(line), held.g
-        if k.sizes.meter:
-            mean = mean_torque(k.motors, line)
-            g = at.trace(metered)(k.meter, g, true.q, true.v, u, mean, at.zeta, true.terms)
         a = self.acceleration(true.terms, true.q, true.v, self.force(u, at.zeta))
+        if k.sizes.meter:
+            g = self.metered(at, true, u, mean_torque(k.motors, line), a)
         x = (true.q, true.v, s, written(Held(w, g, line)))
         out = column(*x, at.trace.solver.least, a)
         return Function(self.K, at.inp.symbol, out, tuple(at.trace.calls))
+
+    def metered(self, at: At, true: Measurement, u: Any, mean: Any, a: Any) -> Any:
+        """The meter's state after a tick."""
+        robot, plant, k = self.make.robot, self.numbers.plant, self.numbers.held
+        assert isinstance(k, HeldParameters)
+        assert at.held is not None
+        q, v, t = true.q, true.v, mechanics.turned(self.make.robot, true.q)
+        force = mechanics.ground_reaction(robot, plant, q, v, a) - at.outside[:2]
+        foot = np.array(mechanics.point(t, plant.foot_re, plant.foot_im), dtype=object)
+        momentum = mechanics.momentum(robot, plant, q, v)
+        loads = Loads(momentum, force, at.outside[2:4], foot, at.outside[4])
+        unknown = self.unknown(true.terms, a, u, at.zeta)
+        given = (q, v, u, mean, unknown, true.terms, true.step, true.t_step, loads)
+        return at.trace(metered)(k.meter, at.held.g, *given)
+
+    def unknown(self, terms: Reduction, a: Any, u: Any, zeta: Any) -> Any:
+        """xi~ of (11), as `Walker.unknown`."""
+        if self.numbers.model is None and not self.numbers.friction:
+            return zeta
+        return unknown_force(terms, a, u)
 
     def strike(self) -> Function:
         """x after impact, relabelling and the controller's jump."""
@@ -300,12 +326,12 @@ class Equations:
         q, v, s = inp.take(robot.n), inp.take(robot.n), inp.take(make.size)
         tail = inp.take(self.nx - 2 * robot.n - make.size)
         q_minus = q
-        q, v = mechanics.impact(robot, self.numbers.plant, q, v)
+        q, v, impulse = mechanics.impact(robot, self.numbers.plant, q, v)
         if self.make.gained:
             v = v * (1.0 + self.numbers.impact_gain)
         trace, seen = Tracer(), (q, v)
         if make.held is not None:
-            tail, seen = self.held_after(trace, tail, q_minus, q, v)
+            tail, seen = self.held_after(trace, tail, q_minus, q, v, impulse)
         if make.laws.jump is not None:
             after = self.measured(trace, t, step, 0.0 * t, *seen)
             s = self.said(trace, "jump", self.numbers.k, s, after, robot.swap)
@@ -313,7 +339,7 @@ class Equations:
         return Function(self.K, inp.symbol, out, tuple(trace.calls))
 
     def held_after(
-        self, trace: Tracer, tail: Any, q_minus: Any, q: Any, v: Any
+        self, trace: Tracer, tail: Any, q_minus: Any, q: Any, v: Any, impulse: Any
     ) -> tuple[Any, tuple[Any, Any]]:
         """What is held after an impact to (q, v), and what the controller sees of (q, v) there."""
         k, robot = self.numbers.held, self.make.robot
@@ -321,8 +347,8 @@ class Equations:
         held, n, expected = read(k.sizes, tail), k.sizes.n, v
         if k.sizes.sensors:
             K = self.numbers.plant if self.numbers.model is None else self.numbers.model
-            _, expected = mechanics.impact(robot, K, held.w[:n], held.w[n : 2 * n])
-        held = trace(after_impact)(k, held, robot.swap, q_minus, q, v, expected)
+            _, expected, _ = mechanics.impact(robot, K, held.w[:n], held.w[n : 2 * n])
+        held = trace(after_impact)(k, held, robot.swap, q_minus, q, v, expected, impulse)
         seen = (held.w[:n], held.w[n : 2 * n]) if k.sizes.sensors else (q, v)
         return written(held), seen
 

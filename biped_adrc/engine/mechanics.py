@@ -118,8 +118,13 @@ def ground_reaction(robot: Structure, K: PlantArrays, q: Any, v: Any, a: Any) ->
     return np.array([F_x - x, F_z - z + K.mass * K.gravity], dtype=object)
 
 
-def impact(robot: Structure, K: PlantArrays, q: Any, v: Any) -> tuple[Any, Any]:
-    """(q, q')+ of (8), relabelled."""
+def momentum(robot: Structure, K: PlantArrays, q: Any, v: Any) -> Any:
+    """m p_com' (2,) [N s]."""
+    return jacobian(robot, turned(robot, q), K.w_re, K.w_im) @ v
+
+
+def impact(robot: Structure, K: PlantArrays, q: Any, v: Any) -> tuple[Any, Any, Any]:
+    """(q, q')+ of (8), relabelled, and the impulse F_2 (2,) [N s], by the rows of p_e of (7)."""
     t = turned(robot, q)
     D, _ = inertia_and_bias(robot, K, q, v)
     J_m = jacobian(robot, t, K.w_re, K.w_im)
@@ -127,4 +132,5 @@ def impact(robot: Structure, K: PlantArrays, q: Any, v: Any) -> tuple[Any, Any]:
     before = D - J_2.T @ J_m
     after = before - J_m.T @ J_2 + K.mass * (J_2.T @ J_2)
     v_plus = solve_positive(after, before @ v, "N' D_e N")
-    return robot.R @ q + robot.offset, robot.R @ v_plus
+    F_2 = J_m @ (v_plus - v) - K.mass * (J_2 @ v_plus)
+    return robot.R @ q + robot.offset, robot.R @ v_plus, F_2

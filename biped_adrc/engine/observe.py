@@ -84,7 +84,7 @@ class Observation:
             xi = np.full(p, float("nan"), dtype=object)
         else:
             xi = e.law(at, "estimate", at.s).disturbance
-        matched, unmatched = at.trace(disturbance_parts)(terms, at.zeta)
+        matched, unmatched = at.trace(disturbance_parts)(terms, e.unknown(terms, a, u, at.zeta))
         D, _ = mechanics.inertia_and_bias(robot, plant, m.q, m.v)
         _, height = mechanics.point(t, plant.w_re, plant.w_im)
         return Seen(

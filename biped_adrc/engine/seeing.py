@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.engine.compiled_biped import pointer_call
-from biped_adrc.engine.equations import Make
+from biped_adrc.engine.equations import OUTSIDE, Make
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import Machine, Text, machine
@@ -48,8 +48,10 @@ def _arc(walker: Walker, arc: Arc, code: Machine, K: Array, foot: Array) -> list
     """The columns of one arc."""
     n, p, count, mode = walker.plant.n, walker.plant.p, len(arc.t), arc.mode
     zeta = _external(walker, arc, mode)
-    ones = np.ones((count, 1))
-    inp = np.hstack((arc.seen[:, np.newaxis], mode.step * ones, mode.start * ones, arc.x, zeta))
+    ones, unused = np.ones((count, 1)), np.zeros((count, OUTSIDE))
+    inp = np.hstack(
+        (arc.seen[:, np.newaxis], mode.step * ones, mode.start * ones, arc.x, zeta, unused)
+    )
     sizes = shapes(n, p)
     out = np.empty((count, sum(sizes)))
     pointer_call(code, "observe", K, inp, out)
@@ -106,7 +108,7 @@ def _external(walker: Walker, arc: Arc, mode: Mode) -> Array:
 
 
 def _resultants(walker: Walker, arc: Arc, mode: Mode) -> Any:
-    if walker.disturbance is None:
+    if walker.disturbance is None or not walker.disturbance.pulls:
         return 0.0
     return np.array(
         [walker.disturbance.resultant(float(t), mode.step, mode.start) for t in arc.seen]

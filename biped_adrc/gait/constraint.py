@@ -6,11 +6,18 @@
     q_d'' = h'' Theta'^2 + h' c q''
 
 Theta+ is the phase just after impact, Theta- just before the next one; ' on h is d/dTheta.
+
+Outside [Theta+, Theta-] the curve goes on as it is, and a polynomial leaves its range steeply. A *continued*
+constraint goes on smoothly instead: at a distance y past an end with h_0, h_0', h_0'' there,
+
+    h = h_0 + h_0' y + h_0'' (l |y| - l^2 (1 - exp(-|y| / l)))
+
+Two derivatives agree at the ends, and the curvature fades out over l = fade |Theta- - Theta+|.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -22,32 +29,54 @@ from biped_adrc.types import Array
 
 
 class ConstraintParameters(NamedTuple):
-    """Curve, row c (n,), Theta+ [rad] and 1 / (Theta- - Theta+) [1/rad]."""
+    """Curve, row c (n,), Theta+ [rad] and 1 / (Theta- - Theta+) [1/rad]; fade (1,), (0,) if not continued."""
 
     curve: CurveParameters
     c: Array
     theta_plus: float
     rate: float
+    fade: Array
+
+
+def path(k: ConstraintParameters, theta: float) -> tuple[Array, Array, Array]:
+    """h, dh/dTheta, d2h/dTheta2 at theta [rad], each (p,)."""
+    s = k.rate * (theta - k.theta_plus)
+    inside = s if len(k.fade) == 0 else np.minimum(np.maximum(s, 0.0), 1.0)
+    h, dh, ddh = curve(k.curve, inside)
+    if len(k.fade) > 0:
+        y, l = s - inside, k.fade[0]  # noqa: E741
+        left = np.exp(-abs(y) / l)
+        h = h + y * dh + (l * abs(y) - l * l * (1.0 - left)) * ddh
+        dh = dh + np.sign(y) * l * (1.0 - left) * ddh
+        ddh = left * ddh
+    return h, k.rate * dh, k.rate * k.rate * ddh
 
 
 def virtual_constraint(k: ConstraintParameters, q: Array, v: Array) -> ReferencePoint:
     """The reference at (q, v)."""
     theta, dtheta = float(k.c @ q), float(k.c @ v)
-    h, dh, ddh = curve(k.curve, k.rate * (theta - k.theta_plus))
-    slope = k.rate * dh
-    return ReferencePoint(
-        h, slope * dtheta, (k.rate * dtheta) ** 2 * ddh, slope[:, np.newaxis] * k.c
-    )
+    h, dh, ddh = path(k, theta)
+    return ReferencePoint(h, dh * dtheta, dtheta**2 * ddh, dh[:, np.newaxis] * k.c)
+
+
+FADE = 0.01
+"""Share of the phase range over which the curvature of a continued constraint fades out past an end."""
 
 
 @dataclass(frozen=True)
 class VirtualConstraint(Reference):
-    """h over the phase c q from theta_plus to theta_minus [rad]."""
+    """h over the phase c q from theta_plus to theta_minus [rad].
+
+    fade: share of that range over which the curvature fades out past its ends; None: the curve goes on as it
+    is.
+    Raises GaitError for a phase, a range or a fade that is none.
+    """
 
     curve: Curve
     phase: Array
     theta_plus: float
     theta_minus: float
+    fade: float | None = None
 
     def __post_init__(self) -> None:
         c = np.array(self.phase, dtype=float)
@@ -57,13 +86,20 @@ class VirtualConstraint(Reference):
                 f"phase row {c} from {self.theta_plus} to {self.theta_minus} rad; expected finite numbers "
                 "and two different ends"
             )
+        if self.fade is not None and not (np.isfinite(self.fade) and self.fade > 0.0):
+            raise GaitError(
+                f"the fade of the constraint is {self.fade}, expected a positive share of its phase range, or "
+                "None for a curve that goes on as it is"
+            )
+        fade = np.zeros(0) if self.fade is None else np.array([float(self.fade)])
         c.setflags(write=False)
+        fade.setflags(write=False)
         object.__setattr__(self, "phase", c)
         object.__setattr__(
             self,
             "_parameters",
             ConstraintParameters(
-                self.curve.parameters, c, float(self.theta_plus), float(1.0 / span)
+                self.curve.parameters, c, float(self.theta_plus), float(1.0 / span), fade
             ),
         )
 
@@ -78,6 +114,9 @@ class VirtualConstraint(Reference):
 
     def h(self, theta: float) -> tuple[Array, Array, Array]:
         """h, dh/dTheta, d2h/dTheta2 at theta [rad], each (p,)."""
-        k = self.parameters
-        h, dh, ddh = curve(k.curve, k.rate * (theta - k.theta_plus))
-        return h, k.rate * dh, k.rate**2 * ddh
+        return path(self.parameters, theta)
+
+
+def continued(h: VirtualConstraint) -> VirtualConstraint:
+    """h between Theta+ and Theta-, and outside going on smoothly, as a step that ends late needs it."""
+    return replace(h, fade=FADE)

@@ -9,7 +9,6 @@ Theta = c_q q as in h; ' on h and c is d/dTheta. Corrections of corrections add 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -45,33 +44,3 @@ class CorrectedConstraint(Reference):
             r.drift + ddc * rate**2,
             r.H + dc[:, np.newaxis] * phase,
         )
-
-
-FADE = 0.01
-"""Share of the phase range over which the curvature fades out past an end."""
-
-
-def continued(h: VirtualConstraint) -> CorrectedConstraint:
-    """h between Theta+ and Theta-, and outside, at a distance y past an end with h_0, h_0', h_0'' there,
-
-        h_0 + h_0' y + h_0'' (l y - l^2 (1 - exp(-y / l))):
-
-    two derivatives agree, and the curvature fades out over l = FADE (Theta- - Theta+). A polynomial leaves its
-    range steeply; a step that ends late, as on lower ground, needs this.
-    """
-    least, most = sorted((h.theta_plus, h.theta_minus))
-    reach = FADE * (most - least)
-
-    def correction(theta: float) -> tuple[Array, Array, Array]:
-        a, da, dda = h.h(theta)
-        end = min(max(theta, least), most)
-        if end == theta:
-            return np.zeros_like(a), np.zeros_like(a), np.zeros_like(a)
-        b, db, ddb = h.h(end)
-        y = theta - end
-        l = math.copysign(reach, y)  # noqa: E741
-        left = math.exp(-y / l)
-        fading = l * y - l**2 * (1.0 - left), l * (1.0 - left), left
-        return b + db * y + ddb * fading[0] - a, db + ddb * fading[1] - da, ddb * fading[2] - dda
-
-    return CorrectedConstraint(h, correction)

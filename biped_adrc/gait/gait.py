@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import GaitError
-from biped_adrc.files import write_text
+from biped_adrc.files import output_path, write_text
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import CURVES
 from biped_adrc.model.biped import Biped
@@ -98,8 +98,19 @@ class Gait:
             )
         return self
 
+    @property
+    def file_name(self) -> str:
+        """What its file is called. Raises GaitError for a name that would lead into another folder."""
+        name = f"{self.name}-{self.preset}.json"
+        if name != Path(name).name:
+            raise GaitError(
+                f"gait '{self.name}', preset '{self.preset}', has a name that is a path; say where to write it"
+            )
+        return name
+
     def save(self, path: Path | str) -> None:
-        """Write the JSON file. Raises OutputError."""
+        """Write the JSON file. Raises InputError for a name that does not end in .json, and OutputError."""
+        path = output_path(path, (".json",))
         c = self.constraint
         record = {
             "format": FORMAT,
@@ -118,7 +129,7 @@ class Gait:
             "curve": type(c.curve).__name__.lower(),
             "coefficients": c.curve.coefficients.tolist(),
         }
-        write_text(Path(path), _readable(record))
+        write_text(path, _readable(record))
 
 
 def _readable(record: Mapping[str, Any]) -> str:
@@ -151,7 +162,7 @@ def load_gait(gait: str | Path, biped: Biped) -> Gait:
     Raises GaitError that names the file, the key, what was found and what was expected.
     """
     path = Path(gait)
-    if path.suffix != ".json":
+    if path.suffix.lower() != ".json":
         robot, preset = biped.description.name, biped.preset
         path = data_folder("gaits") / robot / f"{gait}-{preset}.json"
         if not path.is_file():

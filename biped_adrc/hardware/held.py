@@ -15,7 +15,7 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.hardware import meter
-from biped_adrc.hardware.meter import Meter, metered_impact
+from biped_adrc.hardware.meter import Meter, MeterParameters, metered_impact
 from biped_adrc.hardware.motors import IDEAL, Line, Motors, relabelled, whole_and_part
 from biped_adrc.hardware.sensors import Sensors, sensed_impact, sensor_state
 from biped_adrc.timing import ContinuousTime, SampledTime
@@ -91,7 +91,7 @@ def held_parameters(
     known: bool,
     sensors: Sensors | None,
     motors: Motors | None,
-    metered: Meter | None,
+    metered: MeterParameters | None,
 ) -> HeldParameters:
     """For ticks every `period` [s] and torques that act `delay` [s] after them."""
     motors = IDEAL if motors is None else motors
@@ -100,7 +100,7 @@ def held_parameters(
         n,
         p,
         0 if sensors is None else sensors.size(n),
-        0 if metered is None else meter.size(p),
+        0 if metered is None else meter.size(p, metered.window),
         queue,
         int(motors.lag > 0.0),
         int(fraction > 0.0),
@@ -110,7 +110,7 @@ def held_parameters(
     return HeldParameters(
         () if sensors is None else sensors.parameters(n, p, period),
         motors.parameters(period, fraction),
-        () if metered is None else metered.parameters,
+        () if metered is None else metered,
         sizes,
     )
 
@@ -142,12 +142,22 @@ def at_start(k: HeldParameters, q: Array, v: Array, sensors: Sensors | None) -> 
 
 
 def after_impact(
-    k: HeldParameters, held: Held, swap: Array, q_minus: Array, q: Array, v: Array, v_model: Array
+    k: HeldParameters,
+    held: Held,
+    swap: Array,
+    q_minus: Array,
+    q: Array,
+    v: Array,
+    v_model: Array,
+    impulse: Array,
 ) -> Held:
-    """What is held after an impact from q_minus to (q, v); v_model is the rate that the controller expects."""
+    """What is held after an impact from q_minus to (q, v) with an impulse (2,) [N s] of the ground.
+
+    v_model is the rate that the controller expects.
+    """
     w, g, p = held.w, held.g, k.sizes.p
     if k.sizes.sensors > 0:
         w = sensed_impact(k.sensors, w, q, v, v_model)
     if k.sizes.meter > 0:
-        g = metered_impact(g, q_minus[:p], q[:p], swap)
+        g = metered_impact(k.meter, g, q_minus[:p], q[:p], swap, impulse)
     return Held(w, g, relabelled(held.line, swap))

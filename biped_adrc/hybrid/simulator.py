@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from biped_adrc.errors import InputError, NotFiniteError, SingularError
+from biped_adrc.errors import InputError, NotFiniteError, SingularError, check_count
 from biped_adrc.hybrid.integrators import Flow, OneStepMethod, Step, StepFailed
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, Guard, HybridSystem, Mode, Split
@@ -131,10 +131,9 @@ def check_start(
         raise InputError(f"the initial state is {x}, expected a vector of finite numbers")
     if not (math.isfinite(t_end) and math.isfinite(t0) and t_end > t0):
         raise InputError(f"the run would go from {t0} s to {t_end} s; expected a positive duration")
-    if stop_after is not None and stop_after[1] < 1:
-        raise InputError(f"stop_after asks for {stop_after[1]} events, expected at least 1")
-    if store_every < 1:
-        raise InputError(f"store_every is {store_every}, expected at least 1")
+    if stop_after is not None:
+        check_count(stop_after[1], f"stop_after asks for {stop_after[1]} events")
+    check_count(store_every, f"store_every is {store_every}")
 
 
 Outcome = tuple[Array, Mode] | None

@@ -25,6 +25,10 @@ class Status(Enum):
     SINGULAR = "a matrix that the controller inverts became singular; the constraint does not suit this state"
     STEP_FAILED = "the one-step method could not go on; try another method or a looser tolerance"
     RAISED = "a part in plain Python raised an exception of its own; the detail says which"
+    ILLEGAL = (
+        "the ground or the motors could not have carried this step; push less, walk slower, or change the gait "
+        "or the controller"
+    )
     EVENT_LIMIT = "more events than max_events; the events accumulate (Zeno), or raise max_events"
 
     @property

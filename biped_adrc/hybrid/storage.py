@@ -14,20 +14,46 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.errors import InputError
-from biped_adrc.files import write_bytes, write_text
+from biped_adrc.errors import InputError, OutputError
+from biped_adrc.files import output_path, write_bytes, write_text
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 
 FORMAT = "biped_adrc run 1"
 
 
+def run_files(path: Path | str) -> tuple[Path, Path]:
+    """The .npz of a run and the .json beside it; .npz is put behind a name without a kind, such as 'push_0.1'.
+
+    Raises InputError for a name of another kind.
+    """
+    path = output_path(path, (".npz",), default=True)
+    return path, path.with_suffix(".json")
+
+
+def check_beside(path: Path) -> None:
+    """Raises OutputError where the .json of a run would take the place of something else, such as a gait."""
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+        ours = isinstance(record, dict) and record.get("format") == FORMAT
+    except FileNotFoundError:
+        return
+    except (OSError, ValueError):
+        ours = False
+    if not ours:
+        raise OutputError(
+            f"a run has its settings beside it, and '{path}' is there and is not of a run; choose another name"
+        )
+
+
 def save(trajectory: Trajectory, path: Path | str, settings: dict[str, Any] | None = None) -> None:
     """Write `path` (.npz) and the same name with .json. Modes are stored as tuples of numbers.
 
-    Raises OutputError when the files cannot be written.
+    Raises InputError for a name of another kind, and OutputError when the files cannot be written or
+    the .json would take the place of something else.
     """
-    path = Path(path).with_suffix(".npz")
+    path, beside = run_files(path)
+    check_beside(beside)
     meta = {
         "format": FORMAT,
         "status": trajectory.status.name,
@@ -50,7 +76,7 @@ def save(trajectory: Trajectory, path: Path | str, settings: dict[str, Any] | No
     buffer = io.BytesIO()
     np.savez_compressed(buffer, **arrays)
     write_bytes(path, buffer.getvalue())
-    write_text(path.with_suffix(".json"), text + "\n")
+    write_text(beside, text + "\n")
 
 
 def load(path: Path | str, mode: Callable[..., Any] = lambda *numbers: numbers) -> Trajectory:

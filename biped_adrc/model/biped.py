@@ -278,6 +278,10 @@ class Biped:
         acceleration = self.pinned.centre_of_mass(self._angles(q), v, a)[2]
         return self.mass * (acceleration + np.array([0.0, self.description.gravity]))
 
+    def momentum(self, q: Array, v: Array) -> Array:
+        """Linear momentum m p_com' (x, z) [N s] in single support at (q, q')."""
+        return self.mass * self.pinned.centre_of_mass(self._angles(q), self._angles(v))[1]
+
     def extended_inertia(self, q: Array) -> Array:
         """D_e(q) (n + 2, n + 2) of (2)."""
         return self.floating.extended_inertia(self._angles(q))

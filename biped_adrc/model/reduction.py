@@ -84,6 +84,16 @@ def reduce(D: Array, Omega: Array, p: int) -> Reduction:
     return Reduction(D, Omega, kappa, xi, kappa_inverse, A_N, a_N)
 
 
+def unknown_force(terms: Reduction, a: Array, u: Array) -> Array:
+    """xi~ of (11): the generalised force D_s a + Omega - B_s u that the nominal model does not know (n,) [N m].
+
+    With a = q'' of the plant it is zeta and all that is wrong with the model, friction too.
+    """
+    force = terms.D @ a + terms.Omega
+    force[: len(u)] = force[: len(u)] - u
+    return force
+
+
 def disturbance_acceleration(terms: Reduction, force: Array) -> Array:
     """The part of (14) that a generalised force xi~ = delta + zeta adds to q_b'' [rad/s^2].
 

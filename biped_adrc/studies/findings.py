@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.studies.plan import BOTH, Plan
-from biped_adrc.studies.verdicts import Results, distance, map_counts
+from biped_adrc.studies.push_map import counts
+from biped_adrc.studies.verdicts import Results, distance
 
 
 def findings(plan: Plan, r: Results, cells: list[Any]) -> list[str]:
@@ -84,13 +85,14 @@ def _stability(r: Results) -> str:
 
 def _map(cells: list[Any]) -> list[str]:
     parts = []
-    for where, count in map_counts(cells).items():
-        total = sum(count.values())
+    for name, found in counts(cells).items():
+        total = sum(found["NPD"].values())
+        npd, adrc = found["NPD"], found["ADRC"]
         parts.append(
-            f"{count.get('only NPD falls', 0)} of {total} pushes throw only NPD and "
-            f"{count.get('only ADRC falls', 0)} only ADRC ({where})"
+            f"of {total} pushes NPD falls in {npd['fell']} and walks on legally in {npd['legal']}, "
+            f"ADRC falls in {adrc['fell']} and walks on legally in {adrc['legal']} ({name})"
         )
-    return ["Of the map of pushes: " + "; ".join(parts) + "."]
+    return ["The map of pushes: " + "; ".join(parts) + "."]
 
 
 def _torso(r: Results) -> str:

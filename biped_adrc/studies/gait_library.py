@@ -41,7 +41,7 @@ class GaitLibrary:
 
     def save(self, folder: Path | str) -> tuple[Path, ...]:
         """One file per gait, named by it and its preset. Raises GaitError for two of one name, OutputError."""
-        paths = [Path(folder) / f"{g.name}-{g.preset}.json" for g in self.gaits.values()]
+        paths = [Path(folder) / g.file_name for g in self.gaits.values()]
         twice = sorted({path.name for path in paths if paths.count(path) > 1})
         if twice:
             raise GaitError(f"several gaits would be written to {twice}; give them different names")

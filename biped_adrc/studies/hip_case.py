@@ -31,8 +31,6 @@ from biped_adrc.studies.walk import Walk, walk
 from biped_adrc.walker import FOOT_STRIKE, Walker
 
 TRACKING = ("NPD", "ADRC")
-STORED = 5
-"""Every how many steps of the method torques and forces are looked at."""
 
 
 class Parts(NamedTuple):
@@ -91,7 +89,7 @@ class HipCase:
         biped, gait, law = self.parts()
         walker = Walker(biped, law, HipForce(biped, (-force, 0.0)))
         method = RK4(self.h) if self.tracking == "NPD" else Exponential(self.h)
-        return walk(walker, gait, self.steps, method, store_every=STORED)
+        return walk(walker, gait, self.steps, method)
 
     def predicted(self) -> float:
         """The force [N] that stops it according to the quadratures."""

@@ -92,20 +92,15 @@ def impact_momenta(b: Biped, q: Array, v: Array, hit: Impact) -> Array:
 
 
 def walk_laws(name: str, full: FullOutcome) -> list[Check]:
-    """Foot on the ground at located impacts; power balance over a step.
-
-    The step is the pushed one under NPD and the one before it under ADRC, whose torque answers the edges of
-    a push within 0.05 ms, finer than the stored nodes.
-    """
+    """Foot on the ground at located impacts; power balance over the pushed step, or the first one."""
     b, o = full.walker.plant, full.outcome
     height = max(abs(float(b.swing_foot(x[: b.n])[1])) for x in o.x_minus)
     pushed = o.run.pushes[0].step if o.run.pushes else 1
-    pushed -= 1 if o.run.controller == "ADRC" else 0
-    s = full.signals.of_step(pushed if pushed in full.signals.step else 1)
+    s = full.signals.of_step(pushed if pushed in full.signals.step else int(full.signals.step[0]))
     power = np.sum(s.u * s.v[:, : b.p], axis=1) + np.sum(s.zeta * s.v, axis=1)
     gained = s.kinetic[-1] + s.potential[-1] - s.kinetic[0] - s.potential[0]
-    balance = abs(integrate(s.t, power) - gained) / s.kinetic[0]
-    end = f"energy gained against work done over step {s.step[0]}, relative"
+    balance = abs(integrate(s.t, power) - gained)
+    end = f"energy gained against work done over step {s.step[0]} [J]"
     return [
         at_most(f"{name}: height of the swing foot at located impacts [m]", "law", height, 1e-10),
         at_most(f"{name}: {end}", "law", balance, 1e-4),

@@ -134,7 +134,6 @@ class DelayCase(NamedTuple):
             self.impacts,
             RK4(h),
             start=(q, v),
-            store_every=max(1, round(LONGEST_STEP / h)),
             engine="compiled",
         )
         limit = "no torque limit" if torque_limit is None else f"within {torque_limit:g} N m"

@@ -13,7 +13,7 @@ import numpy as np
 
 from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.control.passive import Passive
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.passive_cycle import passive_cycle
 from biped_adrc.gait.reference import Reference, TimeReference
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
@@ -72,8 +72,7 @@ def passive_walk(
     motors or a number of impacts that is no walk, GaitError when no cycle is stored, and SimulationError when
     there is none on this slope.
     """
-    if impacts < 1:
-        raise InputError(f"the walk asks for {impacts} impacts, expected at least 1")
+    check_count(impacts, f"the walk asks for {impacts} impacts")
     biped = Biped.load(robot, preset)
     _without_motors(biped)
     cycle = known_cycle(biped, slope)

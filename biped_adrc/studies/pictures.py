@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from biped_adrc.files import write_bytes
+from biped_adrc.files import write_bytes, write_text
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
 from biped_adrc.studies import verdicts
@@ -15,6 +15,7 @@ from biped_adrc.studies.plan import BOTH, Plan
 from biped_adrc.studies.pool import Task, run_tasks
 from biped_adrc.studies.verdicts import Results
 from biped_adrc.viz import figures
+from biped_adrc.viz.numbers import as_text, numbers_of
 from biped_adrc.viz.robot_figure import robot_figure
 from biped_adrc.viz.style import render
 
@@ -25,14 +26,15 @@ if TYPE_CHECKING:
 def draw_all(
     plan: Plan, r: Results, cells: list[Any], out: Path, workers: int | None = None
 ) -> dict[str, str]:
-    """Write every figure as .png and .svg to `out`; returns name -> SVG text."""
+    """Write every figure as .png and .svg to `out`, and its numbers as .json; returns name -> SVG text."""
     named = pictures(plan, r, cells)
     drawn = run_tasks(list(named.values()), workers)
     found = {}
     for name, picture in zip(named, drawn, strict=True):
-        png, svg = picture.value
+        png, svg, numbers = picture.value
         write_bytes(out / f"{name}.png", png)
         write_bytes(out / f"{name}.svg", svg)
+        write_text(out / f"{name}.json", numbers)
         found[name] = svg.decode("utf-8")
     return found
 
@@ -72,9 +74,9 @@ def draw_robot(preset: str) -> Figure:
     return robot_figure(Biped.load("rabbit", preset))
 
 
-def rendered(draw: Callable[..., Figure], *arguments: Any) -> tuple[bytes, bytes]:
-    """A figure as PNG and as SVG, laid out once."""
+def rendered(draw: Callable[..., Figure], *arguments: Any) -> tuple[bytes, bytes, str]:
+    """A figure as PNG and as SVG, laid out once, and the numbers it shows as JSON."""
     figure = draw(*arguments)
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
-    return render(figure, "png"), render(figure, "svg")
+    return render(figure, "png"), render(figure, "svg"), as_text(numbers_of(figure))

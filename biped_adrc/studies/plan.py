@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.engine.choice import COMPILED
+from biped_adrc.engine.choice import COMPILED, PINOCCHIO
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.gait.published import X_STAR
@@ -14,11 +14,18 @@ from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.studies.claims.gathered import claim_tasks
 from biped_adrc.studies.laws import model_laws, numerics_laws, walk_laws
-from biped_adrc.studies.poincare import poincare, return_map_samples
+from biped_adrc.studies.poincare import poincare_twice, return_map_samples
 from biped_adrc.studies.pool import Task
 from biped_adrc.studies.push import Push, joints_push
 from biped_adrc.studies.push_map import PATTERNS, push_map, pushes
-from biped_adrc.studies.runs import CONTROLLERS, Outcome, Run, execute, execute_fully
+from biped_adrc.studies.runs import (
+    CONTROLLERS,
+    Outcome,
+    Run,
+    execute,
+    execute_fully,
+    execute_twice,
+)
 
 BOTH = CONTROLLERS
 MOTORS = ("q1", "q2", "q3", "q4")
@@ -27,21 +34,28 @@ SINE = joints_push(40.0, MOTORS, step=19, start=0.05, stop=0.3, kind="sine", fre
 TORSO = Push({"q5": 20.0}, step=19, start=0.1, stop=0.3)
 HEAVIER = {"torso": 1.2, "thigh": 1.15}
 POLICIES = ("none", "relabel", "measured", "model")
-FULL_ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
-FULL_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
-ETD_STEP = 2e-4
-"""[s], for compiled runs whose ADRC error is compared with NPD's."""
-HEADLINE_STEP = 1e-3
-"""[s], of the headline runs."""
-CONVERGED_STEP = 1e-4
-"""[s], of the headline runs again, to show what the step does to them."""
+MAP_ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
+"""[s]; a single support takes about 0.4 s."""
+MAP_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
+"""[N m], up to what RABBIT's motors give."""
+STEPS = {"NPD": (1e-3, 1e-3), "ADRC": (5e-4, 5e-5)}
+"""[s], of every run, and where a push switches and in the single support after; halved, no figure of merit
+changes by more than 1 % or its resolution (`studies.convergence`)."""
+UNPUSHED_STEP = 2.5e-4
+"""[s], of ADRC where nothing is drawn: undisturbed, its error is that of the method."""
+RESET_STEP = 5e-5
+"""[s], for what follows an impact that the observer does not expect."""
+ENGINES_STEP = 1e-3
+"""[s], at which the two engines are compared over the pushed step."""
+RISE = 0.01
+"""[s] in which the paper's push rises and falls, beside its vertical edges."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What to reproduce. `pushes` replace the paper's push; `full` refines the map of pushes.
+    """What to reproduce. `pushes` replace the paper's push.
 
-    quick: a first look, without what `left_out` names.
+    full: the map of pushes too, which takes minutes. quick: a first look, without what `left_out` names.
     """
 
     preset: str = "identified"
@@ -61,8 +75,10 @@ class Plan:
     @property
     def left_out(self) -> tuple[str, ...]:
         """What a quick run does without."""
-        if not self.quick:
+        if self.full:
             return ()
+        if not self.quick:
+            return ("the map of pushes (--full)",)
         return (
             "the map of pushes",
             "the multipliers of ADRC, its observer's states included",
@@ -82,28 +98,37 @@ class Headline:
 
 
 def headline(run: Run) -> tuple[Headline, list[Any]]:
-    """A run that is kept whole, and its laws."""
+    """A run that is kept whole, and its laws.
+
+    Its figures are there at half of its steps too, and at a quarter for the single supports from the push on.
+    """
     full = execute_fully(run)
     laws = walk_laws(f"{run.controller}, {run.preset}", full)
-    return Headline(full.outcome, full.trajectory, full.signals), laws
+    half = run.halved()
+    quarter = execute(replace(half.halved(), first_step=run.pushes[0].step, impacts=2))
+    outcome = replace(full.outcome, half=replace(execute(half), half=quarter))
+    return Headline(outcome, full.trajectory, full.signals), laws
+
+
+def engines(run: Run) -> Outcome:
+    """The pushed step of a run with Pinocchio's dynamics at `ENGINES_STEP`, and compiled in `half`."""
+    pushed = run.pushes[0].step
+    one = replace(run, first_step=pushed, impacts=1, h=ENGINES_STEP, fine=None, engine=PINOCCHIO)
+    return replace(execute(one), half=execute(replace(one, engine=COMPILED)))
 
 
 def base_runs(plan: Plan) -> dict[str, Run]:
     """Runs by name; each returns an Outcome. Names end in the controller."""
     runs: dict[str, Run] = {}
     for c in BOTH:
-        run = Run(c, preset=plan.preset)
-        if c == "ADRC":
-            run = replace(run, method="feedback", h=ETD_STEP)
-        again = pushed_run(plan, c)
-        runs[f"compiled push {c}"] = again
-        runs[f"converged push {c}"] = replace(again, h=CONVERGED_STEP, store_every=10)
+        run = stepped(Run(c, preset=plan.preset))
         for preset in plan.presets:
-            runs[f"nominal {preset} {c}"] = Run(c, preset=preset, h=1e-3)
+            h = UNPUSHED_STEP if c == "ADRC" else run.h
+            runs[f"nominal {preset} {c}"] = replace(run, preset=preset, h=h)
         runs[f"sine {c}"] = replace(run, pushes=(SINE,), first_step=17, impacts=9)
         runs[f"torso {c}"] = replace(run, pushes=(TORSO,), first_step=17, impacts=9)
-        runs[f"1 kHz {c}"] = Run(c, preset=plan.preset, pushes=plan.pushes, period=1e-3)
-        heavier = replace(run, mass=HEAVIER, h=1e-3, impacts=12)
+        runs[f"1 kHz {c}"] = Run(c, preset=plan.preset, pushes=plan.pushes, period=1e-3, h=1e-3)
+        heavier = replace(run, mass=HEAVIER, impacts=12, fine=None)
         runs[f"heavier, masses {c}"] = heavier
         runs[f"heavier, masses and inertias {c}"] = replace(heavier, inertia=HEAVIER)
     if not plan.quick:
@@ -111,23 +136,29 @@ def base_runs(plan: Plan) -> dict[str, Run]:
     return {name: replace(run, engine=COMPILED) for name, run in runs.items()}
 
 
+def stepped(run: Run) -> Run:
+    """With the steps of the reproduction; ADRC with its feedback in the linear part of the method."""
+    h, fine = STEPS[run.controller]
+    return replace(run, method="feedback" if run.controller == "ADRC" else "rk4", h=h, fine=fine)
+
+
 def pushed_run(plan: Plan, controller: str) -> Run:
     """A headline run: the paper's, with its push."""
-    method = "feedback" if controller == "ADRC" else "rk4"
-    return Run(controller, preset=plan.preset, pushes=plan.pushes, method=method, h=HEADLINE_STEP)
+    run = Run(controller, preset=plan.preset, pushes=plan.pushes, engine=COMPILED)
+    return stepped(run)
 
 
 def literal_runs(plan: Plan) -> dict[str, Run]:
     """(20) as printed, and every reset policy with and without RABBIT's torque limit."""
     runs = {}
     for c in BOTH:
-        runs[f"as printed {c}"] = Run(c, preset=plan.preset, solve_theta=False, h=1e-3, impacts=15)
+        printed = stepped(Run(c, preset=plan.preset, solve_theta=False, impacts=15))
+        runs[f"as printed {c}"] = printed
     for policy in POLICIES:
         for limit in (None, 150.0):
             name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
-            runs[name] = Run(
-                preset=plan.preset, reset=policy, torque_limit=limit, h=1e-3, impacts=6
-            )
+            run = Run(preset=plan.preset, reset=policy, torque_limit=limit, impacts=3)
+            runs[name] = replace(run, method="exponential", h=RESET_STEP)
     return runs
 
 
@@ -140,16 +171,20 @@ class RecipeResult:
     closes: bool
     reason: str
     record: dict[str, Any]
+    outcome: Outcome | None = None
+    """Of the walk, at two steps."""
 
 
 def recipe_result(preset: str, controller: str) -> RecipeResult:
-    """Walk gait (b) and look for its fixed point; whatever comes out is reported."""
-    run = Run(controller, preset=preset, gait="recipe", h=1e-3, impacts=8, engine=COMPILED)
+    """Walk gait (b) and look for its fixed point, at two steps; whatever comes out is reported."""
+    run = replace(stepped(Run(controller, preset=preset, gait="recipe", impacts=8)), fine=None)
+    run = replace(run, engine=COMPILED)
     biped = run.biped()
     record: dict[str, Any] = {}
+    outcome = None
     try:
         gait = load_gait("recipe", biped)
-        outcome = execute(run)
+        outcome = execute_twice(run)
         record = {
             "status": outcome.status,
             "impacts": outcome.impacts,
@@ -160,17 +195,19 @@ def recipe_result(preset: str, controller: str) -> RecipeResult:
         if outcome.certificates:
             last = outcome.certificates[-1]
             record |= {"certificate": last.record(), "violations": list(last.violations())}
-        found = poincare(run, with_states=controller == "NPD").orbit
+        cycle = poincare_twice(replace(run, h=1e-3))
+        found = cycle.orbit
         gap = found.x_minus[: 2 * biped.n] - X_STAR
         record |= {
             "x_minus": found.x_minus[: 2 * biped.n].tolist(),
             "distance_to_x_star": gap.tolist(),
             "multipliers": abs(found.multipliers).tolist(),
+            "multipliers_change": cycle.gap,
             "stable": found.stable,
         }
     except BipedError as error:
-        return RecipeResult(preset, controller, False, str(error), record)
-    return RecipeResult(preset, controller, True, "", record)
+        return RecipeResult(preset, controller, False, str(error), record, outcome)
+    return RecipeResult(preset, controller, True, "", record, outcome)
 
 
 def tasks(plan: Plan) -> dict[str, Task]:
@@ -180,14 +217,15 @@ def tasks(plan: Plan) -> dict[str, Task]:
     out: dict[str, Task] = {}
     for c in reversed(BOTH):
         out[f"headline {c}"] = Task(f"{c} under the push", headline, (pushed[c],))
+        out[f"engines {c}"] = Task(f"{c}: the two engines", engines, (pushed[c],))
     if not plan.quick:
         remembering = replace(adrc, reset="measured")
-        out["multipliers ADRC"] = Task("multipliers ADRC", poincare, (adrc,))
+        out["multipliers ADRC"] = Task("multipliers ADRC", poincare_twice, (adrc,))
         out["multipliers ADRC measured"] = Task(
-            "multipliers ADRC, reset measured", poincare, (remembering,)
+            "multipliers ADRC, reset measured", poincare_twice, (remembering,)
         )
     out |= {
-        "multipliers NPD": Task("multipliers NPD", poincare, (npd,)),
+        "multipliers NPD": Task("multipliers NPD", poincare_twice, (npd,)),
         "numerics": Task("orders and (23)", numerics_laws, (plan.preset,)),
         "return map": Task("return map", return_map_samples, (npd,)),
     }
@@ -198,29 +236,21 @@ def tasks(plan: Plan) -> dict[str, Task]:
             name = f"recipe {preset} {c}"
             out[name] = Task(f"gait (b), {preset}, {c}", recipe_result, (preset, c))
     for name, run in base_runs(plan).items():
-        out[name] = Task(name, execute, (run,))
-    if not plan.quick:
+        out[name] = Task(name, execute_twice, (run,))
+    if plan.full:
         out |= map_tasks(plan)
     return out
 
 
 def map_tasks(plan: Plan) -> dict[str, Task]:
-    """The map of pushes of each preset: coarse, or fine with `full`."""
-    onsets: tuple[float, ...] = (0.05, 0.3)
-    amplitudes: tuple[float, ...] = (90.0, 150.0)
-    if plan.full:
-        onsets, amplitudes = FULL_ONSETS, FULL_AMPLITUDES
+    """The map of pushes: a task for every preset, torque limit [N m] and joint pattern."""
     return {
-        f"map {preset}": Task(
-            f"map of pushes, {preset}",
+        f"map {preset}, {limit}, {pattern}": Task(
+            f"map of pushes, {preset}, {pattern}",
             push_map,
-            (Run(preset=preset), pushes(onsets, amplitudes, tuple(PATTERNS), limits)),
+            (Run(preset=preset), pushes(MAP_ONSETS, MAP_AMPLITUDES, (pattern,), (limit,))),
         )
-        for preset, limits in map_presets(plan).items()
+        for preset in plan.presets
+        for limit in (None, 150.0)
+        for pattern in PATTERNS
     }
-
-
-def map_presets(plan: Plan) -> dict[str, tuple[float | None, ...]]:
-    """Torque limits [N m] by preset: the plan's own, and RABBIT without rotors, as published gaits."""
-    limits: dict[str, tuple[float | None, ...]] = {plan.preset: (None, 150.0)}
-    return {"identified-bare": (None,), **limits}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -28,6 +29,16 @@ class PoincareResult:
     with_states: bool
     orbit: PeriodicOrbit
     delta_squared: float
+    half: PoincareResult | None = None
+    """The same at half the step."""
+
+    @property
+    def gap(self) -> float:
+        """Largest difference of a multiplier's magnitude from that at half the step; infinite without one."""
+        if self.half is None:
+            return math.inf
+        one, other = (np.sort(np.abs(r.orbit.multipliers)) for r in (self, self.half))
+        return float(np.max(np.abs(one - other)))
 
     def record(self) -> dict[str, Any]:
         """As plain values."""
@@ -41,7 +52,17 @@ class PoincareResult:
             "residual": self.orbit.residual,
             "delta_squared": self.delta_squared,
             "stable": self.orbit.stable,
+            "magnitudes_at_half_the_step": None
+            if self.half is None
+            else np.abs(self.half.orbit.multipliers).tolist(),
         }
+
+
+def poincare_twice(run: Run) -> PoincareResult:
+    """As `poincare` at the run's step, or 1 ms, and at half of it."""
+    h = run.h or 1e-3
+    found = poincare(replace(run, h=h))
+    return replace(found, half=poincare(replace(run, h=0.5 * h)))
 
 
 def poincare(run: Run, with_states: bool = True, mapper: Mapper = map) -> PoincareResult:

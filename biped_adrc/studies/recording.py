@@ -8,10 +8,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
-from biped_adrc.analysis.certificate import Certificate, certificates
+from biped_adrc.analysis.certificate import Certificate, Support, certificates, supports
+from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.model.limits import Limits
+from biped_adrc.studies.edges import edge_remarks
 from biped_adrc.walker import FOOT_STRIKE, Walker
 
 if TYPE_CHECKING:
@@ -42,7 +45,34 @@ class Recording(ABC):
     @cached_property
     def certificates(self) -> tuple[Certificate, ...]:
         """What each step would have asked of a real robot on dry ground."""
-        return certificates(self.walker, self.trajectory, self.signals)
+        return self.certified()
+
+    def certified(self, limits: Limits | None = None) -> tuple[Certificate, ...]:
+        """The certificates within other limits, or with the force averaged over another window."""
+        return certificates(self.walker, self.trajectory, self.signals, limits)
+
+    @cached_property
+    def legality(self) -> Legality:
+        """Whether ground and motors could have carried this walk, within the limits of the robot's record."""
+        return self.legal_within(Limits())
+
+    def legal_within(self, limits: Limits) -> Legality:
+        """`legality` within other limits."""
+        finished = self.certificates if limits == Limits() else self.certified(limits)
+        begun: tuple[Support, ...] = ()
+        if len(finished) < len(self.trajectory.arcs):
+            begun = supports(self.walker, self.trajectory, self.signals, limits)
+        return Legality(
+            self.trajectory.status,
+            (*finished, *begun[len(finished) :]),
+            max((c.impulse_ratio for c in finished), default=0.0),
+            limits.of(self.walker.plant.description),
+        )
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What was not as it was asked for, such as a push that an impact cut off; a sentence each."""
+        return edge_remarks(self.walker, self.trajectory)
 
     @property
     def controller_name(self) -> str:

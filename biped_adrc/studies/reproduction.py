@@ -23,6 +23,7 @@ from biped_adrc.studies.checks import Check
 from biped_adrc.studies.claims.gathered import gathered
 from biped_adrc.studies.claims.table import PREFACE, claims
 from biped_adrc.studies.claims.words import MEANINGS, claim_checks
+from biped_adrc.studies.convergence import records
 from biped_adrc.studies.figures import push_window
 from biped_adrc.studies.findings import findings
 from biped_adrc.studies.laws import work_identity
@@ -85,6 +86,7 @@ def reproduce(
         "multipliers": {
             c: results[f"multipliers {c}"].record() for c in BOTH if f"multipliers {c}" in results
         },
+        "convergence": list(records(verdicts.run_twice(results))),
         "regression": {c: results[f"regression {c}"].record() for c in BOTH},
         "push_map": [cell.row() for cell in cells],
         "seconds": {name: found.seconds for name, found in zip(named, done, strict=True)},
@@ -109,6 +111,7 @@ def _checks(plan: Plan, results: dict[str, Any]) -> list[Check]:
         verdicts.consistency_checks(plan, results)
         + verdicts.push_checks(results)
         + verdicts.engine_checks(results)
+        + verdicts.convergence_checks(results)
         + verdicts.multiplier_checks(results)
         + verdicts.recipe_checks(plan, results)
         + verdicts.certificate_checks(plan, results)

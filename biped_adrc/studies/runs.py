@@ -6,7 +6,7 @@ A `Run` can be sent to another process, stored as JSON, and carried out again.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -14,14 +14,16 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate
+from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Controller
 from biped_adrc.control.npd import NPDController
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.disturbances.base import Sum
-from biped_adrc.engine.choice import PINOCCHIO, check_engine
-from biped_adrc.errors import InputError
+from biped_adrc.engine.choice import COMPILED, PINOCCHIO, check_engine
+from biped_adrc.errors import InputError, check_count
+from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.exponential import Exponential
@@ -34,7 +36,15 @@ from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 from biped_adrc.studies.push import Push
 from biped_adrc.studies.recording import Recording
-from biped_adrc.studies.walk import Walk, walk, watched
+from biped_adrc.studies.walk import (
+    FINE_STEP,
+    Part,
+    Walk,
+    default_parts,
+    refined,
+    walk_in_parts,
+    watched,
+)
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
@@ -55,7 +65,9 @@ class Run:
 
     mass, inertia: factors of the plant's bodies while the model stays nominal. first_step: number of the
     first single support, so that a push in the 19th can be studied without walking there. engine: "pinocchio"
-    or "compiled".
+    or "compiled". continued: the constraint goes on smoothly past its ends.
+    h: step of the method [s]; fine: its step where a push switches and in the single support after; without
+    either they are those of `ba.walk`. tolerance: of the methods that choose their steps.
     """
 
     controller: str = "ADRC"
@@ -75,11 +87,13 @@ class Run:
     poles: tuple[float, ...] = TABLE_I
     bandwidth: float | None = None
     order: int = 1
+    continued: bool = False
     solve_theta: bool = True
     reset: str = "model"
     method: str | None = None
     h: float | None = None
-    store_every: int = 1
+    fine: float | None = None
+    tolerance: float = 1e-9
     engine: str = PINOCCHIO
 
     def record(self) -> dict[str, Any]:
@@ -89,6 +103,11 @@ class Run:
     def biped(self) -> Biped:
         """The nominal robot."""
         return Biped.load(self.robot, self.preset, self.friction)
+
+    def gait_of(self, biped: Biped) -> Gait:
+        """The gait, continued if asked for."""
+        found = load_gait(self.gait, biped)
+        return replace(found, constraint=continued(found.constraint)) if self.continued else found
 
     def build(self, biped: Biped, gait: Gait) -> Walker:
         """The walker of this run. Raises InputError naming what does not fit."""
@@ -122,21 +141,46 @@ class Run:
             f"controller '{self.controller}' is unknown; choose one of {list(CONTROLLERS)}"
         )
 
-    def one_step_method(self) -> OneStepMethod:
-        """The method asked for; by default exponential for ADRC in continuous time, RK4 otherwise."""
+    def one_step_method(self, h: float | None = None) -> OneStepMethod:
+        """The method asked for with step h [s], or the run's own; by default exponential for ADRC in continuous
+        time, RK4 otherwise."""
         stiff = self.controller == "ADRC" and self.period is None
         name = self.method or ("exponential" if stiff else "rk4")
         if name not in METHODS:
             raise InputError(f"method '{name}' is unknown; choose one of {sorted(METHODS)}")
+        h = self.h if h is None else h
+        if name in ("adaptive", "stiff") and (h or self.fine) is not None:
+            raise InputError(
+                f"method '{name}' chooses its own step; leave out h = {h or self.fine:g} s"
+            )
         if name in ("adaptive", "stiff"):
-            if self.h is not None:
-                raise InputError(
-                    f"method '{name}' chooses its own step; leave out h = {self.h:g} s"
-                )
-            made: OneStepMethod = METHODS[name]()
-            return made
-        method: OneStepMethod = METHODS[name](self.h) if self.h is not None else METHODS[name]()
+            chosen: OneStepMethod = METHODS[name](self.tolerance, self.tolerance)
+            return chosen
+        method: OneStepMethod = METHODS[name]() if h is None else METHODS[name](h)
         return method
+
+    def parts(self, walker: Walker) -> tuple[Part, ...]:
+        """How the walk is integrated: with `fine` where a push switches, with h elsewhere."""
+        if self.fine is not None:
+            fine = self.one_step_method(self.fine)
+            return refined(walker, self.impacts, self.first_step, self.one_step_method(), fine)
+        if self.h is None and self.method is None:
+            return default_parts(walker, self.impacts, self.first_step, self.engine)
+        return (Part(self.impacts, self.one_step_method()),)
+
+    def halved(self) -> Run:
+        """The same run with every step half as long.
+
+        A method that chooses its steps gets a hundredth of the tolerance, and is the explicit one.
+        """
+        if self.method in ("adaptive", "stiff"):
+            return replace(self, method="adaptive", tolerance=1e-2 * self.tolerance)
+        usual = self.one_step_method()
+        assert isinstance(usual, RK4 | Exponential)
+        fine = self.fine
+        if fine is None and self.h is None and self.method is None and self.engine == COMPILED:
+            fine = FINE_STEP if isinstance(usual, Exponential) else None
+        return replace(self, h=0.5 * usual.h, fine=None if fine is None else 0.5 * fine)
 
 
 @dataclass(frozen=True)
@@ -152,15 +196,19 @@ class Outcome:
     durations: Array
     """(impacts,) of the single supports [s]."""
     peak_error: float
-    """max |q_b - q_d| [rad]."""
+    """max |q_b - q_d| [rad], inside the steps of the method too."""
     rms_error: float
     """Root of the mean over time and joints of (q_b - q_d)^2 [rad]."""
     peak_torque: float
     """[N m]."""
     certificates: tuple[Certificate, ...]
+    legality: Legality
+    """What ground and motors would have had to give, within the limits of the robot's record."""
     method: str
     engine: str
     """What ran."""
+    half: Outcome | None = None
+    """The same run with every step half as long; its own half is None."""
 
     @property
     def walked(self) -> bool:
@@ -185,20 +233,23 @@ def execute(run: Run) -> Outcome:
     return execute_fully(run).outcome
 
 
+def execute_twice(run: Run) -> Outcome:
+    """Carry out a run, and the same with every step half as long, which is in `Outcome.half`."""
+    return replace(execute(run), half=execute(run.halved()))
+
+
 def execute_fully(run: Run, progress: Progress | None = None) -> FullOutcome:
     """Carry out a run from the impact of the gait's periodic orbit, and keep the trajectory."""
     check_engine(run.engine)
-    if run.impacts < 1:
-        raise InputError(f"the run asks for {run.impacts} impacts, expected at least 1")
+    check_count(run.impacts, f"the run asks for {run.impacts} impacts")
     biped = run.biped()
-    gait = load_gait(run.gait, biped)
-    made = walk(
-        run.build(biped, gait),
+    gait = run.gait_of(biped)
+    walker = run.build(biped, gait)
+    made = walk_in_parts(
+        walker,
         gait,
-        run.impacts,
-        run.one_step_method(),
+        run.parts(walker),
         first_step=run.first_step,
-        store_every=run.store_every,
         progress=progress,
         engine=run.engine,
     )
@@ -219,10 +270,11 @@ def _outcome(run: Run, made: Walk) -> Outcome:
         len(events),
         trajectory.before(FOOT_STRIKE),
         np.diff(times),
-        float(np.max(np.abs(s.error))),
-        float(np.sqrt(mean)),
+        s.peak_error,
+        float(np.sqrt(max(mean, 0.0))),
         float(np.max(np.abs(s.u))),
         made.certificates,
+        made.legality,
         str(trajectory.settings["method"]),
         str(trajectory.settings["engine"]),
     )
@@ -231,7 +283,7 @@ def _outcome(run: Run, made: Walk) -> Outcome:
 def replay(run: Run, trajectory: Trajectory) -> Walk:
     """The walk of a stored or sent trajectory: its walker is built again from the run."""
     biped = run.biped()
-    gait = load_gait(run.gait, biped)
+    gait = run.gait_of(biped)
     return watched(run.build(biped, gait), gait, trajectory)
 
 
@@ -264,7 +316,7 @@ def load_walks(paths: Sequence[Path]) -> dict[str, Recording]:
 
 def from_record(record: dict[str, Any]) -> Run:
     """The run that `Run.record` came from. Raises InputError for keys that do not belong there."""
-    values = dict(record)
+    values = {key: value for key, value in record.items() if key != "store_every"}
     try:
         values["pushes"] = tuple(Push(**push) for push in values.get("pushes", ()))
         values["poles"] = tuple(values.get("poles", TABLE_I))

@@ -10,8 +10,9 @@ from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies.plan import BOTH, POLICIES, Plan, RecipeResult
-from biped_adrc.studies.runs import Outcome
-from biped_adrc.studies.verdicts import Results, distance, map_counts
+from biped_adrc.studies.push_map import WORDS, counts
+from biped_adrc.studies.runs import CONTROLLERS, Outcome
+from biped_adrc.studies.verdicts import Results, distance
 
 PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)
 """As the paper prints them, with its thousands separators ("-11.020", "-19.836") read as such."""
@@ -49,6 +50,7 @@ def _row(o: Outcome) -> list[Any]:
         o.status,
         o.impacts,
         o.peak_error,
+        None if o.half is None else o.half.peak_error,
         o.rms_error,
         o.peak_torque,
         float(np.median([s.duration for s in steps])) if steps else None,
@@ -61,9 +63,14 @@ def _row(o: Outcome) -> list[Any]:
 
 def _runs(r: Results) -> dict[str, Any]:
     columns = ["run", "controller", "preset", "status", "impacts", "peak error [rad]"]
-    columns += ["rms error [rad]", "peak torque [N m]", "median step [s]", "friction needed"]
+    columns += ["at half the step [rad]", "rms error [rad]", "peak torque [N m]"]
+    columns += ["median step [s]", "friction needed"]
     columns += ["impulse ratio", "method", "engine"]
-    named = {k: v for k, v in r.items() if isinstance(v, Outcome) and not k.startswith("reset")}
+    named = {
+        k: v
+        for k, v in r.items()
+        if isinstance(v, Outcome) and not k.startswith(("reset", "engines"))
+    }
     heads = {f"push {c}": r[f"headline {c}"].outcome for c in BOTH}
     rows = [[name, *_row(o)] for name, o in {**heads, **named}.items()]
     return {"columns": columns, "rows": rows}
@@ -132,20 +139,24 @@ def _recipe(plan: Plan, r: Results) -> dict[str, Any]:
 
 
 def _literal(r: Results) -> dict[str, Any]:
-    columns = ["variant", "status", "impacts", "peak error [rad]", "peak torque [N m]"]
-    columns += ["median step [s]", "distance to x*"]
+    columns = ["variant", "status", "impacts", "peak error [rad]", "at half the step [rad]"]
+    columns += ["peak torque [N m]", "median step [s]", "distance to x*"]
     names = [f"as printed {c}" for c in BOTH]
     names += [f"reset {p}, {limit}" for p in POLICIES for limit in ("unlimited", "150 N m")]
     rows = []
     for name in names:
         o: Outcome = r[name]
         period = float(np.median(o.durations)) if len(o.durations) else None
-        rows.append([name, o.status, o.impacts, o.peak_error, o.peak_torque, period, distance(o)])
+        half = None if o.half is None else o.half.peak_error
+        figures = [o.peak_error, half] if o.walked else [None, None]
+        torque = o.peak_torque if o.walked else None
+        rows.append([name, o.status, o.impacts, *figures, torque, period, distance(o)])
     return {"columns": columns, "rows": rows}
 
 
 def _map(cells: list[Any]) -> dict[str, Any]:
-    verdicts = ["both walk", "only NPD falls", "only ADRC falls", "both fall"]
-    counts = map_counts(cells)
-    rows = [[limit, *(count.get(v, 0) for v in verdicts)] for limit, count in counts.items()]
-    return {"columns": ["preset, torque limit", *verdicts], "rows": rows}
+    found = counts(cells)
+    rows = [
+        [name, c, *(found[name][c][word] for word in WORDS)] for name in found for c in CONTROLLERS
+    ]
+    return {"columns": ["preset, torque limit", "controller", *WORDS], "rows": rows}

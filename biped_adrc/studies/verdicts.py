@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from typing import Any
 
 import numpy as np
 
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.studies.checks import Check, at_least, at_most, below
+from biped_adrc.studies.convergence import convergence_check, observed_order
 from biped_adrc.studies.plan import BOTH, Headline, Plan, RecipeResult
 from biped_adrc.studies.poincare import PoincareResult
 from biped_adrc.studies.runs import Outcome
@@ -118,28 +118,53 @@ def push_checks(r: Results) -> list[Check]:
 
 
 def engine_checks(r: Results) -> list[Check]:
-    """The two engines on the headline runs, at equal method and step: states at all impacts."""
+    """The two engines over the pushed step, at equal method and step: the state before the next impact."""
     checks = []
     for c in BOTH:
-        one, other = r[f"headline {c}"].outcome, r[f"compiled push {c}"]
-        same = one.x_minus.shape == other.x_minus.shape
+        one: Outcome = r[f"engines {c}"]
+        other = one.half
+        assert other is not None
+        same = one.x_minus.shape == other.x_minus.shape and len(one.x_minus) > 0
         n = one.run.biped().n
         gap = np.abs(one.x_minus - other.x_minus)[:, : 2 * n] if same else np.array([np.inf])
-        name = (
-            f"{c} under the push: compiled against Pinocchio, (q, q') at the impacts [rad, rad/s]"
-        )
+        name = f"{c} over the pushed step: compiled against Pinocchio, (q, q') at the impact [rad, rad/s]"
         checks.append(at_most(name, "law", float(np.max(gap)), 1e-6))
     return checks
 
 
-def map_counts(cells: list[Any]) -> dict[str, dict[str, int]]:
-    """Verdicts by torque limit."""
-    counts: dict[str, Counter[str]] = {}
-    for cell in cells:
-        limit = "unlimited" if cell.torque_limit is None else f"{cell.torque_limit:g} N m"
-        limit = f"{cell.preset}, {limit}"
-        counts.setdefault(limit, Counter())[cell.verdict] += 1
-    return {limit: dict(counter) for limit, counter in counts.items()}
+def run_twice(r: Results) -> dict[str, Outcome]:
+    """Every outcome that was computed at two steps, by name."""
+    found = {f"push {c}": headline_of(r, c).outcome for c in BOTH}
+    found |= {
+        name: value
+        for name, value in r.items()
+        if isinstance(value, Outcome) and not name.startswith("engines")
+    }
+    for value in r.values():
+        if isinstance(value, RecipeResult) and value.outcome is not None:
+            found[f"gait (b) {value.preset} {value.controller}"] = value.outcome
+    return {name: o for name, o in found.items() if o.half is not None}
+
+
+def convergence_checks(r: Results) -> list[Check]:
+    """No figure of merit moves when every step is halved; the headline's peak at a third step has an order."""
+    found = [convergence_check(name, o) for name, o in run_twice(r).items()]
+    head = headline_of(r, "ADRC").outcome
+    order = observed_order(head, lambda o: o.peak_error)
+    name = "order in the step of ADRC's largest error under the push, from three steps"
+    found.append(at_least(name, "law", order, 1.0))
+    for name in sorted(r):
+        if isinstance(r[name], PoincareResult):
+            text = f"{name}: {CHANGE}"
+            found.append(at_most(text, "law", r[name].gap, 1e-3))
+        if isinstance(r[name], RecipeResult) and r[name].closes:
+            gap = r[name].record["multipliers_change"]
+            text = f"gait (b), {r[name].preset}, {r[name].controller}: {CHANGE}"
+            found.append(at_most(text, "law", gap, 1e-3))
+    return found
+
+
+CHANGE = "largest change of a multiplier when the step is halved"
 
 
 def recipe_checks(plan: Plan, r: Results) -> list[Check]:

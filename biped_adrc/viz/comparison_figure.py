@@ -1,4 +1,4 @@
-"""Figures of a comparison: who survives what, at what error, and the largest push of each kind."""
+"""Figures of a comparison: who walks legally under what, at what error, and the largest push of each kind."""
 
 from __future__ import annotations
 
@@ -17,29 +17,36 @@ MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
 
 
 def survival_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
-    """Share of walks that survive, as text and shade; a row per condition, a column per controller.
+    """Share of walks that are legal, as text and shade, with the share that makes all steps below it, smaller.
 
-    cells: "controller", "condition", "survived" [share, low, high]. Raises InputError without cells.
+    cells: "controller", "condition", "legal" and "survived" [share, low, high], a row of the figure per
+    condition. Raises InputError without cells.
     """
     rows, columns = _names(cells, "condition"), _names(cells, "controller")
     with style():
-        figure = new_figure(1.9 + 0.95 * len(columns), 0.9 + 0.32 * len(rows))
+        figure = new_figure(1.9 + 0.95 * len(columns), 0.9 + 0.46 * len(rows))
         axes = figure.subplots()
         for cell in cells:
             x, y = columns.index(cell["controller"]), rows.index(cell["condition"])
-            value, low, high = cell["survived"]
+            value, low, high = cell["legal"]
             axes.add_patch(_box(x, y, value))
-            ink = "black"
-            axes.text(x, y - 0.12, f"{100 * value:.0f} %", ha="center", va="center", color=ink)
             span = f"{100 * low:.0f} to {100 * high:.0f}"
-            axes.text(x, y + 0.24, span, ha="center", va="center", fontsize=6.0, color=ink)
+            made = f"all steps: {100 * cell['survived'][0]:.0f} %"
+            for text, down, size in (
+                (f"{100 * value:.0f} %", -0.22, 9.0),
+                (span, 0.1, 6.0),
+                (made, 0.34, 5.5),
+            ):
+                axes.text(x, y + down, text, ha="center", va="center", fontsize=size, color="black")
         _grid(axes, rows, columns)
-        label(axes, "", "", "walks that make all steps, with 95 % intervals")
+        label(
+            axes, "", "", "walks that are legal, 95 % intervals; below, those that make all steps"
+        )
         return figure
 
 
 def _box(x: int, y: int, value: float) -> Rectangle:
-    """White where all survive, grey where none does."""
+    """White where all are legal, grey where none is."""
     grey = str(round(1.0 - 0.38 * (1.0 - value), 3))
     return Rectangle((x - 0.5, y - 0.5), 1, 1, fc=grey, ec="black", lw=0.4)
 
@@ -47,7 +54,8 @@ def _box(x: int, y: int, value: float) -> Rectangle:
 def measure_figure(cells: Sequence[Mapping[str, Any]], measure: str, title: str) -> Figure:
     """Medians of one measure with their intervals, a row per condition, a mark per controller.
 
-    cells: as in `survival_figure`, with `measure` [median, low, high] or None.
+    cells: as in `survival_figure`, with `measure` [median, low, high] or None, over legal walks, and the same
+    in "made", over those that make all steps: drawn hollow where no walk is legal.
     """
     rows, columns = _names(cells, "condition"), _names(cells, "controller")
     with style():
@@ -55,20 +63,13 @@ def measure_figure(cells: Sequence[Mapping[str, Any]], measure: str, title: str)
         axes = figure.subplots()
         offsets = np.linspace(-0.32, 0.32, len(columns)) if len(columns) > 1 else [0.0]
         for i, name in enumerate(columns):
-            here = [c for c in cells if c["controller"] == name and c[measure] is not None]
-            value = np.array([c[measure][0] for c in here])
-            low, high = (np.array([c[measure][k] for c in here]) for k in (1, 2))
-            y = np.array([rows.index(c["condition"]) for c in here]) + offsets[i]
-            axes.errorbar(
-                value,
-                y,
-                xerr=[np.maximum(value - low, 0.0), np.maximum(high - value, 0.0)],
-                fmt=MARKERS[i % len(MARKERS)],
-                ms=4,
-                lw=1.0,
-                color=PALETTE[i % len(PALETTE)],
-                label=name,
-            )
+            for kind in ("legal", "made"):
+                here = [
+                    (rows.index(c["condition"]) + offsets[i], found)
+                    for c in cells
+                    if c["controller"] == name and (found := _shown(c, measure, kind)) is not None
+                ]
+                _marks(axes, here, i, name if kind == "legal" else None, kind == "legal")
         if measure in ("peak_error", "cost_of_transport"):
             axes.set_xscale("log")
         axes.set_yticks(range(len(rows)), rows)
@@ -78,36 +79,88 @@ def measure_figure(cells: Sequence[Mapping[str, Any]], measure: str, title: str)
         return figure
 
 
-def push_figure(pushes: Sequence[Mapping[str, Any]]) -> Figure:
-    """The largest push survived, a panel per phase of the step, bars by direction and controller.
+def _shown(cell: Mapping[str, Any], measure: str, kind: str) -> Sequence[float] | None:
+    """Of the legal walks, or of those that make all steps where none is legal."""
+    if kind == "legal":
+        return cell[measure]
+    return cell["made"][measure] if cell[measure] is None else None
 
-    pushes: "controller", "direction", "phase", "push" [median, low, high] [N m], "beyond".
+
+def _marks(
+    axes: Axes,
+    here: Sequence[tuple[float, Sequence[float]]],
+    i: int,
+    name: str | None,
+    filled: bool,
+) -> None:
+    """Marks of controller i at heights with [value, low, high]."""
+    found = np.array([x for _, x in here]).reshape(-1, 3)
+    axes.errorbar(
+        found[:, 0],
+        [y for y, _ in here],
+        xerr=np.maximum([found[:, 0] - found[:, 1], found[:, 2] - found[:, 0]], 0.0),
+        fmt=MARKERS[i % len(MARKERS)],
+        ms=4,
+        lw=1.0,
+        mfc=PALETTE[i % len(PALETTE)] if filled else "white",
+        color=PALETTE[i % len(PALETTE)],
+        label=name,
+    )
+
+
+def push_figure(pushes: Sequence[Mapping[str, Any]]) -> Figure:
+    """The largest push walked legally (filled) and survived (hollow), a panel per phase of the step.
+
+    pushes: "controller", "direction", "phase", and in "legal" and "survived" the "median" and the "seeds", each
+    [low, high] [N m] with None for "at least".
     """
     directions, columns = _names(pushes, "direction"), _names(pushes, "controller")
     phases = list(dict.fromkeys(p["phase"] for p in pushes))
     with style():
-        figure = new_figure(2.6 * len(phases) + 0.8, 1.3 + 0.42 * len(directions))
+        figure = new_figure(2.6 * len(phases) + 0.8, 1.3 + 0.16 * len(directions) * len(columns))
         panels = figure.subplots(1, len(phases), sharey=True, sharex=True, squeeze=False)[0]
-        height = 0.8 / len(columns)
         for axes, phase in zip(panels, phases, strict=True):
-            for i, name in enumerate(columns):
-                here = [p for p in pushes if p["phase"] == phase and p["controller"] == name]
-                y = np.array([directions.index(p["direction"]) for p in here])
-                value, low, high = (np.array([p["push"][k] for p in here]) for k in range(3))
-                axes.barh(
-                    y - 0.4 + (i + 0.5) * height,
-                    value,
-                    height,
-                    xerr=[np.maximum(value - low, 0.0), np.maximum(high - value, 0.0)],
-                    color=PALETTE[i % len(PALETTE)],
-                    error_kw={"lw": 0.7},
-                    label=name if axes is panels[0] else None,
-                )
+            for p in (p for p in pushes if p["phase"] == phase):
+                i = columns.index(p["controller"])
+                y = directions.index(p["direction"]) - 0.4 + 0.8 * (i + 0.5) / len(columns)
+                _push(axes, p, y, i)
+            for k in range(1, len(directions)):
+                axes.axhline(k - 0.5, color="#bbbbbb", lw=0.6)
             axes.set_yticks(range(len(directions)), directions)
             axes.set_ylim(len(directions) - 0.5, -0.5)
-            label(axes, "largest push survived [N m]", "", f"{phase} in the step")
+            axes.set_xlim(0.0, 1.12 * _farthest(pushes))
+            label(axes, "largest push [N m]", "", f"{phase} in the step")
+        for i, name in enumerate(columns):
+            panels[0].plot(
+                [], [], MARKERS[i % len(MARKERS)], color=PALETTE[i % len(PALETTE)], label=name
+            )
         figure.legend(loc="outside lower center", ncols=min(len(columns), 5))
         return figure
+
+
+def _farthest(pushes: Sequence[Mapping[str, Any]]) -> float:
+    """The largest push that is drawn [N m], with room for arrows."""
+    ends = [
+        x for p in pushes for k in ("legal", "survived") for x in p[k]["median"] + p[k]["seeds"]
+    ]
+    return max(1.0, *(float(x) for x in ends if x is not None))
+
+
+def _push(axes: Axes, push: Mapping[str, Any], y: float, i: int) -> None:
+    """Marks at what is reached at least, with an arrow where that is all that is known."""
+    colour, marker = PALETTE[i % len(PALETTE)], MARKERS[i % len(MARKERS)]
+    low, high = push["legal"]["seeds"]
+    axes.plot([low, low if high is None else high], [y, y], color=colour, lw=1.2)
+    for kind, face in (("survived", "white"), ("legal", colour)):
+        low, high = push[kind]["median"]
+        axes.plot(low, y, marker, ms=3.5, mfc=face, mec=colour, mew=0.8)
+        if high is None:
+            axes.annotate(
+                "",
+                (low * 1.09, y),
+                (low, y),
+                arrowprops={"arrowstyle": "->", "color": colour, "lw": 0.8},
+            )
 
 
 def _names(rows: Sequence[Mapping[str, Any]], key: str) -> list[str]:

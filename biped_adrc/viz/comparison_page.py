@@ -6,44 +6,65 @@ from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from typing import Any
 
+from biped_adrc.viz.comparison_text import (
+    EQUAL,
+    MEDIANS,
+    PUSHES,
+    SHARES,
+    WHAT_COUNTS,
+    by_condition,
+    by_direction,
+    equal_texts,
+    median_texts,
+    nominal_text,
+    push_texts,
+    said,
+    share_texts,
+)
 from biped_adrc.viz.meshcat_page import POLICY
 from biped_adrc.viz.report_parts import picture, section, table, text
 
 CAPTIONS = {
     "survival": (
-        "Who makes all steps",
-        "Share of the walks, and between what it lies with 95 % confidence (Wilson).",
+        "Who walks legally",
+        "Share of the walks that make all steps legally with its interval of 95 % (Wilson); below it, smaller, "
+        "the share that makes all steps at all.",
     ),
     "peak_error": (
-        "Largest tracking error of the walks that make all steps",
-        "Medians over seeds with bootstrap intervals of 95 %. Where no walk survives there is no mark.",
+        "Largest tracking error of the legal walks",
+        "Medians over seeds with bootstrap intervals of 95 %. Hollow: no walk is legal, and the median is over "
+        "those that make all steps. No mark: none makes them.",
     ),
     "rms_torque": (
         "What the motors give for it",
-        "Root mean square of the torque over joints and time.",
+        "Root mean square of the torque over joints and time, of the same walks.",
     ),
     "cost_of_transport": (
         "Cost of transport",
-        "Integral of |u|'|q_b'| by weight and distance. Chattering torques show here first.",
+        "Integral of |u|'|q_b'| by weight and distance, of the same walks. Chattering torques show here first.",
     ),
     "pushes": (
-        "The largest push survived",
-        "By bisection: torque on the joints named, for 0.2 s, early to late in the step. The torso has no "
-        "motor: what is pushed there no tracking controller can cancel.",
+        "The largest push",
+        "By bisection: torque on the joints named, for 0.2 s, early to late in the step. Filled: walked "
+        "legally, hollow: survived; median over seeds, and a line over all of them. An arrow says at least: "
+        "the highest torque tried was passed. The torso has no motor: what is pushed there no tracking "
+        "controller can cancel.",
     ),
 }
 """Heading of each figure and what to look for in it."""
+TITLE = "Which controller walks legally under what"
 
 
 def comparison_html(summary: Mapping[str, Any], figures: Mapping[str, str]) -> str:
     """The text of the page; figures: name -> SVG text. The same summary gives the same text."""
     shown = [name for name in CAPTIONS if name in figures]
     parts = {
+        "equal": ("At equal bandwidth", _equal(summary)),
         "figures": ("Figures", "\n".join(picture(*CAPTIONS[n], figures[n]) for n in shown)),
-        "table": ("The table", _cells(summary["cells"])),
+        "table": ("The table", _cells(summary)),
         "pushes": ("Largest pushes", _pushes(summary["pushes"])),
         "who": ("Controllers and conditions", _who(summary)),
-        "settings": ("Settings and versions", _settings(summary)),
+        "versions": ("Settings and versions", _settings(summary)),
     }
     style = files("biped_adrc.viz").joinpath("report.css").read_text(encoding="utf-8")
     count = summary["walks"]
@@ -51,73 +72,49 @@ def comparison_html(summary: Mapping[str, Any], figures: Mapping[str, str]) -> s
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">\n'
-        f"<title>Which controller survives what</title>\n<style>{style}</style>\n</head>\n<body>\n"
+        f"<title>{TITLE}</title>\n<style>{style}</style>\n</head>\n<body>\n"
         '<a class="skip" href="#content">to the content</a>\n<main id="content">\n'
-        "<header>\n<h1>Which controller survives what</h1>\n"
+        f"<header>\n<h1>{TITLE}</h1>\n"
+        f"<p><strong>{text(summary['settings'])}</strong></p>\n"
         f"<p>{count} walks of RABBIT on the gait through the published x*, {summary['seeds']} seeds per "
-        f"cell. Command: <code>{text(summary['command'])}</code></p>\n"
-        f"{_list(summary['findings'])}</header>\n"
+        f"cell. Command: <code>{text(summary['command'])}</code></p>\n<p>{text(WHAT_COUNTS)}</p>\n"
+        f"{_list(said(summary, equal=False))}</header>\n"
         + "\n".join(section(name, title, body) for name, (title, body) in parts.items())
         + "\n</main>\n</body>\n</html>\n"
     )
 
 
-def interval(found: Sequence[float] | None, digits: int = 2, factor: float = 1.0) -> str:
-    """A number with its interval as text."""
-    if found is None:
-        return "–"
-    value, low, high = (factor * x for x in found)
-    return f"{value:.{digits}g} ({low:.{digits}g} to {high:.{digits}g})"
+def _escaped(rows: Sequence[Sequence[str]]) -> list[list[str]]:
+    return [[text(x) for x in row] for row in rows]
 
 
-COLUMNS: dict[str, str] = {
-    "peak_error": "largest error [rad]",
-    "rms_torque": "rms torque [N m]",
-    "cost_of_transport": "cost of transport",
-    "speed_change": "change of speed",
-    "peak_matched": "matched [rad/s^2]",
-    "peak_unmatched": "unmatched [rad/s^2]",
-}
-"""Of the table, beside who, what and the share."""
+def _cells(summary: Mapping[str, Any]) -> str:
+    cells = by_condition(summary["cells"])
+    shares = _escaped([share_texts(cell) for cell in cells])
+    medians = _escaped([median_texts(cell) for cell in cells])
+    needs = "Shares of walks; what they need: medians over the walks that make all steps, 95 % intervals"
+    return (
+        f"<p>{text(nominal_text(summary['nominal']))}</p>\n"
+        f"{table(needs, SHARES, shares)}\n"
+        f"{table('Medians over legal walks, 95 % intervals', MEDIANS, medians)}"
+    )
 
 
-def cell_texts(cell: Mapping[str, Any]) -> list[str]:
-    """A row of the table as plain text."""
-    falls = ", ".join(f"{n} {status.lower()}" for status, n in cell["falls"].items())
-    share = interval([100 * x for x in cell["survived"]], 3) + " %"
-    measures = [interval(cell[name]) for name in COLUMNS]
-    return [cell["condition"], cell["controller"], share, *measures, falls or "–"]
-
-
-HEADINGS = ("condition", "controller", "survive", *COLUMNS.values(), "others")
-
-
-def _cells(cells: Sequence[Mapping[str, Any]]) -> str:
-    ordered = sorted(cells, key=lambda c: _place(cells, c["condition"]))
-    rows = [[text(x) for x in cell_texts(cell)] for cell in ordered]
-    return table("Medians over the walks that make all steps, 95 % intervals", HEADINGS, rows)
-
-
-def _place(cells: Sequence[Mapping[str, Any]], condition: str) -> int:
-    return list(dict.fromkeys(c["condition"] for c in cells)).index(condition)
+def _equal(summary: Mapping[str, Any]) -> str:
+    equal = summary["equal_bandwidth"]
+    if not equal:
+        return ""
+    words = "Observers at their own settings, and with all poles at one bandwidth; 95 % intervals"
+    return (
+        f"{table(words, EQUAL, _escaped(equal_texts(equal)))}\n{_list(said(summary, equal=True))}"
+    )
 
 
 def _pushes(pushes: Sequence[Mapping[str, Any]]) -> str:
     if not pushes:
         return ""
-    rows = [
-        [
-            text(x)
-            for x in (
-                p["direction"],
-                p["phase"],
-                p["controller"],
-                ("at least " if p["beyond"] else "") + interval(p["push"], 3),
-            )
-        ]
-        for p in sorted(pushes, key=lambda p: (p["direction"], p["phase"]))
-    ]
-    return table("Median over seeds [N m]", ("joints", "phase", "controller", "push"), rows)
+    rows = _escaped([push_texts(p) for p in by_direction(pushes)])
+    return table("Between what the median over seeds, and all seeds, lie [N m]", PUSHES, rows)
 
 
 def _who(summary: Mapping[str, Any]) -> str:
@@ -130,7 +127,7 @@ def _who(summary: Mapping[str, Any]) -> str:
 
 def _list(items: Sequence[str]) -> str:
     if not items:
-        return ""
+        return "<p>No difference is carried by its test.</p>\n"
     return "<ul>\n" + "\n".join(f"<li>{text(item)}</li>" for item in items) + "\n</ul>"
 
 

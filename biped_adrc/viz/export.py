@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from biped_adrc.errors import InputError
-from biped_adrc.viz.gif import write_gif
+from biped_adrc.viz.gif import Motion, write_gif
 from biped_adrc.viz.meshcat import write_animation
 from biped_adrc.viz.placement import Recorded
 from biped_adrc.viz.stick import write_strip
@@ -32,12 +32,27 @@ class Clip:
 
     start, stop [s]: of a moving picture or a strip; the whole walk, or its last two steps for a strip, if None.
     fps [1/s]: 60 for a page and 25 for a moving picture if None. view: "side" or "perspective", of a page.
+    apart, magnify, slower: of a moving picture, see `Motion`.
     """
 
     start: float | None = None
     stop: float | None = None
     fps: float | None = None
     view: str = "side"
+    apart: bool = False
+    magnify: float | None = None
+    slower: float = 1.0
+
+    @property
+    def moving(self) -> bool:
+        """Whether something is asked for that only a moving picture has."""
+        return self.apart or self.magnify is not None or self.slower != 1.0
+
+    def motion(self) -> Motion:
+        """Of a moving picture. Raises InputError."""
+        fps = 25.0 if self.fps is None else self.fps
+        width = 800 if self.apart else 600
+        return Motion(self.apart, self.magnify, self.slower, fps, width)
 
 
 def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) -> None:
@@ -46,10 +61,13 @@ def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) 
     suffix = check_suffix(path)
     if not walks:
         raise InputError("there is no walk to draw; expected at least one")
+    if suffix != ".gif" and clip.moving:
+        raise InputError(
+            f"'{path}' is no moving picture, and apart, magnify and slower are of one; write a .gif"
+        )
     if suffix == ".html":
         write_animation(path, walks, fps=60.0 if clip.fps is None else clip.fps, view=clip.view)
     elif suffix == ".gif":
-        fps = 25.0 if clip.fps is None else clip.fps
-        write_gif(path, walks, start=clip.start, stop=clip.stop, fps=fps)
+        write_gif(path, walks, start=clip.start, stop=clip.stop, motion=clip.motion())
     else:
         write_strip(path, list(walks.values())[-1], clip.start, clip.stop)

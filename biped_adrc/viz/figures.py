@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from matplotlib.gridspec import SubplotSpec
+from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.types import Array
@@ -14,9 +16,13 @@ from biped_adrc.viz import plots
 from biped_adrc.viz.plots.lines import Window
 from biped_adrc.viz.push_map_plot import push_map_figure
 from biped_adrc.viz.style import new_figure, style
+from biped_adrc.viz.thin import thin
 
 BEFORE, AFTER = 0.3, 0.6
 """[s]: what the zoom shows before and after a push."""
+EDGE_BEFORE, EDGE_AFTER = 1e-3, 6e-3
+"""[s]: what is shown before and after an edge of a push, where a fast observer has its say."""
+EDGES = ("push begins", "push ends")
 
 
 def tracking_figure(
@@ -24,28 +30,80 @@ def tracking_figure(
 ) -> Figure:
     """The paper's figures 4 and 5: references and joint angles, torques, and the tracking error.
 
-    push: (start, stop) [s]; its window is shaded, and a second column shows the time around it.
-    torque_limit [N m]: drawn as a dotted line.
+    push: (start, stop) [s]; its window is shaded, a row shows it, a second column the time around it, and two
+    more the milliseconds after either edge. torque_limit [N m]: drawn as a dotted line.
     """
-    halves = np.array_split(np.arange(signals.q_d.shape[1]), 2)
+    heights = (3.0, 3.0, 1.6, 3.0, 3.0) if push else (1.0,) * 4
+    shares = (1.5, 1.5, 1.0, 1.0) if push else (1.0,)
     with style():
-        figure = new_figure(11.0 if push else 7.5, 9.0)
+        figure = new_figure(13.0 if push else 7.5, 9.6 if push else 9.0)
         figure.suptitle(title)
-        grid = figure.subplots(4, 2 if push else 1, squeeze=False, sharex="col")
-        for column, head in zip(grid.T, ("whole walk", "around the push"), strict=False):
-            for axes, half in zip(column, halves, strict=False):
-                plots.joint_tracking(axes, signals, half.tolist(), push)
-            plots.torques(column[2], signals, torque_limit, push)
-            plots.tracking_errors(column[3], signals, push)
-            column[0].set_title(head, loc="left")
-            for axes in column[:3]:
-                axes.set_xlabel("")
-        grid[0, 0].set_xlim(signals.t[0], signals.t[-1])
+        spec = figure.add_gridspec(
+            len(heights), len(shares), width_ratios=shares, height_ratios=heights
+        )
+        # angles do not move within milliseconds: they have no panels at the edges
+        columns = [
+            _column(figure, [spec[i, j] for i in range(0 if j < 2 else 2, len(heights))])
+            for j in range(len(shares))
+        ]
+        for j, column in enumerate(columns):
+            _tracking_column(column, j < 2, signals, push, torque_limit)
+        columns[0][0].set_xlim(signals.t[0], signals.t[-1])
+        columns[0][0].set_title("whole walk", loc="left")
         if push:
-            _zoom(grid[:, 1], signals, push)
-            for axes in grid[:, 0]:
-                axes.get_legend().remove()
-        return figure
+            _zoom(columns[1], signals, push)
+            columns[1][0].set_title("around the push", loc="left")
+            _edges(columns[2:], signals, push)
+            _one_legend_a_row([*columns[0], *columns[1][2:], *columns[2]], columns[1][:2])
+        return thin(figure)
+
+
+def _column(figure: Figure, places: Sequence[SubplotSpec]) -> list[Axes]:
+    """Panels one above the other with one time axis, the lowest's."""
+    first = figure.add_subplot(places[0])
+    column = [first, *(figure.add_subplot(place, sharex=first) for place in places[1:])]
+    for axes in column[:-1]:
+        axes.tick_params(labelbottom=False)
+    return column
+
+
+def _tracking_column(
+    column: Sequence[Axes], angles: bool, s: Signals, push: Window | None, limit: float | None
+) -> None:
+    """Angles if asked for, the push if there is one, torques, errors; from top to bottom."""
+    halves = np.array_split(np.arange(s.q_d.shape[1]), 2) if angles else []
+    for axes, half in zip(column, halves, strict=False):
+        plots.joint_tracking(axes, s, half.tolist(), push)
+    if push:
+        plots.external_torque(column[-3], s, push)
+    plots.torques(column[-2], s, limit, push)
+    plots.tracking_errors(column[-1], s, push)
+    for axes in column[:-1]:
+        axes.set_xlabel("")
+
+
+def _edges(columns: Sequence[Sequence[Axes]], s: Signals, push: Window) -> None:
+    """Limits around either edge of the push, and a time axis in milliseconds from it."""
+    for column, edge, name in zip(columns, push, EDGES, strict=True):
+        _limits(column, max(edge - EDGE_BEFORE, s.t[0]), min(edge + EDGE_AFTER, s.t[-1]))
+        column[0].set_title(name, loc="left")
+        at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)
+        for axes in column:
+            axes.set_xticks(edge + at, [f"{1e3 * t:g}" for t in at])
+            axes.set_xlabel("")
+        column[-1].set_xlabel("after the edge [ms]")
+
+
+def _one_legend_a_row(without: Sequence[Axes], beside_empty: Sequence[Axes]) -> None:
+    """Take the legends away from `without`; those beside an empty place take no room of their own."""
+    for axes in without:
+        legend = axes.get_legend()
+        if legend is not None:
+            legend.remove()
+    for axes in beside_empty:
+        legend = axes.get_legend()
+        if legend is not None:
+            legend.set_in_layout(False)
 
 
 def passive_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
@@ -59,21 +117,29 @@ def passive_figure(signals: Signals, title: str = "", push: Window | None = None
         plots.angles(parts["angles"], signals, push).set_xlabel("")
         plots.energy(parts["energy"], signals, push)
         plots.phase_portrait(parts["phase"], signals)
-        return figure
+        return thin(figure)
 
 
-def _zoom(column: NDArray[np.object_], s: Signals, push: Window) -> None:
+def _zoom(column: Sequence[Axes], s: Signals, push: Window) -> None:
     """Limits of the time axis and of each value axis around the push."""
-    low = max(push[0] - BEFORE, float(s.t[0]))
-    high = min(push[1] + AFTER, float(s.t[-1]))
+    _limits(column, max(push[0] - BEFORE, float(s.t[0])), min(push[1] + AFTER, float(s.t[-1])))
+
+
+def _limits(column: Sequence[Axes], low: float, high: float) -> None:
+    """The time axis from low to high [s], and each value axis to what is drawn there."""
     for axes in column:
         axes.set_xlim(low, high)
         shown = [np.asarray(line.get_data(), dtype=float) for line in axes.get_lines()]
         values = [y[(t >= low) & (t <= high)] for t, y in shown if len(t) > 2]
-        ends = np.array([(np.nanmin(y), np.nanmax(y)) for y in values if np.isfinite(y).any()])
-        if len(ends) and ends[:, 1].max() > ends[:, 0].min():
-            pad = 0.06 * (ends[:, 1].max() - ends[:, 0].min())
-            axes.set_ylim(ends[:, 0].min() - pad, ends[:, 1].max() + pad)
+        values = [y[np.isfinite(y)] for y in values]
+        ends = np.array([(y.min(), y.max()) for y in values if len(y)])
+        if not len(ends) or not ends[:, 1].max() > ends[:, 0].min():
+            continue
+        if axes.get_yscale() == "log":
+            axes.set_ylim(0.5 * ends[:, 0].min(), 2.0 * ends[:, 1].max())
+            continue
+        pad = 0.06 * (ends[:, 1].max() - ends[:, 0].min())
+        axes.set_ylim(ends[:, 0].min() - pad, ends[:, 1].max() + pad)
 
 
 def phase_figure(walks: Mapping[str, Signals]) -> Figure:
@@ -83,28 +149,37 @@ def phase_figure(walks: Mapping[str, Signals]) -> Figure:
         row = figure.subplots(1, len(walks), squeeze=False, sharex=True, sharey=True)[0]
         for i, (axes, (name, s)) in enumerate(zip(row, walks.items(), strict=True)):
             plots.phase_portrait(axes, s, name, i).set_title(name, loc="left")
-        return figure
+        return thin(figure)
 
 
 def disturbance_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
-    """Every actuated joint's total disturbance, and the torque from outside, against their estimates."""
+    """Every actuated joint's total disturbance, and the torque from outside, against their estimates.
+
+    push: (start, stop) [s]; the time around it is shown, and in two more columns the torque at either edge.
+    """
     p = signals.q_d.shape[1]
     with style():
-        figure = new_figure(10.5, 2.1 * p)
+        figure = new_figure(13.0 if push else 10.5, 2.1 * p)
         figure.suptitle(title)
-        grid = figure.subplots(p, 2, squeeze=False, sharex=True)
+        shares = [1.5, 1.5, 1.0, 1.0] if push else [1.0, 1.0]
+        grid = figure.subplots(p, len(shares), squeeze=False, sharex="col", width_ratios=shares)
         for i, row in enumerate(grid):
             plots.total_disturbance(row[0], signals, i, push)
-            plots.matched_disturbance(row[1], signals, i, push)
+            for axes in row[1:]:
+                plots.matched_disturbance(axes, signals, i, push)
             if i < p - 1:
                 for axes in row:
                     axes.set_xlabel("")
         grid[0, 0].set_title("total disturbance", loc="left")
         grid[0, 1].set_title("matched part: torque from outside", loc="left")
         if push:
-            for column in grid.T:
+            for column in grid.T[:2]:
                 _zoom(column, signals, push)
-        return figure
+            _edges([list(column) for column in grid.T[2:]], signals, push)
+            for axes in grid[:, :2].flat:
+                axes.legend(loc="best", frameon=False)
+            _one_legend_a_row(list(grid[:, 2:].flat), ())
+        return thin(figure)
 
 
 def ground_figure(signals: Signals, title: str = "", mu: float = 0.6, slope: float = 0.0) -> Figure:
@@ -115,7 +190,7 @@ def ground_figure(signals: Signals, title: str = "", mu: float = 0.6, slope: flo
         over_time, cone = figure.subplots(1, 2, width_ratios=(3, 2))
         plots.ground_reaction(over_time, signals, slope=slope)
         plots.friction_cone(cone, signals, mu, slope)
-        return figure
+        return thin(figure)
 
 
 def energy_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
@@ -123,7 +198,7 @@ def energy_figure(signals: Signals, title: str = "", push: Window | None = None)
     with style():
         figure = new_figure(8.5, 3.4)
         plots.energy(figure.subplots(), signals, push).set_title(title, loc="left")
-        return figure
+        return thin(figure)
 
 
 def multiplier_figure(
@@ -147,14 +222,39 @@ def return_map_figure(before: Array, after: Array) -> Figure:
 
 
 def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) -> Figure:
-    """Controllers side by side: error over time, its size, and what the motors gave for it."""
+    """Controllers side by side: error over time, its size, and what the motors gave for it.
+
+    push: (start, stop) [s]; a row shows it, and two columns the milliseconds after either edge.
+    """
     with style():
-        figure = new_figure(10.0, 5.6)
-        parts = figure.subplot_mosaic([["time", "time"], ["error", "torque"]])
-        plots.error_over_time(parts["time"], walks, push)
-        plots.error_sizes(parts["error"], walks)
-        plots.torque_sizes(parts["torque"], walks)
-        return figure
+        figure = new_figure(11.0 if push else 10.0, 7.2 if push else 5.6)
+        heights = (1.0, 2.6, 2.4) if push else (1.0, 1.0)
+        spec = figure.add_gridspec(len(heights), 4, height_ratios=heights)
+        if push:
+            columns = [
+                _column(figure, [spec[0, place], spec[1, place]])
+                for place in (slice(0, 2), slice(2, 3), slice(3, 4))
+            ]
+            _pushed_columns(columns, walks, push)
+        else:
+            plots.error_over_time(figure.add_subplot(spec[0, :]), walks)
+        plots.error_sizes(figure.add_subplot(spec[-1, :2]), walks)
+        plots.torque_sizes(figure.add_subplot(spec[-1, 2:]), walks)
+        return thin(figure)
+
+
+def _pushed_columns(
+    columns: Sequence[Sequence[Axes]], walks: Mapping[str, Signals], push: Window
+) -> None:
+    """The push, the same for all walks, above their errors: whole, and at either edge."""
+    first = next(iter(walks.values()))
+    for above, axes in columns:
+        plots.external_torque(above, first, push).set_xlabel("")
+        plots.error_over_time(axes, walks, push)
+    _limits(columns[0], float(first.t[0]), float(first.t[-1]))
+    columns[0][0].set_title("whole walk", loc="left")
+    _edges(columns[1:], first, push)
+    _one_legend_a_row([columns[0][0], columns[1][0], columns[1][1], columns[2][1]], ())
 
 
 __all__ = [

@@ -16,6 +16,7 @@ from biped_adrc.files import write_text
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 from biped_adrc.viz import meshcat_scene as draw
+from biped_adrc.viz.ending import ending
 from biped_adrc.viz.frames import Frames
 from biped_adrc.viz.meshcat_page import MemoryWindow, page
 from biped_adrc.viz.placement import Recorded, Scene, exchanged, is_wheel
@@ -27,6 +28,8 @@ LANE = 0.4
 """[m], by which each ghost walks farther from the camera: faces in one plane flicker."""
 WEIGHT_LENGTH = 0.4
 """[m], length of the arrow of a ground reaction as large as the robot's weight."""
+LONGEST = 1.2
+"""[m], of the arrow of a ground reaction; that of a larger one is cut, and the page says so."""
 METRES_PER_NEWTON_METRE = 0.004
 """Radius of the ring of an external torque [m / N m]."""
 TRACE_POINTS = 20_000
@@ -127,7 +130,9 @@ def scene_settings(
         opacity, room = (1.0 if lane == 0 else GHOST), (points or {}).get(name, TRACE_POINTS)
         robot = viewer[f"robots/{names[name]}"]
         robot.set_transform(draw.shift((0.0, LANE * lane, 0.0)))
-        described.append(_add_walk(robot, f"meshcat/robots/{names[name]}", scene, opacity, room))
+        path = f"meshcat/robots/{names[name]}"
+        over = {"name": name, "end": scene.trajectory.t_end, "ending": ending(scene.trajectory)}
+        described.append(over | _add_walk(robot, path, scene, opacity, room))
     solid = next(iter(scenes.values()))
     draw.add_ground(viewer["ground"], list(scenes.values()), draw.sole(solid.biped), LANE)
     draw.set_stage(viewer)
@@ -195,6 +200,7 @@ def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) ->
         "ground": -depth,
         "head": draw.HEAD,
         "metres_per_newton": WEIGHT_LENGTH / biped.weight,
+        "longest": LONGEST,
         "metres_per_newton_metre": METRES_PER_NEWTON_METRE,
     }
 

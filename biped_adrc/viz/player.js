@@ -106,9 +106,11 @@ class Robot {
   // arrows: the ground reaction at the stance foot, a ring around every joint that is pushed
   push(pose, support) {
     const w = this.walk, [tangent, normal, ...zeta] = pose.loads;
-    const length = w.metres_per_newton * Math.hypot(tangent, normal);
+    const whole = w.metres_per_newton * Math.hypot(tangent, normal);
+    const length = Math.min(w.longest, whole);
     const tip = Math.min(w.head, length);
-    this.arrow.visible = length > 0 && Number.isFinite(length); // a walk that diverges may overflow
+    this.cut = whole > w.longest ? Math.hypot(tangent, normal) : 0;
+    this.arrow.visible = length > 0 && Number.isFinite(whole); // a walk that diverges may overflow
     this.arrow.position.set(support.x, 0, support.z + w.ground);
     const half = 0.5 * Math.atan2(tangent, normal);
     this.arrow.quaternion.set(0, Math.sin(half), 0, Math.cos(half));
@@ -169,13 +171,26 @@ viewer.render = () => {
 // -- time ------------------------------------------------------------------------------------------
 const animator = viewer.animator;
 const reduced = matchMedia("(prefers-reduced-motion: reduce)").matches;
-let playing = !scene.live && !reduced, speed = 1, last = null;
+const REST = 2; // [s] of standing still at the end where a walk ended badly
+let playing = !scene.live && !reduced, speed = 1, last = null, rested = 0;
 
 function describe(t, pose) {
   const support = leader.walk.supports[pose.arc];
   const now = scene.marks.filter((m) => m[0] <= t && t < m[1]).map((m) => ", " + m[2]);
   if (now.length === 0 && pose.loads.slice(2).some((zeta) => zeta !== 0)) now.push(", pushed");
+  for (const robot of robots.filter((r) => r.cut > 0)) {
+    const whose = robots.length > 1 ? " of " + robot.walk.name : "";
+    now.push(", ground reaction" + whose + " " + robot.cut.toPrecision(3) + " N (arrow cut)");
+  }
   element("clock").textContent = "t = " + t.toFixed(2) + " s, step " + support.number + now.join("");
+  if (!told) tell(robots.filter((robot) => over(robot, t)).map((r) => r.walk.name + " " + r.walk.ending));
+}
+// whether a walk has ended by t [s] without having done what it was asked for
+const over = ({ walk }, t) => walk.ending !== "" && t >= walk.end - 1e-9;
+let told = false; // the server's last word stays
+function tell(words) {
+  element("message").textContent = words.join(". ");
+  element("message").hidden = words.length === 0;
 }
 function show(t, poses) {
   animator.time = t;
@@ -202,9 +217,16 @@ animator.pause = () => {
 animator.update = () => {
   if (!playing || scene.live) return;
   const now = performance.now();
-  const t = animator.time + (last === null ? 0 : speed * 1e-3 * (now - last));
+  const before = last === null ? now : last;
+  const t = animator.time + speed * 1e-3 * (now - before);
   last = now;
-  animator.seek(t > scene.end ? scene.start : t);
+  const rest = robots.some((robot) => over(robot, scene.end)) ? REST : 0;
+  if (t <= scene.end) animator.seek(t);
+  else if (rested < rest) {
+    if (rested === 0) animator.seek(scene.end);
+    rested += 1e-3 * (now - before);
+  } else animator.seek(scene.start);
+  if (animator.time < scene.end) rested = 0;
 };
 animator.duration = scene.end - scene.start;
 
@@ -235,11 +257,10 @@ look(scene.view);
 // -- live ------------------------------------------------------------------------------------------
 function connect() {
   const socket = new WebSocket("ws://" + location.host + "/poses");
-  let heard = performance.now(), over = false;
+  let heard = performance.now();
   const say = (text) => {
-    over = true;
-    element("message").textContent = text;
-    element("message").hidden = false;
+    told = true;
+    tell([text]);
   };
   socket.onmessage = (event) => {
     heard = performance.now();
@@ -258,9 +279,9 @@ function connect() {
   };
   const lost = "The server has stopped: this picture no longer moves. Start it again, or write a page that "
     + "needs no server with 'biped-adrc animate RUN.npz -o walk.html'.";
-  socket.onclose = () => { if (!over) say(lost); };
+  socket.onclose = () => { if (!told) say(lost); };
   setInterval(() => {
-    if (!over && performance.now() - heard > 3000) { say(lost); socket.close(); }
+    if (!told && performance.now() - heard > 3000) { say(lost); socket.close(); }
   }, 500);
 }
 if (scene.live) {

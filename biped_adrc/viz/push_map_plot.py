@@ -1,4 +1,4 @@
-"""The map of pushes: who walks on after a push, over its onset in the step, its amplitude and the joints."""
+"""The map of pushes: how each controller walks on after a push, over onset, amplitude and joints."""
 
 from __future__ import annotations
 
@@ -7,25 +7,27 @@ from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch, Rectangle
+from matplotlib.patches import Patch, Polygon
 
 from biped_adrc.errors import InputError
 from biped_adrc.viz.style import label, new_figure, style
 
-VERDICTS: dict[tuple[bool, bool], tuple[str, str, str]] = {
-    (True, True): ("both walk", "#FFFFFF", ""),
-    (False, True): ("only NPD falls", "#E69F00", "///"),
-    (True, False): ("only ADRC falls", "#56B4E9", "..."),
-    (False, False): ("both fall", "#555555", "xxx"),
+FATES: dict[str, tuple[str, str, str]] = {
+    "legal": ("walks on legally", "#FFFFFF", ""),
+    "made": ("makes all steps, beyond friction or torque", "#F0E442", "///"),
+    "pulled": ("makes all steps, the ground would have had to pull", "#E69F00", "..."),
+    "fell": ("falls", "#555555", "xxx"),
+    "ended": ("ends otherwise: singular, diverged, stalled", "#CC79A7", "\\\\\\"),
+    "marginal": ("the step of the method decides", "#56B4E9", "++"),
 }
-"""(NPD finished, ADRC finished) -> text, colour, hatch; the hatches survive a print in grey."""
+"""Word -> text, colour, hatch; the hatches survive a print in grey."""
 
 
 def push_map_figure(rows: Sequence[Mapping[str, Any]]) -> Figure:
-    """One panel per torque limit; a cell per onset and (pattern, amplitude).
+    """One panel per torque limit; a cell per onset and (pattern, amplitude): NPD upper left, ADRC lower right.
 
     rows: "onset_ms" [ms], "amplitude" [N m], "pattern", "torque_limit" [N m] or None for unlimited,
-    "npd" and "adrc", True for a walk that finished. Raises InputError when there are no rows.
+    "npd_word" and "adrc_word" of `FATES`. Raises InputError when there are no rows.
     """
     if not rows:
         raise InputError("the map of pushes has no cells; expected at least one row")
@@ -33,7 +35,7 @@ def push_map_figure(rows: Sequence[Mapping[str, Any]]) -> Figure:
     kinds = list(dict.fromkeys((r["pattern"], r["amplitude"]) for r in rows))
     onsets = sorted({r["onset_ms"] for r in rows})
     with style():
-        height = 1.7 + 0.2 * max(len(kinds), 4)
+        height = 2.1 + 0.2 * max(len(kinds), 4)
         figure = new_figure(1.8 + len(limits) * (1.4 + 0.38 * max(len(onsets), 5)), height)
         panels = figure.subplots(1, len(limits), squeeze=False, sharey=True)[0]
         for axes, limit in zip(panels, limits, strict=True):
@@ -42,8 +44,15 @@ def push_map_figure(rows: Sequence[Mapping[str, Any]]) -> Figure:
             name = "unlimited torque" if limit is None else f"torque within {limit:g} N m"
             label(axes, "onset of the push in the step [ms]", "", f"{name}\n{_count(here)}")
         panels[0].set_ylabel("joints and amplitude of the push [N m]")
-        handles = [Patch(fc=c, ec="black", hatch=h, label=t) for t, c, h in VERDICTS.values()]
-        figure.legend(handles=handles, loc="outside lower center", ncols=4)
+        shown = {r[key] for r in rows for key in ("npd_word", "adrc_word")}
+        handles = [
+            Patch(fc=c, ec="black", hatch=h, label=t)
+            for word, (t, c, h) in FATES.items()
+            if word in shown
+        ]
+        figure.legend(
+            handles=handles, loc="outside lower center", ncols=1 if len(limits) < 2 else 2
+        )
         return figure
 
 
@@ -56,8 +65,11 @@ def _cells(
     for r in rows:
         x = onsets.index(r["onset_ms"]) - 0.5
         y = kinds.index((r["pattern"], r["amplitude"])) - 0.5
-        _, colour, hatch = VERDICTS[bool(r["npd"]), bool(r["adrc"])]
-        axes.add_patch(Rectangle((x, y), 1, 1, fc=colour, ec="black", lw=0.4, hatch=hatch))
+        upper = [(x, y), (x + 1, y), (x, y + 1)]  # the axis of y points down
+        lower = [(x + 1, y), (x + 1, y + 1), (x, y + 1)]
+        for key, corners in (("npd_word", upper), ("adrc_word", lower)):
+            _, colour, hatch = FATES[r[key]]
+            axes.add_patch(Polygon(corners, fc=colour, ec="black", lw=0.4, hatch=hatch))
     axes.set_xlim(-0.5, len(onsets) - 0.5)
     axes.set_ylim(len(kinds) - 0.5, -0.5)
     axes.set_xticks(range(len(onsets)), [f"{onset:g}" for onset in onsets])
@@ -66,6 +78,6 @@ def _cells(
 
 
 def _count(rows: Sequence[Mapping[str, Any]]) -> str:
-    """How many pushes threw each controller."""
-    npd, adrc = (sum(not r[c] for r in rows) for c in ("npd", "adrc"))
-    return f"NPD falls {npd}, ADRC {adrc} of {len(rows)}"
+    """How many pushes each controller walks through legally."""
+    npd, adrc = (sum(r[f"{c}_word"] == "legal" for r in rows) for c in ("npd", "adrc"))
+    return f"legally: NPD {npd}, ADRC {adrc} of {len(rows)}"

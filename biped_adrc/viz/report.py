@@ -24,12 +24,15 @@ FIGURES = {
     ),
     "figure4": (
         "Figure 4: NPD under the push",
-        "In the last row: how far the joints leave their references while the push lasts, and how they "
-        "come back.",
+        "The third row is the push. In the last row: how far the joints leave their references while it "
+        "lasts, and how they come back. At the right, the first milliseconds after either edge of the push: "
+        "NPD answers an error that has yet to grow.",
     ),
     "figure5": (
         "Figure 5: ADRC with GPI observer under the push",
-        "The same push; mind the unit of the error. In the third row: the torque that answers the push.",
+        "The same push; mind the unit of the error. All of it is a spike of 1 to 2 ms after either edge, which "
+        "the two columns at the right show: the torque overshoots while the observer finds the push, and then "
+        "answers it.",
     ),
     "figure6": (
         "Figure 6: limit cycles",
@@ -37,12 +40,14 @@ FIGURES = {
     ),
     "comparison": (
         "The controllers side by side",
-        "Error before, under and after the push on one logarithmic scale, and what the motors gave for it.",
+        "The push, the error before, under and after it on one logarithmic scale, and the milliseconds after "
+        "either edge of the push. Below: the size of the error, and what the motors gave for it.",
     ),
     "disturbance": (
         "What the observer sees",
-        "Left: the total disturbance of (13) and its estimate. Right: the torque the joints are pushed with, "
-        "and the part of the estimate that the nominal model does not explain, as a torque.",
+        "Left: the total disturbance of (13) and its estimate. Then the torque the joints are pushed with, "
+        "and the part of the estimate that the nominal model does not explain, as a torque; in the last two "
+        "columns at either edge of the push, where the estimate overshoots and has settled after some 2 ms.",
     ),
     "ground": (
         "Ground reaction under the push, ADRC",

@@ -10,6 +10,7 @@ import numpy as np
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.urdf import Visual
 from biped_adrc.types import Array
+from biped_adrc.viz.deviation import Deviation
 from biped_adrc.viz.placement import Scene, exchanged, legs, link_placements, spokes
 
 STANCE, SWING, TRUNK = "#0072B2", "#E69F00", "#333333"
@@ -64,17 +65,26 @@ def _axis(visual: Visual) -> Array | None:
 
 @dataclass(frozen=True)
 class SideView:
-    """Where the lines of a walk are in the x-z plane of the world."""
+    """Where the lines of a walk are in the x-z plane of the world.
+
+    deviation: changes the posture drawn; the walk's own without one.
+    """
 
     scene: Scene
+    deviation: Deviation | None = None
 
     @cached_property
     def bones(self) -> list[Bone]:
         return bones(self.scene.biped)
 
+    def placements(self, t: float) -> dict[str, Array]:
+        """World placement (4, 4) of every link of the posture drawn."""
+        change = None if self.deviation is None else self.deviation.change(t, self.step(t))
+        return link_placements(self.scene.biped.tree, self.scene.joints(t, change))
+
     def segments(self, t: float) -> Array:
         """(bones, 2, 2), x and z of both ends [m], in the order of `bones`."""
-        placements = link_placements(self.scene.biped.tree, self.scene.joints(t))
+        placements = self.placements(t)
         rows = []
         for bone in self.bones:
             M = placements[bone.link]

@@ -10,6 +10,7 @@ from matplotlib.collections import LineCollection
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes
+from biped_adrc.viz.ending import ending
 from biped_adrc.viz.placement import Recorded, Scene
 from biped_adrc.viz.side_view import STANCE, SWING, TRUNK, SideView
 from biped_adrc.viz.style import label, new_figure, render, style
@@ -33,7 +34,8 @@ def strip(
 ) -> Axes:
     """Draw the robot at `poses` times, equally spaced from `start` to `stop` [s]; returns the axes.
 
-    Without times: the last two whole steps. Poses grow darker with time. Raises InputError.
+    Without times: the last two whole steps. Poses grow darker with time. The title says how a walk ended that
+    did not do what it was asked for. Raises InputError.
     """
     scene = Scene.of(walk)
     start, stop = _interval(scene, start, stop)
@@ -54,7 +56,9 @@ def strip(
     axes.set_aspect("equal")
     axes.grid(False)
     axes.legend(loc="upper right", bbox_to_anchor=(1.0, 1.1), ncols=4, borderaxespad=0.0)
-    label(axes, "x [m]", "z [m]", f"a pose every {1e3 * (times[1] - times[0]):.0f} ms")
+    over = ending(scene.trajectory) if stop >= scene.trajectory.t_end else ""
+    every = f"a pose every {1e3 * (times[1] - times[0]):.0f} ms"
+    label(axes, "x [m]", "z [m]", f"{every}; {over}" if over else every)
     return axes
 
 

@@ -6,6 +6,7 @@ Figures are `matplotlib.figure.Figure` objects made inside `style()`; pyplot and
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -22,6 +23,9 @@ GREY = "#666666"
 PUSH = "#F0E442"
 """Yellow, for the window of a push."""
 DASHES: tuple[Any, ...] = ("-", (0, (6, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1, 1.5)))
+
+_PATH = re.compile(rb'\bd="[^"]*"')
+_LONG = re.compile(rb"-?\d+\.\d{3,}")
 
 RC: dict[Any, Any] = {
     "font.family": "sans-serif",
@@ -42,7 +46,7 @@ RC: dict[Any, Any] = {
     "figure.facecolor": "white",
     "savefig.facecolor": "white",
     "path.simplify": True,
-    "path.simplify_threshold": 0.2,
+    "path.simplify_threshold": 0.3,
     "svg.hashsalt": "biped_adrc",
     "svg.fonttype": "path",
 }
@@ -78,4 +82,9 @@ def render(figure: Figure, kind: str, dpi: float = 150.0) -> bytes:
     buffer = io.BytesIO()
     with style():
         figure.savefig(buffer, format=kind, dpi=dpi, metadata=metadata)
-    return buffer.getvalue()
+    return _shortened(buffer.getvalue()) if kind == "svg" else buffer.getvalue()
+
+
+def _shortened(svg: bytes) -> bytes:
+    """Coordinates of paths to a hundredth of a point, in place of a millionth."""
+    return _PATH.sub(lambda path: _LONG.sub(lambda n: b"%.2f" % float(n[0]), path[0]), svg)

@@ -1,7 +1,8 @@
 """Maps of a sweep: a result as colour over two parameters, in panels over a third.
 
-Colour is the mean over all points of a cell: of `survived`, the share of walks that survive. A parameter with
-few values has a cell for each of them; one that was drawn at random is cut into cells of equal width.
+Colour is the mean over all points of a cell: of `survived` the share of walks that make all steps, of `legal`
+that of walks that make them legally. A parameter with few values has a cell for each of them; one that was
+drawn at random is cut into cells of equal width.
 """
 
 from __future__ import annotations
@@ -25,6 +26,12 @@ CELLS = 20
 MOST_PANELS = 12
 WRITTEN = 120
 """Cells of a panel up to which their numbers are written in them."""
+
+SHARES = {
+    "survived": "share of walks that make all steps",
+    "legal": "share of walks that make all steps legally",
+}
+"""Columns of 0 and 1, and what their mean is called."""
 
 Columns = Mapping[str, NDArray[Any]]
 
@@ -93,7 +100,7 @@ def cut(column: NDArray[Any], log: bool) -> Cut:
     if len(levels) <= MOST_LEVELS or not numbers:
         place = {_order(x): k for k, x in enumerate(levels)}
         cell = np.array([place[_order(x)] for x in column.tolist()], np.intp)
-        return Cut(cell, [_text(x) for x in levels])
+        return Cut(cell, _texts(levels))
     known = column[np.isfinite(column)]
     low, high = float(known.min()), float(known.max())
     edges = np.geomspace(low, high, CELLS + 1) if log else np.linspace(low, high, CELLS + 1)
@@ -113,10 +120,21 @@ def _order(x: Any) -> tuple[int, Any]:
     return (1, 0.0) if x != x else (0, x)
 
 
-def _text(x: Any) -> str:
+def _texts(levels: list[Any]) -> list[str]:
+    """Each level with the fewest digits, from two, that tell all of them apart within 1 %."""
+    numbers = [x for x in levels if not isinstance(x, str) and x is not None and x == x]
+    for digits in range(2, 6):
+        shown = [float(f"{x:.{digits}g}") for x in numbers]
+        near = all(abs(a - x) <= 0.01 * abs(x) for a, x in zip(shown, numbers, strict=True))
+        if near and len(set(shown)) == len(set(numbers)):
+            break
+    return [_text(x, digits) for x in levels]
+
+
+def _text(x: Any, digits: int = 4) -> str:
     if isinstance(x, str):
         return x.replace("$", r"\$")  # no formula
-    return "none" if x is None or x != x else f"{x:.4g}"
+    return "none" if x is None or x != x else f"{float(f'{x:.{digits}g}'):.6g}"
 
 
 def cell_means(x: Cut, y: Cut, values: Array) -> Array:
@@ -136,7 +154,7 @@ def _numbers(column: NDArray[Any], name: str) -> Array:
 
 
 def _draw(maps: Maps, x: Cut, y: Cut, panels: Cut, means: list[Array]) -> Figure:
-    share = maps.value == "survived"
+    share = maps.value in SHARES
     shown = np.concatenate([m[np.isfinite(m)] for m in means])
     low, high = (0.0, 1.0) if share or not len(shown) else (float(shown.min()), float(shown.max()))
     columns = min(len(means), 4)
@@ -157,7 +175,7 @@ def _draw(maps: Maps, x: Cut, y: Cut, panels: Cut, means: list[Array]) -> Figure
                 axes, maps.name(maps.x) if bottom else "", maps.name(maps.y) if left else "", title
             )
             axes.tick_params(labelbottom=bottom)
-        text = "share of walks that survive" if share else f"mean of {maps.name(maps.value)}"
+        text = SHARES.get(maps.value, f"mean of {maps.name(maps.value)}")
         figure.colorbar(image, ax=grid, label=text, shrink=0.9)
         return figure
 

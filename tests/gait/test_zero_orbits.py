@@ -17,6 +17,8 @@ from biped_adrc.errors import GaitError, InputError
 from biped_adrc.gait.curves import Polynomial
 from biped_adrc.gait.zero_limits import Limits, domain
 from biped_adrc.gait.zero_orbits import ZeroOrbits
+from biped_adrc.model.limits import KnownLimits
+from biped_adrc.model.limits import Limits as WithinLimits
 from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
 
 ALPHA, GRAVITY = math.pi / 8, 9.81
@@ -81,11 +83,14 @@ def test_walks_from_inside_the_domain_and_stalls_outside(orbits, published):
 
 @pytest.mark.parametrize("limits", [Limits(friction=0.5), Limits(torque=90.0)])
 def test_the_upper_end_is_where_the_simulated_step_needs_the_limit(orbits, published, limits):
+    instant = WithinLimits(window=1e-6)
     upper = domain(orbits, limits).upper
     assert upper.cause == ("friction" if limits.friction else "torque")
     for share, keeps in ((0.995, True), (1.005, False)):
         run = walk_from(orbits, published, share * upper.zeta, 1)
-        found = run.certificates[0].violations(limits.friction or 99.0, limits.torque or 1e3)
+        found = run.certified(instant)[0].violations(
+            KnownLimits(limits.friction or 99.0, limits.torque or 1e3, instant.window)
+        )
         assert (found == ()) is keeps, found
 
 

@@ -8,7 +8,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.errors import InputError
-from biped_adrc.gait.corrected import continued
+from biped_adrc.gait.corrected import CorrectedConstraint
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.simulator import simulate
@@ -253,7 +253,9 @@ REFUSED = {
     "tracks a TimeReference": lambda b, c: ba.Walker(
         b, ba.ADRCController(TimeReference(lambda t: (np.zeros(4),) * 3))
     ),
-    "tracks a CorrectedConstraint": lambda b, c: ba.Walker(b, ba.ADRCController(continued(c))),
+    "tracks a CorrectedConstraint": lambda b, c: ba.Walker(
+        b, ba.ADRCController(CorrectedConstraint(c, lambda theta: (np.zeros(4),) * 3))
+    ),
     "tracks a ReferenceReset": lambda b, c: ba.Walker(b, ReferenceReset(ba.ADRCController(c))),
     "no part of the unactuated coordinate": lambda b, c: ba.Walker(
         b, ba.ADRCController(without_the_torso(c))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,8 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
+from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.studies.walk import Walk
 from biped_adrc.viz.meshcat import write_animation
@@ -164,3 +167,31 @@ def test_legs_change_colour_at_impact(opened: tuple[Chrome, Path], walks: dict[s
         )
     assert colours[0] == colours[1][::-1]
     assert len(set(colours[0])) == 2
+
+
+def test_a_walk_that_fell_says_so_and_its_arrow_is_cut(
+    browser: Chrome, walks: dict[str, Walk], tmp_path: Path
+) -> None:
+    walk = walks["NPD"]
+    *before, last = walk.trajectory.arcs
+    event = Event("hip_too_low", float(last.t[-1]), last.x[-1], None)
+    trajectory = replace(walk.trajectory, arcs=(*before, replace(last, event=event)))
+    fell = replace(walk, trajectory=replace(trajectory, status=Status.FELL))
+    path = tmp_path / "fell.html"
+    write_animation(path, {"NPD": fell, "ADRC": walks["ADRC"]})
+    browser.get(path.as_uri())
+    message = browser.find_element(By.ID, "message")
+    seek(browser, 0.5)
+    assert not message.is_displayed()
+    seek(browser, end_of(walks))
+    assert message.is_displayed()
+    assert message.text == f"NPD fell at {trajectory.t_end:.2f} s: hip too low"
+    # a force of 1e15 N: the arrow ends where the longest does, and the clock says how large the force is
+    length, clock = browser.execute_script(
+        "const pose = leader.at(0.1); pose.loads = [0, 1e15, 0, 0, 0, 0, 0];"
+        "show(0.1, robots.map((robot) => robot === leader ? pose : robot.at(0.1)));"
+        "return [leader.head.position.z + leader.walk.head, document.getElementById('clock').value];"
+    )
+    assert length == pytest.approx(1.2)
+    assert "ground reaction of ADRC 1.00e+15 N (arrow cut)" in clock
+    assert console(browser) == []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -10,12 +11,19 @@ import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
 from PIL import Image
+from typer.testing import CliRunner
 
+from biped_adrc.cli import app
 from biped_adrc.errors import InputError
+from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.studies.walk import Walk
+from biped_adrc.viz.deviation import Deviation
+from biped_adrc.viz.ending import ending
 from biped_adrc.viz.export import Clip, export
-from biped_adrc.viz.gif import arrow, ring, write_gif
+from biped_adrc.viz.gif import Motion, write_gif
+from biped_adrc.viz.moving import arrow, cut, ring
 from biped_adrc.viz.placement import Scene
 from biped_adrc.viz.side_view import SideView
 from biped_adrc.viz.stick import strip, write_strip
@@ -81,7 +89,7 @@ def test_strips_repeat_byte_for_byte(walks: dict[str, Walk], tmp_path: Path, suf
 
 def test_gif(walks: dict[str, Walk], tmp_path: Path) -> None:
     for name in ("a.gif", "b.gif"):
-        write_gif(tmp_path / name, walks, start=0.1, stop=0.5, fps=20.0, width=300)
+        write_gif(tmp_path / name, walks, start=0.1, stop=0.5, motion=Motion(fps=20.0, width=300))
     assert (tmp_path / "a.gif").read_bytes() == (tmp_path / "b.gif").read_bytes()
     with Image.open(tmp_path / "a.gif") as image:
         assert image.n_frames == 8
@@ -122,3 +130,147 @@ def test_export_goes_by_the_suffix(walks: dict[str, Walk], tmp_path: Path) -> No
         export(tmp_path / "walk.gif", walks, Clip(start=0.5, stop=0.1))
     with pytest.raises(InputError, match="to draw solid"):
         write_gif(tmp_path / "walk.gif", walks, solid="LQR")
+    with pytest.raises(InputError, match="no moving picture"):
+        export(tmp_path / "walk.html", walks, Clip(apart=True))
+
+
+@pytest.mark.parametrize("factor", [0.0, 1.0, 30.0])
+def test_a_magnified_posture_is_the_reference_and_so_many_times_the_error(
+    biped: Biped, walks: dict[str, Walk], factor: float
+) -> None:
+    walk, names = walks["ADRC"], biped.description.joints
+    bent = SideView(Scene.of(walk), Deviation.of(walk, factor))
+    for arc in walk.trajectory.arcs[:2]:
+        k = len(arc.t) // 3
+        t, q = float(arc.t[k]), arc.x[k, :5]
+        m = walk.walker.measure(t, q, arc.x[k, 5:10], arc.mode)
+        q_d = walk.reference(m.t, m.q, m.v).q_d
+        drawn = np.append(q_d + factor * (q[:4] - q_d), q[4])
+        if arc.mode.step == 2:
+            drawn = biped.relabel(drawn)
+        values = bent.scene.joints(t, bent.deviation.change(t, arc.mode.step))
+        np.testing.assert_allclose([values[name] for name in names], drawn, atol=1e-9)
+        if factor == 1.0:
+            plain = SideView(Scene.of(walk))
+            np.testing.assert_allclose(bent.segments(t), plain.segments(t), atol=1e-12)
+        # the stance foot stays on the ground
+        foot = np.array(bent.scene.foothold(arc.mode.step - 1))
+        assert np.min(np.hypot(*(bent.segments(t).reshape(-1, 2) - foot).T)) < 1e-9
+
+
+def test_a_deviation_at_an_impact_is_that_of_the_step_asked_for(walks: dict[str, Walk]) -> None:
+    s, t = walks["ADRC"].signals, float(walks["ADRC"].trajectory.arcs[0].t[-1])
+    deviation = Deviation.of(walks["ADRC"], 2.0)
+    before, after = s.error[s.step == 1][-1], s.error[s.step == 2][0]
+    assert not np.allclose(before, after, rtol=0.1, atol=0.0)
+    for step, error in ((1, before), (2, after)):
+        np.testing.assert_allclose(deviation.error(t, step), error, rtol=1e-9)
+        np.testing.assert_allclose(deviation.change(t, step), error, rtol=1e-9)
+
+
+def test_walks_side_by_side(walks: dict[str, Walk], tmp_path: Path) -> None:
+    motion = Motion(apart=True, magnify=30.0, slower=2.0, fps=10.0, width=400)
+    for name in ("a.gif", "b.gif"):
+        write_gif(tmp_path / name, walks, start=0.2, stop=0.4, motion=motion)
+    assert (tmp_path / "a.gif").read_bytes() == (tmp_path / "b.gif").read_bytes()
+    with Image.open(tmp_path / "a.gif") as image:
+        assert image.n_frames == 4  # 0.2 s, 10 frames a second, two times slower
+        grey = np.asarray(image.convert("L"), dtype=float)
+    left, right = grey[:, :200], grey[:, 200:]
+    for half in (left, right):
+        assert 0.01 < np.mean(half[78:-150] < 200) < 0.5
+    for options, text in (
+        ({"magnify": 30.0}, "add 'apart'"),
+        ({"apart": True, "magnify": -1.0}, "not negative"),
+        ({"slower": 0.0}, "positive"),
+    ):
+        with pytest.raises(InputError, match=text):
+            write_gif(tmp_path / "c.gif", walks, motion=Motion(**options))
+
+
+def fallen(walk: Walk, status: Status, guard: str | None = None) -> Walk:
+    """The walk as if it had ended so."""
+    *before, last = walk.trajectory.arcs
+    if guard is not None:
+        last = replace(last, event=Event(guard, float(last.t[-1]), last.x[-1], None))
+    return replace(
+        walk, trajectory=replace(walk.trajectory, arcs=(*before, last), status=status, detail="")
+    )
+
+
+def test_an_ending_says_how_when_and_why(walks: dict[str, Walk]) -> None:
+    walk = walks["NPD"]
+    at = f"at {walk.trajectory.t_end:.2f} s"
+    assert ending(walk.trajectory) == ""
+    fell = fallen(walk, Status.FELL, "hip_too_low").trajectory
+    assert ending(fell) == f"fell {at}: hip too low"
+    singular = fallen(walk, Status.SINGULAR).trajectory
+    assert ending(replace(singular, detail="D_s")) == f"singular {at}: D_s"
+    for status in Status:
+        if not status.ok:
+            words = ending(fallen(walk, status).trajectory)
+            assert words.startswith(status.name.lower().replace("_", " "))
+            assert "nan" not in words
+
+
+@pytest.mark.parametrize("apart", [False, True])
+def test_the_last_frame_of_a_walk_that_fell_differs_and_stays(
+    walks: dict[str, Walk], tmp_path: Path, apart: bool
+) -> None:
+    end = walks["NPD"].trajectory.t_end
+    frames, durations = {}, {}
+    for status in (Status.COMPLETED, Status.FELL):
+        walk, path = fallen(walks["NPD"], status, "hip_too_low"), tmp_path / f"{status.name}.gif"
+        write_gif(path, {"NPD": walk}, start=end - 0.2, motion=Motion(apart=apart, fps=10.0))
+        with Image.open(path) as image:
+            frames[status] = image.n_frames
+            image.seek(image.n_frames - 1)
+            durations[status] = image.info["duration"]
+    assert frames[Status.FELL] == frames[Status.COMPLETED] + 1
+    assert (durations[Status.COMPLETED], durations[Status.FELL]) == (100, 2100)
+
+
+def test_a_strip_says_how_a_walk_ended(walks: dict[str, Walk]) -> None:
+    with style():
+        axes = new_figure(6.0, 4.0).subplots()
+        strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"))
+    assert "stalled at" in axes.get_title(loc="left")
+    with style():
+        axes = new_figure(6.0, 4.0).subplots()
+        strip(axes, walks["NPD"], 0.0, 1.2, poses=13)
+    assert axes.get_title(loc="left") == "a pose every 100 ms"
+    with style():
+        axes = new_figure(6.0, 4.0).subplots()
+        strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"), 0.1, 0.4)
+    assert "stalled" not in axes.get_title(loc="left")
+
+
+def test_an_arrow_never_leaves_the_picture() -> None:
+    start, x, z = np.array([0.2, 0.0]), (-1.0, 1.0), (-0.12, 1.6)
+    short = np.array([0.1, 0.4])
+    assert cut(start, short, x, z) is short
+    for force in ([3e9, 1e9], [-50.0, 1.0], [0.0, -3.0], [1e-3, 1e150]):
+        tip = start + cut(start, np.array(force), x, z)
+        assert x[0] < tip[0] < x[1]
+        assert z[0] < tip[1] < z[1]
+        cosine = np.dot(tip - start, force) / np.linalg.norm(tip - start) / np.linalg.norm(force)
+        assert cosine == pytest.approx(1.0)
+    np.testing.assert_array_equal(cut(start, np.array([np.nan, np.inf]), x, z), [0.0, 0.0])
+
+
+def test_every_option_of_the_command_reaches_the_picture(
+    walks: dict[str, Walk], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = []
+    monkeypatch.setattr("biped_adrc.studies.runs.load_walks", lambda paths: walks)
+    monkeypatch.setattr("biped_adrc.viz.export.export", lambda *given: asked.append(given))
+    words = "--from 0.1 --to 0.3 --fps 20 --view perspective --apart --magnify 30 --slower 5"
+    command = ["animate", "a.npz", "--ghost", "b.npz", "-o", str(tmp_path / "w.gif")]
+    done = CliRunner().invoke(app, [*command, *words.split()])
+    assert done.exit_code == 0, done.output
+    clip = Clip(0.1, 0.3, 20.0, "perspective", True, 30.0, 5.0)
+    assert asked == [(tmp_path / "w.gif", walks, clip)]
+    assert clip.motion() == Motion(True, 30.0, 5.0, 20.0, 800)
+    done = CliRunner().invoke(app, ["animate", "a.npz", "--live", "--slower", "2"])
+    assert done.exit_code != 0
+    assert "leave them out with --live" in str(done.exception)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import re
+from dataclasses import fields, replace
 
 import matplotlib as mpl
 import numpy as np
@@ -19,7 +21,7 @@ from biped_adrc.gait.gait import load_gait
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies.figures import NAMES, draw
+from biped_adrc.studies.figures import NAMES, draw, push_window
 from biped_adrc.studies.walk import Walk
 from biped_adrc.studies.walk import walk as walk_of
 from biped_adrc.viz import plots
@@ -31,9 +33,12 @@ from biped_adrc.viz.figures import (
     return_map_figure,
     tracking_figure,
 )
+from biped_adrc.viz.plots.lines import angle_unit
 from biped_adrc.viz.robot_figure import robot_figure
-from biped_adrc.viz.style import render
+from biped_adrc.viz.style import render, style
 from biped_adrc.walker import Walker
+
+NUMBER = rb"-?\d+\.?\d*"
 
 
 def labels(figure) -> list[tuple[str, str]]:
@@ -43,16 +48,23 @@ def labels(figure) -> list[tuple[str, str]]:
 def test_tracking_figure(walks: dict[str, Walk]) -> None:
     s = walks["NPD"].signals
     figure = tracking_figure(s, "NPD", (0.5, 0.6), 150.0)
-    assert len(figure.axes) == 8
-    assert [len(axes.get_lines()) for axes in figure.axes[1::2]] == [4, 4, 6, 4]
-    units = [y for _, y in labels(figure)][::2]
-    assert units[:3] == ["angle [rad]", "angle [rad]", "torque [N m]"]
-    assert re.fullmatch(r"tracking error \[(n|µ|m|)rad\]", units[3])
-    assert figure.axes[-1].get_xlabel() == "time [s]"
+    whole, around, begins, ends = (
+        figure.axes[a:b] for a, b in ((0, 5), (5, 10), (10, 13), (13, 16))
+    )
+    assert [len(axes.get_lines()) for axes in around] == [4, 4, 5, 6, 4]
+    units = [axes.get_ylabel() for axes in whole]
+    assert units[:4] == ["angle [rad]", "angle [rad]", r"push $\zeta$ [N m]", "torque [N m]"]
+    assert re.fullmatch(r"tracking error \[(n|µ|m|)rad\]", units[4])
+    for column in (begins, ends):
+        assert [axes.get_ylabel() for axes in column] == units[2:]
+        assert column[-1].get_xlabel() == "after the edge [ms]"
+    assert begins[0].get_xlim() == pytest.approx((0.499, 0.506))
+    assert ends[0].get_xlim() == pytest.approx((0.599, 0.606))
+    assert whole[-1].get_xlabel() == "time [s]"
     t, q = figure.axes[0].get_lines()[0].get_data()
     assert np.isnan(q).sum() == 2  # the line breaks at both impacts inside
     np.testing.assert_array_equal(q[~np.isnan(q)], s.q[:, 0])
-    assert figure.axes[1].get_xlim()[0] == pytest.approx(0.2)
+    assert around[0].get_xlim()[0] == pytest.approx(0.2)
     assert len(t) == len(s.t) + 2
     assert len(tracking_figure(s, "no push").axes) == 4
 
@@ -189,10 +201,62 @@ def test_the_friction_cone_has_its_slope(pushed: dict[str, Walk]) -> None:
     np.testing.assert_array_equal(drawn_lines(axes)["$F_T$"], s.ground_reaction[:, 0])
 
 
+@pytest.mark.parametrize(
+    ("largest", "unit", "factor"),
+    [(0.7, "rad", 1.0), (7.5e-3, "mrad", 1e3), (1.1e-6, "µrad", 1e6), (4e-10, "nrad", 1e9)],
+)
+def test_units_of_angles(largest: float, unit: str, factor: float) -> None:
+    assert angle_unit(np.array([0.1 * largest, -largest])) == (unit, factor)
+
+
+def test_the_size_of_a_sine_is_its_amplitude_and_that_over_the_root_of_two(
+    pushed: dict[str, Walk],
+) -> None:
+    t = np.linspace(0.0, 1.0, 1001)
+    error = 0.02 * np.sin(2 * np.pi * 5 * t)
+    sine = replace(pushed["NPD"].signals, t=t, error=np.column_stack((error, -error, error, error)))
+    axes = plots.error_sizes(axes_of_my_own(), {"NPD": sine})
+    np.testing.assert_allclose(
+        axes.get_lines()[0].get_ydata(), [0.02, 0.02 / np.sqrt(2)], rtol=1e-4
+    )
+    assert [text.get_text() for text in axes.texts] == ["2.0e-02", "1.4e-02"]
+
+
+def test_both_edges_of_a_push_are_shown_with_all_that_happens_there(
+    pushed: dict[str, Walk],
+) -> None:
+    """A spike of 0.2 ms after the edge, put into the torque, is in the drawn line and within the limits."""
+    s = pushed["ADRC"].signals
+    window = push_window(s)
+    assert window is not None
+    t0 = float(s.t[s.step == 2][0])
+    np.testing.assert_allclose(window, (t0 + 0.1, t0 + 0.3), atol=1e-9)
+    fine = np.sort(np.concatenate([s.t, *(edge + np.arange(-50, 300) * 2e-5 for edge in window)]))
+    signals = {}
+    for f in fields(s):
+        column = getattr(s, f.name)
+        columns = column.reshape(len(s.t), -1).T
+        made = np.column_stack([np.interp(fine, s.t, c) for c in columns])
+        signals[f.name] = made.reshape(len(fine), *column.shape[1:])
+    signals["step"] = np.searchsorted(s.t[1:][np.diff(s.step) > 0], fine, side="left") + 1
+    for k, edge in enumerate(window):
+        signals["u"][:, k] += 100.0 * np.exp(-(((fine - edge - 5e-4) / 1e-4) ** 2))
+    figure = tracking_figure(replace(s, **signals), "spikes", window)
+    for k, axes in ((0, figure.axes[11]), (1, figure.axes[14])):
+        assert axes.get_ylabel() == "torque [N m]"
+        t, u = axes.get_lines()[k].get_data()
+        top = np.nanargmax(u)
+        assert t[top] == pytest.approx(window[k] + 5e-4, abs=3e-5)
+        assert u[top] == signals["u"][:, k][np.abs(fine - window[k] - 5e-4) < 1e-3].max()
+        assert axes.get_xlim() == pytest.approx((window[k] - 1e-3, window[k] + 6e-3))
+        assert axes.get_ylim()[0] < u[top] < axes.get_ylim()[1]
+
+
 def test_controllers_side_by_side(pushed: dict[str, Walk]) -> None:
     signals = {name: found.signals for name, found in pushed.items()}
     figure = comparison_figure(signals, (0.5, 0.7))
-    over_time, sizes, torque = figure.axes
+    pushes, over_time, sizes, torque = (figure.axes[k] for k in (0, 1, 6, 7))
+    assert drawn_lines(pushes)[r"$\zeta_3$"].min() == -10.0
     assert over_time.get_yscale() == sizes.get_yscale() == "log"
     for i, (name, s) in enumerate(signals.items()):
         peak = np.max(np.abs(s.error))
@@ -201,7 +265,7 @@ def test_controllers_side_by_side(pushed: dict[str, Walk]) -> None:
         bars = torque.containers[i]
         np.testing.assert_array_equal([b.get_height() for b in bars], np.max(np.abs(s.u), axis=0))
     assert [a.get_ylabel() for a in figure.axes] == [
-        "largest tracking error [rad]",
+        *[r"push $\zeta$ [N m]", "largest tracking error [rad]"] * 3,
         "tracking error [rad]",
         "peak torque [N m]",
     ]
@@ -287,3 +351,19 @@ def test_figures_repeat_byte_for_byte_and_leave_matplotlib_alone(biped: Biped) -
     assert dict(mpl.rcParams) == settings
     with pytest.raises(InputError, match="expected 'png' or 'svg'"):
         render(robot_figure(biped), "bmp")
+
+
+def test_paths_keep_hundredths_and_nothing_else_changes() -> None:
+    figure = Figure(figsize=(4.0, 4.0))
+    figure.add_axes((0.0, 0.0, 1.0, 1.0)).plot([0.123456, 0.5, 0.9], [0.1, 0.777777, 0.3])
+    whole = io.BytesIO()
+    with style():
+        figure.savefig(whole, format="svg", metadata={"Date": None})
+    long, short = (
+        [float(n) for path in re.findall(rb'\bd="([^"]*)"', svg) for n in re.findall(NUMBER, path)]
+        for svg in (whole.getvalue(), render(figure, "svg"))
+    )
+    assert max(abs(a - b) for a, b in zip(long, short, strict=True)) <= 0.005 + 1e-9
+    assert any(a != b for a, b in zip(long, short, strict=True))
+    rest = [re.sub(rb'\bd="[^"]*"', b"", svg) for svg in (whole.getvalue(), render(figure, "svg"))]
+    assert rest[0] == rest[1]

@@ -17,7 +17,7 @@ import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.errors import InputError, SimulationError
-from biped_adrc.gait.corrected import continued
+from biped_adrc.gait.constraint import continued
 from biped_adrc.ground import StepDown
 from biped_adrc.hybrid.storage import save
 from biped_adrc.studies.figures import draw
@@ -25,7 +25,7 @@ from biped_adrc.studies.passive_walk import passive_walk
 from biped_adrc.studies.recording import Recording
 from biped_adrc.studies.runs import load_walk
 from biped_adrc.viz.frames import pose
-from biped_adrc.viz.gif import write_gif
+from biped_adrc.viz.gif import Motion, write_gif
 from biped_adrc.viz.meshcat import animation_html
 from biped_adrc.viz.meshcat_scene import joint_path
 from biped_adrc.viz.placement import Scene, link_placements
@@ -243,7 +243,10 @@ def test_strip_and_gif(walks: dict[str, Recording], tmp_path: Path) -> None:
     assert "wheel" in wheel.get_legend_handles_labels()[1]
     assert wheel.get_xlim()[0] < -1.0
     for name in NAMES:
-        write_gif(tmp_path / f"{name}.gif", {name: walks[name]}, stop=0.2, fps=10.0, width=200)
+        motion = Motion(fps=10.0, width=200)
+        write_gif(tmp_path / f"{name}.gif", {name: walks[name]}, stop=0.2, motion=motion)
+    with pytest.raises(InputError, match="without motors has no reference"):
+        write_gif(tmp_path / "x.gif", {"wheel": walks["wheel"]}, motion=Motion(apart=True))
 
 
 # -- passive walks ---------------------------------------------------------------------------------

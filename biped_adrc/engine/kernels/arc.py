@@ -15,6 +15,7 @@ from biped_adrc.engine.kernels.laws import (
     act,
     copy,
     lower,
+    next_switch,
     row,
     watch,
 )
@@ -37,11 +38,7 @@ from biped_adrc.engine.kernels.layout import (
     PERIOD_PART,
     RESTART,
     ROOM,
-    START,
     STATES,
-    STEP,
-    SWITCHES,
-    SWITCHES_AT,
     T_FIRST,
     TIME,
     VALUES,
@@ -69,13 +66,7 @@ def next_tick(F: Array, t: float, start: float) -> float:
 @inner
 def next_break(P: Ints, F: Array, W: Array, t: float, start: float) -> float:
     """The first switching time or tick after t, at most the end."""
-    first = W[END]
-    for i in range(P[SWITCHES]):
-        at = P[SWITCHES_AT] + 2 * i
-        if F[at] == 0.0 or F[at] == W[STEP]:
-            s = F[at + 1] if F[at] == 0.0 else W[START] + F[at + 1]
-            if t < s < first:
-                first = s
+    first = next_switch(P, F, W, t, W[END])
     if F[PERIOD] > 0.0:
         first = min(first, next_tick(F, t, start))
     if F[PERIOD_PART] > 0.0:

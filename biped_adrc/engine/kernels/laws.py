@@ -31,9 +31,12 @@ from biped_adrc.engine.kernels.layout import (
     NOT_FINITE,
     OUT,
     PART,
+    PART_SIZE,
     PARTS,
     PARTS_AT,
+    PERIOD,
     REMAINDER,
+    RESULTANTS,
     SINGULAR,
     SLOPED,
     SLOW,
@@ -43,6 +46,8 @@ from biped_adrc.engine.kernels.layout import (
     STEP_TOO_LONG,
     STIFF,
     STRIKE,
+    SWITCHES,
+    SWITCHES_AT,
     TICK,
     TIME,
     TO,
@@ -52,6 +57,8 @@ from biped_adrc.engine.kernels.layout import (
     ZETA,
 )
 from biped_adrc.types import Array
+
+GAUSS = 0.5773502691896257  # 1 / sqrt(3), as in `biped_adrc.disturbances.base`
 
 
 @inner
@@ -63,6 +70,13 @@ def row(P: Ints, W: Array, i: int) -> Array:
 @inner
 def copy(x: Array, out: Array, size: int) -> None:
     for i in range(size):
+        out[i] = x[i]
+
+
+@inner
+def copy_held(P: Ints, x: Array, out: Array) -> None:
+    """The torques on the joints, all that a flow looks at of what does not flow."""
+    for i in range(P[STATES] - P[JOINTS], P[STATES]):
         out[i] = x[i]
 
 
@@ -107,7 +121,7 @@ def disturb(P: Ints, F: Array, W: Array, zeta: Array) -> None:
     for i in range(n):
         zeta[i] = 0.0
     for k in range(P[PARTS]):
-        at = P[PARTS_AT] + 2 * k
+        at = P[PARTS_AT] + PART_SIZE * k
         call(P[at], shift(F, P[at + 1]), inp, part)
         for i in range(n):
             zeta[i] += part[i]
@@ -120,7 +134,10 @@ def evaluate(
     """out = law(t, step, t_start, x, zeta)."""
     n, nx, inp, zeta = P[COORDINATES], P[STATES], row(P, W, INP), row(P, W, ZETA)
     inp[0], inp[1], inp[2] = min(t, W[LIMIT]), W[STEP], W[START]
-    copy(x, shift(inp, 3), nx)
+    given = nx if law == TICK else P[MOVING]
+    copy(x, shift(inp, 3), given)
+    if given < nx:
+        copy_held(P, x, shift(inp, 3))
     disturb(P, F, W, zeta)
     copy(zeta, shift(inp, 3 + nx), n)
     call(P[law], K, inp, out)
@@ -135,9 +152,54 @@ def flow(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array, dx: Array) -
 
 
 @inner
+def next_switch(P: Ints, F: Array, W: Array, t: float, last: float) -> float:
+    """The first switching time after t, at most `last`."""
+    first = last
+    for i in range(P[SWITCHES]):
+        at = P[SWITCHES_AT] + 2 * i
+        if F[at] == 0.0 or F[at] == W[STEP]:
+            s = F[at + 1] if F[at] == 0.0 else W[START] + F[at + 1]
+            if t < s < first:
+                first = s
+    return first
+
+
+@inner
+def pushed(P: Ints, F: Array, W: Array, t: float, weight: float, total: Array) -> None:
+    """total (2,) grows by weight times the force from outside at t, with (q, v) in row INP."""
+    inp, part = row(P, W, INP), row(P, W, PART)
+    inp[0], inp[1], inp[2] = t, W[STEP], W[START]
+    for k in range(P[PARTS]):
+        at = P[PARTS_AT] + PART_SIZE * k
+        if P[at + 2] != 0:
+            call(P[at + 2], shift(F, P[at + 1]), inp, part)
+            total[0] += weight * part[0]
+            total[1] += weight * part[1]
+
+
+@inner
+def from_outside(P: Ints, F: Array, W: Array, t: float, given: Array) -> None:
+    """Force from outside at t, its impulse since the last tick as `Disturbance.impulse`, and the drop."""
+    for i in range(4):
+        given[i] = 0.0
+    given[4] = W[DROP]
+    if P[RESULTANTS] == 0:
+        return
+    pushed(P, F, W, t, 1.0, given)
+    begin = t - F[PERIOD]
+    while begin < t:
+        end = next_switch(P, F, W, begin, t)
+        middle, half = 0.5 * (begin + end), 0.5 * (end - begin)
+        pushed(P, F, W, middle - GAUSS * half, half, shift(given, 2))
+        pushed(P, F, W, middle + GAUSS * half, half, shift(given, 2))
+        begin = end
+
+
+@inner
 def act(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array) -> int:
     """x after a tick at t, and row DX0 its slope; x as it was where the tick gives no number."""
     n, nx, out, dx = P[COORDINATES], P[STATES], row(P, W, OUT), row(P, W, DX0)
+    from_outside(P, F, W, t, shift(row(P, W, INP), 3 + nx + n))
     evaluate(P, F, K, W, TICK, t, x, out)
     if not finite(out, nx):
         return broken(W)

@@ -19,7 +19,13 @@ ROWS_AT, PARTS_AT, DROPS_AT, SWITCHES_AT, WEIGHTS_AT = 20, 21, 22, 23, 24
 WIDTH = 25
 # P: how many of the first states flow; the others are held
 MOVING = 26
-P_HEAD = 27
+# P: parts of the disturbance with a force on the robot as a whole
+RESULTANTS = 27
+P_HEAD = 28
+PART_SIZE = (
+    3  # of a part: its torque's address, where its numbers begin, its resultant's address or 0
+)
+OUTSIDE = 5  # numbers for the meter behind a tick's input: force, impulse, drop
 # F
 PERIOD, T_FIRST, LOWEST_HIP, LONGEST, LEAST_STEP, H, RTOL, ATOL, MAX_STEP = (
     0,

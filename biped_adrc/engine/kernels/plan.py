@@ -68,7 +68,10 @@ def plan(code: Code, sizes: Sizes, scene: Scene, push: Push, clock: Clock, metho
     P[layout.WIDTH] = _width(sizes)
     F, at = _joined([head, scene.drops, push.switches, push.K, weights])
     P[layout.DROPS_AT], P[layout.SWITCHES_AT], P[layout.WEIGHTS_AT] = at[1], at[2], at[4]
-    parts = [(a, at[3] + o) for a, o in zip(push.addresses, push.offsets, strict=False)]
+    resultants = push.resultants or (0,) * len(push.addresses)
+    P[layout.RESULTANTS] = np.count_nonzero(resultants)
+    given = zip(push.addresses, push.offsets[:-1], resultants, strict=True)
+    parts = [(a, at[3] + o, r) for a, o, r in given]
     P, where = _integers([P, method.rows, np.array(parts, dtype=np.int64)])
     P[layout.ROWS_AT], P[layout.PARTS_AT] = where[1], where[2]
     return Plan(P, F, sizes.nx, _width(sizes))
@@ -116,4 +119,4 @@ def _integers(parts: Sequence[Ints]) -> tuple[Ints, list[int]]:
 def _width(sizes: Sizes) -> int:
     """Numbers of the longest row: a law's input or output, or the head of a run."""
     states = max(sizes.nx, sizes.nw + sizes.k * sizes.p)
-    return max(layout.HEAD, 3 + states + max(sizes.n, 1))
+    return max(layout.HEAD, 3 + states + max(sizes.n, 2) + layout.OUTSIDE)

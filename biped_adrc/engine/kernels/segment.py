@@ -142,9 +142,8 @@ def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int)
 @inner
 def pass_on(P: Ints, W: Array) -> None:
     """The end of a step is the start of the next."""
-    nx = P[STATES]
-    copy(row(P, W, X1), row(P, W, X0), nx)
-    copy(row(P, W, DX1), row(P, W, DX0), nx)
+    copy(row(P, W, X1), row(P, W, X0), P[MOVING])
+    copy(row(P, W, DX1), row(P, W, DX0), P[MOVING])
     if P[KIND] == ETD:
         copy(row(P, W, Y1), row(P, W, Y0), P[SLOW] + P[STIFF] * P[JOINTS])
         copy(row(P, W, N1), row(P, W, N0), P[SLOW] + P[FORCED] * P[JOINTS])

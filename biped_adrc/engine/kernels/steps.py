@@ -8,7 +8,7 @@ is left below the last level by one classical step, which is stable there.
 from __future__ import annotations
 
 from biped_adrc.engine.kernels.call import Ints, call, inner, shift, unit
-from biped_adrc.engine.kernels.laws import copy, flow, join, remainder, row, watch
+from biped_adrc.engine.kernels.laws import copy, copy_held, flow, join, remainder, row, watch
 from biped_adrc.engine.kernels.layout import (
     DXB,
     E_HALF,
@@ -60,7 +60,8 @@ def classical(
     """out = one step of length h from (t, x) with the slope dx."""
     m, rest, stage = P[MOVING], P[STATES] - P[MOVING], row(P, W, STAGE)
     k2, k3, k4 = row(P, W, K2), row(P, W, K3), row(P, W, K4)
-    copy(shift(x, m), shift(stage, m), rest)
+    if rest > 0:
+        copy_held(P, x, stage)
     for i in range(m):
         stage[i] = x[i] + 0.5 * h * dx[i]
     flow(P, F, K, W, t + 0.5 * h, stage, k2)

@@ -35,7 +35,8 @@ class Code(NamedTuple):
     flow: int
     """(t, step, t_start, x, zeta) -> (dx, pivot); in sampled time only q and v flow."""
     tick: int
-    """(t, step, t_start, x, zeta) -> (x after the tick, pivot, q''), in sampled time."""
+    """(t, step, t_start, x, zeta, outside) -> (x after the tick, pivot, q''), in sampled time. outside (5,):
+    force from outside (2) [N], its impulse since the last tick (2) [N s], drop of the ground [m]."""
     strike: int
     """(t, step, x) -> (x+, pivot); step is that of the new single support."""
     watch: int
@@ -84,6 +85,8 @@ class Push(NamedTuple):
     K: Array
     offsets: Ints
     switches: Array
+    resultants: tuple[int, ...] = ()
+    """Addresses of (t, step, t_start, q, v) -> force (2,) [N] on the robot as a whole, 0 for none."""
 
 
 class Clock(NamedTuple):

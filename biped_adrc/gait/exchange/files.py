@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import write_text
+from biped_adrc.files import output_path, write_text
 from biped_adrc.gait.exchange.matfile import read_mat, write_mat
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import FORMAT as STORED
@@ -40,23 +40,21 @@ _TEXT = ("convention", "curve", "name", "robot", "preset")
 
 def write_record(record: GaitRecord, path: Path | str) -> None:
     """Write a record as .json or .mat. Raises InputError for another suffix, and OutputError."""
-    path = Path(path)
+    path = output_path(path, (".json", ".mat"))
     entries = {key: getattr(record, key) for key in _KEYS if getattr(record, key) is not None}
     entries["provenance"] = json.dumps(dict(record.provenance))
-    if path.suffix == ".mat":
+    if path.suffix.lower() == ".mat":
         entries["reverse"] = float(record.reverse)
         for key in ("phase", "q_minus", "v_minus"):
             if key in entries:
                 entries[key] = entries[key][np.newaxis, :]  # a row
         units = {key: unit for key, unit in UNITS.items() if key in entries}
         write_mat(path, {"format": FORMAT, **entries}, units)
-    elif path.suffix == ".json":
+    else:
         plain = {k: v.tolist() if isinstance(v, np.ndarray) else v for k, v in entries.items()}
         plain["provenance"] = dict(record.provenance)
         text = json.dumps({"format": FORMAT, **plain, "units": UNITS}, indent=1)
         write_text(path, text + "\n")
-    else:
-        raise InputError(f"'{path}' ends in '{path.suffix}', expected .json or .mat")
 
 
 def read_record(
@@ -68,9 +66,9 @@ def read_record(
     ours, such as {"coefficients": "alpha"}. Raises InputError and GaitError that name the file.
     """
     path = Path(path)
-    if path.suffix == ".mat":
+    if path.suffix.lower() == ".mat":
         found = read_mat(path)
-    elif path.suffix == ".json":
+    elif path.suffix.lower() == ".json":
         found = _read_json(path)
     else:
         raise InputError(f"gait file '{path}' ends in '{path.suffix}', expected .json or .mat")

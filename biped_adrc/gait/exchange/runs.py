@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from biped_adrc.errors import InputError
+from biped_adrc.files import output_path
 from biped_adrc.gait.exchange.matfile import read_mat, write_mat
 from biped_adrc.types import Array
 
@@ -53,9 +54,7 @@ def export_run(
     units: of columns that are not of this package. Angles are in this paper's convention. Raises InputError
     for a column without a unit or of another length, and OutputError.
     """
-    path = Path(path)
-    if path.suffix != ".mat":
-        raise InputError(f"'{path}' ends in '{path.suffix}', expected .mat")
+    path = output_path(path, (".mat",))
     known = {**UNITS, **(units or {})}
     arrays = {name: np.asarray(column, dtype=float) for name, column in columns.items()}
     lengths = {name: a.shape[0] if a.ndim else 0 for name, a in arrays.items()}

@@ -29,6 +29,7 @@ from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.errors import ModelErrors, impact_error
+from biped_adrc.model.limits import ENDS, Limits
 from biped_adrc.studies.bench.catalogue import controller
 from biped_adrc.studies.bench.named_files import files_of
 from biped_adrc.studies.bench.trial import Trial
@@ -100,9 +101,14 @@ def walker(trial: Trial, s: Scene) -> Walker:
         ground_steps=ground(trial),
         sensors=sensors(trial),
         motors=Motors(trial.rate_limit, trial.lag),
-        meter=Meter(s.gait.constraint),
+        meter=Meter(s.gait.constraint, limits(trial), ENDS * s.gait.period),
         impact_gain=gain,
     )
+
+
+def limits(trial: Trial) -> Limits:
+    """Within which the trial's walk is legal; torque is the robot's own."""
+    return Limits(trial.friction_limit, None, trial.force_window)
 
 
 def _gain(trial: Trial, n: int) -> tuple[float, ...]:

@@ -15,11 +15,15 @@ from pathlib import Path
 from typing import Any
 
 from biped_adrc.files import write_bytes, write_text
+from biped_adrc.model.limits import Limits
+from biped_adrc.studies.bench.build import scene_of
 from biped_adrc.studies.bench.catalogue import CONTROLLERS
-from biped_adrc.studies.bench.comparison import Comparison, check, compare
+from biped_adrc.studies.bench.cell import IMPULSE, NEEDS, REASONS, Row, is_legal, number
+from biped_adrc.studies.bench.comparison import NOMINAL, Comparison, check, compare
 from biped_adrc.studies.bench.conditions import BASE, CONDITIONS
+from biped_adrc.studies.bench.equal_bandwidth import NOT_ALIKE, OWN
 from biped_adrc.studies.bench.execute import LARGEST_CHUNK, Progress, run_study
-from biped_adrc.studies.bench.findings import findings
+from biped_adrc.studies.bench.findings import answers, sentences
 from biped_adrc.studies.bench.points import Point, key_of, text_of
 from biped_adrc.studies.bench.run import run_trials
 from biped_adrc.studies.bench.store import About, Store, numerical_versions
@@ -107,15 +111,27 @@ def run_comparison(
 
 def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, Any]:
     """Figures, summary.json and comparison.html; returns the summary. Raises OutputError."""
+    found_out = answers(found)
     summary = {
         "command": command,
         "walks": walks,
         "seeds": found.seeds,
-        "findings": findings(found),
+        "settings": NOT_ALIKE,
+        "nominal": nominal(found.nominal),
+        "findings": sentences(found_out),
         "controllers": {name: CONTROLLERS[name].words for name in found.controllers},
         "conditions": {name: CONDITIONS[name].words for name in found.conditions},
         "cells": [cell.row() for cell in found.cells],
+        "equal_bandwidth": [
+            {
+                "own": found.cell(x.controller, x.condition).row()
+                | {"bandwidth": OWN[x.controller]},
+                "equal": x.row(),
+            }
+            for x in found.equal
+        ],
         "pushes": [push.row() for push in found.pushes],
+        "tests": [answer.row() for answer in found_out],
         "base": dict(BASE),
         "versions": dict(numerical_versions()),
     }
@@ -128,11 +144,29 @@ def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, A
     return summary
 
 
+def nominal(row: Row) -> dict[str, Any]:
+    """What the undisturbed gait needs of ground and motors, and what is illegal about it, in words."""
+    needs = {name: number(row, name) for name in NEEDS}
+    broken = [
+        words
+        for name, words in {**REASONS, IMPULSE: "impulse at impact"}.items()
+        if row.get(name) == 1
+    ]
+    return {
+        "trial": dict(NOMINAL),
+        "status": str(row["status"]),
+        "legal": is_legal(row),
+        "needs": needs,
+        "limits": dict(Limits().of(scene_of(Trial(**NOMINAL)).biped.description)._asdict()),
+        "broken": broken,
+    }
+
+
 def draw(summary: Mapping[str, Any]) -> dict[str, bytes]:
     """The figures as SVG, by name."""
     cells, pushes = summary["cells"], summary["pushes"]
     figures = {"survival": survival_figure(cells)}
     figures |= {name: measure_figure(cells, name, title) for name, title in TITLES.items()}
     if pushes:
-        figures["pushes"] = push_figure(pushes)
+        figures["pushes"] = push_figure([p for p in pushes if p["bandwidth"] is None])
     return {name: render(figures[name], "svg") for name in CAPTIONS if name in figures}

@@ -1,83 +1,37 @@
-"""Controllers x conditions x seeds: which controller survives what, at what error, torque and cost.
+"""Controllers x conditions x seeds: which controller walks legally under what, at what error, torque and cost.
 
-Every controller meets the same draws. Shares have Wilson's intervals, medians are over the walks that made all
-their steps and have bootstrap intervals (`bench.statistics`).
+Every controller meets the same draws, so walks are paired by their seeds. Shares have Wilson's intervals,
+medians are over the walks that make all their steps legally and have bootstrap intervals (`bench.statistics`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from biped_adrc.errors import InputError
 from biped_adrc.studies.bench.catalogue import CONTROLLERS
+from biped_adrc.studies.bench.cell import Cell, Row
 from biped_adrc.studies.bench.chunk import NO_WALK
-from biped_adrc.studies.bench.conditions import CONDITIONS, record
+from biped_adrc.studies.bench.conditions import BASE, CONDITIONS, record
+from biped_adrc.studies.bench.equal_bandwidth import (
+    BANDWIDTH,
+    equal_record,
+    equal_values,
+    walked_again,
+)
 from biped_adrc.studies.bench.largest_push import (
-    DIRECTIONS,
-    PHASES,
     Carry,
-    Search,
+    Largest,
+    gathered,
     largest_pushes,
     searches,
 )
-from biped_adrc.studies.bench.statistics import Interval, median, share
 
 PUSH_SEEDS = 5
 """Seeds of the largest pushes, at most."""
-MEASURES = {
-    "peak_error": "largest tracking error [rad]",
-    "rms_torque": "torque, root mean square [N m]",
-    "cost_of_transport": "cost of transport",
-    "speed_change": "change of speed",
-    "peak_matched": "matched part of the push [rad/s^2]",
-    "peak_unmatched": "unmatched part [rad/s^2]",
-}
-"""Columns of a row of which the median is shown."""
-
-
-@dataclass(frozen=True)
-class Cell:
-    """One controller under one condition."""
-
-    controller: str
-    condition: str
-    survived: Interval
-    """Share of the walks."""
-    falls: Mapping[str, int]
-    """How the others ended: status and number."""
-    medians: Mapping[str, Interval | None]
-    """By `MEASURES`."""
-
-    def row(self) -> dict[str, Any]:
-        """As plain values."""
-        found = {name: None if x is None else list(x) for name, x in self.medians.items()}
-        return {
-            "controller": self.controller,
-            "condition": self.condition,
-            "survived": list(self.survived),
-            "falls": dict(self.falls),
-            **found,
-        }
-
-
-@dataclass(frozen=True)
-class Largest:
-    """The largest push survived by one controller, over seeds."""
-
-    controller: str
-    direction: str
-    phase: str
-    push: Interval
-    """[N m]"""
-    beyond: bool
-    """Whether a seed survived the highest rung."""
-
-    def row(self) -> dict[str, Any]:
-        """As plain values."""
-        named = {"controller": self.controller, "direction": self.direction, "phase": self.phase}
-        return {**named, "push": list(self.push), "beyond": self.beyond}
+NOMINAL = {k: v for k, v in BASE.items() if k != "start_speed_spread"} | {"controller": "NPD"}
+"""The trial that nothing disturbs, started on the gait: what the gait itself needs."""
 
 
 @dataclass(frozen=True)
@@ -87,13 +41,23 @@ class Comparison:
     controllers: tuple[str, ...]
     conditions: tuple[str, ...]
     seeds: int
+    nominal: Row
+    """Of the trial `NOMINAL`."""
     cells: tuple[Cell, ...]
+    equal: tuple[Cell, ...]
+    """The cells of controllers with an observer once more, all at the same bandwidth."""
     pushes: tuple[Largest, ...]
+    """At their own settings, then at equal bandwidth."""
 
     def cell(self, controller: str, condition: str) -> Cell:
         """Of the table."""
         at = self.controllers.index(controller) * len(self.conditions)
         return self.cells[at + self.conditions.index(condition)]
+
+    def at_equal(self, controller: str, condition: str) -> Cell | None:
+        """The cell at equal bandwidth; None for a controller without an observer."""
+        found = [c for c in self.equal if (c.controller, c.condition) == (controller, condition)]
+        return found[0] if found else None
 
 
 def check(controllers: Sequence[str], conditions: Sequence[str], seeds: int) -> None:
@@ -120,18 +84,36 @@ def compare(
 ) -> Comparison:
     """The whole comparison; `carry` walks trials, here or anywhere. Raises InputError as `check`."""
     check(controllers, conditions, seeds)
-    pairs = [(c, d) for c in controllers for d in conditions]
-    rows = walked_rows(carry([record(d, c, seed) for c, d in pairs for seed in range(seeds)]))
-    cells = [_cell(c, d, rows[i * seeds : (i + 1) * seeds]) for i, (c, d) in enumerate(pairs)]
+    names = [(c, d) for c in controllers for d in conditions]
+    again = [(c, d) for c in walked_again(controllers) for d in conditions]
+    records = [
+        NOMINAL,
+        *(record(d, c, seed) for c, d in names for seed in range(seeds)),
+        *(equal_record(d, c, seed) for c, d in again for seed in range(seeds)),
+    ]
+    nominal, *rows = walked_rows(carry(records))
+    parts = [tuple(rows[i : i + seeds]) for i in range(0, len(rows), seeds)]
+    cells = [Cell(*name, part) for name, part in zip(names, parts, strict=False)]
+    equal = [
+        Cell(*name, part, BANDWIDTH) for name, part in zip(again, parts[len(names) :], strict=True)
+    ]
     found: list[Largest] = []
     if pushes:
-        begun = searches(controllers, min(seeds, PUSH_SEEDS))
-        done = largest_pushes(begun, lambda records: walked_rows(carry(records)))
-        found = _largest(controllers, done)
-    return Comparison(tuple(controllers), tuple(conditions), seeds, tuple(cells), tuple(found))
+        few = min(seeds, PUSH_SEEDS)
+        begun = searches(controllers, few) + searches(walked_again(controllers), few, equal_values)
+        found = gathered(largest_pushes(begun, lambda records: walked_rows(carry(records))))
+    return Comparison(
+        tuple(controllers),
+        tuple(conditions),
+        seeds,
+        nominal,
+        tuple(cells),
+        tuple(equal),
+        tuple(found),
+    )
 
 
-def walked_rows(rows: Sequence[Mapping[str, Any]]) -> Sequence[Mapping[str, Any]]:
+def walked_rows(rows: Sequence[Row]) -> Sequence[Row]:
     """The rows themselves. Raises InputError for one that is no walk, with what it says."""
     for row in rows:
         if row["status"] in NO_WALK:
@@ -140,24 +122,3 @@ def walked_rows(rows: Sequence[Mapping[str, Any]]) -> Sequence[Mapping[str, Any]
                 "that survive would mean nothing with it"
             )
     return rows
-
-
-def _cell(controller: str, condition: str, rows: Sequence[Mapping[str, Any]]) -> Cell:
-    walked = [row for row in rows if row["survived"] == 1]
-    ended = [str(row["status"]) for row in rows if row["survived"] != 1]
-    falls = {status: ended.count(status) for status in sorted(set(ended))}
-    medians = {name: median([row[name] for row in walked]) for name in MEASURES}
-    return Cell(controller, condition, share(len(walked), len(rows)), falls, medians)
-
-
-def _largest(controllers: Sequence[str], done: Sequence[Search]) -> list[Largest]:
-    found = []
-    for controller in controllers:
-        for direction in DIRECTIONS:
-            for phase in PHASES:
-                key = (controller, direction, phase)
-                here = [s for s in done if (s.controller, s.direction, s.phase) == key]
-                push = median([s.largest for s in here])
-                assert push is not None
-                found.append(Largest(*key, push, any(s.high is None for s in here)))
-    return found

@@ -1,72 +1,276 @@
-"""What a comparison says in words, from its numbers alone: who tracks best where, who falls, who pays."""
+"""What a comparison says in words: a sentence is there when a test of paired walks carries it, or absent.
+
+Controllers are held against NPD, which has the same gains and no observer, and a sentence about one with an
+observer has to hold at equal bandwidth too; two observers are held against each other at both. Walks are paired
+by seed, and what is compared of a pair asks both to be legal. Each family of questions has a sign test or
+McNemar's, corrected by Holm for all questions of the family; an effect must lie beyond a margin with its whole
+interval of 95 %.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
 
-from biped_adrc.studies.bench.comparison import Cell, Comparison
+import numpy as np
 
-CLEARLY = 2.0
-"""Ratio of two medians above which one is said to be better."""
-HALF = 0.5
+from biped_adrc.studies.bench.cell import Cell, is_legal, number
+from biped_adrc.studies.bench.comparison import Comparison
+from biped_adrc.studies.bench.conditions import record
+from biped_adrc.studies.bench.largest_push import MATCHED, PHASES, Largest, median_span
+from biped_adrc.studies.bench.statistics import (
+    CONFIDENCE,
+    Interval,
+    Tested,
+    holm,
+    mcnemar,
+    paired_equal,
+    paired_ratio,
+    sign_test,
+)
+from biped_adrc.studies.bench.trial import Trial
 
-
-def findings(c: Comparison) -> list[str]:
-    """Sentences; none that the intervals do not carry."""
-    return [*_best(c), *_falls(c), *_costs(c)]
-
-
-def _cells(c: Comparison, condition: str) -> list[Cell]:
-    return [c.cell(controller, condition) for controller in c.controllers]
-
-
-def _error(cell: Cell) -> float | None:
-    found = cell.medians["peak_error"]
-    return None if found is None or cell.survived.value < HALF else found.value
-
-
-def _best(c: Comparison) -> Iterable[str]:
-    """For each condition the smallest error, with those that are within `CLEARLY` of it."""
-    for condition in c.conditions:
-        errors = {cell.controller: e for cell in _cells(c, condition) if (e := _error(cell))}
-        if len(errors) < 2:
-            continue
-        least, most = min(errors.values()), max(errors, key=lambda k: errors[k])
-        near = [name for name, e in errors.items() if e <= CLEARLY * least]
-        if errors[most] <= CLEARLY * least:
-            yield f"{condition}: no controller tracks clearly better than another ({least:.1e} rad)."
-        else:
-            yield (
-                f"{condition}: least error with {', '.join(near)} ({least:.1e} rad), most with {most} "
-                f"({errors[most]:.1e} rad)."
-            )
+EQUAL = "equal_bandwidth"
+"""The family of questions about observers at equal bandwidth."""
+REFERENCE = "NPD"
+"""Whom the others are held against."""
+MARGIN = 1.1
+"""A ratio of two medians nearer to 1 than this is not worth a sentence."""
+SPEED = 0.01
+"""Changes of speed that differ by less than this are alike."""
+RATIOS = {
+    "peak_error": "largest tracking error",
+    "rms_torque": "rms torque",
+    "cost_of_transport": "cost of transport",
+}
 
 
-def _falls(c: Comparison) -> Iterable[str]:
-    """Who falls where others walk."""
-    for condition in c.conditions:
-        cells = _cells(c, condition)
-        walking = [cell for cell in cells if cell.survived.low > HALF]
-        falling = [cell.controller for cell in cells if cell.survived.high < HALF]
-        if walking and falling:
-            yield (
-                f"{condition}: {', '.join(falling)} fall in most walks where "
-                f"{', '.join(cell.controller for cell in walking)} make all steps in most."
-            )
+@dataclass(frozen=True)
+class Question:
+    """One question to the numbers, and what its test says."""
+
+    family: str
+    condition: str
+    controller: str
+    pairs: int
+    words: str
+    """What is said of this controller where the test carries it."""
+    p: float
+    """Of this question alone."""
+    beyond: bool
+    """Whether the effect lies beyond the margin with its whole interval."""
+    value: Interval | None = None
 
 
-def _costs(c: Comparison) -> Iterable[str]:
-    """Where a controller pays with its motors."""
-    for condition in c.conditions:
-        costs = {
-            cell.controller: found.value
-            for cell in _cells(c, condition)
-            if (found := cell.medians["cost_of_transport"]) is not None
-            and cell.survived.value >= HALF
+@dataclass(frozen=True)
+class Answer:
+    """A question, its p-value corrected for all of its family, and whether it is carried."""
+
+    question: Question
+    p: float
+
+    @property
+    def carried(self) -> bool:
+        """Whether it may be said."""
+        return self.question.beyond and self.p < 1.0 - CONFIDENCE
+
+    def row(self) -> dict[str, Any]:
+        """As plain values."""
+        q = self.question
+        return {
+            "family": q.family,
+            "condition": q.condition,
+            "controller": q.controller,
+            "pairs": q.pairs,
+            "value": None if q.value is None else list(q.value),
+            "p": self.p,
+            "carried": self.carried,
+            "words": q.words,
         }
-        if costs and max(costs.values()) > 1.25 * min(costs.values()):
-            high, low = max(costs, key=lambda k: costs[k]), min(costs, key=lambda k: costs[k])
-            yield (
-                f"{condition}: {high} needs a cost of transport of {costs[high]:.2f}, {low} "
-                f"{costs[low]:.2f}."
+
+
+def answers(c: Comparison) -> list[Answer]:
+    """To all questions that the walks allow."""
+    families: dict[str, list[Question]] = {}
+    for q in _questions(c):
+        families.setdefault(q.family, []).append(q)
+    return [
+        Answer(q, p)
+        for asked in families.values()
+        for q, p in zip(asked, holm([q.p for q in asked]), strict=True)
+    ]
+
+
+def sentences(found: Sequence[Answer]) -> dict[str, list[str]]:
+    """What is carried, by family: one sentence for each condition, and no family without one."""
+    words: dict[tuple[str, str], list[str]] = {}
+    for a in found:
+        if a.carried:
+            words.setdefault((a.question.family, a.question.condition), []).append(a.question.words)
+    said: dict[str, list[str]] = {}
+    for (family, what), each in words.items():
+        said.setdefault(family, []).append(f"{what}: {OPENINGS[family]}: {'; '.join(each)}.")
+    return said
+
+
+OPENINGS = {
+    "legal": f"legal walks, in pairs of the same seed as {REFERENCE}",
+    **{
+        name: f"{text} as a multiple of that of {REFERENCE}, median over pairs of legal walks (95 %)"
+        for name, text in RATIOS.items()
+    },
+    "speed_change": f"the speed changes as under {REFERENCE}; median difference of the relative changes over "
+    "pairs of legal walks (95 %)",
+    EQUAL: "ratio of the largest errors of two observers at their own settings, and all at equal "
+    "bandwidth, median over pairs of legal walks (95 %)",
+    "pushes": f"the largest push that is walked legally, median over seeds, against that of {REFERENCE}",
+}
+"""What the sentences of a family are about."""
+
+
+def bandwidth_decides(condition: str) -> bool:
+    """Whether sensors or a delay limit the bandwidth: there another bandwidth or a filter reverses an order."""
+    trial = Trial(**record(condition, REFERENCE, 0))
+    noisy = trial.counts is not None or trial.noise + trial.pitch_noise + trial.rate_noise > 0.0
+    return noisy or trial.delay > 0.0 or trial.velocity != "measured"
+
+
+def _questions(c: Comparison) -> Iterable[Question]:
+    others = [name for name in c.controllers if name != REFERENCE]
+    if REFERENCE in c.controllers:
+        for condition in c.conditions:
+            if not bandwidth_decides(condition):
+                usual = c.cell(REFERENCE, condition)
+                for name in others:
+                    again = c.at_equal(name, condition)
+                    yield from _against(c.cell(name, condition), again, usual)
+        for name in others:
+            yield from _pushes(c.pushes, name)
+    yield from _equal(c)
+
+
+def _against(cell: Cell, again: Cell | None, usual: Cell) -> Iterable[Question]:
+    """One controller against the reference under one condition; again: the same at equal bandwidth."""
+    settings = [cell] if again is None else [cell, again]
+    yield _legality(settings, usual)
+    for name in RATIOS:
+        each = [_ratio(x, usual, name) for x in settings]
+        if each[0] is not None:
+            held = {_side(x) for x in each} in ({-1}, {1})
+            yield _question(name, cell, each[0], held)
+    unmatched = usual.medians({"peak_unmatched": ""})["peak_unmatched"]
+    if unmatched is not None and unmatched.low > 0.0:
+        alike = [_difference(x, usual) for x in settings]
+        if alike[0] is not None:
+            held = all(
+                x is not None and x.value.low > -SPEED and x.value.high < SPEED for x in alike
             )
+            yield _question("speed_change", cell, alike[0], held)
+
+
+def _ratio(cell: Cell, usual: Cell, name: str) -> Tested | None:
+    a, b = _both_legal([cell, usual], name)
+    return paired_ratio(a, b, MARGIN)
+
+
+def _difference(cell: Cell, usual: Cell) -> Tested | None:
+    a, b = _both_legal([cell, usual], "speed_change", positive=False)
+    return paired_equal(a, b, SPEED)
+
+
+def _side(found: Tested | None) -> int:
+    """-1, 1: the interval of the ratio lies below, above 1 by more than the margin; 0: neither."""
+    if found is None:
+        return 0
+    return int(found.value.low > MARGIN) - int(found.value.high < 1.0 / MARGIN)
+
+
+def _question(family: str, cell: Cell, found: Tested, beyond: bool, text: str = "") -> Question:
+    words = text or f"{cell.controller} {_interval(found.value)} in {found.pairs} pairs"
+    return Question(
+        family, cell.condition, cell.controller, found.pairs, words, found.p, beyond, found.value
+    )
+
+
+def _legality(settings: Sequence[Cell], usual: Cell) -> Question:
+    """The first of the settings is the controller's own; the others have to agree with it."""
+    b = [is_legal(w) for w in usual.walks]
+    each = [[is_legal(w) for w in cell.walks] for cell in settings]
+    more = {sum(a) > sum(b) for a in each}
+    held = len(more) == 1 and all(mcnemar(a, b) < 1.0 - CONFIDENCE for a in each)
+    a, own = each[0], settings[0]
+    text = f"{own.controller} {sum(a)}, {REFERENCE} {sum(b)} of {len(a)}"
+    return Question("legal", own.condition, own.controller, len(a), text, mcnemar(a, b), held)
+
+
+def _both_legal(cells: Sequence[Cell], name: str, positive: bool = True) -> list[list[float]]:
+    """The numbers of each cell, for the seeds that are legal in all of them and have a number there."""
+    found = []
+    for walks in zip(*(cell.walks for cell in cells), strict=True):
+        values = [number(w, name) for w in walks]
+        known = all(x is not None and (x > 0.0 or not positive) for x in values)
+        if known and all(is_legal(w) for w in walks):
+            found.append([x for x in values if x is not None])
+    return [list(column) for column in zip(*found, strict=True)] or [[] for _ in cells]
+
+
+def _equal(c: Comparison) -> Iterable[Question]:
+    """Whether the ratio of two observers' errors is another at equal bandwidth."""
+    for i, a in enumerate(c.equal):
+        for b in c.equal[i + 1 :]:
+            if a.condition == b.condition:
+                own = [c.cell(x.controller, x.condition) for x in (a, b)]
+                yield from _changed(own, [a, b])
+
+
+def _changed(own: Sequence[Cell], equal: Sequence[Cell]) -> Iterable[Question]:
+    errors = [np.array(x) for x in _both_legal([*own, *equal], "peak_error")]
+    before, after = errors[0] / errors[1], errors[2] / errors[3]
+    found = paired_ratio(list(before), list(after), MARGIN)
+    if found is None:
+        return
+    ones = [1.0] * found.pairs
+    r, s = (paired_ratio(list(x), ones, 1.0) for x in (before, after))
+    assert r is not None
+    assert s is not None
+    turned = (r.value.high < 1.0 < s.value.low) or (s.value.high < 1.0 < r.value.low)
+    text = (
+        f"{equal[0].controller} to {equal[1].controller} {_interval(r.value)} and {_interval(s.value)} in "
+        f"{found.pairs} pairs{', the order changes' if turned else ''}"
+    )
+    yield _question(EQUAL, equal[0], found, _side(found) != 0, text)
+
+
+def _pushes(pushes: Sequence[Largest], name: str) -> Iterable[Question]:
+    """Whether one controller's largest legal pushes on the joints are larger or smaller than the reference's.
+
+    The units of the test are the combinations of joints and phase; one counts where the medians' intervals do
+    not overlap.
+    """
+    settings: dict[float | None, tuple[int, int]] = {}
+    spans = {
+        (p.controller, p.bandwidth, p.direction, p.phase): median_span(p.legal) for p in pushes
+    }
+    for who, bandwidth, direction, phase in spans:
+        usual = (REFERENCE, None, direction, phase)
+        if who == name and direction in MATCHED and usual in spans:
+            a, b = spans[who, bandwidth, direction, phase], spans[usual]
+            larger, smaller = settings.get(bandwidth, (0, 0))
+            settings[bandwidth] = (larger + (a.low >= b.high), smaller + (a.high <= b.low))
+    if None in settings:
+        larger, smaller = settings[None]
+        held = len({x > y for x, y in settings.values()}) == 1 and all(
+            sign_test(*x) < 1.0 - CONFIDENCE for x in settings.values()
+        )
+        count = len(MATCHED) * len(PHASES)
+        text = (
+            f"{name} larger in {larger}, smaller in {smaller} of {count} combinations of joints and "
+            "phase"
+        )
+        p = sign_test(larger, smaller)
+        yield Question("pushes", "pushes on joints", name, count, text, p, held)
+
+
+def _interval(x: Interval) -> str:
+    return f"{x.value:.2g} ({x.low:.2g} to {x.high:.2g})"

@@ -1,16 +1,21 @@
-"""The largest push survived, per direction and phase of the step, by bisection.
+"""The largest push survived and the largest walked legally, per direction and phase, by bisection.
 
-Survival need not be monotone in the amplitude: a ladder of amplitudes is walked first, and the interval between
-the last rung below all falls and the first fall is halved until it is as narrow as asked. All searches go on in
-step, so that each round is one batch of walks.
+Neither need be monotone in the amplitude: a ladder of amplitudes is walked first, and the interval between the
+last rung below all failures and the first failure is halved until it is as narrow as asked, for both criteria.
+All searches go on in step, so that each round is one batch of walks. What is found is an interval of one seed:
+over seeds it stays one, open above where the highest rung was passed.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
 
+import numpy as np
+
+from biped_adrc.studies.bench.cell import is_legal, is_made
 from biped_adrc.studies.bench.conditions import BASE
 
 LADDER = (0.0, 20.0, 40.0, 80.0, 160.0, 320.0)
@@ -30,6 +35,7 @@ DIRECTIONS: dict[str, Mapping[str, Any]] = {
     "torso -": {"on": "-q5"},
 }
 """Joint patterns; the last two are unmatched."""
+MATCHED = tuple(DIRECTIONS)[:4]
 PHASES = {"early": 0.02, "middle": 0.12, "late": 0.22}
 """Onset [s] in a step of about 0.42 s; pushes last 0.2 s."""
 
@@ -38,15 +44,51 @@ Carry = Callable[[Sequence[Mapping[str, Any]]], Sequence[Mapping[str, Any]]]
 
 
 @dataclass(frozen=True)
+class Bracket:
+    """Where the largest push lies: `low` passed, `high` did not [N m]; None for none yet."""
+
+    low: float | None = None
+    high: float | None = None
+
+    def climbed(self, amplitude: float, passed: bool) -> Bracket:
+        """After the next rung of the ladder."""
+        if self.high is not None:
+            return self
+        return replace(self, low=amplitude) if passed else replace(self, high=amplitude)
+
+    def halved(self, amplitude: float, passed: bool) -> Bracket:
+        """After a walk; one that is not inside says nothing."""
+        if self.low is None or self.high is None or not self.low < amplitude < self.high:
+            return self
+        return replace(self, low=amplitude) if passed else replace(self, high=amplitude)
+
+    @property
+    def middle(self) -> float | None:
+        """What to walk next; None where the interval is narrow enough, or open."""
+        if self.low is None or self.high is None or self.high - self.low <= RESOLUTION:
+            return None
+        return 0.5 * (self.low + self.high)
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The largest push lies between them: (0, 0) where none passes, infinity where all do."""
+        if self.low is None:
+            return 0.0, 0.0
+        return self.low, math.inf if self.high is None else self.high
+
+
+@dataclass(frozen=True)
 class Search:
-    """One direction, phase, controller and seed; `low` survived, `high` did not; None for none yet."""
+    """One controller, direction, phase and seed."""
 
     controller: str
     direction: str
     phase: str
     seed: int
-    low: float | None = None
-    high: float | None = None
+    survived: Bracket = Bracket()
+    legal: Bracket = Bracket()
+    setting: Mapping[str, Any] = field(default_factory=dict)
+    """Values of the trial in place of the controller's own."""
 
     def record(self, amplitude: float) -> dict[str, Any]:
         """The trial with this amplitude."""
@@ -61,25 +103,23 @@ class Search:
             "amplitude": amplitude,
             "controller": self.controller,
             "seed": self.seed,
+            **self.setting,
         }
 
-    @property
-    def open(self) -> bool:
-        """Whether the interval is wider than asked."""
-        if self.low is None or self.high is None:
-            return False
-        return self.high - self.low > RESOLUTION
-
-    @property
-    def largest(self) -> float:
-        """The largest push survived; 0 where it falls without one."""
-        return 0.0 if self.low is None else self.low
+    def middles(self) -> list[float]:
+        """The amplitudes to walk next."""
+        found = {b.middle for b in (self.survived, self.legal)}
+        return sorted(a for a in found if a is not None)
 
 
-def searches(controllers: Sequence[str], seeds: int) -> list[Search]:
-    """All of them, not yet begun."""
+def searches(
+    controllers: Sequence[str],
+    seeds: int,
+    setting: Callable[[str], Mapping[str, Any]] = lambda controller: {},
+) -> list[Search]:
+    """All of them, not yet begun; setting: of a controller, in place of its own."""
     return [
-        Search(controller, direction, phase, seed)
+        Search(controller, direction, phase, seed, setting=setting(controller))
         for controller in controllers
         for direction in DIRECTIONS
         for phase in PHASES
@@ -89,24 +129,101 @@ def searches(controllers: Sequence[str], seeds: int) -> list[Search]:
 
 def largest_pushes(begun: Sequence[Search], carry: Carry) -> list[Search]:
     """The searches, done."""
-    rows = iter(carry([s.record(a) for s in begun for a in LADDER]))
-    found = [_laddered(s, [_survived(next(rows)) for _ in LADDER]) for s in begun]
-    while still := [i for i, s in enumerate(found) if s.open]:
-        middles = [0.5 * (found[i].low + found[i].high) for i in still]  # type: ignore[operator]
-        records = [found[i].record(a) for i, a in zip(still, middles, strict=True)]
-        for i, a, row in zip(still, middles, carry(records), strict=True):
-            found[i] = replace(found[i], low=a) if _survived(row) else replace(found[i], high=a)
+    found = list(begun)
+    for rung in LADDER:
+        asked = [(i, rung) for i, s in enumerate(found) if s.survived.high is None]
+        _walk(found, asked, carry, Bracket.climbed)
+    while asked := [(i, a) for i, s in enumerate(found) for a in s.middles()]:
+        _walk(found, asked, carry, Bracket.halved)
     return found
 
 
-def _laddered(search: Search, survived: Sequence[bool]) -> Search:
-    low: float | None = None
-    for amplitude, walked in zip(LADDER, survived, strict=True):
-        if not walked:
-            return replace(search, low=low, high=amplitude)
-        low = amplitude
-    return replace(search, low=low)
+def _walk(
+    found: list[Search],
+    asked: Sequence[tuple[int, float]],
+    carry: Carry,
+    after: Callable[[Bracket, float, bool], Bracket],
+) -> None:
+    """Walk search i with amplitude a for all (i, a) asked, and narrow its intervals."""
+    if not asked:
+        return
+    rows = carry([found[i].record(a) for i, a in asked])
+    for (i, a), row in zip(asked, rows, strict=True):
+        s = found[i]
+        found[i] = replace(
+            s, survived=after(s.survived, a, is_made(row)), legal=after(s.legal, a, is_legal(row))
+        )
 
 
-def _survived(row: Mapping[str, Any]) -> bool:
-    return row["survived"] == 1
+class Span(NamedTuple):
+    """Between what a number lies [N m]; infinity for "at least"."""
+
+    low: float
+    high: float
+
+    def plain(self) -> list[float | None]:
+        """For JSON: None for infinity."""
+        return [self.low, None if math.isinf(self.high) else self.high]
+
+
+def median_span(brackets: Sequence[Bracket]) -> Span:
+    """Between what the median over seeds lies, whatever the values inside their intervals."""
+    lows, highs = zip(*(b.ends for b in brackets), strict=True)
+    return Span(float(np.median(lows)), float(np.median(highs)))
+
+
+def whole_span(brackets: Sequence[Bracket]) -> Span:
+    """Between what all seeds lie."""
+    return Span(min(b.ends[0] for b in brackets), max(b.ends[1] for b in brackets))
+
+
+@dataclass(frozen=True)
+class Largest:
+    """The largest push of one controller, over seeds: survived, and walked legally."""
+
+    controller: str
+    direction: str
+    phase: str
+    survived: tuple[Bracket, ...]
+    legal: tuple[Bracket, ...]
+    bandwidth: float | None = None
+    """Of the observer [rad/s]; None for the controller's own settings."""
+
+    def row(self) -> dict[str, Any]:
+        """As plain values; beyond: seeds that passed the highest rung."""
+        kinds = {"survived": self.survived, "legal": self.legal}
+        return {
+            "controller": self.controller,
+            "direction": self.direction,
+            "phase": self.phase,
+            "bandwidth": self.bandwidth,
+            "seeds": len(self.legal),
+            **{
+                kind: {
+                    "median": median_span(b).plain(),
+                    "seeds": whole_span(b).plain(),
+                    "beyond": sum(math.isinf(x.ends[1]) for x in b),
+                    "none": sum(x.low is None for x in b),
+                }
+                for kind, b in kinds.items()
+            },
+        }
+
+
+def gathered(done: Sequence[Search]) -> list[Largest]:
+    """The searches by controller, direction, phase and bandwidth."""
+    found: dict[tuple[str, str, str, float | None], list[Search]] = {}
+    for s in done:
+        key = (s.controller, s.direction, s.phase, s.setting.get("bandwidth"))
+        found.setdefault(key, []).append(s)
+    return [
+        Largest(
+            controller,
+            direction,
+            phase,
+            tuple(s.survived for s in here),
+            tuple(s.legal for s in here),
+            bandwidth,
+        )
+        for (controller, direction, phase, bandwidth), here in found.items()
+    ]

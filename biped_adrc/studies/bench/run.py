@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
+from biped_adrc.analysis.legality import outcome_of
 from biped_adrc.engine.batch import Case, Walked, run_case
 from biped_adrc.errors import BipedError
-from biped_adrc.hardware.meter import reading
+from biped_adrc.hardware.meter import LARGEST_RATIO, Reading, reading
 from biped_adrc.hybrid.status import Status
 from biped_adrc.studies.bench.build import case, scene_of
 from biped_adrc.studies.bench.chunk import NO_WALK, REFUSED
@@ -41,12 +42,27 @@ COLUMNS = {
     "speed": "distance / time [m/s].",
     "speed_change": "Relative to the gait's.",
     "last_speed": "Of the last two steps [m/s].",
-    "peak_matched": "Largest part of zeta in (12) from the joints [rad/s^2].",
+    "peak_matched": "Largest part, from the joints, of what the model does not know [rad/s^2].",
     "peak_unmatched": "Largest part from the unactuated row [rad/s^2].",
+    "outcome": "fell, ended (as the status says), made (all steps) or legal (all steps legally).",
+    "legal": "1 when all foot strikes were made and all steps legally, 0 when not; None for what was no walk.",
+    "legal_impacts": "Foot strikes made before the first step that was not legal.",
+    "least_normal_force": "F_N at the ticks [N].",
+    "friction": "Largest |F_T| / F_N at the ticks; None where the ground never pushed.",
+    "share_outside": "Share of the ticks with the force outside the friction cone.",
+    "mean_normal_force": "Least F_N averaged over the window [N].",
+    "mean_friction": "Largest |F_T| / F_N of the averaged forces.",
+    "scuffing": "How deep the swing foot was in the ground, from 3 % of a step on [m].",
+    "impulse_ratio": "Largest |F_T| / F_N of the impacts; it makes no step illegal.",
+    "bad_normal_force": "1 when an averaged F_N was not positive, else 0.",
+    "bad_friction": "1 when an averaged force was outside the friction cone, else 0.",
+    "bad_torque": "1 when a torque was above the limit of the robot's record, else 0.",
+    "bad_scuffing": "1 when the swing foot scuffed, else 0.",
+    "bad_impulse": "1 when an impulse at impact asked for more friction than there is, else 0.",
     "engine": "What ran.",
 }
 """Of a row."""
-WORDS = ("status", "detail", "engine")
+WORDS = ("status", "detail", "outcome", "engine")
 """Columns that are no numbers."""
 
 _PREPARING = Lock()
@@ -81,6 +97,8 @@ def measured(trial: Trial, made: Case, walked: Walked) -> Row:
         "t_end": walked.t_end,
         "engine": walked.engine,
     }
+    if status not in NO_WALK:
+        row |= {"outcome": outcome_of(walked.status, legal=False), "legal": 0}
     with _PREPARING:
         row |= _pace(trial, made, walked)
     if len(walked.final_state) > 2 * made.walker.plant.n + made.walker.behind - 1:
@@ -122,6 +140,34 @@ def _meter(trial: Trial, made: Case, walked: Walked, row: Row) -> Row:
         "cost_of_transport": cost,
         "peak_matched": g.peak_matched,
         "peak_unmatched": g.peak_unmatched,
+        **_legality(made, walked, g),
+    }
+
+
+def _legality(made: Case, walked: Walked, g: Reading) -> Row:
+    """What ground and motors had to give, and whether they can."""
+    k = made.walker.meter.limits.of(made.walker.plant.description)  # type: ignore[union-attr]
+    legal, known = g.illegal_step == 0.0, g.windows > 0.0
+    before = g.illegal_step - made.mode.step
+    pushed = g.friction < LARGEST_RATIO and g.friction > 0.0
+    impulse = walked.impacts > 0 and g.impulse_ratio < LARGEST_RATIO
+    outcome = outcome_of(walked.status, legal)
+    return {
+        "outcome": outcome,
+        "legal": int(outcome == "legal"),
+        "legal_impacts": walked.impacts if legal else int(min(before, walked.impacts)),
+        "least_normal_force": g.least_normal_force if g.ticks > 0.0 else None,
+        "friction": g.friction if pushed else None,
+        "share_outside": g.outside / max(g.ticks, 1.0),
+        "mean_normal_force": g.mean_normal_force if known else None,
+        "mean_friction": g.mean_friction if known and g.mean_friction > 0.0 else None,
+        "scuffing": g.scuffing,
+        "impulse_ratio": g.impulse_ratio if impulse else None,
+        "bad_normal_force": int(known and not g.mean_normal_force > 0.0),
+        "bad_friction": int(not g.mean_friction <= k.friction),
+        "bad_torque": int(not g.peak_torque <= k.torque),
+        "bad_scuffing": int(not g.scuffing <= 0.0),
+        "bad_impulse": int(not g.impulse_ratio <= k.friction),
     }
 
 

@@ -1,7 +1,8 @@
-"""What a number of walks says: shares and medians with confidence intervals of 95 %.
+"""What a number of walks says: shares, medians, pairs of walks with the same seed, and tests of both.
 
-Shares by Wilson's interval (J. Am. Stat. Assoc. 22, 1927), medians by the percentile bootstrap (Efron, 1979)
-with a fixed seed.
+Shares have Wilson's interval (J. Am. Stat. Assoc. 22, 1927), medians the percentile bootstrap (Efron, 1979)
+with a fixed seed. Tests are exact: the sign test, McNemar's (Psychometrika 12, 1947) for shares of the same
+seeds, and Holm's correction (Scand. J. Statistics 6, 1979) over all that is asked in one family.
 """
 
 from __future__ import annotations
@@ -18,11 +19,19 @@ RESAMPLES = 2000
 
 
 class Interval(NamedTuple):
-    """A number, and between what it lies with the confidence of 95 %."""
+    """Point estimate with its 95 % confidence interval."""
 
     value: float
     low: float
     high: float
+
+
+class Tested(NamedTuple):
+    """Median over pairs with its interval, and the p-value of an exact test of it."""
+
+    pairs: int
+    value: Interval
+    p: float
 
 
 def share(successes: int, count: int) -> Interval:
@@ -40,3 +49,56 @@ def median(values: Sequence[float | None]) -> Interval | None:
     draws = np.median(x[random.integers(0, len(x), (RESAMPLES, len(x)))], axis=1)
     low, high = np.quantile(draws, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2])
     return Interval(float(np.median(x)), float(low), float(high))
+
+
+def paired_ratio(a: Sequence[float], b: Sequence[float], margin: float) -> Tested | None:
+    """Median of a_i/b_i (positive numbers) by its logarithm; None without pairs.
+
+    The p-value is that of two one-sided sign tests of "within a factor `margin` of 1", doubled.
+    """
+    if len(a) == 0:
+        return None
+    logs = [math.log(x / y) for x, y in zip(a, b, strict=True)]
+    found = median(logs)
+    assert found is not None
+    edge = math.log(margin)
+    least = min(
+        _more_than_half([x < -edge for x in logs]), _more_than_half([x > edge for x in logs])
+    )
+    return Tested(len(logs), Interval(*(math.exp(x) for x in found)), min(1.0, 2.0 * least))
+
+
+def paired_equal(a: Sequence[float], b: Sequence[float], margin: float) -> Tested | None:
+    """Median of a_i - b_i; None without pairs. The test: more than half of them within `margin` of 0."""
+    if len(a) == 0:
+        return None
+    differences = [x - y for x, y in zip(a, b, strict=True)]
+    found = median(differences)
+    assert found is not None
+    return Tested(len(differences), found, _more_than_half([abs(x) < margin for x in differences]))
+
+
+def _more_than_half(so: Sequence[bool]) -> float:
+    return float(stats.binomtest(sum(so), len(so), 0.5, alternative="greater").pvalue)
+
+
+def sign_test(larger: int, smaller: int) -> float:
+    """p-value, two-sided, without ties; 1 where there are only ties."""
+    if larger + smaller == 0:
+        return 1.0
+    return float(stats.binomtest(larger, larger + smaller, 0.5).pvalue)
+
+
+def mcnemar(a: Sequence[bool], b: Sequence[bool]) -> float:
+    """p-value of "as often one without the other as the other without the one", for paired a_i, b_i."""
+    pairs = list(zip(a, b, strict=True))
+    return sign_test(sum(x and not y for x, y in pairs), sum(y and not x for x, y in pairs))
+
+
+def holm(p: Sequence[float]) -> list[float]:
+    """The p-values of one family, each corrected for all of them."""
+    out, worst = [0.0] * len(p), 0.0
+    for rank, i in enumerate(sorted(range(len(p)), key=lambda i: p[i])):
+        worst = max(worst, min(1.0, (len(p) - rank) * p[i]))
+        out[i] = worst
+    return out

@@ -122,6 +122,17 @@ class Trial(BaseModel):
     start_speed_spread: float = value(0.0, "Standard deviation of it, drawn.", "1", ge=0, le=1)
     start_spread: float = value(0.0, "Standard deviation added to all angles.", "rad", ge=0, le=1)
     start_rate_spread: float = value(0.0, "The same for rates.", "rad/s", ge=0, le=10)
+    # what ground and motors can give
+    friction_limit: float | None = value(
+        None,
+        "Friction of the ground for a legal walk; the robot's record without.",
+        "1",
+        gt=0,
+        le=1,
+    )
+    force_window: float = value(
+        5e-3, "Over which the force of the ground is averaged for that.", "s", gt=0, le=0.1
+    )
     # numerics
     h: float = value(1e-3, "Longest step of RK4 between ticks.", "s", ge=1e-6, le=5e-3)
     max_step_time: float = value(2.0, "A longer single support ends as stalled.", "s", gt=0, le=100)

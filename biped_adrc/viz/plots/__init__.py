@@ -4,7 +4,11 @@ Nothing here opens a window or touches pyplot. Whole figures made of these are i
 """
 
 from biped_adrc.viz.plots.comparison import error_over_time, error_sizes, torque_sizes
-from biped_adrc.viz.plots.disturbance import matched_disturbance, total_disturbance
+from biped_adrc.viz.plots.disturbance import (
+    external_torque,
+    matched_disturbance,
+    total_disturbance,
+)
 from biped_adrc.viz.plots.energy import energy
 from biped_adrc.viz.plots.ground import friction_cone, ground_reaction
 from biped_adrc.viz.plots.phase import phase_portrait
@@ -16,6 +20,7 @@ __all__ = [
     "energy",
     "error_over_time",
     "error_sizes",
+    "external_torque",
     "friction_cone",
     "ground_reaction",
     "joint_tracking",

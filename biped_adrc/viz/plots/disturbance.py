@@ -7,11 +7,21 @@ from matplotlib.axes import Axes
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.types import Array
-from biped_adrc.viz.plots.lines import Window, broken, legend, shade
+from biped_adrc.viz.plots.lines import Window, broken, legend, line, shade
 from biped_adrc.viz.plots.tracking import chosen
 from biped_adrc.viz.style import PALETTE, label
 
 NO_OBSERVER = "no observer: nothing is estimated"
+
+
+def external_torque(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
+    """The torque from outside on every joint that is ever pushed [N m]; on all where none is."""
+    shade(axes, push)
+    pushed = np.flatnonzero(np.any(s.zeta != 0.0, axis=0))
+    for i in pushed.tolist() or range(s.zeta.shape[1]):
+        line(axes, s, s.zeta[:, i], i, f"$\\zeta_{i + 1}$")
+    label(axes, "time [s]", r"push $\zeta$ [N m]")
+    return legend(axes)
 
 
 def total_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | None = None) -> Axes:

@@ -1,0 +1,179 @@
+"""Whether a walk was legal, step by step, and where it first was not."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.analysis.certificate import (
+    Certificate,
+    Support,
+    depths,
+    forces,
+    largest_ratio,
+    outside,
+    struck,
+)
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.analysis.window import window_means
+from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.model.limits import KnownLimits, Limits
+from biped_adrc.types import Array
+from biped_adrc.walker import Walker
+
+OUTCOMES = {
+    "fell": "it fell",
+    "ended": "it ended otherwise",
+    "made": "it made all steps, not all of them legally",
+    "legal": "it made all steps legally",
+}
+"""Of a walk, in words."""
+
+
+def outcome_of(status: Status, legal: bool) -> str:
+    """One of the words in `OUTCOMES`."""
+    if status is Status.FELL:
+        return "fell"
+    if status is not Status.COMPLETED:
+        return "ended"
+    return "legal" if legal else "made"
+
+
+@dataclass(frozen=True)
+class Legality:
+    """What the single supports of a walk needed, the last unfinished one too, held against limits."""
+
+    status: Status
+    supports: tuple[Support, ...]
+    impulse_ratio: float
+    """Largest |F_T| / F_N of the impacts, 0 without one; it makes no step illegal."""
+    limits: KnownLimits
+
+    @property
+    def reasons(self) -> dict[str, str]:
+        """Why it is not legal: the first text of each of the names in `REASONS`, with its step."""
+        found: dict[str, str] = {}
+        for s in self.supports:
+            for name, text in s.illegal().items():
+                found.setdefault(name, f"step {s.step}: {text}")
+        return found
+
+    @property
+    def outcome(self) -> str:
+        """One of the words in `OUTCOMES`."""
+        return outcome_of(self.status, not self.reasons)
+
+    @property
+    def legal_impacts(self) -> int:
+        """Impacts before the first step that is not legal, at most those made."""
+        legal = 0
+        for s in self.supports:
+            if s.illegal() or not isinstance(s, Certificate):
+                return legal
+            legal += 1
+        return legal
+
+    @property
+    def least_normal_force(self) -> float:
+        """F_N at any instant [N]."""
+        return min(s.least_normal_force for s in self.supports)
+
+    @property
+    def friction(self) -> float:
+        """Largest |F_T| / F_N at any instant; infinite where in a step the ground never pushed."""
+        return max(s.friction for s in self.supports)
+
+    @property
+    def mean_normal_force(self) -> float:
+        """Least of the means [N]."""
+        return min(s.mean_normal_force for s in self.supports)
+
+    @property
+    def mean_friction(self) -> float:
+        """Largest of the means."""
+        return max(s.mean_friction for s in self.supports)
+
+    @property
+    def share_outside(self) -> float:
+        """Share of the time outside the friction cone."""
+        time = [s.duration for s in self.supports]
+        if sum(time) == 0.0:
+            return max(s.share_outside for s in self.supports)
+        return sum(s.share_outside * t for s, t in zip(self.supports, time, strict=True)) / sum(
+            time
+        )
+
+    @property
+    def scuffing(self) -> float:
+        """[m]"""
+        return max(s.scuffing for s in self.supports)
+
+    @property
+    def peak_torque(self) -> float:
+        """[N m]"""
+        return max(s.peak_torque for s in self.supports)
+
+    def text(self) -> str:
+        """In words, with the reasons."""
+        words = f"{OUTCOMES[self.outcome]} ({self.outcome})"
+        reasons = "; ".join(self.reasons.values())
+        ratio = self.impulse_ratio
+        impulse = f"{ratio:.2f}" if math.isfinite(ratio) else "no contact"
+        beside = f"impulses at impact ask for friction {impulse}, limit {self.limits.friction:g}"
+        return f"{words}: {reasons}; {beside}" if reasons else f"{words}; {beside}"
+
+
+class Violation(NamedTuple):
+    """The first in a single support: when [s], and what in words."""
+
+    t: float
+    what: str
+
+
+def first_violation(
+    walker: Walker, s: Signals, k: KnownLimits, finished: bool = True
+) -> Violation | None:
+    """The first node, or end of a window of the mean force, at which a single support is illegal."""
+    ends, means = window_means(s.t, forces(walker, s), k.window)
+    found: list[Violation] = []
+    bad = np.flatnonzero(outside(means, k.friction))
+    if len(bad):
+        F, over = means[bad[0]], f"over {1e3 * k.window:g} ms"
+        text = f"F_N = {F[1]:.3g} N {over}"
+        if F[1] > 0.0:
+            text = f"friction {largest_ratio(F[np.newaxis]):.3g} > {k.friction:g} {over}"
+        found.append(Violation(float(ends[bad[0]]), text))
+    torque = np.max(np.abs(s.u), axis=1, initial=0.0)
+    found += _first(s.t, torque, k.torque, f"torque {{:.4g}} N m > {k.torque:g}")
+    depth = depths(walker, s, finished)
+    found += _first(s.t, depth, 0.0, "the swing foot scuffs by {:.2g} m")
+    return min(found, default=None, key=lambda one: one.t)
+
+
+def _first(t: Array, x: Array, limit: float, text: str) -> list[Violation]:
+    beyond = np.flatnonzero(~(x <= limit))
+    return [Violation(float(t[i]), text.format(x[i])) for i in beyond[:1]]
+
+
+def until_illegal(
+    walker: Walker, trajectory: Trajectory, signals: Signals, limits: Limits | None = None
+) -> Trajectory:
+    """The trajectory up to its first violation, with the status ILLEGAL; itself where there is none.
+
+    What was before it is as it was; the arc ends at the last node that is not after the violation.
+    """
+    k = (limits or Limits()).of(walker.plant.description)
+    for number, arc in enumerate(trajectory.arcs):
+        found = first_violation(walker, signals.of_step(arc.mode.step), k, struck(arc))
+        if found is None:
+            continue
+        kept = max(1, int(np.searchsorted(arc.t, found.t, side="right")))
+        last = replace(arc, t=arc.t[:kept], x=arc.x[:kept], dx=arc.dx[:kept], event=None)
+        detail = f"single support {arc.mode.step}, {found.t:.4f} s: {found.what}"
+        arcs = (*trajectory.arcs[:number], last)
+        return replace(trajectory, arcs=arcs, status=Status.ILLEGAL, detail=detail)
+    return trajectory

@@ -1,0 +1,128 @@
+"""How far the figures of merit of a run depend on its step: each at the step used and at half of it.
+
+Two values agree when they differ by at most 1 %, or by the resolution of the quantity: a difference that is too
+small to be told from the error of the method on an undisturbed walk. For a quantity of order k in the step,
+three steps h, h/2, h/4 show
+
+    k = log2 (|y(h) - y(h/2)| / |y(h/2) - y(h/4)|)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.studies.checks import Check, at_most
+from biped_adrc.studies.runs import Outcome
+
+AGREE = 0.01
+"""Largest relative difference of two values that agree."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A figure of merit of an outcome: its unit, the difference below which two values agree, and its value."""
+
+    unit: str
+    resolution: float
+    of: Callable[[Outcome], float]
+
+
+QUANTITIES: dict[str, Quantity] = {
+    "peak error": Quantity("rad", 3e-8, lambda o: o.peak_error),
+    "rms error": Quantity("rad", 3e-8, lambda o: o.rms_error),
+    "peak torque": Quantity("N m", 0.0, lambda o: o.peak_torque),
+    "longest step": Quantity("s", 0.0, lambda o: float(np.max(o.durations, initial=0.0))),
+    "shortest step": Quantity("s", 0.0, lambda o: float(np.min(o.durations, initial=math.inf))),
+    "joint work of the last step": Quantity("J", 1e-6, lambda o: _last(o, "joint_work")),
+    "energy lost at the last impact": Quantity("J", 1e-6, lambda o: _last(o, "energy_lost")),
+}
+
+
+def _last(o: Outcome, name: str) -> float:
+    return float(getattr(o.certificates[-1], name)) if o.certificates else 0.0
+
+
+@dataclass(frozen=True)
+class Halved:
+    """One quantity at the step used and at half of it."""
+
+    name: str
+    unit: str
+    value: float
+    half: float
+    resolution: float
+
+    @property
+    def gap(self) -> float:
+        """Their difference as a share of the second; 0 within the resolution, infinite where one is none."""
+        if not (math.isfinite(self.value) and math.isfinite(self.half)):
+            return math.inf
+        apart = abs(self.value - self.half)
+        if apart <= self.resolution:
+            return 0.0
+        return apart / abs(self.half) if self.half != 0.0 else math.inf
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the step does not decide."""
+        return self.gap <= AGREE
+
+    def record(self) -> dict[str, Any]:
+        """As plain values."""
+        return {**vars(self), "gap": self.gap, "agrees": self.agrees}
+
+
+def halved(o: Outcome) -> tuple[Halved, ...]:
+    """Every quantity of an outcome beside that of its half; empty where it was not run twice."""
+    if o.half is None:
+        return ()
+    return tuple(
+        Halved(name, q.unit, q.of(o), q.of(o.half), q.resolution) for name, q in QUANTITIES.items()
+    )
+
+
+def convergence_check(name: str, o: Outcome) -> Check:
+    """The largest difference among the quantities of a run; infinite where the two end differently.
+
+    A run that ends before its last impact has no figures of merit: its ending alone has to be the same.
+    """
+    assert o.half is not None
+    same = o.status == o.half.status and o.impacts == o.half.impacts
+    gap = max(found.gap for found in halved(o)) if same and o.walked else 0.0 if same else math.inf
+    text = f"{name}: largest change of error, torque, period or energy when every step is halved"
+    return at_most(text, "law", gap, AGREE)
+
+
+def error_text(o: Outcome) -> str:
+    """The largest tracking error with that at half the step, and a word where the step decides it."""
+    assert o.half is not None
+    text = f"{o.peak_error:.3e} rad ({o.half.peak_error:.3e} at half the step)"
+    if (o.status, o.impacts) != (o.half.status, o.half.impacts):
+        ends = f"at half the step the walk ends as {o.half.status} after {o.half.impacts} impacts"
+        return f"{text}; {ends}: shorten the step"
+    found = next(h for h in halved(o) if h.name == "peak error")
+    if found.agrees:
+        return text
+    return f"{text}, mostly an error of integration: shorten the step"
+
+
+def observed_order(o: Outcome, of: Callable[[Outcome], float]) -> float:
+    """Order of a quantity from the run, its half and its quarter; NaN where a difference is zero."""
+    assert o.half is not None
+    assert o.half.half is not None
+    first, second, third = of(o), of(o.half), of(o.half.half)
+    if first == second or second == third:
+        return math.nan
+    return math.log2(abs(first - second) / abs(second - third))
+
+
+def records(named: dict[str, Outcome]) -> Iterator[dict[str, Any]]:
+    """A row for every quantity of every run that was run twice, for the summary."""
+    for name, o in named.items():
+        for found in halved(o):
+            yield {"run": name, **found.record()}

@@ -1,0 +1,176 @@
+"""The tables and lines of a comparison as plain text, for its page and for the documentation.
+
+They are made from the summary that `biped-adrc compare` writes: shares of walks and medians are
+[value, low, high] with intervals of 95 %, None where there is nothing to take them of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+MEASURES = {
+    "peak_error": "largest error [rad]",
+    "rms_torque": "rms torque [N m]",
+    "cost_of_transport": "cost of transport",
+    "speed_change": "change of speed",
+    "peak_matched": "matched [rad/s^2]",
+    "peak_unmatched": "unmatched [rad/s^2]",
+}
+NEEDS = {
+    "mean_friction": "friction",
+    "mean_normal_force": "least normal force [N]",
+    "peak_torque": "peak torque [N m]",
+    "impulse_ratio": "impulse ratio",
+}
+REASONS = {
+    "bad_normal_force": "normal force",
+    "bad_friction": "friction",
+    "bad_torque": "torque",
+    "bad_scuffing": "scuffing",
+}
+WHAT_COUNTS = (
+    "A walk is legal when it makes all steps and, in every step, the ground force averaged over 5 ms stays "
+    "inside the friction cone, no torque is beyond the motors' limit and the swing foot does not scuff. The "
+    "impulse at impact is judged in a column of its own and makes no walk illegal."
+)
+SHARES = (
+    "condition",
+    "controller",
+    "legal [%]",
+    "made all steps [%]",
+    "the others ended",
+    "made, but not legal for [%]",
+    "impulse beyond the cone [%]",
+    *NEEDS.values(),
+)
+"""Of the first table; the needs are medians over the walks that make all steps."""
+MEDIANS = ("condition", "controller", "legal walks", *MEASURES.values())
+"""Of the second; medians over legal walks."""
+PUSHES = ("joints", "phase", "controller", "walked legally", "its seeds", "survived", "its seeds")
+"""Of the largest pushes [N m]."""
+EQUAL = (
+    "condition",
+    "controller",
+    "bandwidth [rad/s]",
+    "made all steps [%]",
+    "legal [%]",
+    "largest error of legal walks [rad]",
+)
+"""Of the observers at equal bandwidth."""
+
+
+EQUAL_FAMILY = "equal_bandwidth"
+"""Of the sentences about them; the others are about controllers at their own settings."""
+
+
+def said(summary: Mapping[str, Any], equal: bool) -> list[str]:
+    """The sentences about observers at equal bandwidth, or all others."""
+    families = summary["findings"].items()
+    return [line for name, lines in families if (name == EQUAL_FAMILY) == equal for line in lines]
+
+
+def interval(found: Sequence[float] | None, digits: int = 2, factor: float = 1.0) -> str:
+    """A number with its interval."""
+    if found is None:
+        return "–"
+    value, low, high = (factor * x for x in found)
+    return f"{value:.{digits}g} ({low:.{digits}g} to {high:.{digits}g})"
+
+
+def percent(found: Sequence[float] | None) -> str:
+    """A share with its interval, in per cent."""
+    return interval(found, 3, 100.0)
+
+
+def by_condition(cells: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+    """The cells, those of one condition together."""
+    order = list(dict.fromkeys(c["condition"] for c in cells))
+    return sorted(cells, key=lambda c: order.index(c["condition"]))
+
+
+def share_texts(cell: Mapping[str, Any]) -> list[str]:
+    """A row of the first table."""
+    ended = ", ".join(f"{n} {status.lower()}" for status, n in cell["falls"].items())
+    reasons = [
+        f"{REASONS[name]} {100 * found[0]:.0f}"
+        for name, found in cell["reasons"].items()
+        if found[0]
+    ]
+    return [
+        cell["condition"],
+        cell["controller"],
+        percent(cell["legal"]),
+        percent(cell["survived"]),
+        ended or "–",
+        ", ".join(reasons) or "–",
+        percent(cell["impulse"]),
+        *(interval(cell["needs"][name]) for name in NEEDS),
+    ]
+
+
+def median_texts(cell: Mapping[str, Any]) -> list[str]:
+    """A row of the second table."""
+    count = f"{round(cell['legal'][0] * cell['walks'])} of {cell['walks']}"
+    return [cell["condition"], cell["controller"], count, *(interval(cell[n]) for n in MEASURES)]
+
+
+def push_texts(push: Mapping[str, Any]) -> list[str]:
+    """A row of the largest pushes."""
+    spans = [span(push[kind][of]) for kind in ("legal", "survived") for of in ("median", "seeds")]
+    at = "" if push["bandwidth"] is None else f", {push['bandwidth']:.0f} rad/s"
+    return [push["direction"], push["phase"], push["controller"] + at, *spans]
+
+
+def by_direction(pushes: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+    """The pushes, those on the same joints in the same phase together."""
+    return sorted(pushes, key=lambda p: (p["direction"], p["phase"]))
+
+
+def span(found: Sequence[float | None]) -> str:
+    """Between what a number lies; None above for "at least"."""
+    low, high = found
+    if high is None:
+        return f"at least {low:.3g}"
+    return f"{low:.3g}" if low == high else f"{low:.3g} to {high:.3g}"
+
+
+def equal_texts(equal: Sequence[Mapping[str, Any]]) -> list[list[str]]:
+    """The rows of the observers at their own and at equal bandwidth."""
+    order = list(dict.fromkeys(x["own"]["condition"] for x in equal))
+    ordered = sorted(equal, key=lambda x: order.index(x["own"]["condition"]))
+    return [
+        [
+            cell["condition"],
+            cell["controller"] + ("" if kind == "equal" else ", own settings"),
+            f"{cell['bandwidth']:.0f}",
+            percent(cell["survived"]),
+            percent(cell["legal"]),
+            interval(cell["peak_error"]),
+        ]
+        for x in ordered
+        for kind, cell in x.items()
+    ]
+
+
+def nominal_text(nominal: Mapping[str, Any]) -> str:
+    """What the undisturbed walk needs, and what of it is illegal already."""
+    walk = "The gait itself, walked by NPD from its own start with nothing wrong,"
+    if nominal["status"] != "COMPLETED":
+        return f"{walk} does not make all steps: {nominal['status'].lower()}."
+    verdict = "is legal" if nominal["legal"] else "is not legal"
+    broken = ", ".join(nominal["broken"])
+    beyond = f"; beyond its limit already: {broken}" if broken else ""
+    limits = nominal["limits"]
+    units = {
+        "mean_friction": f"friction {{}} of {limits['friction']:g} (mean over 5 ms)",
+        "mean_normal_force": "a normal force down to {} N (mean over 5 ms)",
+        "peak_torque": f"{{}} of {limits['torque']:g} N m",
+        "impulse_ratio": f"friction {{}} of {limits['friction']:g} for the impulse at impact",
+    }
+    needs = [
+        words.format(f"{nominal['needs'][name]:.3g}")
+        for name, words in units.items()
+        if nominal["needs"][name] is not None
+    ]
+    return f"{walk} {verdict}{beyond}. It needs {', '.join(needs) or 'what was not measured'}."

@@ -1,0 +1,157 @@
+"""The numbers a figure shows, as plain values for a small file beside it, and how two such files differ.
+
+Of a line: its least and largest value within the limits of its panel, and its values at fixed shares of the
+panel's width. They depend neither on where the nodes of a walk are nor on how the line was thinned.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.container import BarContainer
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from biped_adrc.types import Array
+
+SHARES = (0.137, 0.293, 0.487, 0.617, 0.831)
+"""Where a line is sampled, as shares of the panel's width."""
+TOLERANCE = 0.01
+"""By which two numbers may differ, as a share of the largest in their list."""
+SMALL = 1e-3
+"""Share of the largest number of a panel below which none is told apart."""
+
+Numbers = dict[str, Any]
+
+
+def numbers_of(figure: Figure) -> Numbers:
+    """Panel by panel: labels, lines, bars, maps and patches. Plain values, ready for JSON."""
+    return {"panels": [_panel(axes) for axes in figure.axes]}
+
+
+def _panel(axes: Axes) -> Numbers:
+    found: Numbers = {"x": axes.get_xlabel(), "y": axes.get_ylabel()}
+    if axes.get_title(loc="left"):
+        found["title"] = axes.get_title(loc="left")
+    lines = {str(line.get_label()): line for line in axes.get_lines() if _named(line)}
+    data = axes.transData  # axhline's lines are in other coordinates: limits, no data
+    drawn = {name: _line(axes, x) for name, x in lines.items() if x.get_transform() == data}
+    bars = {
+        str(bar.get_label()): rounded([_size(bar, patch) for patch in bar.patches])
+        for bar in axes.containers
+        if isinstance(bar, BarContainer)
+    }
+    grouped = {id(p) for c in axes.containers if isinstance(c, BarContainer) for p in c.patches}
+    loose = [patch for patch in axes.patches if id(patch) not in grouped]
+    arrays = [c.get_array() for c in axes.collections if c.get_array() is not None]
+    maps = [rounded(np.ravel(np.ma.filled(a, np.nan))) for a in arrays if a is not None]
+    parts = {"lines": drawn, "bars": bars, "patches": _extents(loose), "maps": maps}
+    return found | {name: part for name, part in parts.items() if part}
+
+
+def _named(artist: Line2D) -> bool:
+    return not str(artist.get_label()).startswith("_")
+
+
+def _size(bar: BarContainer, patch: Any) -> float:
+    return float(patch.get_width() if bar.orientation == "horizontal" else patch.get_height())
+
+
+def _extents(patches: list[Patch]) -> list[float | None]:
+    """Left, bottom, right, top of all patches together in data coordinates."""
+    boxes = [patch.get_path().get_extents(patch.get_patch_transform()).extents for patch in patches]
+    if not boxes:
+        return []
+    low, high = np.min(boxes, axis=0), np.max(boxes, axis=0)
+    return rounded([low[0], low[1], high[2], high[3]])
+
+
+def _line(axes: Axes, line: Line2D) -> Numbers:
+    x, y = (np.asarray(values, dtype=float) for values in line.get_data())
+    known = np.isfinite(x) & np.isfinite(y)
+    x, y = x[known], y[known]
+    low, high = sorted(axes.get_xlim())
+    within = (x >= low) & (x <= high)
+    if np.all(np.diff(x) >= 0.0) and len(x) > len(SHARES):
+        ends = [t for t in (low, high) if x[0] <= t <= x[-1]]
+        shown = np.concatenate((y[within], np.interp(ends, x, y)))
+        at = low + np.array(SHARES) * (high - low)
+        samples = np.interp(at, x, y)[(at >= x[0]) & (at <= x[-1])]
+        return {"y": _range(shown), "samples": rounded(samples)} if len(shown) else {}
+    return {"y": _range(y[within]), "x": _range(x[within])} if within.any() else {}
+
+
+def _range(values: Array) -> list[float | None]:
+    return rounded([values.min(), values.max()])
+
+
+def rounded(values: Any) -> list[float | None]:
+    """To five significant digits, None for what is not finite."""
+    flat = np.ravel(np.asarray(values, dtype=float))
+    return [float(f"{v:.5g}") if math.isfinite(v) else None for v in flat]
+
+
+def as_text(numbers: Numbers) -> str:
+    """As JSON; every panel has a line of its own."""
+    parts = []
+    for name, value in numbers.items():
+        body = json.dumps(value, ensure_ascii=False)
+        if isinstance(value, list) and value and isinstance(value[0], dict):
+            lines = ",\n".join("  " + json.dumps(item, ensure_ascii=False) for item in value)
+            body = f"[\n{lines}\n ]"
+        parts.append(f" {json.dumps(name, ensure_ascii=False)}: {body}")
+    return "{\n" + ",\n".join(parts) + "\n}\n"
+
+
+def differences(old: Any, new: Any, tolerance: float = TOLERANCE) -> list[str]:
+    """Where two `Numbers` differ by more than the tolerance, with both values; empty where they agree.
+
+    Numbers of one list are compared with the largest of it, samples of a line with the largest of the line;
+    what is below `SMALL` of the largest of its panel counts as nothing.
+    """
+    return list(_compared("", old, new, tolerance, 0.0, 0.0))
+
+
+def _compared(
+    where: str, old: Any, new: Any, tolerance: float, scale: float, floor: float
+) -> Iterator[str]:
+    if isinstance(old, Mapping) and isinstance(new, Mapping):
+        if "lines" in old:
+            floor = SMALL * _largest([old["lines"], new.get("lines")])
+        for name in dict.fromkeys([*old, *new]):
+            at = f"{where}, {name}" if where else str(name)
+            if name not in old or name not in new:
+                yield f"{at}: is {'no longer' if name in old else 'not yet'} drawn"
+                continue
+            of = [old.get("y"), new.get("y")] if name == "samples" else [old[name], new[name]]
+            yield from _compared(at, old[name], new[name], tolerance, _largest(of), floor)
+    elif isinstance(old, list) and isinstance(new, list):
+        if len(old) != len(new):
+            yield f"{where}: {len(old)} in the file, {len(new)} now"
+            return
+        for k, (one, other) in enumerate(zip(old, new, strict=True), start=1):
+            yield from _compared(f"{where} {k}", one, other, tolerance, scale, floor)
+    elif _number(old) and _number(new):
+        if not abs(new - old) <= tolerance * max(scale, abs(old), abs(new), floor):
+            yield f"{where}: {old:g} in the file, {new:g} now"
+    elif old != new:
+        yield f"{where}: {old!r} in the file, {new!r} now"
+
+
+def _number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _largest(value: Any) -> float:
+    """The largest magnitude inside; 0 where there is no number."""
+    if isinstance(value, Mapping):
+        return max((_largest(v) for name, v in value.items() if name != "x"), default=0.0)
+    if isinstance(value, list):
+        return max((_largest(v) for v in value), default=0.0)
+    return abs(float(value)) if _number(value) else 0.0

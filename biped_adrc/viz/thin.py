@@ -1,0 +1,75 @@
+"""Fewer points for lines that have more of them than can be seen.
+
+A line keeps, of the consecutive points inside one column of the picture, the first, the last and those with the
+extreme values: it looks the same, and its largest and least values stay.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from biped_adrc.types import Array
+
+COLUMNS = 600
+"""Columns of one panel, finer than a pixel of it."""
+VISIBLE = 0.01
+"""Share of a line's range from which on a jump counts as one."""
+
+
+def thinned(x: Array, y: Array, width: float) -> NDArray[np.intp]:
+    """Indices of the points to keep of the line through x, y (K,), for columns of this width in units of x.
+
+    NaN breaks the line and is kept. Kept too: both sides of a jump, two points at one x whose y differ by more
+    than `VISIBLE` of the range of y.
+    """
+    gap = np.isnan(x) | np.isnan(y)
+    column = np.where(gap, -1, np.floor(np.where(gap, 0.0, x) / width))
+    edges = np.flatnonzero((column[1:] != column[:-1]) | (gap[1:] != gap[:-1])) + 1
+    bounds = np.concatenate(([0], edges, [len(x)])).astype(int)
+    keep = np.zeros(len(x), dtype=bool)
+    for start, stop in pairwise(bounds.tolist()):
+        if stop - start <= 4 or gap[start]:
+            keep[start:stop] = True
+            continue
+        part = slice(start, stop)
+        found = (np.argmin(y[part]), np.argmax(y[part]), np.argmin(x[part]), np.argmax(x[part]))
+        keep[[start, stop - 1, *(start + int(i) for i in found)]] = True
+    span = float(np.ptp(y[~gap])) if not gap.all() else 0.0
+    jump = (x[1:] == x[:-1]) & (np.abs(np.diff(y)) > VISIBLE * span)
+    keep[:-1] |= jump
+    keep[1:] |= jump
+    return np.flatnonzero(keep)
+
+
+def inside(x: Array, low: float, high: float) -> NDArray[np.bool_]:
+    """Which points of a line belong to a segment that reaches into [low, high]; NaN between them stays."""
+    lower, upper = np.minimum(x[1:], x[:-1]), np.maximum(x[1:], x[:-1])
+    seen = (upper >= low) & (lower <= high)
+    kept = np.concatenate(([False], seen)) | np.concatenate((seen, [False]))
+    return kept | np.isnan(x) | ((x >= low) & (x <= high))
+
+
+def thin(figure: Figure, columns: int = COLUMNS) -> Figure:
+    """Thin every line of the figure to what its panel shows; returns the figure. Limits stay."""
+    for axes in figure.axes:
+        low, high = sorted(axes.get_xlim())
+        axes.get_ylim()  # the limits are those of all points
+        _thin_axes(axes, low, high, columns)
+    return figure
+
+
+def _thin_axes(axes: Axes, low: float, high: float, columns: int) -> None:
+    if axes.get_xscale() != "linear":
+        return
+    for line in axes.get_lines():
+        x, y = (np.asarray(values, dtype=float) for values in line.get_data())
+        if len(x) <= 4 or line.get_transform() != axes.transData:
+            continue
+        shown = np.flatnonzero(inside(x, low, high))
+        kept = shown[thinned(x[shown], y[shown], (high - low) / columns)]
+        line.set_data(x[kept], y[kept])

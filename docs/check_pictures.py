@@ -1,0 +1,120 @@
+"""Say which picture of README.md and docs/ no longer shows what a run gives now.
+
+Run: python docs/check_pictures.py OUT
+
+OUT: folder of `biped-adrc reproduce`, quick or not. Each picture has a JSON file of its numbers beside it,
+written by the script that made it. Here they are compared with the runs in OUT, within 1 %; of the maps of
+docs/guide/sweep.md some points are run again. A picture ages with its numbers and not with each commit.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import NamedTuple
+
+import make_maps
+import make_pictures
+import write_results
+
+from biped_adrc.errors import BipedError
+from biped_adrc.viz.numbers import Numbers, differences
+
+DOCS = Path(__file__).resolve().parent
+KINDS = (".svg", ".gif", ".png")
+MOST = 8
+"""Lines about one picture."""
+
+
+class Picture(NamedTuple):
+    """A picture, what makes it, and what its numbers are now, given those in its file."""
+
+    path: Path
+    command: str
+    now: Callable[[Numbers], Numbers]
+
+
+def pictures(out: Path, docs: Path = DOCS) -> list[Picture]:
+    """All pictures that are made of runs."""
+    shown = make_pictures.numbers(make_pictures.load(out))
+    images, results = docs / "images", docs / "results"
+    suffix = {"walk": ".gif"}
+    return [
+        *(
+            Picture(
+                results / f"{n}.svg", "make reproduce && make results", _stored(out / f"{n}.json")
+            )
+            for n in write_results.SHOWN
+        ),
+        *(
+            Picture(
+                images / f"{n}{suffix.get(n, '.svg')}",
+                "make reproduce && make pictures",
+                lambda _, found=found: found,
+            )
+            for n, found in shown.items()
+        ),
+        *(
+            Picture(
+                images / f"{n}.svg",
+                "python docs/make_maps.py OUT",
+                lambda old, n=n: make_maps.again(n, old),
+            )
+            for n in make_maps.PICTURES
+        ),
+    ]
+
+
+def _stored(path: Path) -> Callable[[Numbers], Numbers]:
+    return lambda _: json.loads(path.read_text(encoding="utf-8"))
+
+
+def complaints(shown: Iterable[Picture]) -> list[str]:
+    """A line for every number that differs, and for every picture or file of numbers that is missing."""
+    found = []
+    for path, command, now in shown:
+        beside = path.with_suffix(".json")
+        missing = [p for p in (path, beside) if not p.is_file()]
+        if missing:
+            lines = [f"'{p.name}' is not there" for p in missing]
+        else:
+            old = json.loads(beside.read_text(encoding="utf-8"))
+            lines = differences(old, now(old))
+            if len(lines) > MOST:
+                lines = [*lines[:MOST], f"{len(lines) - MOST} numbers more differ"]
+        found += [
+            f"{path.parent.name}/{path.name}: {line}; make it again: {command}" for line in lines
+        ]
+    return found
+
+
+def without_numbers(folders: Iterable[Path], shown: Iterable[Picture]) -> list[str]:
+    """A line for every picture in the folders that none of the commands makes."""
+    known = {picture.path for picture in shown}
+    return [
+        f"{path.parent.name}/{path.name}: no command makes it; add it to docs/check_pictures.py"
+        for folder in folders
+        for path in sorted(folder.iterdir())
+        if path.suffix in KINDS and path not in known
+    ]
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=Path, help="folder of 'biped-adrc reproduce'")
+    try:
+        shown = pictures(parser.parse_args().out)
+        lines = complaints(shown) + without_numbers((DOCS / "images", DOCS / "results"), shown)
+    except (BipedError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    for line in lines:
+        print(line)
+    return int(bool(lines))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,178 @@
+"""Write docs/critical_phase.md: in which phase of the step a push throws which controller.
+
+Run: python docs/write_critical_phase.py OUT
+
+OUT: folder of `biped-adrc reproduce --full`, or docs/critical_phase, whose summary.json has all the cells.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from write_results import table
+
+from biped_adrc.errors import InputError
+from biped_adrc.files import write_bytes, write_text
+from biped_adrc.studies.bench.statistics import share
+from biped_adrc.studies.push_map import WORDS, Cell, Fate, apart, certain, counts, settings_of
+from biped_adrc.studies.runs import CONTROLLERS
+from biped_adrc.viz.figures import push_map_figure
+from biped_adrc.viz.numbers import as_text, numbers_of
+from biped_adrc.viz.style import render
+
+PAGE = Path(__file__).resolve().parent / "critical_phase.md"
+FOLDER = PAGE.parent / "critical_phase"
+
+
+def presets_of(cells: Sequence[Cell]) -> list[str]:
+    """In their order."""
+    return list(dict.fromkeys(cell.preset for cell in cells))
+
+
+def read(path: Path) -> list[Cell]:
+    """The cells in a summary. Raises InputError where it has none."""
+    rows = json.loads(path.read_text(encoding="utf-8"))["push_map"]
+    if not rows:
+        raise InputError(f"'{path}' has no map of pushes; run 'biped-adrc reproduce --full' first")
+    names = ("preset", "onset", "amplitude", "pattern", "torque_limit")
+    return [Cell(*(row[n] for n in names), Fate(**row["npd"]), Fate(**row["adrc"])) for row in rows]
+
+
+def onsets(cells: Sequence[Cell]) -> list[float]:
+    """[s], in their order."""
+    return sorted({cell.onset for cell in cells})
+
+
+def by_onset(cells: Sequence[Cell]) -> list[list[Any]]:
+    """Share of walks that go on legally, by onset: a row per setting and controller."""
+    rows = []
+    for name, here in settings_of(cells):
+        for c in CONTROLLERS:
+            shares = []
+            for onset in onsets(cells):
+                words = [getattr(x, c.lower()).word for x in certain(here) if x.onset == onset]
+                shares.append(
+                    f"{100.0 * words.count('legal') / len(words):.0f} %" if words else "–"
+                )
+            rows.append([name, c, *shares])
+    return rows
+
+
+def tally(cells: Sequence[Cell], word: str) -> dict[str, int]:
+    """How many walks of each controller are that."""
+    return {c: sum(getattr(x, c.lower()).word == word for x in cells) for c in CONTROLLERS}
+
+
+def sentences(cells: Sequence[Cell]) -> list[str]:
+    """What the cells say of the claim."""
+    sure = certain(cells)
+    falls, ends, legal = (tally(sure, word) for word in ("fell", "ended", "legal"))
+    adrc, npd = (sum(pair[i] for pair in apart(cells).values()) for i in (0, 1))
+    found = [
+        f"Of {len(sure)} pushes in cells that are not marginal NPD falls in {falls['NPD']} and ADRC in "
+        f"{falls['ADRC']}; {ends['NPD']} and {ends['ADRC']} walks end otherwise (singular, diverged, "
+        "stalled).",
+        f"NPD walks on legally in {legal['NPD']}, ADRC in {legal['ADRC']}. In {adrc} pushes ADRC alone "
+        f"does, in {npd} NPD alone.",
+    ]
+    if adrc + npd:
+        value, low, high = (100.0 * x for x in share(adrc, adrc + npd))
+        found.append(
+            "Of the pushes that tell the two apart, ADRC is the one that walks on legally in "
+            f"{value:.0f} % ({low:.0f} to {high:.0f} %, Wilson, 95 %)."
+        )
+    return found
+
+
+def verdict(cells: Sequence[Cell]) -> str:
+    """What section VI's claim is worth here."""
+    sure = certain(cells)
+    falls, pulled = tally(sure, "fell"), tally(sure, "pulled")
+    first = (
+        f"**NPD falls in {falls['NPD']} of {len(sure)} pushes, ADRC in {falls['ADRC']}.**"
+        if falls["NPD"]
+        else "**On this robot there is no phase in which a push up to the motors' limit makes NPD fall.** "
+        "What falls in a map without a continued constraint is the polynomial of the gait, outside its "
+        "range."
+    )
+    return (
+        f"{first} In {pulled['NPD']} walks under NPD and {pulled['ADRC']} under ADRC the ground would have "
+        "had to pull: neither controller asks whether it can."
+    )
+
+
+INTRODUCTION = """Written by `python docs/write_critical_phase.py OUT`. Section VI of the paper says that a push
+in a critical phase of the step makes NPD lose stability, and that ADRC is not at risk. Here
+both are pushed for 0.2 s in single support 19, {count} times: {presets} presets, onsets from
+{first:g} to {last:g} s, {least:g} to {most:g} N m on {patterns} patterns of joints, with motors
+of 150 N m and without a limit. A walk goes on *legally* when it makes its next three steps, and
+in every step the ground force averaged over 5 ms stays inside the friction cone, the torque
+within 150 N m, and the swing foot off the ground. The constraint is continued smoothly past the
+phase range of the gait."""
+
+
+def page(cells: Sequence[Cell]) -> str:
+    """The text."""
+    marginal, found = len(cells) - len(certain(cells)), counts(cells)
+    rows = [
+        [name, c, *(found[name][c][word] for word in WORDS)] for name in found for c in CONTROLLERS
+    ]
+    headings = ["preset, torque limit", "controller"]
+    parts = [
+        "# A critical phase?",
+        INTRODUCTION.format(
+            count=len(cells),
+            presets=len(presets_of(cells)),
+            first=onsets(cells)[0],
+            last=onsets(cells)[-1],
+            least=min(cell.amplitude for cell in cells),
+            most=max(cell.amplitude for cell in cells),
+            patterns=len({cell.pattern for cell in cells}),
+        ),
+        verdict(cells),
+        *sentences(cells),
+        f"{marginal} cells are marginal: at half the step of the method a walk ends in another way. They "
+        "carry no claim.",
+        "## How the walks go on",
+        table([*headings, *WORDS], rows),
+        "made: all steps, beyond friction or torque. pulled: all steps, but the ground would have had to pull.",
+        "## Is there a critical phase?",
+        "Share of the pushes that are walked through legally, by their onset in the step:",
+        table([*headings, *(f"{o:g} s" for o in onsets(cells))], by_onset(cells)),
+        *(picture(preset) for preset in presets_of(cells)),
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def picture(preset: str) -> str:
+    """The map of a preset."""
+    name = f"Map of pushes, {preset}"
+    return f"## {name}\n\n![{name}](critical_phase/{preset}.svg)\n\nUpper left of a cell NPD, lower right ADRC."
+
+
+def compact(cells: Sequence[Cell]) -> str:
+    """The cells as `read` reads them, a line each."""
+    rows = (json.dumps(asdict(cell), separators=(",", ":")) for cell in cells)
+    return '{"push_map": [\n' + ",\n".join(rows) + "\n]}\n"
+
+
+def main() -> None:
+    """Read, write."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=Path)
+    cells = read(parser.parse_args().out / "summary.json")
+    for preset in presets_of(cells):
+        figure = push_map_figure([cell.row() for cell in cells if cell.preset == preset])
+        write_bytes(FOLDER / f"{preset}.svg", render(figure, "svg"))
+        write_text(FOLDER / f"{preset}.json", as_text(numbers_of(figure)))
+    write_text(FOLDER / "summary.json", compact(cells))
+    write_text(PAGE, page(cells))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,188 @@
+"""What a comparison shows: figures, page and documentation, read back from what they draw and write."""
+
+import importlib.util
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from biped_adrc.cli.app import command
+from biped_adrc.errors import InputError
+from biped_adrc.studies.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS
+from biped_adrc.studies.bench.compare_study import draw, write
+from biped_adrc.studies.bench.comparison import compare
+from biped_adrc.studies.bench.run import COLUMNS
+from biped_adrc.viz.comparison_figure import measure_figure, push_figure, survival_figure
+from biped_adrc.viz.comparison_page import comparison_html
+from biped_adrc.viz.sweep_maps import Maps, cut, sweep_map_figure
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+def row(r):
+    """ADRC tracks ten times closer; with encoders no walk is legal; at most 100 N m are legal, 200 survived."""
+    amplitude, error = r.get("amplitude", 0.0), {"NPD": 1e-2, "DOB": 5e-3, "ADRC": 1e-3}
+    made = amplitude <= 200.0 or r["push"] != "pulse" or r["on"] == "q5"
+    legal = made and "counts" not in r and (r.get("on") == "q5" or amplitude <= 100.0)
+    known = dict.fromkeys(COLUMNS) | dict.fromkeys((*MEASURES, *NEEDS), 1.0)
+    known |= dict.fromkeys((*REASONS, IMPULSE), 0) | {"peak_unmatched": 0.0, "detail": ""}
+    error["DOB"] = 2e-4 if "bandwidth" in r else error["DOB"]
+    return known | {
+        "status": "COMPLETED" if made else "FELL",
+        "survived": int(made),
+        "legal": int(legal),
+        "bad_friction": int(not legal),
+        "peak_error": error[r["controller"]],
+    }
+
+
+@pytest.fixture(scope="module")
+def summary(tmp_path_factory):
+    found = compare(
+        lambda records: [row(dict(r)) for r in records],
+        ("NPD", "ADRC", "DOB"),
+        ("nothing", "push on joints", "encoders"),
+        20,
+    )
+    return write(found, tmp_path_factory.mktemp("compare"), "biped-adrc compare", 1)
+
+
+@pytest.fixture(scope="module")
+def script():
+    """docs/write_comparison.py as a module."""
+    sys.path.insert(0, str(DOCS))
+    try:
+        spec = importlib.util.spec_from_file_location(
+            "write_comparison", DOCS / "write_comparison.py"
+        )
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module
+    finally:
+        sys.path.remove(str(DOCS))
+
+
+def test_the_figure_shows_legal_walks_large_and_all_others_small(summary):
+    (axes,) = survival_figure(summary["cells"]).axes
+    at = (1, 2)  # ADRC with encoders
+    texts = {
+        t.get_text(): t.get_fontsize()
+        for t in axes.texts
+        if abs(t.get_position()[0] - at[0]) < 0.1 and abs(t.get_position()[1] - at[1]) < 0.5
+    }
+    assert texts["0 %"] > 1.5 * texts["all steps: 100 %"]
+    assert "0 to 16" in texts
+
+
+def test_marks_are_hollow_where_no_walk_is_legal(summary):
+    (axes,) = measure_figure(summary["cells"], "peak_error", "error").axes
+    marks = [c.lines[0] for c in axes.containers]
+    filled = [m for m in marks if m.get_markerfacecolor() != "white"]
+    hollow = [m for m in marks if m.get_markerfacecolor() == "white"]
+    assert [len(m.get_xdata()) for m in filled] == [2, 2, 2]
+    assert [len(m.get_xdata()) for m in hollow] == [1, 1, 1]
+    assert np.all(np.concatenate([m.get_ydata() for m in hollow]) > 1.5)
+
+
+def test_pushes_that_pass_the_highest_rung_have_an_arrow(summary):
+    panels = push_figure([p for p in summary["pushes"] if p["bandwidth"] is None]).axes
+    assert len(panels) == 3
+    arrows = [a for a in panels[0].texts if a.arrow_patch is not None]
+    assert len(arrows) == 2 * 3  # torso +, survived and legal, three controllers
+    assert all(a.get_position()[0] == 320.0 for a in arrows)
+    assert all(320.0 < a.xy[0] < panels[0].get_xlim()[1] for a in arrows)
+
+
+def test_the_page_says_first_that_settings_are_not_alike(summary):
+    html = comparison_html(summary, {})
+    order = [
+        html.index(text)
+        for text in (
+            "not tuned alike",
+            "The gait itself",
+            "impulse beyond the cone",
+            "at least 320",
+        )
+    ]
+    assert order == sorted(order)
+    assert "the order changes" in html
+    none = comparison_html(summary | {"findings": {}, "equal_bandwidth": [], "pushes": []}, {})
+    assert "No difference is carried by its test." in none
+    assert "At equal bandwidth" not in none
+    assert draw(summary | {"pushes": []}).keys() == draw(summary).keys() - {"pushes"}
+
+
+def test_the_documentation_is_made_from_the_summary(summary, script):
+    text = script.page(summary)
+    for line in (line for lines in summary["findings"].values() for line in lines):
+        assert line.replace("[", "\\[") in text
+    for part in (
+        "not tuned alike",
+        "ADRC 0.1 (0.1 to 0.1) in 20 pairs",
+        "friction 100",
+        "at least 320",
+    ):
+        assert part in text
+    quiet = script.page(summary | {"findings": {}, "pushes": [], "equal_bandwidth": []})
+    assert quiet.count("No difference is carried by its test.") == 1
+    assert " in 20 pairs" not in quiet
+
+
+def test_the_guide_gets_the_observers_at_equal_bandwidth(summary, script):
+    page = f"before\n\n{script.BEGIN}\nold\n{script.END}\n\nafter\n"
+    text = script.put(page, script.guide_part(summary))
+    assert text.startswith("before")
+    assert text.endswith("after\n")
+    assert "old" not in text
+    assert "| push on joints | DOB | 1890 |" in text
+    assert "| push on joints | DOB, own settings | 200 |" in text
+    assert script.put(text, script.guide_part(summary)) == text
+    with pytest.raises(InputError, match="put them where"):
+        script.put("no marks", "part")
+    with pytest.raises(InputError, match="LESO or DOB"):
+        script.guide_part(summary | {"equal_bandwidth": []})
+    guide = (DOCS / "guide" / "observer.md").read_text()
+    assert script.put(guide, "part") != guide
+
+
+@pytest.mark.parametrize(
+    ("value", "label", "limits"),
+    [
+        ("survived", "share of walks that make all steps", (0.0, 1.0)),
+        ("legal", "share of walks that make all steps legally", (0.0, 1.0)),
+        ("peak_error", "mean of peak_error", (0.0, 0.5)),
+    ],
+)
+def test_maps_say_which_share_they_show(value, label, limits):
+    x = np.array([1.0, 2.0, 1.0, 2.0])
+    shown = np.array([0.0, 0.5, 0.5, 0.5])
+    figure = sweep_map_figure({"x": x, "y": x, value: shown}, Maps("x", "y", None, value))
+    bar = figure.axes[-1]
+    assert bar.get_ylabel() == label
+    assert bar.get_ylim() == pytest.approx(
+        (limits[0], limits[1]) if value in ("survived", "legal") else (0.25, 0.5)
+    )
+
+
+def test_levels_have_as_few_digits_as_tell_them_apart():
+    """Within 1 %: a tick such as 534.7 says more than a map can show."""
+    assert cut(np.geomspace(100.0, 2000.0, 6), True).texts == [
+        "100",
+        "182",
+        "331",
+        "603",
+        "1100",
+        "2000",
+    ]
+    assert cut(np.array([1e-3, 1.5e-3, 2e-3]), False).texts == ["0.001", "0.0015", "0.002"]
+    assert cut(np.array([0.1, 0.1001]), False).texts == ["0.1", "0.1001"]
+    assert cut(np.array([-0.17453, 0.0, math.nan]), False).texts == ["-0.175", "0", "none"]
+
+
+def test_the_command_can_be_typed_again(monkeypatch):
+    """With the quotes that a condition of several words needs."""
+    given = ["biped-adrc", "compare", "--conditions", "push on joints,delay"]
+    monkeypatch.setattr(sys, "argv", given)
+    assert command() == "biped-adrc compare --conditions 'push on joints,delay'"

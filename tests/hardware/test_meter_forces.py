@@ -1,0 +1,294 @@
+"""The meter's forces: against known forces tick by tick, and against the stored nodes of the same walk."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.certificate import forces
+from biped_adrc.analysis.window import integral
+from biped_adrc.hardware.meter import (
+    READINGS,
+    Loads,
+    Meter,
+    Reading,
+    metered,
+    metered_impact,
+    reading,
+    size,
+)
+from biped_adrc.studies.bench.run import run_trial
+
+T = 1e-3
+ENGINES = ("pinocchio", "compiled")
+
+
+class Ground:
+    """A meter fed with forces that are known: F (x, z) [N] of the ground as a function of time."""
+
+    def __init__(self, biped, gait, slope=0.0, **limits):
+        self.meter = Meter(gait.constraint, ba.Limits(**limits))
+        self.k = self.meter.parameters(biped, T, slope)
+        self.terms = biped.reduction(*gait.start(biped))
+        self.g, self.biped = np.zeros(size(4, self.k.window)), biped
+        self.v = np.zeros(5)
+        self.gait = gait
+
+    def tick(self, momentum, force, step=1, since=1.0, **more):
+        given = {
+            "impulse": np.zeros(2),
+            "foot": np.array([0.0, 0.05]),
+            "drop": 0.0,
+            "u": np.zeros(4),
+        }
+        given |= more
+        loads = Loads(momentum, force, given["impulse"], given["foot"], given["drop"])
+        q, u = np.zeros(5), given["u"]
+        self.g = metered(
+            self.k, self.g, q, self.v, u, u, np.zeros(5), self.terms, step, since, loads
+        )
+        assert len(self.g) == size(4, self.k.window)
+
+    def walk(self, F, ticks, pushed=None, step=1):
+        """Ticks under the ground force F(t), and from outside `pushed`(t); both are linear in each period."""
+        p, gravity = np.array([10.0, -3.0]), self.biped.weight * np.array([0.0, 1.0])
+        outside = (lambda t: np.zeros(2)) if pushed is None else pushed
+        for k in range(ticks):
+            t, impulse = k * T, np.zeros(2)
+            if k > 0:
+                impulse = 0.5 * T * (outside(t) + outside(t - T))
+                p = p + 0.5 * T * (F(t) + F(t - T)) + impulse - T * gravity
+            self.tick(p, F(t), step, impulse=impulse)
+
+    @property
+    def reading(self):
+        return reading(self.g)
+
+
+def test_the_mean_force_is_that_of_the_last_ticks(biped, gait):
+    ground = Ground(biped, gait)
+
+    def F(t):
+        return np.array([50.0 * np.sin(40.0 * t), 300.0 + 100.0 * np.cos(60.0 * t)])
+
+    def pushed(t):
+        return np.array([200.0 * np.sin(90.0 * t), -500.0 * t])
+
+    ground.walk(F, 40, pushed)
+    at = np.array([F(k * T) for k in range(40)])
+    mean = [np.mean(0.5 * (at[k - 5 : k] + at[k - 4 : k + 1]), axis=0) for k in range(5, 40)]
+    mean = np.array(mean)
+    g = ground.reading
+    assert g.windows == 35
+    assert g.mean_normal_force == pytest.approx(np.min(mean[:, 1]), rel=1e-9)
+    assert g.mean_friction == pytest.approx(np.max(np.abs(mean[:, 0]) / mean[:, 1]), rel=1e-9)
+    assert g.least_normal_force == np.min(at[:, 1])
+    assert g.friction == pytest.approx(np.max(np.abs(at[:, 0]) / at[:, 1]))
+    assert (g.outside, g.illegal_step) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(("length", "step"), [(1, 0.0), (9, 3.0)])
+def test_a_short_dip_is_legal_and_a_long_one_names_its_step(biped, gait, length, step):
+    ground = Ground(biped, gait)
+
+    def F(t):
+        return np.array([0.0, -100.0 if 0.0095 < t < 0.0095 + length * T else 300.0])
+
+    ground.walk(F, 40, step=3)
+    ground.walk(lambda t: np.array([0.0, -100.0]), 10, step=4)  # later ones change nothing
+    first = ground.reading.illegal_step
+    assert first == (step or 4.0)
+    assert ground.reading.outside == length + 10
+
+
+def test_friction_on_both_sides_and_along_a_slope(biped, gait):
+    for slope in (0.0, 0.2):
+        for sign in (-1.0, 1.0):
+            ground = Ground(biped, gait, slope)
+            along, across = ground.k.along, ground.k.across
+            ground.walk(lambda t, F=sign * 70.0 * along + 100.0 * across: F, 12)
+            g = ground.reading
+            assert (g.friction, g.mean_friction) == pytest.approx((0.7, 0.7))
+            assert (g.outside, g.illegal_step) == (12, 1.0)
+            ground = Ground(biped, gait, slope, friction=0.8)
+            ground.walk(lambda t, F=sign * 70.0 * along + 100.0 * across: F, 12)
+            assert ground.reading.illegal_step == 0.0
+
+
+def test_no_window_reaches_over_an_impact(biped, gait):
+    ground = Ground(biped, gait)
+    for _ in range(3):
+        ground.walk(lambda t: np.array([0.0, 300.0]), 5)
+        swap = np.array([1, 0, 3, 2])
+        ground.g = metered_impact(
+            ground.k, ground.g, np.zeros(4), np.zeros(4), swap, np.array([-3.0, 10.0])
+        )
+    g = ground.reading
+    assert (g.windows, g.illegal_step) == (0.0, 0.0)
+    assert g.impulse_ratio == pytest.approx(0.3)
+
+
+def test_scuffing_and_torque_are_seen(biped, gait):
+    F, p = np.array([0.0, 300.0]), np.zeros(2)
+    deep = np.array([-0.1, -0.004])
+    for more, depth, step in (
+        ({"foot": deep}, 0.004, 2.0),
+        ({"foot": deep, "since": 0.011}, 0.0, 0.0),
+        ({"foot": deep, "drop": 0.005}, 0.0, 0.0),
+        ({"foot": deep, "drop": -0.005}, 0.004, 2.0),
+    ):
+        ground = Ground(biped, gait)
+        ground.tick(p, F, 2, **more)
+        assert ground.reading.scuffing == pytest.approx(depth)
+        assert ground.reading.illegal_step == step
+    for torque, step in ((150.0, 0.0), (-151.0, 2.0)):
+        ground = Ground(biped, gait)
+        ground.tick(p, F, 2, u=np.array([0.0, torque, 0.0, 0.0]))
+        assert ground.reading.illegal_step == step
+    downhill = Ground(biped, gait, slope=0.1)
+    downhill.tick(p, F, 2, foot=np.array([0.3, -0.3 * np.tan(0.1) - 0.002]))
+    assert downhill.reading.scuffing == pytest.approx(0.002)
+
+
+def test_readings_are_what_they_say():
+    assert len(Reading._fields) == READINGS
+
+
+def walker_of(biped, gait, disturbance, **more):
+    heavier = biped.with_errors(mass={"torso": 1.1})
+    return ba.Walker(
+        heavier,
+        ba.NPDController(gait.constraint),
+        disturbance,
+        ba.SampledTime(T),
+        model=biped,
+        meter=Meter(gait.constraint),
+        **more,
+    )
+
+
+def pushes(biped):
+    """Edges between ticks and at them, on joints and on links, of forces that go with time."""
+    trunk = biped.description.trunk
+    pulse = ba.TorquePulse([-80.0, 40.0, 5.0], step=2, start=0.1004, stop=0.2)
+    sine = ba.TorqueSine([60.0, -30.0, 0.0], None, 0.2, 0.9, 9.0)
+    joints = ba.TorquePulse([20.0, -20.0, 20.0, 0.0, 0.0], step=1, start=0.1, stop=0.2003)
+    hip = ba.HipForce(biped, (-10.0, 5.0), steps=(3, 3))
+    return ba.OnLink(biped, trunk, pulse) + ba.OnLink(biped, trunk, sine) + joints + hip
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("slope", [0.0, 0.01])
+def test_the_meter_reads_what_the_stored_nodes_show(biped, gait, engine, slope):
+    """Of the same sampled walk: at the ticks and over windows between them exactly, and against certificates,
+    which look at every instant, within what the force changes in a period."""
+    walker = walker_of(biped, gait, pushes(biped), slope=slope)
+    walk = ba.walk(walker, gait, impacts=3, method=ba.RK4(0.25 * T), engine=engine)
+    g = reading(walker.held_at(walk.trajectory.final_state).g)
+    least, friction, instants, ratios, outside = [], [], [], [], 0
+    for c in walk.certificates:
+        s = walk.signals.of_step(c.step)
+        t, F = s.t, forces(walker, s)
+        ticks = t[0] + T * np.arange(int((t[-1] - t[0]) / T) + 1)
+        whole = integral(t, F, ticks)
+        means = (whole[5:] - whole[:-5]) / (5.0 * T)
+        least.append(np.min(means[:, 1]))
+        friction.append(np.max(np.abs(means[:, 0]) / means[:, 1]))
+        after = np.append(np.diff(t) > 0.0, False) & np.isin(
+            np.round((t - t[0]) / T, 6), np.arange(len(ticks))
+        )
+        instants.append(np.min(F[after, 1]))
+        pushes_up = F[after & (F[:, 1] > 0.0)]
+        ratios.append(np.max(np.abs(pushes_up[:, 0]) / pushes_up[:, 1]))
+        outside += np.sum(np.abs(F[after, 0]) > 0.6 * F[after, 1])
+        # the mean changes by at most the range of the force in a window's share of a period
+        slack = T / 5e-3 * np.ptp(F, axis=0) + 1e-6
+        assert c.mean_normal_force <= least[-1] + 1e-3
+        assert least[-1] <= c.mean_normal_force + slack[1]
+        assert friction[-1] <= c.mean_friction + 1e-4
+        assert c.mean_friction <= friction[-1] + (slack[0] + slack[1]) / c.mean_normal_force
+    assert g.mean_normal_force == pytest.approx(min(least), rel=1e-4)
+    assert g.mean_friction == pytest.approx(max(friction), rel=1e-4)
+    assert g.least_normal_force == pytest.approx(min(instants), rel=1e-9)
+    assert g.friction == pytest.approx(max(ratios), rel=1e-9)
+    assert g.outside == outside
+    assert g.impulse_ratio == pytest.approx(
+        max(c.impulse_ratio for c in walk.certificates), rel=1e-9
+    )
+    assert g.illegal_step == next((c.step for c in walk.certificates if c.illegal()), 0)
+
+
+def test_both_engines_read_alike_under_forces(biped, gait):
+    for more in ({}, {"slope": 0.01, "ground_steps": (ba.StepDown(2, 0.004),)}):
+        walker = walker_of(biped, gait, pushes(biped), **more)
+        runs = [ba.walk(walker, gait, impacts=3, engine=e).trajectory for e in ENGINES]
+        one, other = (reading(walker.held_at(run.final_state).g) for run in runs)
+        assert one == pytest.approx(other, rel=1e-7, abs=1e-9)
+
+
+def test_the_plant_is_judged_and_not_the_model(biped, gait):
+    """Half the mass on the ground is half the force, whatever the controller believes."""
+    walker = walker_of(biped, gait, None)
+    light = replace(walker, plant=biped.with_errors(mass={"torso": 0.5}))
+    found = [
+        reading(w.held_at(ba.walk(w, gait, 1, engine="compiled").trajectory.final_state).g)
+        for w in (walker, light)
+    ]
+    lighter = walker.plant.weight - light.plant.weight
+    assert found[0].mean_normal_force - found[1].mean_normal_force > 0.5 * lighter
+
+
+class Plain(ba.Controller):
+    """In Python alone."""
+
+    def __init__(self, h):
+        self.h = h
+
+    def output(self, s, m):
+        r = self.h(m.t, m.q, m.v)
+        wanted = 2500.0 * (r.q_d - m.q_b) + 120.0 * (r.dq_d - m.v_b)
+        return m.terms.kappa_inverse @ wanted + m.terms.Omega[:4]
+
+
+def test_a_controller_in_plain_python_is_metered_too(biped, gait):
+    walker = replace(walker_of(biped, gait, pushes(biped)), controller=Plain(gait.constraint))
+    runs = [ba.walk(walker, gait, impacts=1, engine=e).trajectory for e in ENGINES]
+    assert runs[1].settings["engine"] == "compiled plant"
+    one, other = (reading(walker.held_at(run.final_state).g) for run in runs)
+    assert one == pytest.approx(other, rel=1e-6, abs=1e-9)
+    assert one.windows > 0
+
+
+def test_a_window_of_too_many_ticks_is_refused(biped, gait):
+    meter = Meter(gait.constraint, ba.Limits(window=0.1))
+    with pytest.raises(ba.BipedError, match="has 10000 ticks"):
+        _ = ba.Walker(
+            biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-5), meter=meter
+        ).held
+    assert meter.window(T) == 100
+    assert Meter(gait.constraint).window(1.5e-3) == 3
+    assert Meter(gait.constraint).window(0.02) == 1
+
+
+def test_a_trial_says_whether_it_was_legal_and_why_not():
+    common = {"controller": "NPD", "impacts": 4}
+    legal = run_trial(common)
+    assert (legal["outcome"], legal["legal"], legal["legal_impacts"]) == ("legal", 1, 4)
+    strict = run_trial({**common, "friction_limit": 0.3})
+    assert (strict["outcome"], strict["legal"], strict["legal_impacts"]) == ("made", 0, 0)
+    assert (strict["bad_friction"], strict["bad_impulse"], strict["bad_torque"]) == (1, 1, 0)
+    assert strict["mean_friction"] == legal["mean_friction"]
+    assert strict["share_outside"] > 0.0 == legal["share_outside"]
+    fell = run_trial(
+        {**common, "push": "pulse", "on": "q5", "amplitude": 300.0, "pushed_step": 3, "onset": 0.1}
+    )
+    assert (fell["outcome"], fell["legal"], fell["legal_impacts"]) == ("fell", 0, 2)
+    stalled = run_trial({**common, "start_speed": -0.9, "max_step_time": 0.3})
+    assert (stalled["status"], stalled["outcome"]) == ("STALLED", "ended")
+    bare = run_trial({**common, "preset": "identified-bare"})
+    assert (bare["outcome"], bare["bad_impulse"]) == ("legal", 1)
+    for bad, unit in ((0.0, "friction_limit"), (1.5, "friction_limit"), (-1.0, "force_window")):
+        refused = run_trial({**common, unit: bad})
+        assert refused["status"] == "REFUSED"
+        assert unit in refused["detail"]

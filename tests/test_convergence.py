@@ -1,0 +1,175 @@
+"""Figures of merit: their peaks between nodes, their steps, and what a made-up pair of outcomes comes to."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.legality import Legality
+from biped_adrc.analysis.quadrature import integrate, largest
+from biped_adrc.engine.choice import COMPILED
+from biped_adrc.errors import InputError
+from biped_adrc.model.limits import KnownLimits
+from biped_adrc.studies.convergence import (
+    convergence_check,
+    error_text,
+    halved,
+    observed_order,
+)
+from biped_adrc.studies.plan import BOTH, Plan, pushed_run
+from biped_adrc.studies.runs import Outcome, Run, execute_fully, execute_twice
+from biped_adrc.studies.walk import FINE_STEP, Part, refined, walk_in_parts
+from biped_adrc.timing import SampledTime
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_peak_of_a_cubic_lies_between_its_nodes(sign):
+    t = np.array([0.0, 1.0, 1.0, 3.0])  # a jump at 1
+    y = sign * np.array([0.0, 2.0, 5.0, 5.0])
+    dy = sign * np.array([3.0, 3.0, 4.0, -4.0])
+    assert largest(t, y[:, None], dy[:, None]) == pytest.approx(5.0 + 2.0, abs=1e-12)
+
+
+def test_the_peak_between_nodes_is_of_fourth_order():
+    gaps = []
+    for count in (11, 21, 41):
+        t = np.linspace(0.1, 2.9, count)
+        gaps.append(abs(largest(t, np.sin(t)[:, None], np.cos(t)[:, None]) - 1.0))
+    nodes = np.max(np.sin(np.linspace(0.1, 2.9, 10)))
+    assert gaps[1] < gaps[0] / 8.0 or gaps[0] < 1e-6
+    assert gaps[2] < 1e-6 < 1.0 - nodes
+
+
+def test_what_is_not_finite_has_no_peak_and_no_integral():
+    t, y = np.linspace(0.0, 1.0, 5), np.array([0.0, 1.0, np.nan, 1.0, 0.0])
+    assert largest(t, y[:, None], y[:, None]) == math.inf
+    assert integrate(t, y) == math.inf
+
+
+def made_up(**values: object) -> Outcome:
+    run = Run("ADRC", h=1e-3)
+    found = Outcome(
+        run,
+        "COMPLETED",
+        "",
+        2,
+        np.zeros((2, 10)),
+        np.array([0.4, 0.4]),
+        1e-3,
+        1e-4,
+        100.0,
+        (),
+        Legality(ba.Status.COMPLETED, (), 0.0, KnownLimits(0.6, 150.0, 5e-3)),
+        "",
+        "",
+    )
+    return replace(found, **values)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("half", "holds"),
+    [
+        ({}, True),
+        ({"peak_error": 1.009e-3}, True),
+        ({"peak_error": 1.012e-3}, False),
+        ({"peak_error": math.nan}, False),
+        ({"peak_torque": 102.0}, False),
+        ({"durations": np.array([0.4, 0.41])}, False),
+        ({"status": "FELL"}, False),
+        ({"impacts": 1}, False),
+    ],
+)
+def test_two_steps_have_to_agree(half, holds):
+    o = made_up(half=made_up(**half))
+    assert convergence_check("x", o).holds is holds
+
+
+def test_a_difference_below_the_resolution_is_none():
+    o = made_up(peak_error=2e-8, half=made_up(peak_error=1e-8))
+    assert convergence_check("x", o).holds
+    assert not convergence_check("x", replace(o, peak_error=5e-8)).holds
+    assert {h.name for h in halved(o)} > {"peak error", "peak torque", "longest step"}
+
+
+@pytest.mark.parametrize(
+    ("half", "word"),
+    [
+        ({"peak_error": 1.001e-3}, "rad (1.001e-03 at half the step)"),
+        ({"peak_error": 2e-3}, "mostly an error of integration: shorten the step"),
+        ({"status": "FELL", "impacts": 1}, "the walk ends as FELL after 1 impacts"),
+    ],
+)
+def test_an_error_is_printed_with_what_the_step_does_to_it(half, word):
+    text = error_text(made_up(half=made_up(**half)))
+    assert text.startswith("1.000e-03 rad (")
+    assert word in text
+
+
+def test_a_walk_that_ends_early_has_to_end_alike():
+    fell = made_up(status="FELL", impacts=1, peak_error=7.0)
+    assert convergence_check("x", replace(fell, half=replace(fell, peak_error=9.0))).holds
+    assert not convergence_check("x", replace(fell, half=made_up())).holds
+
+
+def test_the_observed_order():
+    third = made_up(peak_error=1.0 + 2.0**-9)
+    o = made_up(peak_error=1.0 + 2.0**-3, half=made_up(peak_error=1.0 + 2.0**-6, half=third))
+    assert observed_order(o, lambda o: o.peak_error) == pytest.approx(3.0)
+
+
+def test_fine_steps_go_where_a_push_switches(biped, gait):
+    push = ba.TorquePulse([1.0] * 5, step=3, start=0.1, stop=0.3)
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint), push)
+    parts = refined(walker, 6, 1, ba.RK4(1e-3), ba.RK4(1e-4))
+    assert [(p.impacts, p.method.h) for p in parts] == [(2, 1e-3), (2, 1e-4), (2, 1e-3)]
+    assert refined(replace(walker, disturbance=None), 6, 1, ba.RK4(1e-3), ba.RK4(1e-4)) == (
+        Part(6, ba.RK4(1e-3)),
+    )
+
+
+def test_a_walk_in_parts_is_the_walk(biped, gait):
+    push = ba.TorquePulse([5.0] * 5, step=2, start=0.1, stop=0.3)
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), push)
+    whole = ba.walk(walker, gait, 4, ba.RK4(1e-3), engine="compiled").trajectory
+    parts = tuple(Part(n, ba.RK4(1e-3)) for n in (1, 2, 1))
+    joined = walk_in_parts(walker, gait, parts, engine="compiled").trajectory
+    assert [arc.mode for arc in joined.arcs] == [arc.mode for arc in whole.arcs]
+    for one, other in zip(joined.arcs, whole.arcs, strict=True):
+        assert np.array_equal(one.x, other.x)
+        assert np.array_equal(one.t, other.t)
+    assert "(steps 2 to 3)" in joined.settings["method"]
+
+
+def test_a_clock_that_runs_on_is_not_cut(biped, gait):
+    free = SampledTime(1e-3, restart=False)
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=free)
+    with pytest.raises(InputError, match="does not restart"):
+        walk_in_parts(walker, gait, (Part(1, ba.RK4()), Part(1, ba.RK4())))
+
+
+def test_the_default_of_adrc_resolves_the_spike_after_a_push(biped, gait):
+    push = ba.TorquePulse([30.0] * 4 + [0.0], step=1, start=0.1, stop=0.3)
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint), push)
+    walk = ba.walk(walker, gait, 1, engine="compiled")
+    assert f"h = {FINE_STEP:g} s" in walk.trajectory.settings["method"]
+    fine = ba.walk(walker, gait, 1, ba.Exponential(1e-5, feedback=True), engine="compiled")
+    assert walk.signals.peak_error == pytest.approx(fine.signals.peak_error, rel=0.01)
+
+
+@pytest.mark.parametrize("controller", BOTH)
+def test_the_headline_does_not_depend_on_its_step(controller):
+    run = replace(pushed_run(Plan(), controller), first_step=19, impacts=2)
+    assert run.engine == COMPILED
+    found = halved(execute_twice(run))
+    assert all(h.agrees for h in found), found
+
+
+def test_energy_is_balanced_in_the_pushed_step():
+    from biped_adrc.studies.laws import walk_laws
+
+    run = replace(pushed_run(Plan(), "ADRC"), first_step=19, impacts=1)
+    assert all(check.holds for check in walk_laws("ADRC", execute_fully(run)))

@@ -1,0 +1,99 @@
+"""A push that an impact cuts off, or that never acts, is said to be so."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.cli import app
+from biped_adrc.disturbances.link import OnLink
+
+TORQUE = [20.0, 20.0, 20.0, 20.0, 0.0]
+STEP = 0.4164
+"""[s], of the undisturbed gait."""
+
+
+@pytest.fixture(scope="module")
+def walked(biped, gait):
+    def made(*pushes, impacts=2):
+        total = sum(pushes[1:], pushes[0]) if pushes else None
+        walker = ba.Walker(biped, ba.NPDController(gait.constraint), total)
+        return ba.walk(walker, gait, impacts, engine="compiled")
+
+    return made
+
+
+def pulse(step, start, stop, amplitude=TORQUE):
+    return ba.TorquePulse(amplitude, step=step, start=start, stop=stop)
+
+
+@pytest.mark.parametrize(
+    "push",
+    [
+        pulse(1, 0.1, 0.3),
+        pulse(2, 0.0, 0.2),
+        pulse(1, 0.1, math.inf),
+        pulse(None, 0.3, 0.6),
+        ba.TorqueStep(TORQUE, step=1, start=0.2),
+        ba.TorqueSine(TORQUE, frequency=5.0),
+    ],
+)
+def test_a_push_that_acts_as_asked_for_is_passed_over(push, walked):
+    assert walked(push).remarks == ()
+
+
+def test_nothing_is_said_of_no_push(walked):
+    assert walked().remarks == ()
+
+
+def test_a_push_that_is_cut_off_acts_as_one_without_an_end(walked, biped):
+    """It acts until the impact, so its stop is without effect; only the remark tells them apart."""
+    cut, endless = walked(pulse(1, 0.1, 0.7)), walked(pulse(1, 0.1, math.inf))
+    assert np.array_equal(cut.trajectory.final_state, endless.trajectory.final_state)
+    end = cut.trajectory.events("foot_strike")[0].t
+    assert cut.remarks == (
+        f"the push from 0.1 to 0.7 s in single support 1 was cut by the impact at {end:.4f} s",
+    )
+    on_link = OnLink(biped, "torso", pulse(2, 0.3, 0.9, [10.0, 0.0, 0.0]))
+    assert "from 0.3 to 0.9 s in single support 2 was cut by" in walked(on_link).remarks[0]
+
+
+def test_a_push_that_begins_after_the_impact_never_acts(walked):
+    late, none = walked(pulse(1, 0.5, 0.7)), walked()
+    assert np.array_equal(late.trajectory.final_state, none.trajectory.final_state)
+    assert late.remarks == (
+        f"the push from 0.5 to 0.7 s in single support 1 did not begin before the impact at {STEP} s",
+    )
+    absent = walked(pulse(1, 0.1, 0.2), pulse(19, 0.1, 0.3))
+    assert absent.remarks == (
+        "the push from 0.1 to 0.3 s in single support 19 did not act: the walk has no single support 19",
+    )
+
+
+@pytest.mark.parametrize("off", [-0.9e-3, 0.0, 0.9e-3])
+@pytest.mark.parametrize("step", [None, 1])
+def test_an_edge_at_an_impact_is_named(off, step, walked):
+    end = walked().trajectory.events("foot_strike")[0].t
+    small = 1e-6 * np.array(TORQUE)  # moves no impact
+    (remark,) = walked(pulse(step, 0.1, end + off, small)).remarks
+    assert f"edge at {end + off:g} s within 1 ms of the impact at {end:.4f} s" in remark
+    assert walked(pulse(step, 0.1, end - 5e-3, small)).remarks == ()
+
+
+def test_a_fall_cuts_nothing_off(walked):
+    fallen = walked(pulse(1, 0.05, 0.9, [0.0, 0.0, 0.0, 0.0, 300.0]), pulse(7, 0.1, 0.3))
+    assert not fallen.trajectory.status.ok
+    assert not fallen.trajectory.events("foot_strike")
+    assert fallen.remarks == ()
+
+
+def test_the_command_says_it():
+    line = "simulate --engine compiled --controller NPD --impacts 1 --push q1,q2=10@1:0.1-0.5"
+    done = CliRunner().invoke(app, line.split(), catch_exceptions=False)
+    assert (
+        "note: the push from 0.1 to 0.5 s in single support 1 was cut by the impact" in done.output
+    )

@@ -1,0 +1,59 @@
+"""The errors that `reproduce` prints, by an integration that shares nothing with its methods.
+
+From the state stored before the pushed step SciPy's DOP853 integrates the Python right-hand side over that
+step, at a relative tolerance of 1e-12, piece by piece between the edges of the push.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import DOP853
+
+from biped_adrc.gait.gait import load_gait
+from biped_adrc.studies.plan import BOTH, Plan, headline, pushed_run
+from biped_adrc.walker import Mode
+
+WITHIN = 0.005
+"""Relative difference of two peaks that are the same."""
+LONGEST = 1e-4
+"""[s]: the fastest pole of Table I, 19836 rad/s, allows an explicit method no more."""
+
+
+def peak_error(walker, constraint, x, mode, t_end, longest):
+    """max |q_b - h(Theta)| from x at the start of `mode` to t_end [s], on the dense output of every step."""
+    p, n, most, t = walker.plant.p, walker.plant.n, 0.0, mode.start
+    edges = [s for s in walker.switching_times(mode) if t < s < t_end]
+    for end in [*edges, t_end]:
+        before = np.nextafter(end, -np.inf)
+
+        def flow(s, y, before=before):
+            return walker.flow(min(s, before), y, mode)
+
+        solver = DOP853(flow, t, x, end, rtol=1e-12, atol=1e-12, max_step=longest)
+        while solver.status == "running":
+            solver.step()
+            dense = solver.dense_output()
+            for s in np.linspace(solver.t_old, solver.t, 4):
+                y = dense(s)
+                q_d = constraint.h(float(constraint.phase @ y[:n]))[0]
+                most = max(most, float(np.max(np.abs(y[:p] - q_d))))
+        assert solver.status == "finished"
+        t, x = end, solver.y
+    return most
+
+
+@pytest.mark.parametrize("controller", BOTH)
+@pytest.mark.parametrize("preset", ["identified", "identified-bare", "tac2003"])
+def test_the_peak_under_the_push(preset, controller):
+    run = pushed_run(Plan(preset), controller)
+    found, _ = headline(run)
+    step = run.pushes[0].step
+    arc = next(arc for arc in found.trajectory.arcs if arc.mode.step == step)
+    biped = run.biped()
+    gait = load_gait(run.gait, biped)
+    walker = run.build(biped, gait)
+    mode = Mode(*arc.mode)
+    longest = LONGEST if controller == "ADRC" else np.inf
+    peak = peak_error(walker, gait.constraint, arc.x[0], mode, float(arc.t[-1]), longest)
+    assert peak == pytest.approx(found.outcome.peak_error, rel=WITHIN)

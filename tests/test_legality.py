@@ -1,0 +1,267 @@
+"""What ground and motors could have carried: mean force against momentum, hand-made steps, walks cut short."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.certificate import outside, support
+from biped_adrc.analysis.legality import first_violation, outcome_of
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.analysis.window import window_means
+from biped_adrc.model.limits import KnownLimits
+
+KNOWN = KnownLimits(0.6, 150.0, 5e-3)
+WEIGHT = 300.0
+H = 1e-4
+
+
+def handmade(t, F_N, F_T=None, height=None, u=None):
+    """One single support with these forces [N], heights of the swing foot [m] and torques [N m]."""
+    count, zero = len(t), np.zeros(len(t))
+    columns = {f.name: np.zeros((count, 4)) for f in fields(Signals)}
+    columns |= {"t": t, "step": np.ones(count, dtype=int)}
+    columns["ground_reaction"] = np.column_stack((zero if F_T is None else F_T, F_N))
+    columns["swing_foot"] = np.column_stack((zero, zero + 0.05 if height is None else height))
+    columns["u"] = np.zeros((count, 4)) if u is None else u
+    return Signals(**columns)
+
+
+@pytest.fixture(scope="module")
+def walker(biped, gait):
+    return ba.Walker(biped, ba.NPDController(gait.constraint))
+
+
+def grid(duration=0.4, h=H):
+    return np.linspace(0.0, duration, round(duration / h) + 1)
+
+
+def dip(length, depth=-100.0):
+    """F_N with both sides of the edges of a dip of this length [s]."""
+    t = grid()
+    edges = 0.2, 0.2 + length
+    t = np.sort(np.concatenate((t[~np.isin(t, edges)], np.repeat(edges, 2))))
+    inside = (t > edges[0]) & (t < edges[1])
+    first, last = np.flatnonzero(t == edges[0]), np.flatnonzero(t == edges[1])
+    inside[first[1]] = inside[last[0]] = True
+    return t, np.where(inside, depth, WEIGHT)
+
+
+def test_a_force_that_dips_for_2_ms_is_carried_and_one_for_6_ms_is_not(walker):
+    for length, names in ((2e-3, []), (6e-3, ["normal_force"])):
+        t, F_N = dip(length)
+        s = support(walker, handmade(t, F_N), KNOWN)
+        assert list(s.illegal()) == names
+        assert s.least_normal_force == -100.0
+        least = WEIGHT - 400.0 * min(length, 5e-3) / 5e-3
+        assert s.mean_normal_force == pytest.approx(least, abs=1e-9)
+        assert s.share_outside == pytest.approx(length / 0.4, rel=1e-9)
+
+
+def test_a_foot_that_is_lifted_needs_no_friction_and_is_illegal(walker):
+    t = grid()
+    s = support(walker, handmade(t, np.full(len(t), -5.0), np.full(len(t), 50.0)), KNOWN)
+    assert s.friction == s.mean_friction == np.inf
+    assert s.share_outside == 1.0
+    assert list(s.illegal()) == ["normal_force"]
+    assert "no contact" in s.illegal()["normal_force"]
+    partly = np.where(t < 0.2, -5.0, 100.0)
+    s = support(walker, handmade(t, partly, np.full(len(t), 50.0)), KNOWN)
+    assert s.friction == 0.5
+    assert "no contact" not in s.illegal()["normal_force"]
+
+
+def test_friction_is_judged_in_the_mean_and_on_both_sides(walker):
+    t = grid()
+    for sign in (-1.0, 1.0):
+        s = support(
+            walker, handmade(t, np.full(len(t), 100.0), np.full(len(t), 70.0 * sign)), KNOWN
+        )
+        assert list(s.illegal()) == ["friction"]
+        assert (s.mean_friction, s.friction) == pytest.approx((0.7, 0.7))
+        assert not s.illegal(ba.Limits(friction=0.8))
+    chatter = 90.0 * np.sign(np.sin(2.0 * np.pi * 1e3 * (t + 0.25 * H)))
+    s = support(walker, handmade(t, np.full(len(t), 100.0), chatter), KNOWN)
+    assert s.friction == pytest.approx(0.9)
+    assert s.mean_friction < 0.1
+    assert not s.illegal()
+    s = support(walker, handmade(t, np.full(len(t), 100.0), 65.0 + 0.3 * chatter), KNOWN)
+    assert list(s.illegal()) == ["friction"]
+
+
+@pytest.mark.parametrize("slope", [-0.2, 0.2])
+def test_friction_is_along_the_ground(walker, slope):
+    t = grid()
+    tilted = replace(walker, slope=slope)
+    F_N, F_T = 100.0, 30.0  # across and along
+    x, z = F_T * np.cos(slope) + F_N * np.sin(slope), F_N * np.cos(slope) - F_T * np.sin(slope)
+    ones = np.ones(len(t))
+    s = support(tilted, handmade(t, z * ones, x * ones), KNOWN)
+    assert (s.mean_friction, s.mean_normal_force) == pytest.approx((0.3, 100.0))
+
+
+def test_scuffing_counts_away_from_the_ends_below_the_lower_foothold(walker):
+    t = grid()
+    F_N = np.full(len(t), WEIGHT)
+    ends = np.where((t < 0.011) | (t > 0.389), -1e-3, 0.02)
+    assert support(walker, handmade(t, F_N, height=ends), KNOWN).scuffing == 0.0
+    middle = np.where(np.abs(t - 0.2) < 0.01, -2e-3, 0.02)
+    s = support(walker, handmade(t, F_N, height=middle), KNOWN)
+    assert s.scuffing == pytest.approx(2e-3)
+    assert list(s.illegal()) == ["scuffing"]
+    down = replace(walker, ground_steps=(ba.StepDown(1, 0.005),))
+    assert support(down, handmade(t, F_N, height=middle), KNOWN).scuffing == 0.0
+    up = replace(walker, ground_steps=(ba.StepUp(1, 0.005),))
+    assert support(up, handmade(t, F_N, height=middle), KNOWN).scuffing == pytest.approx(2e-3)
+    late = np.where(t > 0.39, -1e-3, 0.02)
+    assert support(walker, handmade(t, F_N, height=late), KNOWN, finished=False).scuffing > 0.0
+
+
+def test_torque_at_its_limit_is_legal_and_above_is_not(walker):
+    t = grid()
+    F_N, u = np.full(len(t), WEIGHT), np.zeros((len(t), 4))
+    u[50, 2] = -150.0
+    assert not support(walker, handmade(t, F_N, u=u), KNOWN).illegal()
+    u[50, 2] = -151.0
+    assert list(support(walker, handmade(t, F_N, u=u), KNOWN).illegal()) == ["torque"]
+
+
+def test_a_force_that_is_no_number_is_not_legal(walker):
+    t = grid()
+    F_N = np.full(len(t), WEIGHT)
+    F_N[7] = np.nan
+    s = support(walker, handmade(t, F_N), KNOWN)
+    assert "normal_force" in s.illegal()
+    assert s.friction == 0.0
+    assert outside(np.array([[0.0, np.nan], [np.nan, 1.0], [0.0, 0.0]]), 0.6).all()
+
+
+def test_the_mean_of_a_line_is_its_middle():
+    t = np.array([0.0, 0.1, 0.1, 0.25, 0.6])
+    ends, means = window_means(t, (3.0 * t + 1.0)[:, np.newaxis], 0.2)
+    assert means[:, 0] == pytest.approx(3.0 * (ends - 0.1) + 1.0)
+    assert ends[0] == 0.2
+    assert ends[-1] == pytest.approx(0.6)
+    short, mean = window_means(t, (3.0 * t + 1.0)[:, np.newaxis], 5.0)
+    assert (short[0], mean[0, 0]) == pytest.approx((0.6, 1.9))
+
+
+PUSH = ba.TorquePulse([30.0, 30.0, 30.0, 30.0, 0.0], step=1, start=0.1, stop=0.2503)
+
+
+@pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
+def test_the_mean_force_is_the_change_of_momentum(biped, gait, engine):
+    """m v_com from Pinocchio at the stored states, over windows in a pushed step."""
+    pull = ba.TorquePulse([-60.0, 20.0, 0.0], step=1, start=0.13, stop=0.21)
+    push = PUSH + ba.OnLink(biped, biped.description.trunk, pull)
+    heavier = biped.with_errors(mass={"torso": 1.1})
+    walker = ba.Walker(heavier, ba.NPDController(gait.constraint), push, model=biped)
+    walk = ba.walk(walker, gait, impacts=1, method=ba.RK4(H), engine=engine)
+    s = walk.signals
+    p = np.array([heavier.momentum(q, v) for q, v in zip(s.q, s.v, strict=True)])
+    # once more, by the Jacobian of the COM
+    J = np.array([heavier.pinned.mass_jacobian(q) @ v for q, v in zip(s.q, s.v, strict=True)])
+    assert np.max(np.abs(p - J)) < 1e-9
+    rows = np.flatnonzero(np.diff(s.t, prepend=-1.0) > 0.0)
+    compared = 0
+    for i in rows[:: len(rows) // 40]:
+        j = rows[rows > i][:50]
+        if len(j) < 50:
+            break
+        j, t = j[-1], s.t
+        pulled = max(0.0, min(t[j], 0.21) - max(t[i], 0.13)) * np.array([-60.0, 20.0])
+        change = p[j] - p[i] + heavier.weight * (t[j] - t[i]) * np.array([0.0, 1.0]) - pulled
+        F = s.ground_reaction[i : j + 1]
+        found = np.trapezoid(F, t[i : j + 1], axis=0)
+        # a repeated time at the last node is its left side first: nothing between the two
+        assert np.max(np.abs(found - change)) < 1e-4 * np.max(np.abs(change)), (t[i], t[j])
+        compared += 1
+    assert compared > 30
+
+
+def test_a_walk_is_judged_by_all_its_steps_and_cut_at_the_first_violation(biped, gait):
+    push = ba.TorquePulse([0.0, 0.0, 0.0, 0.0, 300.0], step=2, start=0.1, stop=0.2)
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), push)
+    walk = ba.walk(walker, gait, impacts=3)
+    found = walk.legality
+    assert found.outcome == outcome_of(walk.trajectory.status, legal=False) != "made"
+    assert found.legal_impacts == 1
+    assert found.reasons
+    cut = walk.until_illegal()
+    assert cut.trajectory.status is ba.Status.ILLEGAL
+    assert "single support 2" in cut.trajectory.detail
+    assert "push less" in cut.trajectory.status.value
+    assert outcome_of(ba.Status.ILLEGAL, False) == "ended"
+    one, other = walk.trajectory.arcs[1], cut.trajectory.arcs[1]
+    assert other.event is None
+    assert np.array_equal(one.x[: len(other.x)], other.x)
+    assert cut.trajectory.t_end > 0.1 + one.mode.start  # not before the push
+    assert cut.trajectory.t_end < walk.trajectory.t_end
+    s = walk.signals.of_step(2)
+    first = first_violation(walker, s, KNOWN, finished=False)
+    assert other.t[-1] <= first.t < one.t[len(other.t)]
+    asked = ba.walk(walker, gait, impacts=3, legal=ba.Limits())
+    assert asked.trajectory.detail == cut.trajectory.detail
+
+
+def test_a_legal_walk_is_left_as_it_is_and_limits_decide(biped, gait):
+    walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=2)
+    assert walk.legality.outcome == "legal"
+    assert walk.legality.legal_impacts == 2
+    assert walk.until_illegal() is walk
+    assert walk.legality.impulse_ratio == max(c.impulse_ratio for c in walk.certificates)
+    strict = walk.legal_within(ba.Limits(friction=0.3))
+    assert (strict.outcome, strict.legal_impacts) == ("made", 0)
+    assert list(strict.reasons) == ["friction"]
+    assert list(walk.legal_within(ba.Limits(torque=60.0)).reasons) == ["torque"]
+    assert walk.until_illegal(ba.Limits(friction=0.3)).trajectory.status is ba.Status.ILLEGAL
+    instant = walk.legal_within(ba.Limits(window=1e-6))
+    assert instant.mean_friction == pytest.approx(instant.friction, rel=1e-3)
+    with pytest.raises(ba.BipedError, match=r"averaged over 0\.005 s, the limits ask for 0\.01 s"):
+        walk.certificates[0].violations(ba.Limits(window=0.01))
+
+
+def test_limits_that_are_none_are_refused():
+    for made, message in (
+        ({"friction": 0.0}, "friction limit is 0.0"),
+        ({"friction": -0.1}, "friction limit is -0.1"),
+        ({"friction": 1.1}, "friction limit is 1.1"),
+        ({"friction": float("nan")}, "friction limit is nan"),
+        ({"torque": 0.0}, "torque limit is 0.0 N m"),
+        ({"torque": float("nan")}, "torque limit is nan"),
+        ({"window": 0.0}, "force window is 0.0 s"),
+        ({"window": float("inf")}, "force window is inf s"),
+    ):
+        with pytest.raises(ba.BipedError, match=message):
+            ba.Limits(**made)
+    known = ba.Limits().of(ba.Biped.load("rabbit").description)
+    assert known == (0.6, 150.0, 5e-3)
+
+
+def test_what_the_model_does_not_know_is_matched_and_unmatched(biped, gait):
+    """xi~ from the plant's own equation: D q'' + Omega = B u + zeta + friction with the plant's D and Omega."""
+    rubbing = ba.Biped.load("rabbit", friction=True)
+    heavier = rubbing.with_errors(mass={"torso": 1.2, "thigh": 1.15})
+    for plant, model in ((rubbing, None), (heavier, biped)):
+        walker = ba.Walker(plant, ba.NPDController(gait.constraint), PUSH, model=model)
+        for engine in ("pinocchio", "compiled"):
+            s = ba.walk(walker, gait, 1, ba.RK4(1e-3), engine=engine).signals
+            assert np.allclose(s.xi_matched + s.xi_unmatched, s.xi - s.xi_nominal, atol=1e-9)
+            for i in range(0, len(s.t), 37):
+                q, v, a = s.q[i], s.v[i], s.a[i]
+                terms = biped.reduction(q, v)
+                unknown = s.zeta[i] + plant.friction_torque(v)
+                unknown += (terms.D - plant.inertia(q)) @ a + terms.Omega - plant.bias(q, v)
+                assert np.allclose(s.xi_matched[i], terms.kappa @ unknown[:4], atol=1e-8)
+                rest = terms.kappa @ (terms.A_N.T @ unknown[4:])
+                assert np.allclose(s.xi_unmatched[i], rest, atol=1e-8)
+    assert np.max(np.abs(s.xi_unmatched)) > 0.5
+
+
+def test_a_model_without_error_leaves_the_push_as_it_is(biped, gait):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), PUSH)
+    s = ba.walk(walker, gait, 1, ba.RK4(1e-3)).signals
+    outside_push = ~np.any(s.zeta, axis=1)
+    assert np.all(s.xi_external[outside_push] == 0.0)
+    assert np.all(s.xi_unmatched == 0.0)

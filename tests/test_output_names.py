@@ -1,0 +1,167 @@
+"""What a command writes: the name that was given, or a refusal; never a file that it reads."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.cli import app
+from biped_adrc.errors import GaitError, InputError, OutputError
+from biped_adrc.files import keep_inputs, output_path
+from biped_adrc.hybrid.storage import load, save
+
+RUNS = (".npz", ".mat")
+WALK = ("simulate", "--engine", "compiled", "--controller", "NPD", "--impacts", "1")
+
+
+def command(*arguments: str) -> str:
+    """What a command prints; it raises what it raises."""
+    done = CliRunner().invoke(app, arguments, catch_exceptions=False)
+    assert done.exit_code == 0, done.output
+    return done.output
+
+
+@pytest.fixture(scope="session")
+def walked(gait, biped):
+    """One step."""
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    return ba.walk(walker, gait, impacts=1, engine="compiled").trajectory
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch, gait, walked):
+    """Here: a gait, a link to it, a run, and a robot of one's own with its gait."""
+    monkeypatch.chdir(tmp_path)
+    gait.save("keep.json")
+    Path("link.json").symlink_to("keep.json")
+    save(walked, "run.npz")
+    Path("run.html").write_bytes(Path("run.npz").read_bytes())
+    shutil.copytree(ba.model.robots.data_folder("urdf") / "rabbit", "own")
+    return tmp_path
+
+
+def contents(folder: Path) -> dict[Path, bytes]:
+    return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+@pytest.mark.parametrize(
+    ("line", "names"),
+    [
+        ("simulate --gait keep.json -o keep.npz", ["keep.npz", "keep.json"]),
+        ("simulate --gait ./keep.json -o keep", ["keep.npz", "keep.json"]),
+        ("simulate --gait link.json -o keep.npz", ["keep.npz", "keep.json", "link.json"]),
+        ("simulate --gait keep.json -o link.npz", ["link.json", "keep.json"]),
+        ("simulate --gait keep.json -o keep.json", ["keep.json", ".npz or .mat"]),
+        ("simulate -o keep.npz", ["keep.json", "not of a run"]),
+        ("simulate --robot compass -o keep.npz", ["keep.json", "not of a run"]),
+        ("gait export keep.json -o keep.json", ["keep.json"]),
+        ("gait export keep.json -o keep", ["keep.json"]),
+        ("gait import keep.json -o link.json", ["link.json", "keep.json"]),
+        ("gait import published-identified.json", ["published-identified.json"]),
+        ("gait design --speed 0.5 -o own/robot.toml", ["robot.toml", ".json"]),
+        ("animate run.npz -o run.npz", ["run.npz", ".html"]),
+        ("animate run.html -o run.html", ["run.html"]),
+        ("animate run.npz --ghost run.html -o run.html", ["run.html"]),
+        ("plot run.npz -o run.npz", ["run.npz", ".png or .svg"]),
+        ("gait zero keep.json --plot keep.json", ["keep.json", ".png or .svg"]),
+        ("observer -o keep.json", ["keep.json", ".png or .svg"]),
+        ("robot new own/floating.urdf -o own", ["own/floating.urdf", "exists already"]),
+        ("sweep keep.json --out keep.json", ["keep.json"]),
+        ("compare --out keep.json", ["keep.json"]),
+    ],
+)
+def test_nothing_that_is_read_is_overwritten(line, names, folder, monkeypatch):
+    shutil.copy("keep.json", "published-identified.json")
+    before = contents(folder)
+    walk = "biped_adrc.studies.runs.walk"
+    monkeypatch.setattr(walk, lambda *_, **__: pytest.fail("walked before the name was looked at"))
+    with pytest.raises((InputError, OutputError)) as error:
+        command(*line.split())
+    message = str(error.value)
+    assert all(name in message for name in names), message
+    assert contents(folder) == before
+
+
+@pytest.mark.parametrize(
+    ("out", "written"),
+    [
+        ("push_0.1", "push_0.1.npz"),
+        ("push_0.3", "push_0.3.npz"),
+        ("push", "push.npz"),
+        ("push.npz", "push.npz"),
+        ("a.b/push 2", "a.b/push 2.npz"),
+        ("push[/b].npz", "push[/b].npz"),
+        ("push.mat", "push.mat"),
+    ],
+)
+def test_a_run_goes_where_it_is_said_to_be(out, written, folder):
+    assert f"written to {written}\n" in command(*WALK, "-o", out)
+    beside = {str(Path(written).with_suffix(".json"))} if written.endswith(".npz") else set()
+    new = {str(path.relative_to(folder)) for path in contents(folder)}
+    old = {"keep.json", "link.json", "run.npz", "run.json", "run.html"}
+    assert {name for name in new if not name.startswith("own/")} - old == {written} | beside
+
+
+def test_a_finished_run_is_written_before_it_is_printed(folder, monkeypatch):
+    def closed(*_: object) -> None:
+        raise BrokenPipeError
+
+    monkeypatch.setattr("biped_adrc.cli.walk._print_steps", closed)
+    with pytest.raises(BrokenPipeError):
+        command(*WALK, "-o", "kept.npz")
+    assert load("kept.npz").status.ok
+
+
+@pytest.mark.parametrize("out", ["o.csv", "o.parquet", "o.json", "o.npz.gz", ".", "", "own"])
+def test_a_name_that_is_no_runs_is_refused_before_the_walk(out, folder, monkeypatch):
+    before = contents(folder)
+    walk = "biped_adrc.studies.runs.walk"
+    monkeypatch.setattr(walk, lambda *_, **__: pytest.fail("walked before the name was looked at"))
+    with pytest.raises((InputError, OutputError), match=r"expected (\.npz or \.mat|the name)"):
+        command("simulate", "-o", out)
+    assert contents(folder) == before
+
+
+def test_the_same_rule_holds_in_python(folder, walked, gait):
+    save(walked, "push_0.1")
+    save(walked, "push_0.3.npz")
+    assert load("push_0.1.npz").status is load("push_0.3.npz").status
+    save(walked, "push_0.3.npz")  # once more
+    with pytest.raises(InputError, match=r"'o\.csv'.*expected \.npz"):
+        save(walked, "o.csv")
+    with pytest.raises(OutputError, match=r"'keep\.json' is there and is not of a run"):
+        save(walked, "keep.npz")
+    ba.load_gait("keep.json", ba.Biped.load("rabbit"))
+    with pytest.raises(InputError, match=r"expected \.json"):
+        gait.save("v0.5")
+    with pytest.raises(GaitError, match="a name that is a path"):
+        _ = replace(gait, name="../up").file_name
+
+
+def test_gaits_keep_their_whole_name(folder):
+    assert "written to v0.85.json\n" in command("gait", "export", "keep.json", "-o", "v0.85")
+    assert "written to v0.86.json\n" in command("gait", "import", "keep.json", "-o", "v0.86")
+    with pytest.raises(InputError, match=r"'v\.npz'.*expected \.json"):
+        command("gait", "import", "keep.json", "-o", "v.npz")
+
+
+def test_names(tmp_path):
+    assert output_path("x.NPZ", RUNS) == Path("x.NPZ")
+    assert output_path("x.1e-3", RUNS, default=True) == Path("x.1e-3.npz")
+    with pytest.raises(InputError, match=r"'x': .*expected \.npz or \.mat"):
+        output_path("x", RUNS)
+    with pytest.raises(OutputError, match="a folder or a device"):
+        output_path("/dev/null", RUNS, default=True)
+    (tmp_path / "x.npz").mkdir()
+    with pytest.raises(OutputError, match="a folder or a device"):
+        output_path(tmp_path / "x", RUNS, default=True)
+    (tmp_path / "a").write_text("")
+    (tmp_path / "b").hardlink_to(tmp_path / "a")
+    with pytest.raises(InputError, match="/a' is what it reads"):
+        keep_inputs([tmp_path / "c", tmp_path / "b"], [tmp_path / "a"])
+    keep_inputs([tmp_path / "c"], [tmp_path / "a"])

@@ -1,0 +1,93 @@
+"""The map of pushes: what a walk under a push is called, on made-up walks and on one that is known."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.errors import InputError
+from biped_adrc.studies.push_map import Cell, Fate, Tried, apart, certain, counts, push_map, pushes
+from biped_adrc.studies.runs import Run, execute
+from biped_adrc.viz.figures import push_map_figure
+from biped_adrc.viz.push_map_plot import FATES
+
+LEGAL = Fate("legal", "COMPLETED", 200.0, 0.4)
+MADE = Fate("made", "COMPLETED", 50.0, 0.8)
+PULLED = Fate("made", "COMPLETED", -20.0, 0.5)
+FELL = Fate("fell", "FELL", 10.0, 0.9)
+ENDED = Fate("ended", "SINGULAR", 10.0, 0.9)
+
+
+def cell(npd: Fate, adrc: Fate, **place: object) -> Cell:
+    where = {"preset": "p", "onset": 0.1, "amplitude": 30.0, "pattern": "all +"}
+    return Cell(**{**where, "torque_limit": None, **place}, npd=npd, adrc=adrc)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("fate", "word"),
+    [(LEGAL, "legal"), (MADE, "made"), (PULLED, "pulled"), (FELL, "fell"), (ENDED, "ended")],
+)
+def test_the_word_of_a_walk(fate, word):
+    assert fate.word == word
+    assert replace(fate, marginal=True).word == "marginal"
+    assert word in FATES
+
+
+def test_marginal_cells_carry_no_claim():
+    sure = [cell(MADE, LEGAL), cell(LEGAL, LEGAL), cell(LEGAL, FELL)]
+    cells = [*sure, cell(replace(MADE, marginal=True), LEGAL)]
+    assert certain(cells) == sure
+    assert apart(cells) == {"p, unlimited": (1, 1)}
+    assert counts(cells)["p, unlimited"]["NPD"]["marginal"] == 1
+    assert counts(cells)["p, unlimited"]["ADRC"] == {
+        "legal": 3,
+        "made": 0,
+        "pulled": 0,
+        "fell": 1,
+        "ended": 0,
+        "marginal": 0,
+    }
+
+
+def test_settings_are_kept_apart():
+    cells = [cell(LEGAL, LEGAL), cell(FELL, LEGAL, torque_limit=150.0)]
+    assert list(counts(cells)) == ["p, unlimited", "p, 150 N m"]
+
+
+def test_a_fall_of_the_polynomial_is_none_of_the_robot():
+    """A late push that throws NPD past the phase range, where the gait's polynomial explodes."""
+    tried = Tried(0.3, 150.0, "swing knee -", None)
+    run = replace(tried.run(Run(preset="identified-bare"), "NPD"), continued=False)
+    assert not execute(run).walked
+    (found,) = push_map(Run(preset="identified-bare"), [tried])
+    assert found.npd.status == "COMPLETED"
+    assert found.npd.word != "legal"
+
+
+def test_the_map_is_drawn_of_every_word():
+    fates = [LEGAL, MADE, PULLED, FELL, ENDED, replace(LEGAL, marginal=True)]
+    rows = [cell(f, LEGAL, onset=0.05 * k).row() for k, f in enumerate(fates)]
+    figure = push_map_figure(rows)
+    texts = {text.get_text() for text in figure.legends[0].get_texts()}
+    assert texts == {text for text, _, _ in FATES.values()}
+    assert len(figure.axes[0].patches) == 2 * len(rows)
+    with pytest.raises(InputError, match="at least one"):
+        push_map_figure([])
+
+
+def test_pushes_are_all_combinations():
+    found = pushes((0.0, 0.1), (30.0,), ("all +", "hips +"), (None, 150.0))
+    assert len(found) == len(set(found)) == 8
+    run = found[0].run(Run(), "NPD")
+    assert run.pushes[0].stop - run.pushes[0].start == pytest.approx(0.2)
+    assert run.continued
+
+
+def test_a_continued_constraint_is_the_same_inside(biped, gait):
+    inside = ba.continued(gait.constraint)
+    for theta in np.linspace(gait.constraint.theta_minus, gait.constraint.theta_plus, 7):
+        for one, other in zip(inside.h(theta), gait.constraint.h(theta), strict=True):
+            np.testing.assert_allclose(one, other, rtol=0, atol=1e-12)
