@@ -196,6 +196,7 @@ def stubbed(monkeypatch):
             "regression_of": lambda _: SimpleNamespace(record=dict),
             "_checks": lambda *_: checks,
             "claims": lambda *_: claims,
+            "gathered": lambda *_: SimpleNamespace(record=dict),
             "findings": lambda *_: [],
             "tables": lambda *_: {},
             "save": lambda *_: None,

@@ -20,6 +20,7 @@ from biped_adrc.hybrid.storage import save
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
 from biped_adrc.studies.checks import Check
+from biped_adrc.studies.claims.gathered import gathered
 from biped_adrc.studies.claims.table import PREFACE, claims
 from biped_adrc.studies.claims.words import MEANINGS, claim_checks
 from biped_adrc.studies.convergence import records
@@ -78,6 +79,7 @@ def reproduce(
         "claims_preface": PREFACE,
         "claims_words": MEANINGS,
         "claims": [claim.record() for claim in found],
+        "claims_evidence": gathered(plan.presets, results).record(),
         "checks": [check.record() for check in checks],
         "tables": tables(plan, results, cells, figures),
         "nominal": _nominal(plan, results),

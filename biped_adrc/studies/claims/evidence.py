@@ -202,8 +202,7 @@ class Start(NamedTuple):
 
     name: str
     least: float
-    """Speed that reaches the next impact, of the gait's own, by one quadrature of the zero "
-    "dynamics."""
+    """Speed that reaches the next impact, of the gait's own, by one quadrature of the zero dynamics."""
     factor: float
     """Speed of this start over the least."""
     impacts: dict[str, int]
@@ -228,8 +227,7 @@ def basin(preset: str) -> tuple[Start, ...]:
 
 
 def least_speed(run: Run) -> float:
-    """Share of the gait's speed after impact with which sigma^2 stays positive up to the next "
-    "impact."""
+    """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact."""
     biped, gait = nominal(run.preset, run.gait)
     zero = ZeroDynamics.of(biped, gait.constraint)
     sigma = biped.angular_momentum(*gait.start(biped))
@@ -238,8 +236,7 @@ def least_speed(run: Run) -> float:
 
 
 class Jumps(NamedTuple):
-    """How far the total disturbance xi of (13) is from smooth, largest over the joints "
-    "[rad/s^2]."""
+    """How far the total disturbance xi of (13) is from smooth, largest over the joints [rad/s^2]."""
 
     name: str
     at_impact: float
@@ -265,8 +262,7 @@ def fastest_decay(period: float) -> float:
 
 
 def longest_step(multiplier: float) -> float:
-    """Step after which a tracking error under Table II has decayed to no less than this share "
-    "[s]."""
+    """Step after which a tracking error under Table II has decayed to no less than this share [s]."""
     return float(-2.0 * np.log(multiplier) / float(np.max(TABLE_II.K_d)))
 
 

@@ -1,5 +1,4 @@
-"""One extended state against the paper's seven: gains, what they do to noise, and the error "
-"left."""
+"""One extended state against the paper's seven: gains, what they do to noise, and the error left."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Claims about the controller and its observer: section III, model uncertainty, what is not "
-"matched."""
+"""Claims about the controller and its observer: section III, model uncertainty, what is not matched."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Claims about the push on the joints: figures 4, 5 and 6, rejection, and what it asks of the "
-"ground."""
+"""Claims about the push on the joints: figures 4, 5 and 6, rejection, and what it asks of the ground."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""The table of claims: one row for each claim of the paper, from the abstract to its last "
-"section."""
+"""The table of claims: one row for each claim of the paper, from the abstract to its last section."""
 
 from __future__ import annotations
 

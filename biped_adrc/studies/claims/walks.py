@@ -1,5 +1,4 @@
-"""Walks for the claims: what is kept of them is a handful of numbers, at a step and at half of "
-"it."""
+"""Walks for the claims: what is kept of them is a handful of numbers, at a step and at half of it."""
 
 from __future__ import annotations
 
@@ -8,6 +7,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from biped_adrc.engine.choice import simulate_by
 from biped_adrc.gait.constraint import VirtualConstraint
@@ -129,12 +129,15 @@ class Track(NamedTuple):
         return float(np.max(np.abs(self.error)))
 
     def away_from(self, usual: Track, onset: float) -> float:
-        """max |error - that of `usual`| from the onset on, while both last [rad]."""
+        """max |error - that of `usual`| from the onset on, while both last [rad].
+
+        `usual` is smooth: cubic splines between its nodes. NaN when there is nothing to compare.
+        """
         seen = (self.t >= onset) & (self.t <= usual.t[-1])
-        if not np.any(seen):
-            return float("nan")
         t, first = np.unique(usual.t, return_index=True)
-        there = np.stack([np.interp(self.t[seen], t, e) for e in usual.error[first].T], axis=1)
+        if not np.any(seen) or not np.all(np.isfinite(usual.error)):
+            return float("nan")
+        there = CubicSpline(t, usual.error[first])(self.t[seen])
         return float(np.max(np.abs(self.error[seen] - there)))
 
 
@@ -160,8 +163,7 @@ def _errors(constraint: VirtualConstraint, arc: Arc) -> Array:
 
 @lru_cache(maxsize=64)
 def _undisturbed(preset: str, controller: str, gait: str, start: str, theta: str) -> Track:
-    """The same walk without a push, its error at nodes close enough for straight lines between "
-    "them."""
+    """The same walk without a push, its error at nodes for a spline between them."""
     steps = declared()["steps"]
     plain = Member(preset, 0.0, 0.0, ("q1",), 0.0, start, theta).run(controller, steps["plain"])
     made = prepared(replace(plain, pushes=(), gait=gait), start == "zero")
@@ -169,8 +171,7 @@ def _undisturbed(preset: str, controller: str, gait: str, start: str, theta: str
 
 
 def walked(run: Run, start: str = "model") -> Walked:
-    """The pushed step with run.h and half of it, and all impacts with the step for what comes "
-    "later."""
+    """The pushed step with run.h and half of it, and all impacts with the step for what comes later."""
     steps = declared()["steps"]
     theta = "solved" if run.solve_theta else "printed"
     usual = _undisturbed(run.preset, run.controller, run.gait, start, theta)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from biped_adrc.studies.checks import Check, at_least
+from biped_adrc.studies.checks import Check, at_least, at_most
 from biped_adrc.viz.report import CLAIM_COLUMNS
 
 REPLICATED = "replicated"
@@ -127,12 +127,14 @@ class Tally:
         return changes([case.figure for case in self.firm])
 
 
-def changes(figures: Sequence[Figure], relevant: float = 0.1) -> str:
-    """The largest change of numbers when the step is halved, in words.
+def changes(figures: Sequence[Figure], relevant: float = 0.01) -> str:
+    """The largest change of numbers when the step is halved, in words; nothing for counts.
 
     Numbers that change by more than the share `relevant` and were taken as converged are round-off: of them
     the change itself is said.
     """
+    if all(f.value == f.at_half for f in figures):
+        return ""
     known = [f for f in figures if math.isfinite(f.change)]
     if not known:
         return "no finite number"
@@ -145,8 +147,11 @@ def changes(figures: Sequence[Figure], relevant: float = 0.1) -> str:
 
 @dataclass(frozen=True)
 class Claim:
-    """One row of the table. `asserted` is the share of cases that a check of the reproduction "
-    "demands."""
+    """One row of the table.
+
+    asserted: share of the cases that hold, of a claim that a check of the reproduction asks to hold in all.
+    marginal: number of its cases that are not converged.
+    """
 
     claim: str
     where: str
@@ -156,6 +161,7 @@ class Claim:
     share: str = ""
     convergence: str = ""
     asserted: float | None = None
+    marginal: int = 0
 
     def __post_init__(self) -> None:
         if self.word not in MEANINGS:
@@ -180,16 +186,29 @@ def judged(
         tally.share,
         tally.convergence,
         value if asserted else None,
+        len(tally.marginal),
     )
 
 
 def claim_checks(claims: Sequence[Claim]) -> list[Check]:
-    """Every claim that is said to be replicated has to stay so: all of its cases hold, none is "
-    "marginal."""
+    """Every claim that is said to be replicated has to stay so: all of its cases hold, none is marginal.
+
+    And no case of any claim may be marginal.
+    """
+    kind = "reproduced"
+    doubtful = at_most(
+        "claims: cases whose number or verdict is another at half the step",
+        "law",
+        sum(c.marginal for c in claims),
+        0,
+    )
     return [
-        at_least(f"claim, {c.where}: {c.claim}: share of its cases", "reproduced", c.asserted, 1.0)
-        for c in claims
-        if c.asserted is not None
+        doubtful,
+        *(
+            at_least(f"claim, {c.where}: {c.claim}: share of its cases", kind, c.asserted, 1.0)
+            for c in claims
+            if c.asserted is not None
+        ),
     ]
 
 
@@ -198,8 +217,8 @@ def span(values: Sequence[float], form: str = ".3g") -> str:
     known = [v for v in values if not math.isnan(v)]
     if not known:
         return "none"
-    low, high = min(known), max(known)
-    text = f"{low:{form}}" if low == high else f"{low:{form}} to {high:{form}}"
+    low, high = f"{min(known):{form}}", f"{max(known):{form}}"
+    text = low if low == high else f"{low} to {high}"
     return text + (
         f" ({len(values) - len(known)} are no numbers)" if len(known) < len(values) else ""
     )
