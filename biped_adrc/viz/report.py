@@ -30,7 +30,7 @@ FIGURES = {
     ),
     "figure5": (
         "Figure 5: ADRC with GPI observer under the push",
-        "The same push; mind the unit of the error. All of it is a spike of 1 to 2 ms after either edge, which "
+        "The same push; mind the unit of the error. It comes and goes within milliseconds of either edge, as "
         "the two columns at the right show: the torque overshoots while the observer finds the push, and then "
         "answers it.",
     ),

@@ -32,17 +32,20 @@ def thinned(x: Array, y: Array, width: float) -> NDArray[np.intp]:
     edges = np.flatnonzero((column[1:] != column[:-1]) | (gap[1:] != gap[:-1])) + 1
     bounds = np.concatenate(([0], edges, [len(x)])).astype(int)
     keep = np.zeros(len(x), dtype=bool)
+    keep[bounds[:-1]] = keep[bounds[1:] - 1] = True
+    with_extremes = (y,) if not np.any(np.diff(x) < 0.0) else (x, y)
     for start, stop in pairwise(bounds.tolist()):
         if stop - start <= 4 or gap[start]:
             keep[start:stop] = True
             continue
-        part = slice(start, stop)
-        found = (np.argmin(y[part]), np.argmax(y[part]), np.argmin(x[part]), np.argmax(x[part]))
-        keep[[start, stop - 1, *(start + int(i) for i in found)]] = True
-    span = float(np.ptp(y[~gap])) if not gap.all() else 0.0
-    jump = (x[1:] == x[:-1]) & (np.abs(np.diff(y)) > VISIBLE * span)
-    keep[:-1] |= jump
-    keep[1:] |= jump
+        for values in with_extremes:
+            part = values[start:stop]
+            keep[start + part.argmin()] = keep[start + part.argmax()] = True
+    finite = y[np.isfinite(y)]
+    span = float(np.ptp(finite)) if len(finite) else 0.0
+    twice = np.flatnonzero(x[1:] == x[:-1])
+    jump = twice[np.abs(y[twice + 1] - y[twice]) > VISIBLE * span]
+    keep[jump] = keep[jump + 1] = True
     return np.flatnonzero(keep)
 
 
@@ -71,5 +74,7 @@ def _thin_axes(axes: Axes, low: float, high: float, columns: int) -> None:
         if len(x) <= 4 or line.get_transform() != axes.transData:
             continue
         shown = np.flatnonzero(inside(x, low, high))
-        kept = shown[thinned(x[shown], y[shown], (high - low) / columns)]
+        kept = shown
+        if len(shown) > 4:
+            kept = shown[thinned(x[shown], y[shown], (high - low) / columns)]
         line.set_data(x[kept], y[kept])

@@ -81,6 +81,23 @@ def test_limits_stay_and_a_zoom_keeps_what_it_shows() -> None:
     assert y.max() == pytest.approx(5.0 + np.sin(6 * np.pi * SPIKE))
 
 
+def test_lines_outside_and_values_that_are_not_finite() -> None:
+    figure = Figure()
+    axes = figure.subplots()
+    t = np.linspace(0.0, 1.0, 5000)
+    axes.plot(t, t, label="outside")
+    axes.plot(t, np.full(len(t), np.nan), label="none")
+    axes.plot(t, np.where(t > 1.5, np.inf, t), label="inside")
+    axes.set_xlim(2.0, 3.0)
+    thin(figure)
+    assert len(axes.get_lines()[0].get_xdata()) == 0
+    assert numbers_of(figure)["panels"][0]["lines"] == {"outside": {}, "none": {}, "inside": {}}
+    y = np.where(t < 0.5, t, np.inf)
+    kept = thinned(t, y, WIDTH)
+    assert y[kept][-1] == np.inf
+    assert len(kept) < 3000
+
+
 @pytest.mark.parametrize("zoom", [False, True])
 def test_numbers_depend_neither_on_thinning_nor_on_nodes(zoom: bool) -> None:
     numbers = numbers_of(drawn(200_000, zoom))
