@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -39,6 +39,16 @@ class Arc:
         """t (K,) with the first of two equal times, a jump, just before it: for what acted until then [s]."""
         later = np.append(self.t[1:], self.t[-1])
         return np.where(self.t == later, np.nextafter(self.t, -np.inf), self.t)
+
+    def thinned(self, apart: float) -> Arc:
+        """The same with nodes at least `apart` [s] apart, but for its ends and both sides of jumps."""
+        same = np.diff(self.t) == 0.0
+        keep = np.append(same, True) | np.concatenate(([True], same))
+        last = self.t[0]
+        for k in np.flatnonzero(~keep):
+            if self.t[k] - last >= apart * (1.0 - 1e-9):
+                keep[k], last = True, self.t[k]
+        return replace(self, t=self.t[keep], x=self.x[keep], dx=self.dx[keep])
 
     def __call__(self, t: float, side: str = "right") -> Array:
         """x(t) by cubic Hermite interpolation, the limit from `side` where x or x' jumps."""

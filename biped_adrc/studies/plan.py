@@ -38,11 +38,9 @@ MAP_ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
 """[s]; a single support takes about 0.4 s."""
 MAP_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
 """[N m], up to what RABBIT's motors give."""
-STEPS = {"NPD": (1e-3, 1e-3), "ADRC": (5e-4, 5e-5)}
+STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (1.25e-4, 5e-5)}
 """[s], of every run, and where a push switches and in the single support after; halved, no figure of merit
 changes by more than 1 % or its resolution (`studies.convergence`)."""
-UNPUSHED_STEP = 2.5e-4
-"""[s], of ADRC where nothing is drawn: undisturbed, its error is that of the method."""
 RESET_STEP = 5e-5
 """[s], for what follows an impact that the observer does not expect."""
 ENGINES_STEP = 1e-3
@@ -123,8 +121,7 @@ def base_runs(plan: Plan) -> dict[str, Run]:
     for c in BOTH:
         run = stepped(Run(c, preset=plan.preset))
         for preset in plan.presets:
-            h = UNPUSHED_STEP if c == "ADRC" else run.h
-            runs[f"nominal {preset} {c}"] = replace(run, preset=preset, h=h)
+            runs[f"nominal {preset} {c}"] = replace(run, preset=preset)
         runs[f"sine {c}"] = replace(run, pushes=(SINE,), first_step=17, impacts=9)
         runs[f"torso {c}"] = replace(run, pushes=(TORSO,), first_step=17, impacts=9)
         runs[f"1 kHz {c}"] = Run(c, preset=plan.preset, pushes=plan.pushes, period=1e-3, h=1e-3)

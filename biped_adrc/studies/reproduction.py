@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.errors import OutputError
 from biped_adrc.files import write_text
 from biped_adrc.hybrid.storage import save
+from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
 from biped_adrc.studies.checks import Check
@@ -28,7 +30,7 @@ from biped_adrc.studies.figures import push_window
 from biped_adrc.studies.findings import findings
 from biped_adrc.studies.laws import work_identity
 from biped_adrc.studies.pictures import draw_all
-from biped_adrc.studies.plan import BOTH, Plan
+from biped_adrc.studies.plan import BOTH, Headline, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.poincare import regression_of
 from biped_adrc.studies.pool import TaskProgress, run_tasks
@@ -94,7 +96,7 @@ def reproduce(
     }
     for c in BOTH:
         head = verdicts.headline_of(results, c)
-        save(head.trajectory, out / f"walk-{c.lower()}.npz", _run_settings(head))
+        save(_stored(head), out / f"walk-{c.lower()}.npz", _run_settings(head))
     pictures = draw_all(plan, results, cells, out, workers)
     animation = _animate(plan, results)
     write_text(out / "walk.html", animation)
@@ -149,6 +151,20 @@ def _settings(plan: Plan) -> dict[str, Any]:
         "Table I, observer eigenvalues [rad/s]": list(TABLE_I),
         "Table II": {"K_p": TABLE_II.K_p, "K_d": TABLE_II.K_d},
     }
+
+
+STORED_APART = 1e-3
+"""[s] between the stored nodes of a headline run, but for the single supports with fine steps."""
+
+
+def _stored(head: Headline) -> Trajectory:
+    """The trajectory without nodes that no picture needs: where nothing switches the solution is smooth."""
+    pushed = {push.step + k for push in head.outcome.run.pushes for k in (0, 1)}
+    arcs = (
+        arc if arc.mode.step in pushed else arc.thinned(STORED_APART)
+        for arc in head.trajectory.arcs
+    )
+    return replace(head.trajectory, arcs=tuple(arcs))
 
 
 def _run_settings(head: Any) -> dict[str, Any]:
