@@ -6,6 +6,7 @@ from collections import Counter
 import numpy as np
 import psutil
 
+from biped_adrc.analysis.certificate import REASONS
 from biped_adrc.hybrid.status import Status
 from biped_adrc.studies.bench.run import COLUMNS, REFUSED, run_trial
 
@@ -66,6 +67,12 @@ def test_every_walk_ends_with_a_name_and_numbers():
         assert (row["survived"] == 1) == (row["status"] == "COMPLETED")
         assert row["status"] != "COMPLETED" or row["impacts"] == record["impacts"]
         assert row["status"] != REFUSED or row["detail"], (record, row)
+        word = {"FELL": {"fell"}, "COMPLETED": {"made", "legal"}, REFUSED: {None}, "RAISED": {None}}
+        assert row["outcome"] in word.get(row["status"], {"ended"}), (record, row)
+        assert row["legal"] in (None, int(row["outcome"] == "legal")), (record, row)
+        bad = [row[f"bad_{name}"] for name in REASONS]
+        assert row["outcome"] != "legal" or not any(bad), (record, row)
+        assert row["outcome"] != "made" or any(bad), (record, row)
         found[row["status"]] += 1
         if i % 500 == 499:
             memory.append(process.memory_info().rss / 2**20)
