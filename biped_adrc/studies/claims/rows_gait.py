@@ -127,7 +127,9 @@ def recipe_needs(needs: Sequence[Needs]) -> Claim:
         Case(n.name, n.torque, not n.illegal, not n.torque.converged(*convergence())) for n in needs
     ]
     shown = "; ".join(
-        f"{n.preset}: friction {_two(n.friction)}, {n.torque.at_half:.0f} N m" for n in needs
+        f"{n.preset}: friction {_two(n.friction)} in the mean over 5 ms and "
+        f"{_two(n.friction_at_an_instant)} at an instant, {n.torque.at_half:.0f} N m"
+        for n in needs
     )
     return judged(
         "The gait of section IV can be walked by the robot of section II (pinned foot, its motors)",

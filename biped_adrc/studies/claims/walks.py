@@ -182,7 +182,7 @@ def walked(run: Run, start: str = "model") -> Walked:
     survey = made.simulate(steps["later"], run.impacts)
     events = survey.events(FOOT_STRIKE)
     finite = all(bool(np.all(np.isfinite(arc.x))) for arc in survey.arcs)
-    why = illegal(watched(made.walker, made.gait, survey).certificates) if finite else ()
+    why = illegal(watched(made.walker, made.gait, survey).legality.supports) if finite else ()
     return Walked(
         survey.status.name,
         len(events),
