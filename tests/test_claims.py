@@ -225,6 +225,15 @@ def test_a_walk_that_ends_otherwise_has_not_made_its_steps():
     assert walk(1e-3).made
 
 
+def test_an_ending_that_the_step_decides_is_marginal():
+    odd = outcome(adrc=walk(1e-6)._replace(same=False))
+    for rule in (rows_push.walks_on, rows_push.legal):
+        claim = of(rule, odd)
+        assert claim.word == "depends"
+        assert claim.marginal == 1
+        assert not claim_checks([claim])[0].holds
+
+
 def test_the_cycle_after_the_push():
     assert of(rows_push.unaffected, outcome()).word == "replicated"
     assert of(rows_push.unaffected, outcome(adrc=walk(1e-6, rate=1.1e-5))).word == "depends"

@@ -103,7 +103,7 @@ def needs(preset: str) -> tuple[Needs, ...]:
 
 
 def _needs(preset: str, gait: str) -> Needs:
-    h = declared()["steps"]["plain"]
+    h = declared()["steps"]["needs"]
     run = Run("NPD", preset=preset, gait=gait, engine=COMPILED)
     steps: list[Certificate] = []
     why: tuple[str, ...] = ()

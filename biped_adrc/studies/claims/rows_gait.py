@@ -146,7 +146,7 @@ def _two(f: Figure) -> str:
     """A number, at both steps where they differ."""
     if f.converged(*convergence()):
         return f"{f.at_half:.2f}"
-    return f"{f.value:.2f} ({f.at_half:.2f} at half the step, not converged: F_N is nearly 0)"
+    return f"{f.value:.2f} (not converged, {f.at_half:.2f} at half the step)"
 
 
 def pinned_at_impact(needs: Sequence[Needs]) -> Claim:
