@@ -225,6 +225,15 @@ def test_a_walk_that_ends_otherwise_has_not_made_its_steps():
     assert walk(1e-3).made
 
 
+def test_an_ending_that_the_step_decides_is_marginal():
+    odd = outcome(adrc=walk(1e-6)._replace(same=False))
+    for rule in (rows_push.walks_on, rows_push.legal):
+        claim = of(rule, odd)
+        assert claim.word == "depends"
+        assert claim.marginal == 1
+        assert not claim_checks([claim])[0].holds
+
+
 def test_the_cycle_after_the_push():
     assert of(rows_push.unaffected, outcome()).word == "replicated"
     assert of(rows_push.unaffected, outcome(adrc=walk(1e-6, rate=1.1e-5))).word == "depends"
@@ -341,6 +350,7 @@ def need(gait="recipe", *, impulse=0.5, cost=1.0, jump=1.0, illegal=()):
         "identified",
         gait,
         figure(0.5),
+        figure(0.5),
         figure(impulse),
         figure(100.0),
         figure(cost, 1e-5),
@@ -361,7 +371,7 @@ def test_what_gaits_need():
 
 
 def test_a_need_that_is_not_converged_is_said_to_be():
-    odd = need()._replace(friction=Figure(9.6, 10.1))
+    odd = need()._replace(friction_at_an_instant=Figure(9.6, 10.1))
     assert "not converged" in rows_gait.recipe_needs([odd]).number
 
 
@@ -446,7 +456,8 @@ def test_the_needs_of_the_recipe():
     a, b = evidence.needs("identified")
     assert not a.illegal
     assert b.illegal
-    assert b.friction.at_half == pytest.approx(0.57, abs=0.005)
+    assert b.friction_at_an_instant.at_half == pytest.approx(0.57, abs=0.005)
+    assert b.friction.at_half <= b.friction_at_an_instant.at_half
     assert b.torque.at_half == pytest.approx(315.0, rel=0.01)
     assert a.rate_jump < 1e-9 < 1.0 < b.rate_jump
 

@@ -10,11 +10,15 @@ import pytest
 from typer.testing import CliRunner
 
 from biped_adrc.analysis.certificate import Certificate
+from biped_adrc.analysis.legality import Legality
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
 from biped_adrc.gait.published import X_STAR
+from biped_adrc.hybrid.status import Status
+from biped_adrc.model.limits import KnownLimits
 from biped_adrc.studies import reproduction, verdicts
 from biped_adrc.studies.checks import at_most
 from biped_adrc.studies.claims.words import Case, Claim, Figure, Tally, judged
+from biped_adrc.studies.convergence import convergence_check
 from biped_adrc.studies.plan import Plan, RecipeResult
 from biped_adrc.studies.pool import Timed
 from biped_adrc.studies.runs import Outcome, Run
@@ -22,17 +26,25 @@ from biped_adrc.studies.runs import Outcome, Run
 CERTIFICATE = Certificate(
     step=1,
     duration=0.4,
-    step_length=0.3,
     least_normal_force=200.0,
     friction=0.4,
+    share_outside=0.0,
+    mean_normal_force=200.0,
+    mean_friction=0.4,
+    scuffing=0.0,
+    peak_torque=100.0,
+    friction_limit=0.6,
+    torque_limit=150.0,
+    window=5e-3,
+    step_length=0.3,
     impulse_ratio=0.5,
     old_foot_velocity=0.1,
     clearance=0.01,
-    peak_torque=100.0,
     joint_work=10.0,
     energy_lost=10.0,
     cost_of_transport=0.3,
 )
+LEGALITY = Legality(Status.COMPLETED, (CERTIFICATE,), 0.5, KnownLimits(0.6, 150.0, 5e-3))
 
 
 def outcome(controller, peak=1e-2, impacts=9, asked=9, **more):
@@ -48,6 +60,7 @@ def outcome(controller, peak=1e-2, impacts=9, asked=9, **more):
         peak,
         100.0,
         (CERTIFICATE,),
+        LEGALITY,
         "rk4",
         "compiled",
     )
@@ -59,8 +72,9 @@ def results(**odd):
     found = {}
     for c, peak in (("NPD", 1e-2), ("ADRC", 1e-5)):
         found[f"headline {c}"] = SimpleNamespace(outcome=outcome(c, peak))
-        for name in ("sine", "torso", "1 kHz", "compiled push"):
+        for name in ("sine", "torso", "1 kHz"):
             found[f"{name} {c}"] = outcome(c, peak)
+        found[f"engines {c}"] = outcome(c, peak, half=outcome(c, peak))
         for kind in ("masses", "masses and inertias"):
             found[f"heavier, {kind} {c}"] = outcome(c, peak)
         found[f"nominal identified {c}"] = outcome(c)
@@ -143,9 +157,26 @@ def test_a_certificate_that_is_broken(odd):
 
 def test_engines_that_disagree():
     gap = outcome("NPD", x_minus=np.tile(X_STAR + 2e-6, (9, 1)))
-    assert len(broken(compiled_push_NPD=gap)) == 1
+    assert len(broken(engines_NPD=outcome("NPD", half=gap))) == 1
     fewer = outcome("NPD", impacts=8, x_minus=np.tile(X_STAR, (8, 1)))
-    assert len(broken(compiled_push_NPD=fewer)) == 1
+    assert len(broken(engines_NPD=outcome("NPD", half=fewer))) == 1
+    none = outcome("NPD", impacts=0, x_minus=np.zeros((0, 10)))
+    assert len(broken(engines_NPD=replace(none, half=none))) == 1
+
+
+@pytest.mark.parametrize(
+    ("half", "holds"),
+    [
+        (outcome("ADRC", 1.009e-2), True),
+        (outcome("ADRC", 1.02e-2), False),
+        (outcome("ADRC", math.nan), False),
+        (outcome("ADRC", 1e-2, 8), False),
+        (outcome("ADRC", 1e-2, status="STALLED"), False),
+    ],
+)
+def test_a_figure_that_the_step_decides(half, holds):
+    check = convergence_check("a walk", outcome("ADRC", 1e-2, half=half))
+    assert check.holds == holds
 
 
 def test_multipliers():

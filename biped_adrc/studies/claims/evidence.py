@@ -83,6 +83,8 @@ class Needs(NamedTuple):
     preset: str
     gait: str
     friction: Figure
+    """Largest |F_T| / F_N of the force in the mean over the window of `Limits`."""
+    friction_at_an_instant: Figure
     impulse_ratio: Figure
     torque: Figure
     """[N m]."""
@@ -101,7 +103,7 @@ def needs(preset: str) -> tuple[Needs, ...]:
 
 
 def _needs(preset: str, gait: str) -> Needs:
-    h = declared()["steps"]["plain"]
+    h = declared()["steps"]["needs"]
     run = Run("NPD", preset=preset, gait=gait, engine=COMPILED)
     steps: list[Certificate] = []
     why: tuple[str, ...] = ()
@@ -119,6 +121,7 @@ def _needs(preset: str, gait: str) -> Needs:
         f"gait ({'a' if gait == 'published' else 'b'}), {preset}",
         preset,
         gait,
+        figure("mean_friction"),
         figure("friction"),
         figure("impulse_ratio"),
         figure("peak_torque"),

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from biped_adrc.analysis.certificate import Certificate
+from biped_adrc.analysis.certificate import Support
 
 
-def illegal(certificates: Sequence[Certificate]) -> tuple[str, ...]:
-    """Why a robot on dry ground could not have made these steps; empty when it could.
+def illegal(supports: Sequence[Support]) -> tuple[str, ...]:
+    """Why a robot could not have made these steps, within the limits of its record; empty when it could.
 
-    The impulse at impact is judged apart.
+    By the force of the ground in the mean over the window; the impulse at impact is judged apart.
     """
-    return tuple(f"step {c.step}: {why}" for c in certificates for why in c.violations())
+    return tuple(f"step {s.step}: {why}" for s in supports for why in s.illegal().values())

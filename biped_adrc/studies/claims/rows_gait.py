@@ -127,7 +127,9 @@ def recipe_needs(needs: Sequence[Needs]) -> Claim:
         Case(n.name, n.torque, not n.illegal, not n.torque.converged(*convergence())) for n in needs
     ]
     shown = "; ".join(
-        f"{n.preset}: friction {_two(n.friction)}, {n.torque.at_half:.0f} N m" for n in needs
+        f"{n.preset}: friction {_two(n.friction)} in the mean over 5 ms and "
+        f"{_two(n.friction_at_an_instant)} at an instant, {n.torque.at_half:.0f} N m"
+        for n in needs
     )
     return judged(
         "The gait of section IV can be walked by the robot of section II (pinned foot, its motors)",
@@ -144,7 +146,7 @@ def _two(f: Figure) -> str:
     """A number, at both steps where they differ."""
     if f.converged(*convergence()):
         return f"{f.at_half:.2f}"
-    return f"{f.value:.2f} ({f.at_half:.2f} at half the step, not converged: F_N is nearly 0)"
+    return f"{f.value:.2f} (not converged, {f.at_half:.2f} at half the step)"
 
 
 def pinned_at_impact(needs: Sequence[Needs]) -> Claim:

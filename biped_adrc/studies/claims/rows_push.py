@@ -114,7 +114,7 @@ def walks_on(members: Members) -> Claim:
             o.member.name,
             o.walked["ADRC"].period,
             all(w.made for w in o.walked.values()),
-            not all(w.period.converged(*convergence()) for w in o.walked.values()),
+            not all(w.same and w.period.converged(*convergence()) for w in o.walked.values()),
         )
         for o in members
     ]
@@ -159,10 +159,11 @@ def unaffected(members: Members) -> Claim:
 
 def legal(members: Members) -> Claim:
     """Whether ground and motors could have given it."""
-    cases = [
-        Case(o.member.name, o.walked["ADRC"].period, o.walked["ADRC"].made and not reasons(o))
-        for o in members
-    ]
+    cases = []
+    for o in members:
+        adrc = o.walked["ADRC"]
+        holds = adrc.made and not reasons(o)
+        cases.append(Case(o.member.name, adrc.period, holds, not adrc.same))
     why = sorted({reason for o in members for reason in reasons(o)})
     return judged(
         "Under the push ADRC walks within the model of section II: the support leg stays pinned",

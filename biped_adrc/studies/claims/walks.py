@@ -39,6 +39,8 @@ class Walked(NamedTuple):
     """Of the pushed step [s]."""
     illegal: tuple[str, ...]
     """What the ground or the motors could not have given, by step."""
+    same: bool = True
+    """Whether the walk ends alike, and is legal or not alike, at half of the step."""
 
     @property
     def made(self) -> bool:
@@ -179,20 +181,33 @@ def walked(run: Run, start: str = "model") -> Walked:
     assert run.h is not None
     constraint, onset = made.gait.constraint, min(push.start for push in run.pushes)
     fine, half = (track(constraint, made.simulate(h, 1)) for h in (run.h, 0.5 * run.h))
-    survey = made.simulate(steps["later"], run.impacts)
-    events = survey.events(FOOT_STRIKE)
-    finite = all(bool(np.all(np.isfinite(arc.x))) for arc in survey.arcs)
-    why = illegal(watched(made.walker, made.gait, survey).certificates) if finite else ()
+    first, second = (_ending(made, h) for h in (steps["later"], 0.5 * steps["later"]))
     return Walked(
-        survey.status.name,
-        len(events),
+        *first[:2],
         run.impacts,
         Figure(fine.peak, half.peak),
         Figure(fine.away_from(usual, onset), half.away_from(usual, onset)),
         Figure(fine.rate - usual.rate, half.rate - usual.rate),
         Figure(fine.period, half.period),
-        why,
+        first.illegal,
+        first[:2] == second[:2] and bool(first.illegal) == bool(second.illegal),
     )
+
+
+class Ending(NamedTuple):
+    """How a walk ends."""
+
+    status: str
+    impacts: int
+    illegal: tuple[str, ...]
+
+
+def _ending(made: Prepared, h: float) -> Ending:
+    """Of all impacts of a run, with steps of h."""
+    walk = made.simulate(h, made.run.impacts)
+    finite = all(bool(np.all(np.isfinite(arc.x))) for arc in walk.arcs)
+    why = illegal(watched(made.walker, made.gait, walk).legality.supports) if finite else ()
+    return Ending(walk.status.name, len(walk.events(FOOT_STRIKE)), why)
 
 
 def tried(member: Member) -> MemberOutcome:
