@@ -9,6 +9,7 @@ import time
 
 import pytest
 
+from biped_adrc.cli import app
 from biped_adrc.errors import InputError
 from biped_adrc.studies.push import Push, parse_push
 
@@ -141,3 +142,39 @@ def test_pushes_from_text():
     for bad in ("", "q1@1:0-1", "q1=x@1:0-1", "q1,q2@1:0-1", "q1=1@0.5:0-1"):
         with pytest.raises(InputError, match="push"):
             parse_push(bad)
+
+
+def inside(*arguments):
+    """The command in this process."""
+    from typer.testing import CliRunner
+
+    return CliRunner().invoke(app, list(arguments))
+
+
+def test_simulate_says_what_ground_and_motors_had_to_give():
+    common = ("simulate", "--engine", "compiled", "--controller", "npd", "--impacts", "2")
+    legal = inside(*common)
+    assert legal.exit_code == 0
+    assert "it made all steps legally" in legal.output
+    assert "0.519" in legal.output  # the impulse's friction
+    strict = inside(*common, "--friction-limit", "0.3", "--force-window", "0.01")
+    assert strict.exit_code == 0
+    assert "not all of them legally" in strict.output
+    assert "over 10 ms" in strict.output
+    ended = inside(*common, "--friction-limit", "0.3", "--end-illegal")
+    assert ended.exit_code == 4
+    assert "ILLEGAL" in ended.output
+    assert "it ended otherwise" in ended.output
+    for option, value in (
+        ("--friction-limit", "0"),
+        ("--friction-limit", "2"),
+        ("--force-window", "-1"),
+    ):
+        assert isinstance(inside(*common, option, value).exception, InputError)
+
+
+def test_poincare_says_what_the_nominal_step_needs():
+    done = inside("poincare", "--robot", "compass", "--samples", "0")
+    assert done.exit_code == 0
+    assert "friction at impact 0.246" in done.output
+    assert "not legal: the swing foot scuffs" in done.output

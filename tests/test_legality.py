@@ -79,6 +79,11 @@ def test_friction_is_judged_in_the_mean_and_on_both_sides(walker):
             walker, handmade(t, np.full(len(t), 100.0), np.full(len(t), 70.0 * sign)), KNOWN
         )
         assert list(s.illegal()) == ["friction"]
+        assert s.share_outside == 1.0
+        slips = handmade(t, np.full(len(t), 100.0), np.where(t < 0.1, 0.0, 70.0 * sign))
+        first = first_violation(walker, slips, KNOWN)
+        assert first.t == pytest.approx(0.1 + 5e-3 * 60.0 / 70.0, abs=2 * H)
+        assert "friction" in first.what
         assert (s.mean_friction, s.friction) == pytest.approx((0.7, 0.7))
         assert not s.illegal(ba.Limits(friction=0.8))
     chatter = 90.0 * np.sign(np.sin(2.0 * np.pi * 1e3 * (t + 0.25 * H)))

@@ -6,19 +6,26 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
+from rich.markup import escape
 from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, bar, console
 from biped_adrc.errors import InputError
 
 if TYPE_CHECKING:
+    from biped_adrc.model.limits import Limits
     from biped_adrc.studies.passive_walk import PassiveWalk
 
-FITTING = ("robot", "preset", "impacts", "out")
+FITTING = ("robot", "preset", "impacts", "friction_limit", "force_window", "out")
 
 
 def simulate_passive(
-    context: typer.Context, robot: str, preset: str | None, impacts: int, out: Path | None
+    context: typer.Context,
+    robot: str,
+    preset: str | None,
+    impacts: int,
+    limits: Limits,
+    out: Path | None,
 ) -> None:
     """Walk, print the steps, write the run. Raises InputError for an option that needs motors."""
     from biped_adrc.hybrid.storage import save
@@ -31,7 +38,7 @@ def simulate_passive(
         walk = passive_walk(
             robot, impacts, preset=preset, progress=lambda t, n: shown.update(task, completed=n)
         )
-    _print_steps(walk)
+    _print_steps(walk, limits)
     if out is not None and out.suffix == ".mat":
         walk.export(out)
         console.print(f"written to {out}")
@@ -60,22 +67,29 @@ def _given(context: typer.Context, name: str) -> bool:
     return source is not None and source.name == "COMMANDLINE"
 
 
-def _print_steps(walk: PassiveWalk) -> None:
+def _print_steps(walk: PassiveWalk, limits: Limits) -> None:
+    from biped_adrc.analysis.certificate import ratio_text
     from biped_adrc.walker import FOOT_STRIKE
 
-    table = Table("step", "time [s]", "length [m]", "drop [m]", "friction", "F_N [N]", "lost [J]")
+    names = ("step", "time [s]", "length [m]", "drop [m]", "friction", "at impact", "F_N [N]")
+    table = Table(*map(escape, names), escape("lost [J]"))
     n, plant = walk.walker.plant.n, walk.walker.plant
     events = walk.trajectory.events(FOOT_STRIKE)
-    for c, event in zip(walk.certificates, events, strict=True):
+    for c, event in zip(walk.certified(limits), events, strict=True):
         table.add_row(
             f"{c.step}",
             f"{c.duration:.4f}",
             f"{c.step_length:.4f}",
             f"{-float(plant.swing_foot(event.x_minus[:n])[1]):.4f}",
-            f"{c.friction:.3f}",
-            f"{c.least_normal_force:.1f}",
+            ratio_text(c.mean_friction),
+            ratio_text(c.impulse_ratio),
+            f"{c.mean_normal_force:.1f}",
             f"{c.energy_lost:.4f}",
         )
     console.print(table)
     status = walk.trajectory.status
-    console.print(f"{status.name}: {status.value}\n{len(events)} impacts, {walk.note}")
+    legality = walk.legal_within(limits)
+    console.print(
+        f"{status.name}: {status.value}\n{len(events)} impacts, {walk.note}; friction and F_N in the mean of "
+        f"{1e3 * limits.window:g} ms\n{legality.text()}"
+    )

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from rich.markup import escape
 from rich.table import Table
 
 from biped_adrc.cli.app import (
@@ -22,6 +23,9 @@ from biped_adrc.cli.passive import simulate_passive
 from biped_adrc.errors import InputError
 
 if TYPE_CHECKING:
+    from biped_adrc.analysis.certificate import Certificate
+    from biped_adrc.analysis.legality import Legality
+    from biped_adrc.model.limits import Limits
     from biped_adrc.studies.runs import Outcome, Run
 
 
@@ -54,6 +58,20 @@ Friction = Annotated[bool, typer.Option("--friction", help="Add the robot's join
 Method = Annotated[str | None, typer.Option(help="rk4, exponential, feedback, adaptive or stiff.")]
 Engine = Annotated[str, typer.Option(help="pinocchio, or compiled: the same walk, much faster.")]
 StepSize = Annotated[float | None, typer.Option(help="Step of rk4 and exponential [s].")]
+FrictionLimit = Annotated[
+    float | None,
+    typer.Option(help="Friction of the ground for a legal step; the robot's record without."),
+]
+ForceWindow = Annotated[
+    float, typer.Option(help="Over which the force of the ground is averaged for that [s].")
+]
+EndIllegal = Annotated[
+    bool,
+    typer.Option(
+        "--end-illegal",
+        help="End at the first step that ground or motors could not carry; exit code 4, as for a fall.",
+    ),
+]
 Out = Annotated[
     Path | None, typer.Option("--out", "-o", help="Write the run (.npz), or its signals (.mat).")
 ]
@@ -79,15 +97,20 @@ def simulate(
     method: Method = None,
     step: StepSize = None,
     engine: Engine = "pinocchio",
+    friction_limit: FrictionLimit = None,
+    force_window: ForceWindow = 5e-3,
+    end_illegal: EndIllegal = False,
     out: Out = None,
 ) -> None:
-    """Walk, and print what each step needed."""
+    """Walk, and print what each step needed of the ground and of the motors."""
+    from biped_adrc.model.limits import Limits
     from biped_adrc.model.robots import load_description
     from biped_adrc.studies.runs import Run
 
+    limits = Limits(friction_limit, None, force_window)
     description = load_description(robot)
     if not description.actuated:
-        simulate_passive(context, robot, preset, impacts, out)
+        simulate_passive(context, robot, preset, impacts, limits, out)
         return
     extra: dict[str, Any] = {}
     if poles is not None:
@@ -111,10 +134,10 @@ def simulate(
         engine=engine,
         **extra,
     )
-    _walk(run, out)
+    _walk(run, limits, end_illegal, out)
 
 
-def _walk(run: Run, out: Path | None) -> None:
+def _walk(run: Run, limits: Limits, end_illegal: bool, out: Path | None) -> None:
     """Carry out a run, print it, and write it where it is asked for."""
     from biped_adrc.hybrid.storage import save
     from biped_adrc.studies.runs import execute_fully
@@ -123,8 +146,10 @@ def _walk(run: Run, out: Path | None) -> None:
     with bar() as shown:
         task = shown.add_task(f"walking, {run.controller}", total=run.impacts)
         full = execute_fully(run, lambda t, n: shown.update(task, completed=n))
+    if end_illegal:
+        full = full.until_illegal(limits)
     o = full.outcome
-    _print_steps(o)
+    _print_steps(o, full.legal_within(limits))
     if "why" in full.trajectory.settings:
         console.print(full.trajectory.settings["why"])
     if out is not None and out.suffix == ".mat":
@@ -137,22 +162,46 @@ def _walk(run: Run, out: Path | None) -> None:
         raise typer.Exit(EXIT_FELL)
 
 
-def _print_steps(o: Outcome) -> None:
-    table = Table("step", "time [s]", "length [m]", "torque [N m]", "friction", "F_N [N]", "remark")
-    for c in o.certificates:
+def _print_steps(o: Outcome, legality: Legality) -> None:
+    from biped_adrc.analysis.certificate import Certificate, ratio_text
+
+    names = ("step", "time [s]", "length [m]", "torque [N m]", "F_N [N]", "friction", "at impact")
+    table = Table(*map(escape, names), escape("scuffs [mm]"), "not legal")
+    for s in legality.supports:
+        c = s if isinstance(s, Certificate) else None
         table.add_row(
-            f"{c.step}",
-            f"{c.duration:.4f}",
-            f"{c.step_length:.4f}",
-            f"{c.peak_torque:.1f}",
-            f"{c.friction:.3f}",
-            f"{c.least_normal_force:.1f}",
-            "; ".join(c.violations()),
+            f"{s.step}",
+            f"{s.duration:.4f}",
+            f"{c.step_length:.4f}" if c else "",
+            f"{s.peak_torque:.1f}",
+            f"{s.mean_normal_force:.1f}",
+            ratio_text(s.mean_friction),
+            ratio_text(c.impulse_ratio) if c else "",
+            f"{1e3 * s.scuffing:.2g}",
+            ", ".join(name.replace("_", " ") for name in s.illegal()),
         )
     console.print(table)
     console.print(
+        f"F_N and friction: least and largest mean over {1e3 * legality.limits.window:g} ms\n"
         f"{o.status}: {o.message}\n{o.impacts} impacts, largest tracking error {o.peak_error:.3e} rad, "
-        f"peak torque {o.peak_torque:.1f} N m, {o.method}, engine {o.engine}"
+        f"peak torque {o.peak_torque:.1f} N m, {o.method}, engine {o.engine}\n{legality.text()}"
+    )
+    stays = [c.step for c in o.certificates if not c.old_foot_velocity > 0.0]
+    if stays:
+        console.print(f"the old stance foot does not lift off after steps {stays}")
+
+
+def _nominal(c: Certificate) -> str:
+    """What the step of a cycle needs, in a line."""
+    from biped_adrc.analysis.certificate import ratio_text
+
+    missed = "; ".join(c.illegal().values())
+    return (
+        f"its step: {c.step_length:.4f} m in {c.duration:.4f} s, peak torque {c.peak_torque:.1f} N m; in the "
+        f"mean of {1e3 * c.window:g} ms friction {ratio_text(c.mean_friction)}, "
+        f"F_N {c.mean_normal_force:.1f} N; "
+        f"friction at impact {ratio_text(c.impulse_ratio)}, limit {c.friction_limit:g}; "
+        f"{'not legal: ' + missed if missed else 'legal'}"
     )
 
 
@@ -184,7 +233,12 @@ def poincare(
     ] = 25,
 ) -> None:
     """Fixed point of the return map, and its multipliers by every method beside each other."""
-    from biped_adrc.studies.cycle_stability import PASSIVE, cycle_stability, find_cycle
+    from biped_adrc.studies.cycle_stability import (
+        PASSIVE,
+        cycle_stability,
+        find_cycle,
+        nominal_step,
+    )
 
     known = {"npd": "NPD", "adrc": "ADRC", PASSIVE: PASSIVE}
     name = None if controller is None else known.get(controller.lower(), controller)
@@ -196,6 +250,7 @@ def poincare(
     lines = (
         f"{robot}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}",
         "x- = " + " ".join(f"{value:.6f}" for value in o.x_minus[: 2 * walker.plant.n]),
+        _nominal(nominal_step(cycle, o)),
         f"residual {o.residual:.1e}; |lambda| by every method:",
         found.table.text(),
     )

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.control.passive import Passive
-from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw
+from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, terms
 from biped_adrc.engine.fingerprint import skeleton
 from biped_adrc.engine.kernels import methods
 from biped_adrc.engine.kernels.plan import Plan, plan
@@ -141,6 +141,13 @@ def _push(disturbance: Disturbance | None, n: int) -> Push:
             f"disturbance {type(disturbance).__name__} has no laws of arrays; the run goes on in Python on "
             "the compiled plant"
         )
+    for part in terms(disturbance):
+        forces = type(part).resultant is not Disturbance.resultant
+        if forces and all(law.resultant is None for law in part.laws or ()):
+            raise NotCompiled(
+                f"disturbance {type(part).__name__} has a resultant and no law of it; give "
+                "DisturbanceLaw(..., resultant=...), or the run goes on in Python on the compiled plant"
+            )
     numbers = [flatten(law.parameters) for law in laws]
     return Push(
         np.array([_address(law, n) for law in laws], dtype=np.int64),

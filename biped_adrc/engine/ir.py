@@ -114,6 +114,10 @@ class _Writer:
         self.loaded: dict[tuple[str, int], str] = {}
         self.count = 0
         self.calls = calls
+        self.negated: dict[str, str] = {}
+        """By the name of a NOT, what it is of."""
+        self.chosen: dict[str, tuple[str, str]] = {}
+        """By the name of a choice against zero, its condition and its value."""
         self.blocks: list[list[str]] = [self.block(call) for call in calls]
         self.made = 0
 
@@ -175,10 +179,16 @@ class _Writer:
             return self.new(f"uitofp i1 {bit} to double")
         if code == ca.OP_NOT:
             bit = self.new(f"fcmp oeq double {a[0]}, 0.0")
-            return self.new(f"uitofp i1 {bit} to double")
+            name = self.new(f"uitofp i1 {bit} to double")
+            self.negated[name] = a[0]
+            return name
         if code == ca.OP_IF_ELSE_ZERO:
             bit = self.new(f"fcmp une double {a[0]}, 0.0")
-            return self.new(f"select i1 {bit}, double {a[1]}, double 0.0")
+            name = self.new(f"select i1 {bit}, double {a[1]}, double 0.0")
+            self.chosen[name] = a[0], a[1]
+            return name
+        if code == ca.OP_ADD and (both := self.either(a[0], a[1])) is not None:
+            return both
         if code == ca.OP_SIGN:
             high = self.new(f"fcmp ogt double {a[0]}, 0.0")
             low = self.new(f"fcmp olt double {a[0]}, 0.0")
@@ -194,6 +204,15 @@ class _Writer:
         two = code in (ca.OP_ADD, ca.OP_SUB, ca.OP_MUL, ca.OP_DIV, ca.OP_FMIN, ca.OP_FMAX)
         two = two or code in (ca.OP_POW, ca.OP_CONSTPOW)
         return self.new(OPERATIONS[code](a[:1] if unary or not two else a))
+
+    def either(self, one: str, other: str) -> str | None:
+        """A sum of two choices of which one is made: CasADi's if_else(condition, a, b), in one choice."""
+        if one in self.chosen and other in self.chosen:
+            (condition, a), (against, b) = self.chosen[one], self.chosen[other]
+            if self.negated.get(against) == condition:
+                bit = self.new(f"fcmp une double {condition}, 0.0")
+                return self.new(f"select i1 {bit}, double {a}, double {b}")
+        return None
 
 
 def literal(x: float) -> str:

@@ -12,8 +12,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from biped_adrc.analysis.certificate import Certificate, certificates
 from biped_adrc.analysis.regression import Regression, regress_multipliers
 from biped_adrc.analysis.return_map import PeriodicOrbit, ReturnMap, after_impact
+from biped_adrc.analysis.signals import signals
 from biped_adrc.analysis.stability import (
     Method,
     Row,
@@ -27,10 +29,12 @@ from biped_adrc.control.passive import Passive
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, Adaptive
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.limits import Limits
 from biped_adrc.studies.runs import Run
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
@@ -136,6 +140,20 @@ def cycle_stability(
     orbit, step = periodic_orbit(P, cycle.guess, _SETTLES)
     table = stability_table(P, step, _regression(P, orbit, samples), t)
     return CycleStability(cycle, orbit, table)
+
+
+def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = None) -> Certificate:
+    """What the step at the fixed point asks of ground and motors. Raises SimulationError where it is none."""
+    P, walker = cycle.P, cycle.P.walker
+    start = after_impact(walker, 0.0, orbit.x_minus, Mode())
+    run = simulate(
+        walker, *start, P.method, t_end=walker.max_step_time, stop_after=(FOOT_STRIKE, 1)
+    )
+    if not run.status.ok:
+        raise SimulationError(f"the step of the cycle ended before: {run.status.name}")
+    none = np.zeros(walker.plant.p)
+    seen = signals(walker, run, TimeReference(lambda t: (none, none, none)))
+    return certificates(walker, run, seen, limits)[0]
 
 
 def _regression(P: ReturnMap, orbit: PeriodicOrbit, samples: int) -> Regression | None:

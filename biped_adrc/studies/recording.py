@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
@@ -58,10 +58,10 @@ class Recording(ABC):
     def legal_within(self, limits: Limits) -> Legality:
         """`legality` within other limits."""
         finished = self.certified(limits)
-        begun = supports(self.walker, self.trajectory, self.signals, limits)
+        rest = replace(self.trajectory, arcs=self.trajectory.arcs[len(finished) :])
         return Legality(
             self.trajectory.status,
-            (*finished, *begun[len(finished) :]),
+            (*finished, *supports(self.walker, rest, self.signals, limits)),
             max((c.impulse_ratio for c in finished), default=0.0),
             limits.of(self.walker.plant.description),
         )

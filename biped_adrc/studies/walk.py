@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Self
 
 from biped_adrc.analysis.legality import until_illegal
 from biped_adrc.engine.choice import PINOCCHIO, simulate_by
@@ -37,14 +38,14 @@ class Walk(Recording):
         gait = self.gait
         return f"{self.controller_name} on gait '{gait.name}', {gait.robot} {gait.preset}"
 
-    def until_illegal(self, limits: Limits | None = None) -> Walk:
+    def until_illegal(self, limits: Limits | None = None) -> Self:
         """The walk up to the first instant at which ground or motors could not have carried it.
 
         Its status is then ILLEGAL and its detail says which limit, when, and by how much. None: the limits
         of the robot's record.
         """
         cut = until_illegal(self.walker, self.trajectory, self.signals, limits)
-        return self if cut is self.trajectory else watched(self.walker, self.gait, cut)
+        return self if cut is self.trajectory else replace(self, trajectory=cut)
 
 
 def watched(walker: Walker, gait: Gait, trajectory: Trajectory) -> Walk:

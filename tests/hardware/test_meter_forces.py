@@ -292,3 +292,19 @@ def test_a_trial_says_whether_it_was_legal_and_why_not():
         refused = run_trial({**common, unit: bad})
         assert refused["status"] == "REFUSED"
         assert unit in refused["detail"]
+
+
+class Tied(ba.OnLink):
+    """A force on a link whose law says nothing of its resultant."""
+
+    @property
+    def laws(self):
+        return tuple(law._replace(resultant=None) for law in super().laws)
+
+
+def test_a_resultant_without_a_law_does_not_compile(biped, gait):
+    wave = ba.TorquePulse([-80.0, 40.0, 5.0], step=1, start=0.1, stop=0.2)
+    walker = walker_of(biped, gait, Tied(biped, biped.description.trunk, wave))
+    run = ba.walk(walker, gait, impacts=1, engine="compiled").trajectory
+    assert run.settings["engine"] != "compiled"
+    assert "Tied has a resultant and no law of it" in run.settings["why"]
