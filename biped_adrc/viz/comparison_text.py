@@ -71,11 +71,11 @@ def said(summary: Mapping[str, Any], equal: bool) -> list[str]:
 
 
 def interval(found: Sequence[float] | None, digits: int = 2, factor: float = 1.0) -> str:
-    """A number with its interval."""
+    """A number with its interval: so many digits, and 180 rather than 1.8e+02."""
     if found is None:
         return "–"
-    value, low, high = (factor * x for x in found)
-    return f"{value:.{digits}g} ({low:.{digits}g} to {high:.{digits}g})"
+    value, low, high = (f"{float(f'{factor * x:.{digits}g}'):g}" for x in found)
+    return f"{value} ({low} to {high})"
 
 
 def percent(found: Sequence[float] | None) -> str:

@@ -27,7 +27,7 @@ from biped_adrc.studies.bench.largest_push import (
     searches,
     whole_span,
 )
-from biped_adrc.studies.bench.run import COLUMNS
+from biped_adrc.studies.bench.run import COLUMNS, run_trial
 from biped_adrc.studies.bench.statistics import (
     holm,
     mcnemar,
@@ -363,3 +363,20 @@ def test_a_comparison_is_written_and_gone_on_with(tmp_path, monkeypatch):
     with pytest.raises(BipedError, match="other in conditions"):
         run_comparison(tmp_path, "the command", ("NPD",), ("nothing",), 2, False, Threads(1))
     assert (tmp_path / RESULTS).exists()
+
+
+def test_walks_of_rabbit_are_judged_by_the_ground(tmp_path):
+    """With encoders RABBIT makes all steps, and the ground would have to hold more than its friction."""
+    asked = (("NPD",), ("nothing", "encoders"), 2, False, Threads(2))
+    summary = run_comparison(tmp_path, "the command", *asked)
+    assert summary["walks"] == 5
+    assert summary["nominal"]["legal"]
+    assert summary["nominal"]["limits"]["friction"] == 0.6
+    assert 0.4 < summary["nominal"]["needs"]["mean_friction"] < 0.6
+    nothing, encoders = summary["cells"]
+    assert (nothing["survived"][0], nothing["legal"][0]) == (1.0, 1.0)
+    assert (encoders["survived"][0], encoders["legal"][0]) == (1.0, 0.0)
+    assert encoders["reasons"]["bad_friction"][0] == 1.0
+    assert encoders["peak_error"] is None
+    rows = [run_trial(Trial(**record("nothing", "NPD", seed)).record()) for seed in range(2)]
+    assert nothing["peak_error"][0] == np.median([r["peak_error"] for r in rows])

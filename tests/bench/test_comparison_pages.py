@@ -16,6 +16,7 @@ from biped_adrc.studies.bench.comparison import compare
 from biped_adrc.studies.bench.run import COLUMNS
 from biped_adrc.viz.comparison_figure import measure_figure, push_figure, survival_figure
 from biped_adrc.viz.comparison_page import comparison_html
+from biped_adrc.viz.comparison_text import interval
 from biped_adrc.viz.sweep_maps import Maps, cut, sweep_map_figure
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -186,3 +187,10 @@ def test_the_command_can_be_typed_again(monkeypatch):
     given = ["biped-adrc", "compare", "--conditions", "push on joints,delay"]
     monkeypatch.setattr(sys, "argv", given)
     assert command() == "biped-adrc compare --conditions 'push on joints,delay'"
+
+
+def test_intervals_are_written_without_powers_where_they_need_none():
+    assert interval([184.0, 171.0, 1234.0]) == "180 (170 to 1200)"
+    assert interval([1.26e-4, 0.0, -2e-5]) == "0.00013 (0 to -2e-05)"
+    assert interval([0.9166, 0.646, 1.0], 3, 100.0) == "91.7 (64.6 to 100)"
+    assert interval(None) == "–"

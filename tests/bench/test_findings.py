@@ -220,6 +220,30 @@ def test_legality_and_alike_speeds_have_to_hold_at_equal_bandwidth_too(equal, th
     assert len(lines) == int(there)
 
 
+def test_legality_that_turns_round_at_equal_bandwidth_is_not_said():
+    """Fewer legal walks than NPD at its own settings, more at equal bandwidth, both by McNemar's test."""
+
+    def walk(r):
+        most = 10 if r["controller"] == "NPD" else SEEDS if "bandwidth" in r else 0
+        return row(legal=int(r.get("seed", 0) < most))
+
+    assert not any("legal walks, in" in line for line in said(walk, ("NPD", "LESO")))
+
+
+def test_an_order_that_is_not_certain_does_not_change():
+    """LESO's error at its own settings is half of ADRC's or twice it, at equal bandwidth a sixth."""
+
+    def walk(r):
+        if r["controller"] == "ADRC":
+            return row(peak_error=1.0)
+        own = 0.5 if r.get("seed", 0) % 2 else 2.0
+        return row(peak_error=1.0 / 6.0 if "bandwidth" in r else own)
+
+    (line,) = said(walk, ("ADRC", "LESO"))
+    assert "ADRC to LESO 1 (0.5 to 2) and 6 (6 to 6) in 20 pairs" in line
+    assert "the order changes" not in line
+
+
 def limits(joints, torso=50.0):
     """Largest legal push of ADRC on joints and on the torso; 60 N m of NPD; all survive twice as much."""
 
@@ -252,6 +276,10 @@ def test_larger_pushes_have_to_hold_at_equal_bandwidth_too():
     for equal, there in ((90.0, True), (60.0, False), (30.0, False)):
         lines = pushed(limits(lambda r, x=equal: x if "bandwidth" in r else 100.0))
         assert len(lines) == int(there)
+    early = limits(
+        lambda r: 100.0 if "bandwidth" not in r or r["onset"] == PHASES["early"] else 60.0
+    )
+    assert pushed(early) == []
 
 
 def test_pushes_that_are_alike_go_both_ways_or_are_open_are_not_said():

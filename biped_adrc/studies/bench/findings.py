@@ -273,4 +273,6 @@ def _pushes(pushes: Sequence[Largest], name: str) -> Iterable[Question]:
 
 
 def _interval(x: Interval) -> str:
-    return f"{x.value:.2g} ({x.low:.2g} to {x.high:.2g})"
+    """Two digits, and 180 rather than 1.8e+02."""
+    value, low, high = (f"{float(f'{number:.2g}'):g}" for number in x)
+    return f"{value} ({low} to {high})"
