@@ -17,6 +17,12 @@ def ground_axes(slope: float) -> tuple[Array, Array]:
     return along, np.array([math.sin(slope), math.cos(slope)])
 
 
+def check_slope(slope: float) -> None:
+    """Raise InputError for a slope [rad] that is no ground."""
+    if not abs(slope) < 0.5 * math.pi:
+        raise InputError(f"the slope is {slope} rad, expected less than a right angle")
+
+
 @dataclass(frozen=True)
 class StepDown:
     """The ground on which single support `step` (from 1) ends lies `height` [m] below its stance foot.

@@ -57,3 +57,12 @@ def check_timing(timing: object) -> None:
     number = isinstance(timing, int | float) and not isinstance(timing, bool)
     meant = f"SampledTime({timing:g})" if number else "SampledTime(period)"
     raise InputError(f"timing is {timing!r}, expected {meant} or ContinuousTime()")
+
+
+def check_ends(max_step_time: float, fall_height: float) -> None:
+    """Raise InputError for a longest single support [s] or a height of a fall that are none, NaN among them."""
+    if not (max_step_time > 0.0 and fall_height < 1.0):
+        raise InputError(
+            f"max_step_time is {max_step_time} s and fall_height {fall_height}, expected a positive time and a "
+            "share of the height, below 1"
+        )

@@ -17,13 +17,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.base import Controller, Measurement, check_output, misshapen
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError, NotFiniteError, SimulationError
-from biped_adrc.ground import StepDown, StepUp
+from biped_adrc.ground import StepDown, StepUp, check_slope
 from biped_adrc.hardware import held
 from biped_adrc.hardware.held import Held, HeldParameters
-from biped_adrc.hardware.meter import Loads, Meter, metered
+from biped_adrc.hardware.meter import Meter, loads, metered
 from biped_adrc.hardware.motors import Line, Motors, acting, limited, mean_torque, sent
 from biped_adrc.hardware.sensors import Sensors, sense
 from biped_adrc.hybrid.status import Status
@@ -32,7 +32,7 @@ from biped_adrc.linear import solve
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.reduction import Reduction, unknown_force
 from biped_adrc.split import SplitLaws, error_laws, loop_laws, split_of
-from biped_adrc.timing import ContinuousTime, SampledTime, check_timing
+from biped_adrc.timing import ContinuousTime, SampledTime, check_ends, check_timing
 from biped_adrc.types import Array
 
 FOOT_STRIKE = "foot_strike"
@@ -89,8 +89,7 @@ class Walker(HybridSystem):
     impact_gain: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        if not abs(self.slope) < 0.5 * math.pi:
-            raise InputError(f"the slope is {self.slope} rad, expected less than a right angle")
+        check_slope(self.slope)
         limit = self.torque_limit
         if limit is not None and not (math.isfinite(limit) and limit > 0):
             raise InputError(f"the torque limit is {limit} N m, expected a positive number or None")
@@ -98,16 +97,11 @@ class Walker(HybridSystem):
             raise InputError(
                 f"the model has {self.model.n} coordinates, the plant {self.plant.n}; they must agree"
             )
-        if not (self.max_step_time > 0.0 and self.fall_height < 1.0):  # nor NaN
-            raise InputError(
-                f"max_step_time is {self.max_step_time} s and fall_height {self.fall_height}, expected a "
-                "positive time and a share of the height, below 1"
-            )
+        check_ends(self.max_step_time, self.fall_height)
         check_timing(self.timing)
         parts = (self.sensors, self.motors, self.meter)
         held.check_parts(self.plant.n, self.timing, *parts, self.impact_gain)
 
-    # -- parts -----------------------------------------------------------------------------------
     @cached_property
     def nominal(self) -> Biped:
         """The model the controller knows; the plant itself when none was given."""
@@ -173,23 +167,16 @@ class Walker(HybridSystem):
         mode = Mode() if mode is None else mode
         m = self.measure(mode.start, np.asarray(q, dtype=float), np.asarray(v, dtype=float), mode)
         s = self.law.initial_state(m)
-        u = np.asarray(self.law.output(s, m))
-        if u.shape != (self.plant.p,):
-            raise InputError(_misshapen(self, u))
-        if not np.all(np.isfinite(u)):
-            raise NotFiniteError(
-                f"{type(self.controller).__name__}.output returned {u} at the start"
-            )
+        check_output(self.controller, np.asarray(self.law.output(s, m)), self.plant.p)
         if self.held is None:
             return np.concatenate((m.q, m.v, s))
         return np.concatenate((m.q, m.v, s, held.at_start(self.held, m.q, m.v, self.sensors)))
 
-    # -- laws ------------------------------------------------------------------------------------
     def saturate(self, u: Array) -> Array:
         """u within the torque limit. Raises NotFiniteError, SimulationError for another number of torques."""
         u = np.asarray(u, dtype=float)
         if u.shape != (self.plant.p,):
-            raise SimulationError(_misshapen(self, u))
+            raise SimulationError(misshapen(self.controller, u, self.plant.p))
         if self.torque_limit is not None:
             u = np.minimum(np.maximum(u, -self.torque_limit), self.torque_limit)
         if not math.isfinite(u.dot(u)):
@@ -242,20 +229,16 @@ class Walker(HybridSystem):
         self, t: float, g: Array, q: Array, v: Array, line: Line, terms: Reduction, mode: Mode
     ) -> Array:
         """The meter's state after a tick at which `line` is sent."""
-        k, plant, push = self.held, self.plant, self.disturbance
+        k = self.held
         assert k is not None
         u, mean = held.motor_torque(line), mean_torque(k.motors, line)
         zeta = self._external(t, q, v, mode)
         a = self._acceleration(terms, q, v, self._force(u, zeta))
-        force, impulse = plant.ground_reaction(q, v, a), np.zeros(2)
-        if push is not None:
-            force = force - push.resultant(t, mode.step, mode.start)
-            impulse = push.impulse(t - k.meter.period, t, mode.step, mode.start)
-        momentum, foot = plant.momentum(q, v), plant.swing_foot(q)
-        loads = Loads(momentum, force, impulse, foot, self.drop(mode.step))
+        since, drop = (t - k.meter.period, t), self.drop(mode.step)
+        asked = loads(self.plant, self.disturbance, since, mode, q, v, a, drop)
         unknown = self.unknown(terms, a, u, zeta)
-        since = t - mode.start
-        return metered(k.meter, g, q, v, u, mean, unknown, terms, mode.step, since, loads)
+        given = (q, v, u, mean, unknown, terms, mode.step, t - mode.start, asked)
+        return metered(k.meter, g, *given)
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
         if self.sampled:
@@ -317,7 +300,6 @@ class Walker(HybridSystem):
             return ()
         return self.disturbance.switching_times(mode.step, mode.start)
 
-    # -- impact ----------------------------------------------------------------------------------
     def strike(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode] | None:
         """x+ after impact and relabelling; None unless the swing foot is ahead of the stance foot."""
         if self.plant.swing_foot(x[: self.plant.n])[0] <= LEAST_STEP:
@@ -389,7 +371,6 @@ class Walker(HybridSystem):
             ),
         )
 
-    # -- exponential method ----------------------------------------------------------------------
     def split_laws(self, feedback: bool = False) -> SplitLaws | None:
         """The laws behind `split`, or behind `feedback_split`, which raises InputError and says why not."""
         n, p = self.plant.n, self.plant.p
@@ -417,10 +398,3 @@ class Walker(HybridSystem):
         """
         laws = self.split_laws(feedback=True)
         return None if laws is None else split_of(self, laws, mode)
-
-
-def _misshapen(walker: Walker, u: Array) -> str:
-    return (
-        f"{type(walker.controller).__name__}.output returned an array of shape {u.shape}, expected "
-        f"({walker.plant.p},): one torque [N m] per motor"
-    )

@@ -15,7 +15,7 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import ErrorSystem, Estimate
 from biped_adrc.types import Array
@@ -131,3 +131,19 @@ class Controller(ABC):
     def estimate(self, s: Array, m: Measurement) -> Estimate | None:
         """What an observer inside says; None without one."""
         return None
+
+
+def misshapen(controller: Controller, u: Array, p: int) -> str:
+    """What is said of an output u that is not one torque for each of p motors."""
+    return (
+        f"{type(controller).__name__}.output returned an array of shape {u.shape}, expected ({p},): one torque "
+        "[N m] per motor"
+    )
+
+
+def check_output(controller: Controller, u: Array, p: int) -> None:
+    """Raise InputError for a first output that is not one torque per motor, NotFiniteError for NaN."""
+    if u.shape != (p,):
+        raise InputError(misshapen(controller, u, p))
+    if not np.all(np.isfinite(u)):
+        raise NotFiniteError(f"{type(controller).__name__}.output returned {u} at the start")

@@ -5,10 +5,9 @@
     strike  (t, step, x) -> x+                           (7), (8), relabelling, and the controller's jump
     watch   (q) -> clearance, x of the swing foot, height of the hip
 
-`outside` are five numbers for the meter: the resultant of the forces from outside (2) [N], their impulse
-since the last tick (2) [N s], and how far the ground falls to where the step ends [m].
-flow, tick and strike add, after x, the least pivot of the matrices inverted by the controller. With coordinates
-for the exponential method there are `to`, `back` and `remainder`.
+`outside`, for the meter: forces from outside (2) [N], their impulse since the last tick (2) [N s], drop [m].
+flow, tick and strike add, after x, the least pivot of the matrices inverted by the controller. The exponential
+method has `to`, `back` and `remainder`.
 """
 
 from __future__ import annotations
@@ -22,6 +21,7 @@ import numpy as np
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.engine import mechanics
 from biped_adrc.engine.called import Call, call, result_size
+from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.mechanics import Structure
 from biped_adrc.engine.plant import PlantArrays
 from biped_adrc.engine.symbols import (
@@ -44,7 +44,7 @@ from biped_adrc.hardware.held import (
     read,
     written,
 )
-from biped_adrc.hardware.meter import Loads, metered
+from biped_adrc.hardware.meter import metered
 from biped_adrc.hardware.motors import acting, limited, mean_torque, sent
 from biped_adrc.hardware.sensors import sense
 from biped_adrc.model.biped import STICTION_SPEED
@@ -52,9 +52,6 @@ from biped_adrc.model.reduction import Reduction, reduce, unknown_force
 from biped_adrc.observers.base import Estimate
 from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
-
-OUTSIDE = 5
-"""Numbers for the meter."""
 
 
 class Numbers(NamedTuple):
@@ -176,7 +173,6 @@ class Equations:
             found |= {"to": self.to, "back": self.back, "remainder": self.remainder}
         return found
 
-    # -- parts -------------------------------------------------------------------------------------
     def terms(self, trace: Tracer, q: Any, v: Any) -> Reduction:
         """The nominal model's."""
         robot, numbers = self.make.robot, self.numbers
@@ -249,7 +245,6 @@ class Equations:
         except Exception as error:  # whatever NumPy says of an object that is no float
             raise Untraceable(f"{type(error).__name__}: {error}", name) from error
 
-    # -- functions ---------------------------------------------------------------------------------
     def flow(self) -> Function:
         """x' between events."""
         at = self.at()
@@ -300,23 +295,18 @@ class Equations:
 
     def metered(self, at: At, true: Measurement, u: Any, mean: Any, a: Any) -> Any:
         """The meter's state after a tick."""
-        robot, plant, k = self.make.robot, self.numbers.plant, self.numbers.held
+        k, q, v = self.numbers.held, true.q, true.v
         assert isinstance(k, HeldParameters)
         assert at.held is not None
-        q, v, t = true.q, true.v, mechanics.turned(self.make.robot, true.q)
-        force = mechanics.ground_reaction(robot, plant, q, v, a) - at.outside[:2]
-        foot = np.array(mechanics.point(t, plant.foot_re, plant.foot_im), dtype=object)
-        momentum = mechanics.momentum(robot, plant, q, v)
-        loads = Loads(momentum, force, at.outside[2:4], foot, at.outside[4])
+        loads = mechanics.loads(self.make.robot, self.numbers.plant, q, v, a, at.outside)
         unknown = self.unknown(true.terms, a, u, at.zeta)
         given = (q, v, u, mean, unknown, true.terms, true.step, true.t_step, loads)
         return at.trace(metered)(k.meter, at.held.g, *given)
 
     def unknown(self, terms: Reduction, a: Any, u: Any, zeta: Any) -> Any:
         """xi~ of (11), as `Walker.unknown`."""
-        if self.numbers.model is None and not self.numbers.friction:
-            return zeta
-        return unknown_force(terms, a, u)
+        known = self.numbers.model is None and not self.numbers.friction
+        return zeta if known else unknown_force(terms, a, u)
 
     def strike(self) -> Function:
         """x after impact, relabelling and the controller's jump."""

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from biped_adrc.engine.plant import PlantArrays
 from biped_adrc.engine.symbols import cos, sin, solve_positive
+from biped_adrc.hardware.meter import Loads
 from biped_adrc.model.reduction import BodyTerms
 from biped_adrc.types import Array
 
@@ -121,6 +122,14 @@ def ground_reaction(robot: Structure, K: PlantArrays, q: Any, v: Any, a: Any) ->
 def momentum(robot: Structure, K: PlantArrays, q: Any, v: Any) -> Any:
     """m p_com' (2,) [N s]."""
     return jacobian(robot, turned(robot, q), K.w_re, K.w_im) @ v
+
+
+def loads(robot: Structure, K: PlantArrays, q: Any, v: Any, a: Any, outside: Any) -> Loads:
+    """What the meter looks at, for q'' = a; outside (5,): force [N], impulse [N s], drop of the ground [m]."""
+    t = turned(robot, q)
+    force = ground_reaction(robot, K, q, v, a) - outside[:2]
+    foot = np.array(point(t, K.foot_re, K.foot_im), dtype=object)
+    return Loads(momentum(robot, K, q, v), force, outside[2:4], foot, outside[4])
 
 
 def impact(robot: Structure, K: PlantArrays, q: Any, v: Any) -> tuple[Any, Any, Any]:

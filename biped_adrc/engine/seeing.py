@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.engine.compiled_biped import pointer_call
-from biped_adrc.engine.equations import OUTSIDE, Make
+from biped_adrc.engine.equations import Make
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
 from biped_adrc.engine.ir import module_text
+from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.machine import Machine, Text, machine
 from biped_adrc.engine.observe import Observation, Seen, Watched, shapes
 from biped_adrc.engine.program import HARDWARE, NotCompiled, Program

@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, virtual_constraint
 from biped_adrc.ground import ground_axes
@@ -116,6 +117,27 @@ class Loads(NamedTuple):
     """Swing foot from the stance foot (2,) [m]."""
     drop: float
     """How far this single support ends below its stance foot [m]."""
+
+
+def loads(
+    plant: Biped,
+    push: Disturbance | None,
+    since: tuple[float, float],
+    mode: tuple[int, float],
+    q: Array,
+    v: Array,
+    a: Array,
+    drop: float,
+) -> Loads:
+    """What the plant asks of the ground at (q, v, q'').
+
+    since: the last tick and this one [s]; mode: number of the single support and its start [s].
+    """
+    force, impulse = plant.ground_reaction(q, v, a), np.zeros(2)
+    if push is not None:
+        force = force - push.resultant(since[1], *mode)
+        impulse = push.impulse(*since, *mode)
+    return Loads(plant.momentum(q, v), force, impulse, plant.swing_foot(q), drop)
 
 
 def metered(
