@@ -108,7 +108,8 @@ def test_the_page_says_first_that_settings_are_not_alike(summary):
         )
     ]
     assert order == sorted(order)
-    assert "the order changes" in html
+    assert html.index('id="equal"') < html.index("the order changes") < html.index('id="table"')
+    assert html.index("ADRC 0.1 (0.1 to 0.1) in 20 pairs") < html.index('id="equal"')
     none = comparison_html(summary | {"findings": {}, "equal_bandwidth": [], "pushes": []}, {})
     assert "No difference is carried by its test." in none
     assert "At equal bandwidth" not in none
