@@ -5,7 +5,7 @@
     strike  (t, step, x) -> x+                           (7), (8), relabelling, and the controller's jump
     watch   (q) -> clearance, x of the swing foot, height of the hip
 
-`outside`, for the meter: forces from outside (2) [N], their impulse since the last tick (2) [N s], drop [m].
+`outside` is for the meter: forces [N], their impulse since the last tick [N s], drop of the ground [m].
 flow, tick and strike add, after x, the least pivot of the matrices inverted by the controller. The exponential
 method has `to`, `back` and `remainder`.
 """

@@ -48,13 +48,15 @@ def _row(o: Outcome) -> list[Any]:
         o.run.controller,
         o.run.preset,
         o.status,
+        o.legality.outcome,
         o.impacts,
         o.peak_error,
         None if o.half is None else o.half.peak_error,
         o.rms_error,
         o.peak_torque,
         float(np.median([s.duration for s in steps])) if steps else None,
-        max((s.friction for s in steps), default=None),
+        o.legality.mean_friction,
+        o.legality.mean_normal_force,
         max((s.impulse_ratio for s in steps), default=None),
         o.method,
         o.engine,
@@ -62,10 +64,9 @@ def _row(o: Outcome) -> list[Any]:
 
 
 def _runs(r: Results) -> dict[str, Any]:
-    columns = ["run", "controller", "preset", "status", "impacts", "peak error [rad]"]
-    columns += ["at half the step [rad]", "rms error [rad]", "peak torque [N m]"]
-    columns += ["median step [s]", "friction needed"]
-    columns += ["impulse ratio", "method", "engine"]
+    columns = ["run", "controller", "preset", "status", "outcome", "impacts", "peak error [rad]"]
+    columns += ["at half the step [rad]", "rms error [rad]", "peak torque [N m]", "median step [s]"]
+    columns += ["mean friction", "mean F_N [N]", "impulse ratio", "method", "engine"]
     named = {
         k: v
         for k, v in r.items()

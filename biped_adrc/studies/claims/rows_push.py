@@ -198,6 +198,6 @@ def critical_phase(members: Members) -> Claim:
             number,
             "neither the phase nor the push is printed, and no push of the set throws either "
             "controller; "
-            "stronger ones are a study of their own",
+            "stronger ones are on the page docs/critical_phase.md",
         )
     return judged(claim, "VI", tally, number, "over the members in which NPD is lost")
