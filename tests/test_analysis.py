@@ -11,7 +11,6 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.studies.checks import at_least, at_most, between
 from biped_adrc.studies.poincare import speed_slope
 from biped_adrc.studies.push import Push
-from biped_adrc.studies.push_map import Tried, push_map
 from biped_adrc.studies.runs import Run, execute, from_record
 
 
@@ -91,16 +90,6 @@ def test_checks_do_not_hold_for_nan():
     assert not at_least("a", "law", float("nan"), 1.0).holds
     assert not between("a", "law", 3.0, 1.0, 2.0).holds
     assert at_most("a", "law", float("inf"), 1.0).record()["value"] == "inf"
-
-
-def test_the_push_map_knows_a_push_that_only_npd_falls_from():
-    """A late push on the hips of RABBIT without rotor inertia; an early one both walk through."""
-    tried = [Tried(0.3, 150.0, "hips together", None), Tried(0.05, 90.0, "swing knee +", None)]
-    late, _ = push_map(Run(preset="identified-bare"), tried)
-    assert late.verdict == "only NPD falls"
-    assert late.row()["onset_ms"] == pytest.approx(300.0)
-    (early,) = push_map(Run(), tried[1:])
-    assert early.verdict == "both walk"
 
 
 def test_runs_are_records_and_come_back():

@@ -73,7 +73,12 @@ def test_the_map_is_drawn_of_every_word():
     figure = push_map_figure(rows)
     texts = {text.get_text() for text in figure.legends[0].get_texts()}
     assert texts == {text for text, _, _ in FATES.values()}
-    assert len(figure.axes[0].patches) == 2 * len(rows)
+    (axes,) = figure.axes
+    assert [patch.get_hatch() for patch in axes.patches[::2]] == [h for _, _, h in FATES.values()]
+    assert {patch.get_hatch() for patch in axes.patches[1::2]} == {""}
+    assert "NPD 1, ADRC 6 of 6" in axes.get_title(loc="left")
+    assert (axes.get_xlabel()[-4:], axes.get_ylabel()[-5:]) == ("[ms]", "[N m]")
+    assert "unlimited" in axes.get_title(loc="left")
     with pytest.raises(InputError, match="at least one"):
         push_map_figure([])
 

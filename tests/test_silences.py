@@ -55,7 +55,6 @@ def test_counts_are_whole_numbers_from_one(count, engine, walker, gait):
     for name, said in (
         ("impacts", f"the walk asks for {count} impacts"),
         ("first_step", f"begins in single support {count}"),
-        ("store_every", f"store_every is {count}"),
     ):
         with pytest.raises(InputError, match=re.escape(f"{said}, expected a whole number")):
             ba.walk(walker, gait, engine=engine, **{"impacts": 1, name: count})
@@ -89,7 +88,7 @@ def test_a_case_of_a_batch_asks_for_whole_impacts(count, walker, gait, biped):
 
 
 def test_counts_of_numpy_are_counts(walker, gait):
-    made = ba.walk(walker, gait, np.int64(1), engine="compiled", store_every=np.int32(2))
+    made = ba.walk(walker, gait, np.int64(1), engine="compiled", first_step=np.int32(2))
     assert made.trajectory.status.ok
 
 

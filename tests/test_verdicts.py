@@ -233,6 +233,7 @@ def stubbed(monkeypatch):
             "save": lambda *_: None,
             "draw_all": lambda *_: {},
             "_animate": lambda *_: "",
+            "_stored": lambda *_: None,
         }
         for name, value in replaced.items():
             monkeypatch.setattr(reproduction, name, value)

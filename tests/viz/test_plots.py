@@ -29,7 +29,6 @@ from biped_adrc.viz.figures import (
     comparison_figure,
     multiplier_figure,
     phase_figure,
-    push_map_figure,
     return_map_figure,
     tracking_figure,
 )
@@ -295,37 +294,6 @@ def test_unknown_figures_are_refused(pushed: dict[str, Walk]) -> None:
         draw("pie", pushed)
     with pytest.raises(InputError, match="at least one"):
         draw("energy", {})
-
-
-def test_push_map_figure() -> None:
-    rows = [
-        {
-            "onset_ms": o,
-            "amplitude": a,
-            "pattern": "all +",
-            "torque_limit": limit,
-            "npd": n,
-            "adrc": d,
-        }
-        for limit in (None, 150.0)
-        for o, a, n, d in (
-            (0.0, 30.0, True, True),
-            (100.0, 30.0, False, True),
-            (0.0, 60.0, False, False),
-        )
-    ]
-    figure = push_map_figure(rows)
-    assert len(figure.axes) == 2
-    assert [len(axes.patches) for axes in figure.axes] == [3, 3]
-    assert [patch.get_hatch() for patch in figure.axes[0].patches] == ["", "///", "xxx"]
-    assert "unlimited" in figure.axes[0].get_title(loc="left")
-    assert "NPD falls 2, ADRC 1 of 3" in figure.axes[1].get_title(loc="left")
-    assert figure.axes[0].get_xlabel().endswith("[ms]")
-    assert figure.axes[0].get_ylabel().endswith("[N m]")
-    texts = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert texts == ["both walk", "only NPD falls", "only ADRC falls", "both fall"]
-    with pytest.raises(InputError, match="no cells"):
-        push_map_figure([])
 
 
 @pytest.mark.parametrize("pose", ["default", "x*"])
