@@ -234,6 +234,7 @@ def stubbed(monkeypatch):
             "draw_all": lambda *_: {},
             "_animate": lambda *_: "",
             "_stored": lambda *_: None,
+            "_three_steps": lambda _: {},
         }
         for name, value in replaced.items():
             monkeypatch.setattr(reproduction, name, value)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.studies.plan import BOTH, Plan
+from biped_adrc.studies.plan import BOTH, RISE, Plan
 from biped_adrc.studies.push_map import counts
 from biped_adrc.studies.verdicts import Results, distance
 
@@ -26,11 +26,13 @@ def findings(plan: Plan, r: Results, cells: list[Any]) -> list[str]:
 
 def _push(plan: Plan, r: Results) -> str:
     npd, adrc = (r[f"headline {c}"].outcome for c in BOTH)
+    slow = [r[f"rising push {c}"] for c in BOTH]
     pushes = "; ".join(push.in_words() for push in plan.pushes)
     return (
         f"Under the push ({pushes}) NPD makes {npd.impacts} and ADRC {adrc.impacts} of "
-        f"{npd.run.impacts} impacts. The largest tracking error is {npd.peak_error:.1e} rad under NPD "
-        f"and {adrc.peak_error:.1e} rad under ADRC."
+        f"{npd.run.impacts} impacts. The largest tracking error is {npd.peak_error:.3g} rad under NPD "
+        f"and {adrc.peak_error:.3g} rad under ADRC; where the push rises and falls in {1e3 * RISE:g} ms "
+        f"{slow[0].peak_error:.3g} and {slow[1].peak_error:.3g} rad."
     )
 
 

@@ -122,6 +122,9 @@ def base_runs(plan: Plan) -> dict[str, Run]:
         run = stepped(Run(c, preset=plan.preset))
         for preset in plan.presets:
             runs[f"nominal {preset} {c}"] = replace(run, preset=preset)
+        rising = tuple(replace(push, rise=RISE) for push in plan.pushes)
+        first = min(push.step for push in plan.pushes)
+        runs[f"rising push {c}"] = replace(run, pushes=rising, first_step=first, impacts=2)
         runs[f"sine {c}"] = replace(run, pushes=(SINE,), first_step=17, impacts=9)
         runs[f"torso {c}"] = replace(run, pushes=(TORSO,), first_step=17, impacts=9)
         runs[f"1 kHz {c}"] = Run(c, preset=plan.preset, pushes=plan.pushes, period=1e-3, h=1e-3)

@@ -25,7 +25,7 @@ from biped_adrc.studies.checks import Check
 from biped_adrc.studies.claims.gathered import gathered
 from biped_adrc.studies.claims.table import PREFACE, claims
 from biped_adrc.studies.claims.words import MEANINGS, claim_checks
-from biped_adrc.studies.convergence import records
+from biped_adrc.studies.convergence import observed_order, records
 from biped_adrc.studies.figures import push_window
 from biped_adrc.studies.findings import findings
 from biped_adrc.studies.laws import work_identity
@@ -88,6 +88,7 @@ def reproduce(
         "multipliers": {
             c: results[f"multipliers {c}"].record() for c in BOTH if f"multipliers {c}" in results
         },
+        "headline": {c: _three_steps(verdicts.headline_of(results, c)) for c in BOTH},
         "convergence": list(records(verdicts.run_twice(results))),
         "regression": {c: results[f"regression {c}"].record() for c in BOTH},
         "push_map": [cell.row() for cell in cells],
@@ -151,6 +152,16 @@ def _settings(plan: Plan) -> dict[str, Any]:
         "Table I, observer eigenvalues [rad/s]": list(TABLE_I),
         "Table II": {"K_p": TABLE_II.K_p, "K_d": TABLE_II.K_d},
     }
+
+
+def _three_steps(head: Headline) -> dict[str, Any]:
+    """The largest error under the push at the step used, at half and at a quarter of it, and the order."""
+    o = head.outcome
+    assert o.half is not None
+    assert o.half.half is not None
+    peaks = [x.peak_error for x in (o, o.half, o.half.half)]
+    order = observed_order(o, lambda x: x.peak_error)
+    return {"step": o.run.fine, "peak_error": peaks, "order": order}
 
 
 STORED_APART = 1e-3

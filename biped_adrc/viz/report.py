@@ -120,7 +120,7 @@ def report_html(
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">\n'
-        f"<title>The paper, reproduced: preset {text(summary.get('preset', ''))}</title>\n"
+        f"<title>The paper, replicated: preset {text(summary.get('preset', ''))}</title>\n"
         f'<style>{style}</style>\n</head>\n<body>\n<a class="skip" href="#content">to the content</a>\n'
         f'<main id="content">\n{_head(summary)}\n<nav aria-label="parts"><ul>{links}</ul></nav>\n'
         + "\n".join(section(name, title, body) for name, (title, body) in shown.items())
@@ -137,7 +137,7 @@ def _head(summary: Mapping[str, Any]) -> str:
     wall = summary.get("wall_time_s")
     took = f" It took {wall:.0f} s." if isinstance(wall, int | float) else ""
     return (
-        "<header>\n<h1>The paper, reproduced</h1>\n"
+        "<header>\n<h1>The paper, replicated</h1>\n"
         f"<blockquote>{text(PAPER)}</blockquote>\n"
         f"<p>Robot parameters: preset <b>{text(summary.get('preset', ''))}</b>.{took} "
         f"Command: <code>{text(summary.get('command', ''))}</code></p>\n"
