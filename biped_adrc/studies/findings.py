@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.studies.plan import BOTH, RISE, Plan
-from biped_adrc.studies.push_map import counts
+from biped_adrc.studies.push_map import certain, counts
 from biped_adrc.studies.verdicts import Results, distance
 
 
@@ -87,11 +87,12 @@ def _stability(r: Results) -> str:
 
 def _map(cells: list[Any]) -> list[str]:
     parts = []
-    for name, found in counts(cells).items():
+    for name, found in counts(certain(cells)).items():
         total = sum(found["NPD"].values())
         npd, adrc = found["NPD"], found["ADRC"]
         parts.append(
-            f"of {total} pushes NPD falls in {npd['fell']} and walks on legally in {npd['legal']}, "
+            f"of {total} pushes that are not marginal NPD falls in {npd['fell']} and walks on legally in "
+            f"{npd['legal']}, "
             f"ADRC falls in {adrc['fell']} and walks on legally in {adrc['legal']} ({name})"
         )
     return ["The map of pushes: " + "; ".join(parts) + "."]
