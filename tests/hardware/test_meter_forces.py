@@ -2,17 +2,20 @@
 
 from dataclasses import replace
 
+import casadi as ca
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.certificate import forces
 from biped_adrc.analysis.window import integral
+from biped_adrc.engine.symbols import Scalar, Tracer
 from biped_adrc.hardware.meter import (
     READINGS,
     Loads,
     Meter,
     Reading,
+    greater,
     metered,
     metered_impact,
     reading,
@@ -308,3 +311,14 @@ def test_a_resultant_without_a_law_does_not_compile(biped, gait):
     run = ba.walk(walker, gait, impacts=1, engine="compiled").trajectory
     assert run.settings["engine"] != "compiled"
     assert "Tied has a resultant and no law of it" in run.settings["why"]
+
+
+@pytest.mark.parametrize(("a", "b"), [(1.0, np.nan), (np.nan, 1.0), (np.nan, np.nan)])
+def test_a_peak_that_is_no_number_stays_none(a, b):
+    assert np.isnan(greater(a, b))
+    assert np.isnan(greater(greater(1.0, a), greater(b, 2.0)))
+    one, other = ca.SX.sym("a"), ca.SX.sym("b")
+    traced = Tracer()(greater)(Scalar(one), Scalar(other)).e
+    compiled = ca.Function("greater", [one, other], [traced])
+    assert np.isnan(float(compiled(a, b)))
+    assert (float(compiled(1.0, 2.0)), float(compiled(2.0, 1.0))) == (2.0, 2.0)
