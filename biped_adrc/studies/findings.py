@@ -50,7 +50,7 @@ def _heavier(r: Results) -> str:
 
 def _fixed_point(plan: Plan, r: Results) -> str:
     walks = [r[f"nominal {p} {c}"] for p in plan.presets for c in BOTH]
-    gap = max(distance(o) for o in walks)
+    gap = float(np.max([distance(o) for o in walks]))
     return (
         f"After {walks[0].run.impacts} undisturbed impacts the gait designed through the published x* "
         f"is at most {gap:.1e} from it, under both controllers, in: {', '.join(plan.presets)}."
@@ -69,7 +69,7 @@ def _recipe(plan: Plan, r: Results) -> str:
     torques = [f.record["peak_torque"] for f in stable]
     return (
         f"{text}, no component of its state more than {gap:.2g} (rad, rad/s) from x*; its torque peaks "
-        f"between {min(torques):.0f} and {max(torques):.0f} N m, where RABBIT's motors give 150."
+        f"between {np.min(torques):.0f} and {np.max(torques):.0f} N m, where RABBIT's motors give 150."
     )
 
 
@@ -100,6 +100,9 @@ def _map(cells: list[Any]) -> list[str]:
 
 def _torso(r: Results) -> str:
     npd, adrc = (r[f"torso {c}"] for c in BOTH)
+    short = [f"{o.run.controller} makes no step" for o in (npd, adrc) if len(o.durations) == 0]
+    if short:
+        return f"Under a push on the unactuated torso {' and '.join(short)}."
     usual = float(npd.durations[0])
     slow = [float(o.durations[np.argmax(np.abs(o.durations - usual))]) for o in (npd, adrc)]
     return (

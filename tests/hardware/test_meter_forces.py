@@ -2,18 +2,21 @@
 
 from dataclasses import replace
 
+import casadi as ca
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.certificate import depths, forces
 from biped_adrc.analysis.window import integral
+from biped_adrc.engine.symbols import Scalar, Tracer
 from biped_adrc.hardware.meter import (
     READINGS,
     Hit,
     Loads,
     Meter,
     Reading,
+    greater,
     metered,
     metered_impact,
     reading,
@@ -383,3 +386,14 @@ def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
     deep[middle] = -0.002
     dipped = replace(s, swing_foot=np.column_stack((s.swing_foot[:, 0], deep)))
     assert np.max(depths(up, dipped, True)) == pytest.approx(0.002)
+
+
+@pytest.mark.parametrize(("a", "b"), [(1.0, np.nan), (np.nan, 1.0), (np.nan, np.nan)])
+def test_a_peak_that_is_no_number_stays_none(a, b):
+    assert np.isnan(greater(a, b))
+    assert np.isnan(greater(greater(1.0, a), greater(b, 2.0)))
+    one, other = ca.SX.sym("a"), ca.SX.sym("b")
+    traced = Tracer()(greater)(Scalar(one), Scalar(other)).e
+    compiled = ca.Function("greater", [one, other], [traced])
+    assert np.isnan(float(compiled(a, b)))
+    assert (float(compiled(1.0, 2.0)), float(compiled(2.0, 1.0))) == (2.0, 2.0)
