@@ -1,6 +1,7 @@
 """What a comparison shows: figures, page and documentation, read back from what they draw and write."""
 
 import importlib.util
+import json
 import math
 import sys
 from pathlib import Path
@@ -148,6 +149,34 @@ def test_the_guide_gets_the_observers_at_equal_bandwidth(summary, script):
         script.guide_part(summary | {"equal_bandwidth": []})
     guide = (DOCS / "guide" / "observer.md").read_text()
     assert script.put(guide, "part") != guide
+
+
+def test_the_script_writes_from_a_folder_what_it_reads_from_its_own(
+    summary, script, tmp_path, monkeypatch
+):
+    """Page, pictures and numbers are the same to the byte from the summary that is kept."""
+    out, docs = tmp_path / "out", tmp_path / "docs"
+    out.mkdir()
+    docs.mkdir()
+    (out / "summary.json").write_text(json.dumps(summary))
+    (docs / "observer.md").write_text(f"{script.BEGIN}\n{script.END}\n")
+    for name, path in (
+        ("FOLDER", "comparison"),
+        ("PAGE", "comparison.md"),
+        ("GUIDE", "observer.md"),
+    ):
+        monkeypatch.setattr(script, name, docs / path)
+    found = []
+    for source in (out, docs / "comparison"):
+        monkeypatch.setattr(sys, "argv", ["write_comparison.py", str(source)])
+        script.main()
+        found.append({p.name: p.read_bytes() for p in docs.rglob("*.*") if p.is_file()})
+    assert found[0] == found[1]
+    drawn = {f"{name}{suffix}" for name in draw(summary) for suffix in (".svg", ".json")}
+    assert found[0].keys() == drawn | {"summary.json", "comparison.md", "observer.md"}
+    assert script.read(docs / "comparison" / "summary.json") == json.loads(json.dumps(summary))
+    with pytest.raises(InputError, match="run 'biped-adrc compare'"):
+        script.read(docs / "summary.json")
 
 
 @pytest.mark.parametrize(
