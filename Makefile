@@ -25,7 +25,7 @@ docs: .venv/.dev
 pictures: .venv/.core
 	$(BIN)/python docs/make_pictures.py $(OUT)
 
-# docs/comparison.md, from a comparison in $(OUT)/comparison, which is made or finished first
+# docs/comparison.md with its figures, from a comparison in $(OUT)/comparison, which is made or finished first
 comparison: .venv/.core
 	$(BIN)/biped-adrc compare --out $(OUT)/comparison
 	$(BIN)/python docs/write_comparison.py $(OUT)/comparison

@@ -2,8 +2,9 @@
 
 Run: python docs/make_maps.py OUT
 
-OUT: folder for the results, which are gone on with where there are some. Beside each map a JSON file holds the
-result of every point in the order of its study; docs/check_pictures.py runs some of them again.
+OUT: folder for the results, which are gone on with where there are some. Beside each map a JSON file holds for
+every point, in the order of its study, what the map shows and whether the walk is legal;
+docs/check_pictures.py runs some of them again.
 """
 
 from __future__ import annotations
@@ -42,22 +43,29 @@ AGAIN = 6
 
 
 def numbers(done: Sweep, maps: Maps) -> Numbers:
-    """What is shown, of every point."""
-    values = [result.row.get(maps.value) for result in done.results()]
-    return {"points": done.study.count, maps.value: values}
+    """What is shown, of every point, and whether its walk is legal."""
+    rows = [result.row for result in done.results()]
+    return {"points": len(rows)} | {name: [row.get(name) for row in rows] for name in stored(maps)}
+
+
+def stored(maps: Maps) -> tuple[str, ...]:
+    """The columns of the file."""
+    return tuple(dict.fromkeys((maps.value, "legal")))
 
 
 def again(name: str, old: Numbers) -> Numbers:
     """The numbers in the file with `AGAIN` of them run again, spread evenly over the study."""
     source, maps = PICTURES[name]
     study = load_study(ROOT / "examples" / source)
-    values: list[Any] = list(old.get(maps.value, []))
-    values += [None] * (study.count - len(values))
+    columns: dict[str, list[Any]] = {c: list(old.get(c, [])) for c in stored(maps)}
+    for values in columns.values():
+        values += [None] * (study.count - len(values))
     chosen = [(2 * k + 1) * study.count // (2 * AGAIN) for k in range(AGAIN)]
     records = [point.record for k, point in enumerate(study.points()) if k in chosen]
     for k, row in zip(chosen, run_trials(records), strict=True):
-        values[k] = row.get(maps.value)
-    return {"points": study.count, maps.value: values}
+        for column, values in columns.items():
+            values[k] = row.get(column)
+    return {"points": study.count, **columns}
 
 
 def main() -> None:

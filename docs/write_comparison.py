@@ -1,24 +1,25 @@
 """Write docs/comparison.md and its figures, and the observers at equal bandwidth into the observer guide.
 
-Run: python docs/write_comparison.py OUT [--observer]
+Run: python docs/write_comparison.py OUT
 
-OUT: folder of `biped-adrc compare`. --observer: only the part of the observer guide, for which a comparison of
-ADRC, LESO and DOB without pushes is enough. All sentences about controllers are those of the summary, which
-tests of paired walks carry; nothing is said here that is not there.
+OUT: folder of `biped-adrc compare`, or docs/comparison, whose summary.json has all that is needed: the figures
+are drawn anew from it, with a file of their numbers beside each. All sentences about controllers are those of
+the summary, which tests of paired walks carry; nothing is said here that is not there.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import shutil
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from write_results import bullets, table
 
 from biped_adrc.errors import InputError
-from biped_adrc.files import write_text
+from biped_adrc.files import write_bytes, write_text
+from biped_adrc.studies.bench.compare_study import figures
 from biped_adrc.viz.comparison_page import CAPTIONS, TITLE
 from biped_adrc.viz.comparison_text import (
     EQUAL,
@@ -35,8 +36,12 @@ from biped_adrc.viz.comparison_text import (
     said,
     share_texts,
 )
+from biped_adrc.viz.numbers import as_text, numbers_of
+from biped_adrc.viz.style import render
 
-ROOT = Path(__file__).resolve().parents[1]
+DOCS = Path(__file__).resolve().parent
+PAGE, GUIDE = DOCS / "comparison.md", DOCS / "guide" / "observer.md"
+FOLDER = DOCS / "comparison"
 BEGIN, END = "<!-- equal bandwidth: begin -->", "<!-- equal bandwidth: end -->"
 
 
@@ -46,19 +51,19 @@ def findings(summary: dict[str, Any], equal: bool) -> str:
     return bullets(found) if found else NONE
 
 
-GUIDE = ("push on joints", "sine on joints", "delay")
+SHOWN = ("push on joints", "sine on joints", "delay")
 """Conditions that the observer guide shows."""
 
 
 def guide_part(summary: dict[str, Any]) -> str:
     """The observers at their own settings and at equal bandwidth, with the command that walks them."""
-    shown = [x for x in summary["equal_bandwidth"] if x["own"]["condition"] in GUIDE]
+    shown = [x for x in summary["equal_bandwidth"] if x["own"]["condition"] in SHOWN]
     if not shown:
         raise InputError(
             "the comparison has no observers at equal bandwidth under what the guide shows; expected ADRC, "
-            f"LESO or DOB, and one of the conditions {', '.join(GUIDE)}"
+            f"LESO or DOB, and one of the conditions {', '.join(SHOWN)}"
         )
-    found = [s for s in said(summary, equal=True) if s.split(":")[0] in GUIDE]
+    found = [s for s in said(summary, equal=True) if s.split(":")[0] in SHOWN]
     return "\n\n".join(
         [
             f"By `{summary['command']}`, {summary['seeds']} seeds, medians over legal walks, intervals of "
@@ -155,23 +160,37 @@ def put(text: str, part: str, marks: tuple[str, str] = (BEGIN, END)) -> str:
     return f"{before}{begin}\n\n{part}\n\n{end}{rest.split(end)[1]}"
 
 
+def read(path: Path) -> dict[str, Any]:
+    """A summary. Raises InputError where there is none."""
+    if not path.is_file():
+        raise InputError(f"'{path}' is not there; run 'biped-adrc compare' to its end first")
+    summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+    return summary
+
+
+def compact(summary: Mapping[str, Any]) -> str:
+    """The summary as `read` reads it: a line for each of its parts, and for each item of a list."""
+    parts = []
+    for name, part in summary.items():
+        body = json.dumps(part, ensure_ascii=False, separators=(",", ":"))
+        if isinstance(part, list) and part:
+            lines = (json.dumps(x, ensure_ascii=False, separators=(",", ":")) for x in part)
+            body = "[\n" + ",\n".join(lines) + "\n]"
+        parts.append(f"{json.dumps(name)}: {body}")
+    return "{\n" + ",\n".join(parts) + "\n}\n"
+
+
 def main() -> None:
     """Read, write."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
-    parser.add_argument("--observer", action="store_true")
-    given = parser.parse_args()
-    summary = json.loads((given.out / "summary.json").read_text(encoding="utf-8"))
-    guide = ROOT / "docs" / "guide" / "observer.md"
-    write_text(guide, put(guide.read_text(encoding="utf-8"), guide_part(summary)))
-    if given.observer:
-        return
-    folder = ROOT / "docs" / "comparison"
-    folder.mkdir(exist_ok=True)
-    for name in CAPTIONS:
-        if (given.out / f"{name}.svg").exists():
-            shutil.copyfile(given.out / f"{name}.svg", folder / f"{name}.svg")
-    write_text(ROOT / "docs" / "comparison.md", page(summary))
+    summary = read(parser.parse_args().out / "summary.json")
+    write_text(GUIDE, put(GUIDE.read_text(encoding="utf-8"), guide_part(summary)))
+    for name, drawn in figures(summary).items():
+        write_bytes(FOLDER / f"{name}.svg", render(drawn, "svg"))
+        write_text(FOLDER / f"{name}.json", as_text(numbers_of(drawn)))
+    write_text(FOLDER / "summary.json", compact(summary))
+    write_text(PAGE, page(summary))
 
 
 if __name__ == "__main__":

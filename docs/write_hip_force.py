@@ -104,7 +104,7 @@ def finding(study: HipPush) -> str:
         f"- The quadratures are inside the simulated bracket in {inside} of {len(study.limits)} cases.",
         f"- At the force that stops the tracking, and above, {len(walked)} of {len(study.kept)} walks with "
         f"the PI make all steps; the last five of each are on average within {1e3 * gap:.1g} mm/s of 0.50 m/s.",
-        f"- The force that the PI does not survive stops it by step {max(ends)}, in all presets. The loop "
+        f"- The force that stops a walk with the PI does so by step {max(ends)}, in all presets. The loop "
         "has to see a slow step before it acts, so the first steps under the full force decide, not what the "
         "correction could hold in the long run.",
     ]

@@ -4,12 +4,13 @@ there.
 Run: python docs/write_observer_walks.py
 
 Errors are held against NPD's with the same seed; the numbers are medians over these pairs with bootstrap
-intervals of 95 %. About a minute.
+intervals of 95 %. What they are made of is kept in docs/comparison/observer_walks.json. About a minute.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import json
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,8 @@ from biped_adrc.studies.bench.run import run_trial
 from biped_adrc.studies.bench.statistics import paired_ratio
 from biped_adrc.studies.bench.trial import Trial
 
-GUIDE = Path(__file__).resolve().parent / "guide" / "observer.md"
+DOCS = Path(__file__).resolve().parent
+GUIDE, STORED = DOCS / "guide" / "observer.md", DOCS / "comparison" / "observer_walks.json"
 BEGIN, END = "<!-- observer walks: begin -->", "<!-- observer walks: end -->"
 SEEDS = 20
 SINE = {
@@ -45,13 +47,30 @@ SENSORS: Mapping[str, Mapping[str, Any]] = {
 }
 
 
+KEPT = ("survived", "legal", "rms_error")
+"""Columns of a walk."""
+
+Walks = Mapping[str, Mapping[str, Sequence[Mapping[str, Any]]]]
+"""Of a controller (NPD, or m as text) with sensors: a row of `KEPT` for each seed."""
+
+
 def walked(sensors: str, **controller: Any) -> list[Mapping[str, Any]]:
     """A row for each seed."""
     values = {**SENSORS[sensors], **SINE, **controller}
-    return [run_trial(Trial(**values, seed=seed).record()) for seed in range(SEEDS)]
+    rows = [run_trial(Trial(**values, seed=seed).record()) for seed in range(SEEDS)]
+    return [{name: row[name] for name in KEPT} for row in rows]
 
 
-def ratio(rows: list[Mapping[str, Any]], usual: list[Mapping[str, Any]]) -> str:
+def walks() -> Walks:
+    """All of them."""
+    asked: dict[str, dict[str, Any]] = {"NPD": {"controller": "NPD"}}
+    asked |= {
+        str(m): {"controller": "ADRC", "bandwidth": w, "order": m} for m, w in OBSERVERS.items()
+    }
+    return {name: {n: walked(n, **values) for n in SENSORS} for name, values in asked.items()}
+
+
+def ratio(rows: Sequence[Mapping[str, Any]], usual: Sequence[Mapping[str, Any]]) -> str:
     """Of rms errors in pairs that both make all steps, and how many of the walks are legal."""
     pairs = [(a, b) for a, b in zip(rows, usual, strict=True) if is_made(a) and is_made(b)]
     found = paired_ratio(
@@ -64,15 +83,11 @@ def ratio(rows: list[Mapping[str, Any]], usual: list[Mapping[str, Any]]) -> str:
     return f"{value:.2f} ({low:.2f} to {high:.2f}), {found.pairs} pairs, {legal} legal"
 
 
-def part() -> str:
+def part(found: Walks) -> str:
     """The table."""
-    usual = {name: walked(name, controller="NPD") for name in SENSORS}
+    usual = found["NPD"]
     lines = [
-        [
-            str(m),
-            f"{w:.0f}",
-            *(ratio(walked(n, controller="ADRC", bandwidth=w, order=m), usual[n]) for n in SENSORS),
-        ]
+        [str(m), f"{w:.0f}", *(ratio(found[str(m)][n], usual[n]) for n in SENSORS)]
         for m, w in OBSERVERS.items()
     ]
     legal = ", ".join(
@@ -81,15 +96,37 @@ def part() -> str:
     return "\n\n".join(
         [
             table(["m", "bandwidth [rad/s]", *SENSORS], lines),
-            f"By `python docs/write_observer_walks.py`: {SEEDS} seeds, medians, intervals of 95 %. Of NPD's "
-            f"own {SEEDS} walks are legal: {legal}.",
+            f"By `python docs/write_observer_walks.py`: {SEEDS} seeds, medians over pairs that both make all "
+            f"steps, legally or not, intervals of 95 %. Of NPD's own {SEEDS} walks are legal: {legal}.",
         ]
     )
 
 
+def read(path: Path = STORED) -> Walks:
+    """The walks in the file."""
+    found: Walks = json.loads(path.read_text(encoding="utf-8"))
+    return found
+
+
+def compact(found: Walks) -> str:
+    """The walks as `read` reads them, a line for each controller and sensors."""
+    parts = (
+        f"{json.dumps(name)}: {{\n"
+        + ",\n".join(
+            f" {json.dumps(n)}: {json.dumps(rows, separators=(',', ':'))}"
+            for n, rows in by_sensors.items()
+        )
+        + "\n}"
+        for name, by_sensors in found.items()
+    )
+    return "{\n" + ",\n".join(parts) + "\n}\n"
+
+
 def main() -> None:
     """Walk, write."""
-    write_text(GUIDE, put(GUIDE.read_text(encoding="utf-8"), part(), (BEGIN, END)))
+    found = walks()
+    write_text(STORED, compact(found))
+    write_text(GUIDE, put(GUIDE.read_text(encoding="utf-8"), part(found), (BEGIN, END)))
 
 
 if __name__ == "__main__":

@@ -6,11 +6,39 @@ import importlib
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from biped_adrc.studies.bench.compare_study import figures
 from biped_adrc.studies.plan import BOTH
+from biped_adrc.viz.figures import push_map_figure
+from biped_adrc.viz.numbers import as_text, differences, numbers_of
 
 ROOT = Path(__file__).resolve().parents[1]
+DOCS = ROOT / "docs"
+
+
+def read(path):
+    """The text of a file of docs/."""
+    return (DOCS / path).read_text(encoding="utf-8")
+
+
+def marked(page, marks):
+    """What is between two marks of a page."""
+    return page.split(marks[0])[1].split(marks[1])[0].strip()
+
+
+def check_numbers(folder, drawn):
+    """The files beside the pictures are what the figures drawn now show, and no picture is left over."""
+    names = {path.stem for path in (DOCS / folder).glob("*.svg")}
+    assert names == set(drawn), (
+        f"docs/{folder} has other pictures than its page; remove or make them"
+    )
+    for name, figure in drawn.items():
+        now = json.loads(as_text(numbers_of(figure)))
+        assert now["panels"]
+        stored = json.loads(read(f"{folder}/{name}.json"))
+        assert differences(stored, now) == [], f"docs/{folder}/{name}.svg shows other numbers"
 
 
 @pytest.fixture
@@ -42,3 +70,57 @@ def test_the_caption_of_the_readme_has_the_numbers_of_the_runs():
     assert (
         f"NPD leaves its reference by {1e3 * npd:.1f} mrad, ADRC by {1e6 * adrc:.1f} µrad" in readme
     )
+
+
+def test_the_page_of_the_comparison_is_that_of_its_summary(script):
+    module = script("write_comparison")
+    summary = module.read(module.FOLDER / "summary.json")
+    assert read("comparison.md") == module.page(summary)
+    assert module.compact(summary) == read("comparison/summary.json")
+    check_numbers("comparison", figures(summary))
+
+
+def test_the_observer_guide_is_that_of_the_comparison(script):
+    module = script("write_comparison")
+    part = module.guide_part(module.read(module.FOLDER / "summary.json"))
+    assert marked(read("guide/observer.md"), (module.BEGIN, module.END)) == part
+
+
+def test_the_observer_guide_is_that_of_its_walks(script):
+    module = script("write_observer_walks")
+    walks = module.read()
+    assert marked(read("guide/observer.md"), (module.BEGIN, module.END)) == module.part(walks)
+    assert module.compact(walks) == module.STORED.read_text(encoding="utf-8")
+
+
+def test_walks_put_the_observers_in_the_order_of_the_table_above_them(script):
+    walks = script("write_observer_walks").read()
+    lines = read("guide/observer.md").split("at 5 Hz [s²] |\n")[1].splitlines()[1:8]
+    rows = [[x.strip() for x in line.strip("|").split("|")] for line in lines]
+    response = {"NPD" if row[0] == "none" else row[0]: float(row[-1]) for row in rows}
+    order = sorted(walks, key=lambda m: response[m])
+    assert order == ["2", "1", "3", "NPD", "5", "7"]
+    for sensors in walks["NPD"]:
+        errors = {m: np.median([row["rms_error"] for row in walks[m][sensors]]) for m in walks}
+        assert sorted(errors, key=errors.get) == order
+
+
+def test_the_pictures_of_the_map_are_those_of_its_cells(script):
+    module = script("write_critical_phase")
+    cells = module.read(module.FOLDER / "summary.json")
+    drawn = {
+        preset: push_map_figure([cell.row() for cell in cells if cell.preset == preset])
+        for preset in module.presets_of(cells)
+    }
+    check_numbers("critical_phase", drawn)
+
+
+def test_the_guide_to_sweeps_says_how_many_walks_of_its_maps_are_legal():
+    basin, robustness = (json.loads(read(f"images/{n}.json")) for n in ("basin", "robustness"))
+    guide = " ".join(read("guide/sweep.md").split())
+    for found in (basin, robustness):
+        made, legal = (sum(x or 0 for x in found[name]) for name in ("survived", "legal"))
+        assert (
+            f"{made} of the {found['points']} walks make all steps, {legal} of them legally"
+            in guide
+        )

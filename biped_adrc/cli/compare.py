@@ -32,7 +32,9 @@ def compare(
     seeds: Annotated[int, typer.Option(help="Walks in each cell of the table.")] = 20,
     pushes: Annotated[
         bool,
-        typer.Option(help="Look for the largest push walked legally, and survived, by bisection."),
+        typer.Option(
+            help="Look by bisection for the largest push walked legally, and with all steps made."
+        ),
     ] = True,
     workers: Annotated[
         int | None, typer.Option(help="Processes or threads; by default one per core.")

@@ -42,7 +42,7 @@ def sweep(
         list[str] | None,
         typer.Option(
             help="Draw a map, X,Y or X,Y,PANEL of what is varied, such as 'bandwidth,period'; end with "
-            "':COLUMN' for another result than the share that survives. May be repeated."
+            "':COLUMN' for another result than the share of walks that make all steps. May be repeated."
         ),
     ] = None,
     dry_run: Annotated[

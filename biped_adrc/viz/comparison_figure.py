@@ -7,16 +7,22 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
 from biped_adrc.errors import InputError
+from biped_adrc.types import Array
 from biped_adrc.viz.style import PALETTE, label, new_figure, style
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
+GREYS = LinearSegmentedColormap.from_list("legal", ["0.62", "1.0"])
+"""White where all walks are legal, grey where none is."""
+KINDS = {"survived": "all steps", "legal": "legal"}
+"""Of the largest pushes."""
 
 
-def survival_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
+def legal_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
     """Share of walks that are legal, as text and shade, with the share that makes all steps below it, smaller.
 
     cells: "controller", "condition", "legal" and "survived" [share, low, high], a row of the figure per
@@ -26,10 +32,11 @@ def survival_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
     with style():
         figure = new_figure(1.9 + 0.95 * len(columns), 0.9 + 0.46 * len(rows))
         axes = figure.subplots()
+        shares = np.full((len(rows), len(columns)), np.nan)
         for cell in cells:
             x, y = columns.index(cell["controller"]), rows.index(cell["condition"])
             value, low, high = cell["legal"]
-            axes.add_patch(_box(x, y, value))
+            shares[y, x] = value
             span = f"{100 * low:.0f} to {100 * high:.0f}"
             made = f"all steps: {100 * cell['survived'][0]:.0f} %"
             for text, down, size in (
@@ -38,6 +45,8 @@ def survival_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
                 (made, 0.34, 5.5),
             ):
                 axes.text(x, y + down, text, ha="center", va="center", fontsize=size, color="black")
+        edges = [np.arange(len(names) + 1) - 0.5 for names in (columns, rows)]
+        axes.pcolormesh(*edges, shares, cmap=GREYS, vmin=0.0, vmax=1.0, ec="black", lw=0.4)
         _grid(axes, rows, columns)
         label(
             axes, "", "", "walks that are legal, 95 % intervals; below, those that make all steps"
@@ -45,16 +54,10 @@ def survival_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
         return figure
 
 
-def _box(x: int, y: int, value: float) -> Rectangle:
-    """White where all are legal, grey where none is."""
-    grey = str(round(1.0 - 0.38 * (1.0 - value), 3))
-    return Rectangle((x - 0.5, y - 0.5), 1, 1, fc=grey, ec="black", lw=0.4)
-
-
 def measure_figure(cells: Sequence[Mapping[str, Any]], measure: str, title: str) -> Figure:
     """Medians of one measure with their intervals, a row per condition, a mark per controller.
 
-    cells: as in `survival_figure`, with `measure` [median, low, high] or None, over legal walks, and the same
+    cells: as in `legal_figure`, with `measure` [median, low, high] or None, over legal walks, and the same
     in "made", over those that make all steps: drawn hollow where no walk is legal.
     """
     rows, columns = _names(cells, "condition"), _names(cells, "controller")
@@ -62,6 +65,7 @@ def measure_figure(cells: Sequence[Mapping[str, Any]], measure: str, title: str)
         figure = new_figure(7.0, 1.2 + 0.36 * len(rows))
         axes = figure.subplots()
         offsets = np.linspace(-0.32, 0.32, len(columns)) if len(columns) > 1 else [0.0]
+        shown = []
         for i, name in enumerate(columns):
             for kind in ("legal", "made"):
                 here = [
@@ -69,13 +73,16 @@ def measure_figure(cells: Sequence[Mapping[str, Any]], measure: str, title: str)
                     for c in cells
                     if c["controller"] == name and (found := _shown(c, measure, kind)) is not None
                 ]
-                _marks(axes, here, i, name if kind == "legal" else None, kind == "legal")
+                if kind == "legal":
+                    shown.append(_marks(axes, here, i, name, filled=True))
+                elif here:
+                    _marks(axes, here, i, f"{name}, not legal", filled=False)
         if measure in ("peak_error", "cost_of_transport"):
             axes.set_xscale("log")
         axes.set_yticks(range(len(rows)), rows)
         axes.set_ylim(len(rows) - 0.5, -0.5)
         label(axes, title, "", "")
-        figure.legend(loc="outside lower center", ncols=min(len(columns), 5))
+        figure.legend(handles=shown, loc="outside lower center", ncols=min(len(columns), 5))
         return figure
 
 
@@ -90,12 +97,12 @@ def _marks(
     axes: Axes,
     here: Sequence[tuple[float, Sequence[float]]],
     i: int,
-    name: str | None,
+    name: str,
     filled: bool,
-) -> None:
+) -> ErrorbarContainer:
     """Marks of controller i at heights with [value, low, high]."""
     found = np.array([x for _, x in here]).reshape(-1, 3)
-    axes.errorbar(
+    return axes.errorbar(
         found[:, 0],
         [y for y, _ in here],
         xerr=np.maximum([found[:, 0] - found[:, 1], found[:, 2] - found[:, 0]], 0.0),
@@ -109,7 +116,7 @@ def _marks(
 
 
 def push_figure(pushes: Sequence[Mapping[str, Any]]) -> Figure:
-    """The largest push walked legally (filled) and survived (hollow), a panel per phase of the step.
+    """The largest push walked legally (filled) and with all steps made (hollow), a panel per phase.
 
     pushes: "controller", "direction", "phase", and in "legal" and "survived" the "median" and the "seeds", each
     [low, high] [N m] with None for "at least".
@@ -120,10 +127,10 @@ def push_figure(pushes: Sequence[Mapping[str, Any]]) -> Figure:
         figure = new_figure(2.6 * len(phases) + 0.8, 1.3 + 0.16 * len(directions) * len(columns))
         panels = figure.subplots(1, len(phases), sharey=True, sharex=True, squeeze=False)[0]
         for axes, phase in zip(panels, phases, strict=True):
-            for p in (p for p in pushes if p["phase"] == phase):
-                i = columns.index(p["controller"])
-                y = directions.index(p["direction"]) - 0.4 + 0.8 * (i + 0.5) / len(columns)
-                _push(axes, p, y, i)
+            for i, name in enumerate(columns):
+                here = [p for p in pushes if (p["phase"], p["controller"]) == (phase, name)]
+                own = -0.4 + 0.8 * (i + 0.5) / len(columns)
+                _pushes(axes, here, [directions.index(p["direction"]) + own for p in here], i)
             for k in range(1, len(directions)):
                 axes.axhline(k - 0.5, color="#bbbbbb", lw=0.6)
             axes.set_yticks(range(len(directions)), directions)
@@ -146,21 +153,35 @@ def _farthest(pushes: Sequence[Mapping[str, Any]]) -> float:
     return max(1.0, *(float(x) for x in ends if x is not None))
 
 
-def _push(axes: Axes, push: Mapping[str, Any], y: float, i: int) -> None:
-    """Marks at what is reached at least, with an arrow where that is all that is known."""
+def _pushes(axes: Axes, pushes: Sequence[Mapping[str, Any]], heights: list[float], i: int) -> None:
+    """Of controller i: marks at what is reached at least, with an arrow where that is all that is known."""
     colour, marker = PALETTE[i % len(PALETTE)], MARKERS[i % len(MARKERS)]
-    low, high = push["legal"]["seeds"]
-    axes.plot([low, low if high is None else high], [y, y], color=colour, lw=1.2)
     for kind, face in (("survived", "white"), ("legal", colour)):
-        low, high = push[kind]["median"]
-        axes.plot(low, y, marker, ms=3.5, mfc=face, mec=colour, mew=0.8)
-        if high is None:
-            axes.annotate(
-                "",
-                (low * 1.09, y),
-                (low, y),
-                arrowprops={"arrowstyle": "->", "color": colour, "lw": 0.8},
-            )
+        least = np.array([p[kind]["median"][0] for p in pushes], dtype=float)
+        axes.errorbar(
+            least,
+            heights,
+            xerr=_over_seeds(pushes, least) if kind == "legal" and pushes else None,
+            fmt=marker,
+            ms=3.5,
+            mfc=face,
+            mec=colour,
+            mew=0.8,
+            ecolor=colour,
+            elinewidth=1.2,
+            label=f"{pushes[0]['controller']}, {KINDS[kind]}" if pushes else "_",
+        )
+        for p, x, y in zip(pushes, least, heights, strict=True):
+            if p[kind]["median"][1] is None:
+                arrow = {"arrowstyle": "->", "color": colour, "lw": 0.8}
+                axes.annotate("", (x * 1.09, y), (x, y), arrowprops=arrow)
+
+
+def _over_seeds(pushes: Sequence[Mapping[str, Any]], least: Array) -> Array:
+    """How far the seeds of legal walks go below and above the marks (2, N); open above: as far as is known."""
+    low, high = zip(*(p["legal"]["seeds"] for p in pushes), strict=True)
+    known = np.array([x if h is None else h for x, h in zip(least, high, strict=True)], dtype=float)
+    return np.maximum([least - np.array(low, dtype=float), known - least], 0.0)
 
 
 def _names(rows: Sequence[Mapping[str, Any]], key: str) -> list[str]:

@@ -25,7 +25,7 @@ from biped_adrc.viz.meshcat_page import POLICY
 from biped_adrc.viz.report_parts import picture, section, table, text
 
 CAPTIONS = {
-    "survival": (
+    "legal": (
         "Who walks legally",
         "Share of the walks that make all steps legally with its interval of 95 % (Wilson); below it, smaller, "
         "the share that makes all steps at all.",
@@ -46,8 +46,8 @@ CAPTIONS = {
     "pushes": (
         "The largest push",
         "By bisection: torque on the joints named, for 0.2 s, early to late in the step. Filled: walked "
-        "legally, hollow: survived; median over seeds, and a line over all of them. An arrow says at least: "
-        "the highest torque tried was passed. The torso has no motor: what is pushed there no tracking "
+        "legally, hollow: all steps made; median over seeds, and a line over all of them. An arrow says at "
+        "least: the highest torque tried was passed. The torso has no motor: what is pushed there no tracking "
         "controller can cancel.",
     ),
 }

@@ -47,7 +47,15 @@ SHARES = (
 """Of the first table; the needs are medians over the walks that make all steps."""
 MEDIANS = ("condition", "controller", "legal walks", *MEASURES.values())
 """Of the second; medians over legal walks."""
-PUSHES = ("joints", "phase", "controller", "walked legally", "its seeds", "survived", "its seeds")
+PUSHES = (
+    "joints",
+    "phase",
+    "controller",
+    "walked legally",
+    "its seeds",
+    "all steps made",
+    "its seeds",
+)
 """Of the largest pushes [N m]."""
 EQUAL = (
     "condition",

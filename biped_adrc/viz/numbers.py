@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.container import BarContainer
+from matplotlib.collections import QuadMesh
+from matplotlib.container import BarContainer, ErrorbarContainer
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -31,7 +32,10 @@ Numbers = dict[str, Any]
 
 
 def numbers_of(figure: Figure) -> Numbers:
-    """Panel by panel: labels, lines, bars, maps and patches. Plain values, ready for JSON."""
+    """Panel by panel: labels, lines, bars, marks with their intervals, patches, maps and their texts.
+
+    Plain values, ready for JSON.
+    """
     return {"panels": [_panel(axes) for axes in figure.axes]}
 
 
@@ -47,11 +51,25 @@ def _panel(axes: Axes) -> Numbers:
         for bar in axes.containers
         if isinstance(bar, BarContainer)
     }
+    marks = {
+        str(c.get_label()): _marks(c)
+        for c in axes.containers
+        if isinstance(c, ErrorbarContainer) and not str(c.get_label()).startswith("_")
+    }
     grouped = {id(p) for c in axes.containers if isinstance(c, BarContainer) for p in c.patches}
     loose = [patch for patch in axes.patches if id(patch) not in grouped]
     arrays = [c.get_array() for c in axes.collections if c.get_array() is not None]
     maps = [rounded(np.ravel(np.ma.filled(a, np.nan))) for a in arrays if a is not None]
-    parts = {"lines": drawn, "bars": bars, "patches": _extents(loose), "maps": maps}
+    cells = any(isinstance(c, QuadMesh) for c in axes.collections)
+    texts = [t.get_text() for t in axes.texts] if cells else []
+    parts = {
+        "lines": drawn,
+        "bars": bars,
+        "marks": marks,
+        "patches": _extents(loose),
+        "maps": maps,
+        "texts": texts,
+    }
     return found | {name: part for name, part in parts.items() if part}
 
 
@@ -61,6 +79,15 @@ def _named(artist: Line2D) -> bool:
 
 def _size(bar: BarContainer, patch: Any) -> float:
     return float(patch.get_width() if bar.orientation == "horizontal" else patch.get_height())
+
+
+def _marks(found: ErrorbarContainer) -> Numbers:
+    """Where the marks are, and from where to where their lines along x go."""
+    points, _, bars = found.lines
+    x, y = (np.asarray(values, dtype=float) for values in points.get_data())
+    ends = np.array([s[:, 0] for bar in bars for s in bar.get_segments()]).reshape(-1, 2)
+    numbers = {"x": rounded(x), "y": rounded(y)}
+    return numbers | {"from": rounded(ends[:, 0]), "to": rounded(ends[:, 1])} if bars else numbers
 
 
 def _extents(patches: list[Patch]) -> list[float | None]:

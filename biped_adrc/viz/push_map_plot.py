@@ -20,7 +20,7 @@ FATES: dict[str, tuple[str, str, str]] = {
     "ended": ("ends otherwise: singular, diverged, stalled", "#CC79A7", "\\\\\\"),
     "marginal": ("the step of the method decides", "#56B4E9", "++"),
 }
-"""Word -> text, colour, hatch; the hatches survive a print in grey."""
+"""Word -> text, colour, hatch; the hatches show in a print in grey too."""
 
 
 def push_map_figure(rows: Sequence[Mapping[str, Any]]) -> Figure:

@@ -1,6 +1,7 @@
 """What a comparison shows: figures, page and documentation, read back from what they draw and write."""
 
 import importlib.util
+import json
 import math
 import sys
 from pathlib import Path
@@ -11,19 +12,20 @@ import pytest
 from biped_adrc.cli.app import command
 from biped_adrc.errors import InputError
 from biped_adrc.studies.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS
-from biped_adrc.studies.bench.compare_study import draw, write
+from biped_adrc.studies.bench.compare_study import draw, figures, write
 from biped_adrc.studies.bench.comparison import compare
 from biped_adrc.studies.bench.run import COLUMNS
-from biped_adrc.viz.comparison_figure import measure_figure, push_figure, survival_figure
+from biped_adrc.viz.comparison_figure import legal_figure, measure_figure, push_figure
 from biped_adrc.viz.comparison_page import comparison_html
 from biped_adrc.viz.comparison_text import interval
+from biped_adrc.viz.numbers import numbers_of
 from biped_adrc.viz.sweep_maps import Maps, cut, sweep_map_figure
 
 DOCS = Path(__file__).parents[2] / "docs"
 
 
 def row(r):
-    """ADRC tracks ten times closer; with encoders no walk is legal; at most 100 N m are legal, 200 survived."""
+    """ADRC tracks ten times closer; with encoders no walk is legal; 100 N m are legal, 200 are made."""
     amplitude, error = r.get("amplitude", 0.0), {"NPD": 1e-2, "DOB": 5e-3, "ADRC": 1e-3}
     made = amplitude <= 200.0 or r["push"] != "pulse" or r["on"] == "q5"
     legal = made and "counts" not in r and (r.get("on") == "q5" or amplitude <= 100.0)
@@ -66,7 +68,7 @@ def script():
 
 
 def test_the_figure_shows_legal_walks_large_and_all_others_small(summary):
-    (axes,) = survival_figure(summary["cells"]).axes
+    (axes,) = legal_figure(summary["cells"]).axes
     at = (1, 2)  # ADRC with encoders
     texts = {
         t.get_text(): t.get_fontsize()
@@ -91,7 +93,7 @@ def test_pushes_that_pass_the_highest_rung_have_an_arrow(summary):
     panels = push_figure([p for p in summary["pushes"] if p["bandwidth"] is None]).axes
     assert len(panels) == 3
     arrows = [a for a in panels[0].texts if a.arrow_patch is not None]
-    assert len(arrows) == 2 * 3  # torso +, survived and legal, three controllers
+    assert len(arrows) == 2 * 3  # torso +, all steps and legal, three controllers
     assert all(a.get_position()[0] == 320.0 for a in arrows)
     assert all(320.0 < a.xy[0] < panels[0].get_xlim()[1] for a in arrows)
 
@@ -149,6 +151,34 @@ def test_the_guide_gets_the_observers_at_equal_bandwidth(summary, script):
     assert script.put(guide, "part") != guide
 
 
+def test_the_script_writes_from_a_folder_what_it_reads_from_its_own(
+    summary, script, tmp_path, monkeypatch
+):
+    """Page, pictures and numbers are the same to the byte from the summary that is kept."""
+    out, docs = tmp_path / "out", tmp_path / "docs"
+    out.mkdir()
+    docs.mkdir()
+    (out / "summary.json").write_text(json.dumps(summary))
+    (docs / "observer.md").write_text(f"{script.BEGIN}\n{script.END}\n")
+    for name, path in (
+        ("FOLDER", "comparison"),
+        ("PAGE", "comparison.md"),
+        ("GUIDE", "observer.md"),
+    ):
+        monkeypatch.setattr(script, name, docs / path)
+    found = []
+    for source in (out, docs / "comparison"):
+        monkeypatch.setattr(sys, "argv", ["write_comparison.py", str(source)])
+        script.main()
+        found.append({p.name: p.read_bytes() for p in docs.rglob("*.*") if p.is_file()})
+    assert found[0] == found[1]
+    drawn = {f"{name}{suffix}" for name in draw(summary) for suffix in (".svg", ".json")}
+    assert found[0].keys() == drawn | {"summary.json", "comparison.md", "observer.md"}
+    assert script.read(docs / "comparison" / "summary.json") == json.loads(json.dumps(summary))
+    with pytest.raises(InputError, match="run 'biped-adrc compare'"):
+        script.read(docs / "summary.json")
+
+
 @pytest.mark.parametrize(
     ("value", "label", "limits"),
     [
@@ -195,3 +225,29 @@ def test_intervals_are_written_without_powers_where_they_need_none():
     assert interval([1.26e-4, 0.0, -2e-5]) == "0.00013 (0 to -2e-05)"
     assert interval([0.9166, 0.646, 1.0], 3, 100.0) == "91.7 (64.6 to 100)"
     assert interval(None) == "–"
+
+
+def test_the_numbers_of_the_figures_are_those_of_the_summary(summary):
+    """What is drawn is read back from the axes, and not from the summary again."""
+    found = {name: numbers_of(f)["panels"] for name, f in figures(summary).items()}
+    (legal,) = found["legal"]
+    assert legal["maps"] == [[1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0]]
+    assert legal["texts"].count("all steps: 100 %") == 9
+    (errors,) = found["peak_error"]
+    medians = {"NPD": 1e-2, "ADRC": 1e-3, "DOB": 5e-3}
+    for name, x in medians.items():
+        assert errors["marks"][name]["x"] == [x, x]
+        assert errors["marks"][name]["from"] == errors["marks"][name]["to"] == [x, x]
+        assert errors["marks"][f"{name}, not legal"]["x"] == [x]
+    for panel in found["pushes"]:
+        for name in medians:
+            legal, made = (panel["marks"][f"{name}, {kind}"] for kind in ("legal", "all steps"))
+            assert len(legal["x"]) == len(legal["y"]) == len(made["x"])
+            assert all(
+                a <= x <= b
+                for a, x, b in zip(*(legal[k] for k in ("from", "x", "to")), strict=True)
+            )
+            limits = {round(x, 6) for x in legal["x"]}
+            assert all(x == 320.0 or 90.0 < x <= 100.0 for x in limits)
+            assert max(made["x"]) == 320.0
+            assert all(x == 320.0 or 190.0 < x <= 200.0 for x in made["x"])

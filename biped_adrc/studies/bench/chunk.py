@@ -11,7 +11,7 @@ REFUSED, RAISED, CRASHED = "REFUSED", "RAISED", "CRASHED"
 """Status of a record whose values do not fit, of a run that raised, and of one whose process died, which is
 tried again when the study goes on."""
 NO_WALK = (REFUSED, RAISED, CRASHED)
-"""What is neither survived nor a fall."""
+"""What neither makes all steps nor falls."""
 
 Function = Callable[[Sequence[Mapping[str, Any]]], Sequence[Mapping[str, Any]]]
 """A row of plain values for each record, in their order."""

@@ -14,6 +14,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from matplotlib.figure import Figure
+
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.model.limits import Limits
 from biped_adrc.studies.bench.build import scene_of
@@ -31,7 +33,7 @@ from biped_adrc.studies.bench.store_open import open_store
 from biped_adrc.studies.bench.sweep import check_folder
 from biped_adrc.studies.bench.trial import Trial
 from biped_adrc.studies.bench.workers import Workers, workers_of
-from biped_adrc.viz.comparison_figure import measure_figure, push_figure, survival_figure
+from biped_adrc.viz.comparison_figure import legal_figure, measure_figure, push_figure
 from biped_adrc.viz.comparison_page import CAPTIONS, comparison_html
 from biped_adrc.viz.style import render
 
@@ -135,10 +137,10 @@ def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, A
         "base": dict(BASE),
         "versions": dict(numerical_versions()),
     }
-    figures = draw(summary)
-    for name, svg in figures.items():
+    drawn = draw(summary)
+    for name, svg in drawn.items():
         write_bytes(out / f"{name}.svg", svg)
-    texts = {name: svg.decode("utf-8") for name, svg in figures.items()}
+    texts = {name: svg.decode("utf-8") for name, svg in drawn.items()}
     write_text(out / "comparison.html", comparison_html(summary, texts))
     write_text(out / "summary.json", json.dumps(summary, indent=1) + "\n")
     return summary
@@ -164,9 +166,14 @@ def nominal(row: Row) -> dict[str, Any]:
 
 def draw(summary: Mapping[str, Any]) -> dict[str, bytes]:
     """The figures as SVG, by name."""
+    return {name: render(figure, "svg") for name, figure in figures(summary).items()}
+
+
+def figures(summary: Mapping[str, Any]) -> dict[str, Figure]:
+    """The figures by name, in the order of the page."""
     cells, pushes = summary["cells"], summary["pushes"]
-    figures = {"survival": survival_figure(cells)}
-    figures |= {name: measure_figure(cells, name, title) for name, title in TITLES.items()}
+    drawn = {"legal": legal_figure(cells)}
+    drawn |= {name: measure_figure(cells, name, title) for name, title in TITLES.items()}
     if pushes:
-        figures["pushes"] = push_figure([p for p in pushes if p["bandwidth"] is None])
-    return {name: render(figures[name], "svg") for name in CAPTIONS if name in figures}
+        drawn["pushes"] = push_figure([p for p in pushes if p["bandwidth"] is None])
+    return {name: drawn[name] for name in CAPTIONS if name in drawn}

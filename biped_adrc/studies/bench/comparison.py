@@ -119,6 +119,6 @@ def walked_rows(rows: Sequence[Row]) -> Sequence[Row]:
         if row["status"] in NO_WALK:
             raise InputError(
                 f"a trial of the comparison was no walk: {row['status']}: {row['detail']}; shares of walks "
-                "that survive would mean nothing with it"
+                "that make all steps would mean nothing with it"
             )
     return rows

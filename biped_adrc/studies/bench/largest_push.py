@@ -1,9 +1,9 @@
-"""The largest push survived and the largest walked legally, per direction and phase, by bisection.
+"""The largest push under which a walk makes all steps, and that under which it is legal, by bisection.
 
-Neither need be monotone in the amplitude: a ladder of amplitudes is walked first, and the interval between the
-last rung below all failures and the first failure is halved until it is as narrow as asked, for both criteria.
-All searches go on in step, so that each round is one batch of walks. What is found is an interval of one seed:
-over seeds it stays one, open above where the highest rung was passed.
+Per direction and phase. Neither need be monotone in the amplitude: a ladder of amplitudes is walked first, and
+the interval between the last rung below all failures and the first failure is halved until it is as narrow as
+asked, for both criteria. All searches go on in step, so that each round is one batch of walks. What is found is
+an interval of one seed: over seeds it stays one, open above where the highest rung was passed.
 """
 
 from __future__ import annotations
@@ -179,7 +179,7 @@ def whole_span(brackets: Sequence[Bracket]) -> Span:
 
 @dataclass(frozen=True)
 class Largest:
-    """The largest push of one controller, over seeds: survived, and walked legally."""
+    """The largest push of one controller, over seeds: all steps made (`survived`), and legal."""
 
     controller: str
     direction: str

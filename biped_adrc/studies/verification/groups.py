@@ -84,8 +84,8 @@ processor, with the two steps under NPD that certify the gait and the loading of
 HIP = """\
 A gait of 0.50 m/s of the literature stopped at a constant force of 3 N backwards at the hip under any loop that
 only tracks, and a PI on the stride recovered it. The same for the gait of 0.50 m/s designed here: alone under
-NPD and ADRC, and with the PI. The whole study, with what the PI survives, is in [a force at the
-hip](hip_force.md)."""
+NPD and ADRC, and with the PI. The whole study, with the forces that stop the PI, is in [a force at
+the hip](hip_force.md)."""
 
 SENSES = """\
 The same robot in URDFs as others write them: D, Omega and the rates after impact at random states, taken to the
