@@ -24,6 +24,7 @@ from biped_adrc.studies.claims.walks import (
     Walked,
     _ending,
     _undisturbed,
+    nominal,
     prepared,
     tried,
 )
@@ -151,6 +152,8 @@ def test_a_walk_is_taken_from_the_undisturbed_one_at_either_step():
     assert len(half.t) > 1.9 * len(usual.t)
     with pytest.raises(ValueError, match="read-only"):
         usual.error[0] = 1.0
+    with pytest.raises(ValueError, match="read-only"):
+        nominal("identified", "published")[1].q_minus[0] = 1.0
 
 
 def test_a_walk_that_is_not_finite_is_not_legal(monkeypatch):
@@ -201,6 +204,8 @@ def test_every_row_of_a_run_in_one_preset_says_how_many_were_declared():
     told = {c.claim for c in one if "cases declared were run" in c.share}
     counted = {c.claim for c in one if " with 95 %" in c.share}
     untold = counted - told
+    others = {"Under ADRC 'the stability", "The total disturbances", "'Global stability"}
+    assert all(any(claim.startswith(start) for claim in told) for start in others)
     assert {text.split()[0] for text in untold} == {"Each", "More"}  # headline runs; closed forms
 
 

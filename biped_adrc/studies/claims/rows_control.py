@@ -22,6 +22,7 @@ from biped_adrc.studies.claims.words import (
     Tally,
     below_limit,
     changes,
+    fewer,
     judged,
     span,
 )
@@ -102,6 +103,7 @@ def not_at_risk(pairs: Sequence[Pair]) -> Claim:
         "needs a counterexample, and this torque was chosen to be one: it stands for no usual "
         "disturbance. The torso's row of (12) has no motor, so a torque there that takes the speed "
         "away stops the walk whatever tracks the joints",
+        share=f"{len(stopped)} of {len(pairs)} walks stop{fewer(len(pairs), in_all(1))}",
         marginal=len(pairs) - len(firm),
     )
 
@@ -201,6 +203,7 @@ def smooth_disturbance(jumps: Sequence[Jumps]) -> Claim:
         "observer, not met where it matters: the error of ADRC is the spike of about 1 ms at such a "
         "jump. ADRC tracks all the same, with the reset of the observer at impact that the paper does "
         "not mention",
+        share=f"{len(rough)} of {len(jumps)} presets jump{fewer(len(jumps), in_all(1))}",
     )
 
 

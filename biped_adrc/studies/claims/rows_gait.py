@@ -28,6 +28,7 @@ from biped_adrc.studies.claims.words import (
     Tally,
     above_limit,
     below_limit,
+    fewer,
     judged,
     span,
 )
@@ -248,7 +249,8 @@ def global_stability(starts: Sequence[Start]) -> Claim:
         f"{span([s.least for s in starts], '.3f')} of the gait's, follows from one quadrature of the "
         f"zero dynamics and {len(fails)} of {len(below)} starts 3 % below it fail, {len(passed)} of "
         f"{len(above)} above it walk on",
-        f"{len(fails)} of {len(below)} starts below fail, {len(passed)} of {len(above)} above walk on",
+        f"{len(fails)} of {len(below)} starts below fail, {len(passed)} of {len(above)} above walk on"
+        f"{fewer(len(starts), in_all(len(declared()['basin']['factors'])))}",
         "impacts made are the same at half the step",
         marginal=sum(not s.same for s in starts),
     )

@@ -97,7 +97,10 @@ class Prepared(NamedTuple):
 def nominal(preset: str, gait: str) -> tuple[Biped, Gait]:
     """RABBIT in a preset and one of its gaits."""
     biped = Run(preset=preset).biped()
-    return biped, load_gait(gait, biped)
+    found = load_gait(gait, biped)
+    for shared in (found.q_minus, found.v_minus):
+        shared.flags.writeable = False
+    return biped, found
 
 
 def prepared(run: Run, zero: bool = False, speed: float = 1.0) -> Prepared:

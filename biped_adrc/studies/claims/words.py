@@ -120,8 +120,7 @@ class Tally:
                 f"{self.held} of {len(self.firm)}, between {found.low:.2f} and {found.high:.2f} with 95 "
                 "%"
             )
-        if len(self.cases) < self.declared:
-            text += f"; {len(self.cases)} of the {self.declared} cases declared were run"
+        text += fewer(len(self.cases), self.declared)
         if self.marginal:
             text += f"; marginal: {'; '.join(self.marginal)}"
         return text
@@ -130,6 +129,11 @@ class Tally:
     def convergence(self) -> str:
         """The largest change when the step is halved, over the firm cases with finite numbers."""
         return changes([case.figure for case in self.firm])
+
+
+def fewer(count: int, declared: int) -> str:
+    """What a share says of a run with fewer cases than were declared."""
+    return f"; {count} of the {declared} cases declared were run" if count < declared else ""
 
 
 def changes(figures: Sequence[Figure], relevant: float = 0.01) -> str:
