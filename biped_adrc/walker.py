@@ -23,7 +23,7 @@ from biped_adrc.errors import InputError, NotFiniteError, SimulationError
 from biped_adrc.ground import StepDown, StepUp, check_slope
 from biped_adrc.hardware import held
 from biped_adrc.hardware.held import Held, HeldParameters
-from biped_adrc.hardware.meter import Meter, loads, metered
+from biped_adrc.hardware.meter import Hit, Meter, loads, metered
 from biped_adrc.hardware.motors import Line, Motors, acting, limited, mean_torque, sent
 from biped_adrc.hardware.sensors import Sensors, sense
 from biped_adrc.hybrid.status import Status
@@ -237,7 +237,7 @@ class Walker(HybridSystem):
         since, drop = (t - k.meter.period, t), self.drop(mode.step)
         asked = loads(self.plant, self.disturbance, since, mode, q, v, a, drop)
         unknown = self.unknown(terms, a, u, zeta)
-        given = (q, v, u, mean, unknown, terms, mode.step, t - mode.start, asked)
+        given = (q, v, u, mean, unknown, terms, t, mode.step, t - mode.start, asked)
         return metered(k.meter, g, *given)
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
@@ -317,8 +317,8 @@ class Walker(HybridSystem):
             h, expected = self.held_at(x), v_plus
             if self.held.sizes.sensors:
                 expected = self.nominal.impact(h.w[:n], h.w[n : 2 * n]).v
-            struck = (q, impact.q, v_plus, expected, impact.impulse)
-            h = held.after_impact(self.held, h, self._swap, *struck)
+            hit = Hit(t, mode.step - 1, self.plant.momentum(q, v), impact.impulse)
+            h = held.after_impact(self.held, h, self._swap, q, impact.q, v_plus, expected, hit)
             tail = held.written(h)
             if self.held.sizes.sensors:
                 seen = h.w[:n], h.w[n : 2 * n]

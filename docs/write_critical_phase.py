@@ -12,13 +12,12 @@ import json
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from write_results import table
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes, write_text
-from biped_adrc.studies.bench.statistics import share
 from biped_adrc.studies.push_map import WORDS, Cell, Fate, apart, certain, counts, settings_of
 from biped_adrc.studies.runs import CONTROLLERS
 from biped_adrc.viz.figures import push_map_figure
@@ -29,18 +28,51 @@ PAGE = Path(__file__).resolve().parent / "critical_phase.md"
 FOLDER = PAGE.parent / "critical_phase"
 
 
+NEEDS = ["preset", "outcome", "mean friction", "mean F_N [N]", "peak torque [N m]", "impulse ratio"]
+"""Columns of the table of runs that say what a walk needs."""
+
+
+class Study(NamedTuple):
+    """What the page is written from."""
+
+    cells: list[Cell]
+    undisturbed: list[list[Any]]
+
+
 def presets_of(cells: Sequence[Cell]) -> list[str]:
     """In their order."""
     return list(dict.fromkeys(cell.preset for cell in cells))
 
 
-def read(path: Path) -> list[Cell]:
-    """The cells in a summary. Raises InputError where it has none."""
-    rows = json.loads(path.read_text(encoding="utf-8"))["push_map"]
+def read(path: Path) -> Study:
+    """The cells and the undisturbed walks in a summary. Raises InputError where it has no cells."""
+    summary = json.loads(path.read_text(encoding="utf-8"))
+    rows = summary["push_map"]
     if not rows:
         raise InputError(f"'{path}' has no map of pushes; run 'biped-adrc reproduce --full' first")
     names = ("preset", "onset", "amplitude", "pattern", "torque_limit")
-    return [Cell(*(row[n] for n in names), Fate(**row["npd"]), Fate(**row["adrc"])) for row in rows]
+    cells = [Cell(*(row[n] for n in names), fate(row["npd"]), fate(row["adrc"])) for row in rows]
+    return Study(cells, summary.get("undisturbed") or undisturbed(summary))
+
+
+def fate(row: dict[str, Any]) -> Fate:
+    """One walk of a cell."""
+    return Fate(**{**row, "reasons": tuple(row["reasons"])})
+
+
+def undisturbed(summary: dict[str, Any]) -> list[list[Any]]:
+    """What the walk without a push needs, a row of `NEEDS` for each preset."""
+    wanted = (
+        "preset",
+        "outcome",
+        "mean friction",
+        "mean F_N [N]",
+        "peak torque [N m]",
+        "impulse ratio",
+    )
+    at = [table["columns"].index(name) for name in wanted]
+    named = (row for row in table["rows"] if row[0].startswith("nominal") and row[1] == "NPD")
+    return [[row[k] for k in at] for row in named]
 
 
 def onsets(cells: Sequence[Cell]) -> list[float]:
@@ -69,41 +101,19 @@ def tally(cells: Sequence[Cell], word: str) -> dict[str, int]:
 
 
 def sentences(cells: Sequence[Cell]) -> list[str]:
-    """What the cells say of the claim."""
+    """What the cells say of the claim; of those that are not marginal."""
     sure = certain(cells)
-    falls, ends, legal = (tally(sure, word) for word in ("fell", "ended", "legal"))
+    falls, ends, legal, pulled = (tally(sure, w) for w in ("fell", "ended", "legal", "pulled"))
     adrc, npd = (sum(pair[i] for pair in apart(cells).values()) for i in (0, 1))
-    found = [
-        f"Of {len(sure)} pushes in cells that are not marginal NPD falls in {falls['NPD']} and ADRC in "
-        f"{falls['ADRC']}; {ends['NPD']} and {ends['ADRC']} walks end otherwise (singular, diverged, "
-        "stalled).",
-        f"NPD walks on legally in {legal['NPD']}, ADRC in {legal['ADRC']}. In {adrc} pushes ADRC alone "
-        f"does, in {npd} NPD alone.",
+    return [
+        f"**Of {len(sure)} pushes NPD falls in {falls['NPD']} and ADRC in {falls['ADRC']}; {ends['NPD']} "
+        f"and {ends['ADRC']} walks end otherwise (singular, diverged, stalled).**",
+        f"NPD walks on legally in {legal['NPD']}, ADRC in {legal['ADRC']}: in {adrc} pushes ADRC alone does, "
+        f"in {npd} NPD alone. In {pulled['NPD']} walks under NPD and {pulled['ADRC']} under ADRC the ground "
+        "would have had to pull: neither controller asks whether it can.",
+        f"{len(cells) - len(sure)} of {len(cells)} cells are marginal: at half the step of the method a walk "
+        "ends in another way. They carry no claim.",
     ]
-    if adrc + npd:
-        value, low, high = (100.0 * x for x in share(adrc, adrc + npd))
-        found.append(
-            "Of the pushes that tell the two apart, ADRC is the one that walks on legally in "
-            f"{value:.0f} % ({low:.0f} to {high:.0f} %, Wilson, 95 %)."
-        )
-    return found
-
-
-def verdict(cells: Sequence[Cell]) -> str:
-    """What section VI's claim is worth here."""
-    sure = certain(cells)
-    falls, pulled = tally(sure, "fell"), tally(sure, "pulled")
-    first = (
-        f"**NPD falls in {falls['NPD']} of {len(sure)} pushes, ADRC in {falls['ADRC']}.**"
-        if falls["NPD"]
-        else "**On this robot there is no phase in which a push up to the motors' limit makes NPD fall.** "
-        "What falls in a map without a continued constraint is the polynomial of the gait, outside its "
-        "range."
-    )
-    return (
-        f"{first} In {pulled['NPD']} walks under NPD and {pulled['ADRC']} under ADRC the ground would have "
-        "had to pull: neither controller asks whether it can."
-    )
 
 
 INTRODUCTION = """Written by `python docs/write_critical_phase.py OUT`. Section VI of the paper says that a push
@@ -116,9 +126,10 @@ within 150 N m, and the swing foot off the ground. The constraint is continued s
 phase range of the gait."""
 
 
-def page(cells: Sequence[Cell]) -> str:
+def page(study: Study) -> str:
     """The text."""
-    marginal, found = len(cells) - len(certain(cells)), counts(cells)
+    cells = study.cells
+    found = counts(cells)
     rows = [
         [name, c, *(found[name][c][word] for word in WORDS)] for name in found for c in CONTROLLERS
     ]
@@ -134,13 +145,15 @@ def page(cells: Sequence[Cell]) -> str:
             most=max(cell.amplitude for cell in cells),
             patterns=len({cell.pattern for cell in cells}),
         ),
-        verdict(cells),
         *sentences(cells),
-        f"{marginal} cells are marginal: at half the step of the method a walk ends in another way. They "
-        "carry no claim.",
+        "## What the walk needs without a push",
+        "The impulse at impact is judged apart: where its ratio is above the ground's friction of 0.6 the gait "
+        "itself asks for more than dry ground gives.",
+        table(NEEDS, study.undisturbed),
         "## How the walks go on",
         table([*headings, *WORDS], rows),
-        "made: all steps, beyond friction or torque. pulled: all steps, but the ground would have had to pull.",
+        "made: all steps, beyond friction, torque or scuffing. pulled: all steps, but the ground would have "
+        "had to pull.",
         "## Is there a critical phase?",
         "Share of the pushes that are walked through legally, by their onset in the step:",
         table([*headings, *(f"{o:g} s" for o in onsets(cells))], by_onset(cells)),
@@ -155,23 +168,25 @@ def picture(preset: str) -> str:
     return f"## {name}\n\n![{name}](critical_phase/{preset}.svg)\n\nUpper left of a cell NPD, lower right ADRC."
 
 
-def compact(cells: Sequence[Cell]) -> str:
-    """The cells as `read` reads them, a line each."""
-    rows = (json.dumps(asdict(cell), separators=(",", ":")) for cell in cells)
-    return '{"push_map": [\n' + ",\n".join(rows) + "\n]}\n"
+def compact(study: Study) -> str:
+    """The study as `read` reads it, a line for each cell."""
+    rows = (json.dumps(asdict(cell), separators=(",", ":")) for cell in study.cells)
+    head = json.dumps(study.undisturbed)
+    return f'{{"undisturbed": {head},\n"push_map": [\n' + ",\n".join(rows) + "\n]}\n"
 
 
 def main() -> None:
     """Read, write."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
-    cells = read(parser.parse_args().out / "summary.json")
+    study = read(parser.parse_args().out / "summary.json")
+    cells = study.cells
     for preset in presets_of(cells):
         figure = push_map_figure([cell.row() for cell in cells if cell.preset == preset])
         write_bytes(FOLDER / f"{preset}.svg", render(figure, "svg"))
         write_text(FOLDER / f"{preset}.json", as_text(numbers_of(figure)))
-    write_text(FOLDER / "summary.json", compact(cells))
-    write_text(PAGE, page(cells))
+    write_text(FOLDER / "summary.json", compact(study))
+    write_text(PAGE, page(study))
 
 
 if __name__ == "__main__":

@@ -89,9 +89,23 @@ def test_two_steps_have_to_agree(half, holds):
 
 
 def test_a_difference_below_the_resolution_is_none():
-    o = made_up(peak_error=6e-9, half=made_up(peak_error=2e-9))
+    o = made_up(peak_error=1.9e-9, half=made_up(peak_error=1e-9))
     assert convergence_check("x", o).holds
-    assert not convergence_check("x", replace(o, peak_error=8e-9)).holds
+    assert not convergence_check("x", replace(o, peak_error=2.1e-9)).holds
+
+
+def test_a_tenth_of_adrc_s_mean_error_under_the_push_is_above_the_resolution():
+    pushed = made_up(peak_error=6e-8, rms_error=2.6e-8)
+    assert convergence_check("x", replace(pushed, half=pushed)).holds
+    for name in ("peak_error", "rms_error"):
+        off = replace(pushed, **{name: 1.1 * getattr(pushed, name)})
+        assert not convergence_check("x", replace(pushed, half=off)).holds
+        near = replace(pushed, **{name: 1.015 * getattr(pushed, name)})
+        assert convergence_check("x", replace(pushed, half=near)).holds == (name == "peak_error")
+
+
+def test_all_figures_of_merit_are_compared():
+    o = made_up(half=made_up())
     assert {h.name for h in halved(o)} > {"peak error", "peak torque", "longest step"}
 
 

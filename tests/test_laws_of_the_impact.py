@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.model.momentum import LinkMotion
+from biped_adrc.studies import laws
 from biped_adrc.studies.laws import impact_momenta, model_laws
 
 
@@ -45,3 +46,28 @@ def test_momentum_about_the_stance_foot_is_sigma(biped, state):
     q, v = state
     motion = LinkMotion(biped.floating, q, np.append(v, [0.0, 0.0]))
     assert motion.about(np.zeros(2)) == pytest.approx(biped.angular_momentum(q, v), rel=1e-11)
+
+
+class Numberless:
+    """A robot of which one function gives no number."""
+
+    def __init__(self, biped, name):
+        self._biped, self._name = biped, name
+
+    def __getattr__(self, name):
+        return (lambda *_: math.nan) if name == self._name else getattr(self._biped, name)
+
+
+@pytest.mark.parametrize(
+    ("name", "law"),
+    [
+        ("inertia", "pinned against floating model"),
+        ("bias", "pinned against floating model"),
+        ("kinetic_energy", "kinetic energy gained"),
+    ],
+)
+def test_a_model_without_numbers_is_noticed(monkeypatch, biped, name, law):
+    monkeypatch.setattr(laws.Biped, "load", lambda *_: Numberless(biped, name))
+    found = [c.name for c in model_laws("identified", samples=4) if not c.holds]
+    assert len(found) == 1
+    assert found[0].startswith(law)

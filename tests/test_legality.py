@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.certificate import outside, support
-from biped_adrc.analysis.legality import first_violation, outcome_of
+from biped_adrc.analysis.certificate import Support, outside, support
+from biped_adrc.analysis.legality import Legality, first_violation, outcome_of
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.analysis.window import window_means
 from biped_adrc.model.limits import KnownLimits
@@ -46,6 +46,21 @@ def dip(length, depth=-100.0):
     first, last = np.flatnonzero(t == edges[0]), np.flatnonzero(t == edges[1])
     inside[first[1]] = inside[last[0]] = True
     return t, np.where(inside, depth, WEIGHT)
+
+
+def test_a_number_that_is_none_is_printed_as_none(walker):
+    """Not the largest of the others, wherever it stands."""
+    t = grid()
+    good = support(walker, handmade(t, np.full(len(t), WEIGHT)), KNOWN)
+    names = [f.name for f in fields(Support) if isinstance(getattr(good, f.name), float)]
+    odd = replace(good, **dict.fromkeys(names, np.nan))
+    for parts in ((good, odd), (odd, good)):
+        found = Legality(ba.Status.COMPLETED, parts, 0.0, KNOWN)
+        for name in ("least_normal_force", "friction", "mean_normal_force", "mean_friction"):
+            assert np.isnan(getattr(found, name))
+        for name in ("scuffing", "peak_torque", "share_outside"):
+            assert np.isnan(getattr(found, name))
+        assert found.outcome == "made"
 
 
 def test_a_force_that_dips_for_2_ms_is_carried_and_one_for_6_ms_is_not(walker):

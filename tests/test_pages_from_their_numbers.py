@@ -56,9 +56,9 @@ def test_results_and_readme_are_those_of_the_stored_summary(script):
 
 def test_the_page_of_the_map_is_that_of_its_cells(script):
     module = script("write_critical_phase")
-    cells = module.read(module.FOLDER / "summary.json")
-    assert module.PAGE.read_text(encoding="utf-8") == module.page(cells)
-    assert module.compact(cells) == (module.FOLDER / "summary.json").read_text(encoding="utf-8")
+    study = module.read(module.FOLDER / "summary.json")
+    assert module.PAGE.read_text(encoding="utf-8") == module.page(study)
+    assert module.compact(study) == (module.FOLDER / "summary.json").read_text(encoding="utf-8")
 
 
 def test_the_caption_of_the_readme_has_the_numbers_of_the_runs():

@@ -14,11 +14,11 @@ from biped_adrc.studies.runs import Run, execute
 from biped_adrc.viz.figures import push_map_figure
 from biped_adrc.viz.push_map_plot import FATES
 
-LEGAL = Fate("legal", "COMPLETED", 200.0, 0.4)
-MADE = Fate("made", "COMPLETED", 50.0, 0.8)
-PULLED = Fate("made", "COMPLETED", -20.0, 0.5)
-FELL = Fate("fell", "FELL", 10.0, 0.9)
-ENDED = Fate("ended", "SINGULAR", 10.0, 0.9)
+LEGAL = Fate("legal", "COMPLETED", 200.0, 0.4, 0.5)
+MADE = Fate("made", "COMPLETED", 50.0, 0.8, 0.5)
+PULLED = Fate("made", "COMPLETED", -20.0, 0.5, 0.5)
+FELL = Fate("fell", "FELL", 10.0, 0.9, None)
+ENDED = Fate("ended", "SINGULAR", 10.0, 0.9, None)
 
 
 def cell(npd: Fate, adrc: Fate, **place: object) -> Cell:

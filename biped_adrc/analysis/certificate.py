@@ -23,7 +23,7 @@ from biped_adrc.analysis.window import window_means
 from biped_adrc.errors import InputError
 from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.model.limits import ENDS, KnownLimits, Limits
+from biped_adrc.model.limits import ENDS, ROUND_OFF, KnownLimits, Limits
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Walker
 
@@ -72,7 +72,9 @@ class Support:
         found = {}
         if not normal > 0.0:
             found["normal_force"] = f"F_N = {normal:.3g} N {over}{contact}"
-        if not (ratio <= k.friction or (ratio == math.inf and not normal > 0.0)):
+        if not (
+            ratio <= (1.0 + ROUND_OFF) * k.friction or (ratio == math.inf and not normal > 0.0)
+        ):
             found["friction"] = f"friction {ratio:.3g} > {k.friction:g} {over}"
         if not self.peak_torque <= k.torque:
             found["torque"] = f"torque {self.peak_torque:.4g} N m > {k.torque:g}"
@@ -180,10 +182,12 @@ def forces(walker: Walker, s: Signals) -> Array:
 def depths(walker: Walker, s: Signals, finished: bool) -> Array:
     """(K,) how far the swing foot is in the ground, 0 near the ends of the step [m].
 
-    The ground is level with the lower of the two footholds. Of a step that is not finished the end counts.
+    The ground is level with the lower of the two footholds. It counts once the foot has been above it, since
+    it may come from lower ground. Of a step that is not finished the end counts.
     """
-    drop = max(walker.drop(int(s.step[0])), 0.0)
-    return np.where(inner(s.t, finished), np.maximum(-(_height(walker, s) + drop), 0.0), 0.0)
+    height = _height(walker, s) + max(walker.drop(int(s.step[0])), 0.0)
+    counts = inner(s.t, finished) & np.logical_or.accumulate(height > 0.0)
+    return np.where(counts, np.maximum(-height, 0.0), 0.0)
 
 
 def inner(t: Array, finished: bool = True) -> NDArray[np.bool_]:
@@ -223,7 +227,9 @@ def _needs(walker: Walker, s: Signals, k: KnownLimits, finished: bool) -> dict[s
 
 def outside(F: Array, mu: float) -> NDArray[np.bool_]:
     """(K,) whether (F_T, F_N) (K, 2) is outside the friction cone; a force that is no number is."""
-    found: NDArray[np.bool_] = ~((F[:, 1] > 0.0) & (np.abs(F[:, 0]) <= mu * F[:, 1]))
+    found: NDArray[np.bool_] = ~(
+        (F[:, 1] > 0.0) & (np.abs(F[:, 0]) <= (1.0 + ROUND_OFF) * mu * F[:, 1])
+    )
     return found
 
 

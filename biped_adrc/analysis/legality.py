@@ -80,29 +80,29 @@ class Legality:
     @property
     def least_normal_force(self) -> float:
         """F_N at any instant [N]."""
-        return min(s.least_normal_force for s in self.supports)
+        return self._least("least_normal_force")
 
     @property
     def friction(self) -> float:
         """Largest |F_T| / F_N at any instant; infinite where in a step the ground never pushed."""
-        return max(s.friction for s in self.supports)
+        return self._largest("friction")
 
     @property
     def mean_normal_force(self) -> float:
         """Least of the means [N]."""
-        return min(s.mean_normal_force for s in self.supports)
+        return self._least("mean_normal_force")
 
     @property
     def mean_friction(self) -> float:
         """Largest of the means."""
-        return max(s.mean_friction for s in self.supports)
+        return self._largest("mean_friction")
 
     @property
     def share_outside(self) -> float:
         """Share of the time outside the friction cone."""
         time = [s.duration for s in self.supports]
         if sum(time) == 0.0:
-            return max(s.share_outside for s in self.supports)
+            return self._largest("share_outside")
         return sum(s.share_outside * t for s, t in zip(self.supports, time, strict=True)) / sum(
             time
         )
@@ -110,12 +110,19 @@ class Legality:
     @property
     def scuffing(self) -> float:
         """[m]"""
-        return max(s.scuffing for s in self.supports)
+        return self._largest("scuffing")
 
     @property
     def peak_torque(self) -> float:
         """[N m]"""
-        return max(s.peak_torque for s in self.supports)
+        return self._largest("peak_torque")
+
+    def _largest(self, name: str) -> float:
+        # NumPy's max and min, since Python's pass over a NaN
+        return float(np.max([getattr(s, name) for s in self.supports]))
+
+    def _least(self, name: str) -> float:
+        return float(np.min([getattr(s, name) for s in self.supports]))
 
     def text(self) -> str:
         """In words, with the reasons."""

@@ -44,7 +44,7 @@ from biped_adrc.hardware.held import (
     read,
     written,
 )
-from biped_adrc.hardware.meter import metered
+from biped_adrc.hardware.meter import Hit, metered
 from biped_adrc.hardware.motors import acting, limited, mean_torque, sent
 from biped_adrc.hardware.sensors import sense
 from biped_adrc.model.biped import STICTION_SPEED
@@ -300,7 +300,7 @@ class Equations:
         assert at.held is not None
         loads = mechanics.loads(self.make.robot, self.numbers.plant, q, v, a, at.outside)
         unknown = self.unknown(true.terms, a, u, at.zeta)
-        given = (q, v, u, mean, unknown, true.terms, true.step, true.t_step, loads)
+        given = (q, v, u, mean, unknown, true.terms, true.t, true.step, true.t_step, loads)
         return at.trace(metered)(k.meter, at.held.g, *given)
 
     def unknown(self, terms: Reduction, a: Any, u: Any, zeta: Any) -> Any:
@@ -315,13 +315,15 @@ class Equations:
         t, step = inp.take(), inp.take()
         q, v, s = inp.take(robot.n), inp.take(robot.n), inp.take(make.size)
         tail = inp.take(self.nx - 2 * robot.n - make.size)
-        q_minus = q
-        q, v, impulse = mechanics.impact(robot, self.numbers.plant, q, v)
+        plant, q_minus = self.numbers.plant, q
+        momentum = mechanics.momentum(robot, plant, q, v)
+        q, v, impulse = mechanics.impact(robot, plant, q, v)
         if self.make.gained:
             v = v * (1.0 + self.numbers.impact_gain)
         trace, seen = Tracer(), (q, v)
         if make.held is not None:
-            tail, seen = self.held_after(trace, tail, q_minus, q, v, impulse)
+            hit = Hit(t, step - 1.0, momentum, impulse)
+            tail, seen = self.held_after(trace, tail, q_minus, q, v, hit)
         if make.laws.jump is not None:
             after = self.measured(trace, t, step, 0.0 * t, *seen)
             s = self.said(trace, "jump", self.numbers.k, s, after, robot.swap)
@@ -329,7 +331,7 @@ class Equations:
         return Function(self.K, inp.symbol, out, tuple(trace.calls))
 
     def held_after(
-        self, trace: Tracer, tail: Any, q_minus: Any, q: Any, v: Any, impulse: Any
+        self, trace: Tracer, tail: Any, q_minus: Any, q: Any, v: Any, hit: Hit
     ) -> tuple[Any, tuple[Any, Any]]:
         """What is held after an impact to (q, v), and what the controller sees of (q, v) there."""
         k, robot = self.numbers.held, self.make.robot
@@ -338,7 +340,7 @@ class Equations:
         if k.sizes.sensors:
             K = self.numbers.plant if self.numbers.model is None else self.numbers.model
             _, expected, _ = mechanics.impact(robot, K, held.w[:n], held.w[n : 2 * n])
-        held = trace(after_impact)(k, held, robot.swap, q_minus, q, v, expected, impulse)
+        held = trace(after_impact)(k, held, robot.swap, q_minus, q, v, expected, hit)
         seen = (held.w[:n], held.w[n : 2 * n]) if k.sizes.sensors else (q, v)
         return written(held), seen
 

@@ -129,7 +129,7 @@ def loads(robot: Structure, K: PlantArrays, q: Any, v: Any, a: Any, outside: Any
     t = turned(robot, q)
     force = ground_reaction(robot, K, q, v, a) - outside[:2]
     foot = np.array(point(t, K.foot_re, K.foot_im), dtype=object)
-    return Loads(momentum(robot, K, q, v), force, outside[2:4], foot, outside[4])
+    return Loads(momentum(robot, K, q, v), force, outside[2:4], outside[:2], foot, outside[4])
 
 
 def impact(robot: Structure, K: PlantArrays, q: Any, v: Any) -> tuple[Any, Any, Any]:

@@ -15,7 +15,7 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.hardware import meter
-from biped_adrc.hardware.meter import Meter, MeterParameters, metered_impact
+from biped_adrc.hardware.meter import Hit, Meter, MeterParameters, metered_impact
 from biped_adrc.hardware.motors import IDEAL, Line, Motors, relabelled, whole_and_part
 from biped_adrc.hardware.sensors import Sensors, sensed_impact, sensor_state
 from biped_adrc.timing import ContinuousTime, SampledTime
@@ -149,15 +149,12 @@ def after_impact(
     q: Array,
     v: Array,
     v_model: Array,
-    impulse: Array,
+    hit: Hit,
 ) -> Held:
-    """What is held after an impact from q_minus to (q, v) with an impulse (2,) [N s] of the ground.
-
-    v_model is the rate that the controller expects.
-    """
+    """What is held after an impact from q_minus to (q, v); v_model is the rate that the controller expects."""
     w, g, p = held.w, held.g, k.sizes.p
     if k.sizes.sensors > 0:
         w = sensed_impact(k.sensors, w, q, v, v_model)
     if k.sizes.meter > 0:
-        g = metered_impact(k.meter, g, q_minus[:p], q[:p], swap, impulse)
+        g = metered_impact(k.meter, g, q_minus[:p], q[:p], swap, hit)
     return Held(w, g, relabelled(held.line, swap))

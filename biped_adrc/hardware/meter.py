@@ -4,14 +4,17 @@ The state g holds the numbers of a `Reading` over the ticks t_k of a run, with e
 state and u the torque that acts, and behind them
 
     q_b at the last tick, the mean torque since,
-    ticks in this single support, impulse from outside in it J_k, the last W of P_k = m v_com - J_k
+    of this single support: ticks, time of the last, whether the swing foot has been above the ground, impulse
+    from outside J_k, force from outside, the last W + 1 of P_k = m v_com - J_k
 
 dq_b is how far the joints move from tick to tick or to an impact: for a held torque u' dq_b is its work,
 whatever q' does. By Newton's law the mean force of the ground over W ticks is
 
     F = (P_k - P_(k-W)) / (W T) + m g e_z
 
-whatever it does between them. A peak is that of the joint where it is largest.
+whatever it does between them. The last window of a single support ends at its impact; it begins within a
+period, in which P is taken as linear. A single support that is shorter than W T is averaged as a whole. A peak
+is that of the joint where it is largest. Forces at a tick are those just after it.
 """
 
 from __future__ import annotations
@@ -27,7 +30,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, virtual_constraint
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.limits import Limits
+from biped_adrc.model.limits import ROUND_OFF, Limits
 from biped_adrc.model.reduction import Reduction, disturbance_parts
 from biped_adrc.types import Array
 
@@ -39,6 +42,10 @@ LARGEST_RATIO = 1e6
 """What a ratio of forces reads at most, where hardly any normal force is left."""
 LEAST_FORCE = 1e-12
 """[N] or [N s], below which a normal force is none."""
+SHORTEST = 1e-9
+"""[s], of a window that is judged."""
+SUPPORT = 7
+"""Numbers kept of a single support, in front of the P_k."""
 
 
 class MeterParameters(NamedTuple):
@@ -63,7 +70,7 @@ class MeterParameters(NamedTuple):
 
 def size(p: int, window: int) -> int:
     """Numbers in g, for p joints and a window of W ticks."""
-    return READINGS + 2 * p + 3 + 2 * window
+    return READINGS + 2 * p + SUPPORT + 2 * (window + 1)
 
 
 class Reading(NamedTuple):
@@ -104,6 +111,19 @@ class Reading(NamedTuple):
     """Single support in which a limit was broken first; 0 for none. Impulses do not count."""
 
 
+class Hit(NamedTuple):
+    """An impact."""
+
+    t: float
+    """[s]"""
+    step: float
+    """The single support that it ends."""
+    momentum: Array
+    """m v_com before it (2,) [N s]."""
+    impulse: Array
+    """Of the ground on the foot that strikes (2,) [N s]."""
+
+
 class Loads(NamedTuple):
     """Of the plant at a tick, forces as (x, z)."""
 
@@ -113,6 +133,8 @@ class Loads(NamedTuple):
     """Of the ground on the stance foot (2,) [N]."""
     impulse: Array
     """From outside since the last tick (2,) [N s]."""
+    resultant: Array
+    """Force from outside (2,) [N]."""
     foot: Array
     """Swing foot from the stance foot (2,) [m]."""
     drop: float
@@ -133,11 +155,11 @@ def loads(
 
     since: the last tick and this one [s]; mode: number of the single support and its start [s].
     """
-    force, impulse = plant.ground_reaction(q, v, a), np.zeros(2)
+    force, impulse = np.zeros(2), np.zeros(2)
     if push is not None:
-        force = force - push.resultant(since[1], *mode)
-        impulse = push.impulse(*since, *mode)
-    return Loads(plant.momentum(q, v), force, impulse, plant.swing_foot(q), drop)
+        force, impulse = push.resultant(since[1], *mode), push.impulse(*since, *mode)
+    ground = plant.ground_reaction(q, v, a) - force
+    return Loads(plant.momentum(q, v), ground, impulse, force, plant.swing_foot(q), drop)
 
 
 def metered(
@@ -149,27 +171,28 @@ def metered(
     mean: Array,
     unknown: Array,
     terms: Reduction,
+    t: float,
     step: float,
     since: float,
     loads: Loads,
 ) -> Array:
-    """g after a tick at (q, v) with terms there; u acts now, and `mean` in the mean until the next tick.
+    """g after a tick at t [s] in (q, v); u acts now, and `mean` in the mean until the next tick.
 
-    unknown (n,) [N m]: the generalised force that the nominal model does not know. since [s]: the impact that
-    began single support `step`.
+    terms: of the nominal model there. unknown (n,) [N m]: the generalised force that it does not know.
+    since [s]: the impact that began single support `step`.
     """
     p = len(u)
     e = q[:p] - virtual_constraint(k.h, q, v).q_d
     matched, unmatched = disturbance_parts(terms, unknown)
     before = worked(g, q[:p])
     at = READINGS + 2 * p
-    ground = carried(k, g[at:], loads)
+    ground = carried(k, g[at:], loads, t)
     F_T, F_N = k.along @ loads.force, k.across @ loads.force
-    means = mean_force(k, g[at:], ground)
+    means = (ground[-2:] - ground[SUPPORT : SUPPORT + 2]) * k.rate + weight(k)
     N = k.across @ means
     judged = np.where(g[at] >= k.window, 1.0, 0.0)
     slides = judged * outside(k, k.along @ means, N)
-    depth = np.where(since > k.lifting, scuffed(k, loads), 0.0)
+    depth = np.where(since > k.lifting, ground[2] * greater(-height(k, loads), 0.0), 0.0)
     peak = largest(u)
     broken = greater(slides, np.where(peak > k.torque, 1.0, 0.0))
     broken = greater(broken, np.where(depth > 0.0, 1.0, 0.0))
@@ -183,31 +206,55 @@ def metered(
     out[9] = np.where(g[0] > 0.0, -greater(-g[9], -F_N), F_N)
     out[10] = greater(g[10], ratio(F_T, F_N))
     out[11] = g[11] + outside(k, F_T, F_N)
-    out[12] = g[12] + judged
-    least = np.where(g[12] > 0.0, -greater(-g[13], -N), N)
-    out[13] = np.where(judged > 0.0, least, g[13])
-    out[14] = greater(g[14], judged * ratio(k.along @ means, N))
+    judge(k, out, g, judged, means)
     out[15] = greater(g[15], depth)
     out[16] = g[16]
     out[17] = np.where(g[17] > 0.0, g[17], broken * step)
     return np.concatenate((out, q[:p], mean, ground))
 
 
-def carried(k: MeterParameters, g: Array, loads: Loads) -> Array:
-    """Ticks of this single support, J and the last W of P after a tick."""
+def carried(k: MeterParameters, g: Array, loads: Loads, t: float) -> Array:
+    """What is kept of this single support after a tick at t [s]; at its first one all P_k are the same."""
+    first = g[0] < 1.0
+    J = g[3:5] + np.minimum(g[0], 1.0) * loads.impulse
+    P = loads.momentum - J
     out = np.zeros(len(g))
-    out[0] = g[0] + 1.0
-    J = g[1:3] + np.minimum(g[0], 1.0) * loads.impulse
-    out[1:3] = J
-    out[3 : len(g) - 2] = g[5:]
-    out[len(g) - 2 :] = loads.momentum - J
+    out[0], out[1] = g[0] + 1.0, t
+    out[2] = greater(g[2], np.where(height(k, loads) > 0.0, 1.0, 0.0))
+    out[3:5], out[5:7] = J, loads.resultant
+    for i in range(k.window):
+        out[SUPPORT + 2 * i] = np.where(first, P[0], g[SUPPORT + 2 * i + 2])
+        out[SUPPORT + 2 * i + 1] = np.where(first, P[1], g[SUPPORT + 2 * i + 3])
+    out[len(g) - 2 :] = P
     return out
 
 
-def mean_force(k: MeterParameters, before: Array, now: Array) -> Array:
-    """Of the ground over the last W ticks (2,) [N]: `before` this one P reached back to it."""
-    change = now[len(now) - 2 :] - before[3:5]
-    return change * k.rate + k.weight * np.array([0.0, 1.0])
+def weight(k: MeterParameters) -> Array:
+    """m g e_z (2,) [N]."""
+    return k.weight * np.array([0.0, 1.0])
+
+
+def last_mean(k: MeterParameters, g: Array, hit: Hit) -> tuple[Array, Any]:
+    """Mean force of the ground (2,) [N] up to an impact, and 1, or 0 where there is no time to judge.
+
+    g: what is kept of the single support.
+    """
+    since, periods = hit.t - g[1], g[0] - 1.0
+    P = hit.momentum - g[3:5] - since * g[5:7]
+    part = np.where(periods >= k.window, since / k.period, 0.0)
+    base = (1.0 - part) * g[SUPPORT : SUPPORT + 2] + part * g[SUPPORT + 2 : SUPPORT + 4]
+    length = (np.minimum(periods, 1.0 * k.window) - part) * k.period + since
+    judged = np.where(g[0] > 0.0, np.where(length > SHORTEST, 1.0, 0.0), 0.0)
+    return (P - base) / greater(length, SHORTEST) + weight(k), judged
+
+
+def judge(k: MeterParameters, out: Array, g: Array, judged: Any, means: Array) -> None:
+    """Write a mean force into the readings `out`, whose earlier ones are g, where `judged` is 1."""
+    N = k.across @ means
+    least = np.where(g[12] > 0.0, -greater(-g[13], -N), N)
+    out[12] = g[12] + judged
+    out[13] = np.where(judged > 0.0, least, g[13])
+    out[14] = greater(g[14], judged * ratio(k.along @ means, N))
 
 
 def ratio(F_T: Any, F_N: Any) -> Any:
@@ -218,28 +265,34 @@ def ratio(F_T: Any, F_N: Any) -> Any:
 
 def outside(k: MeterParameters, F_T: Any, F_N: Any) -> Any:
     """1 outside the friction cone, where the ground would have to pull too, 0 inside."""
-    return np.where(F_N > 0.0, np.where(np.abs(F_T) > k.friction * F_N, 1.0, 0.0), 1.0)
+    edge = k.friction * (1.0 + ROUND_OFF)
+    return np.where(F_N > 0.0, np.where(np.abs(F_T) > edge * F_N, 1.0, 0.0), 1.0)
 
 
-def scuffed(k: MeterParameters, loads: Loads) -> Any:
-    """How deep the swing foot is below the lower of the footholds, measured along the vertical [m]."""
-    height = loads.foot[1] + k.tan_slope * loads.foot[0]
-    return greater(-(height + greater(loads.drop, 0.0)), 0.0)
+def height(k: MeterParameters, loads: Loads) -> Any:
+    """Of the swing foot above the lower of the footholds, measured along the vertical [m]."""
+    return loads.foot[1] + k.tan_slope * loads.foot[0] + greater(loads.drop, 0.0)
 
 
 def metered_impact(
-    k: MeterParameters, g: Array, q_minus: Array, q_plus: Array, swap: Array, impulse: Array
+    k: MeterParameters,
+    g: Array,
+    q_minus: Array,
+    q_plus: Array,
+    swap: Array,
+    hit: Hit,
 ) -> Array:
-    """g after an impact between the joints' angles q_minus and q_plus (p,), which `swap` relabels.
-
-    impulse (2,) [N s]: of the ground on the foot that strikes, as (x, z).
-    """
+    """g after an impact between the joints' angles q_minus and q_plus (p,), which `swap` relabels."""
     p = len(q_minus)
     out = worked(g, q_minus)
-    found = np.abs(k.along @ impulse) / greater(k.across @ impulse, LEAST_FORCE)
+    means, judged = last_mean(k, g[READINGS + 2 * p :], hit)
+    judge(k, out, g, judged, means)
+    broken = judged * outside(k, k.along @ means, k.across @ means)
+    out[17] = np.where(g[17] > 0.0, g[17], broken * hit.step)
+    found = np.abs(k.along @ hit.impulse) / greater(k.across @ hit.impulse, LEAST_FORCE)
     out[16] = greater(out[16], np.minimum(found, LARGEST_RATIO))
     behind = g[READINGS + p : READINGS + 2 * p]
-    return np.concatenate((out, q_plus, behind[swap], np.zeros(3 + 2 * k.window)))
+    return np.concatenate((out, q_plus, behind[swap], np.zeros(SUPPORT + 2 * (k.window + 1))))
 
 
 def worked(g: Array, q_b: Array) -> Array:
@@ -264,8 +317,8 @@ def largest(x: Array) -> Any:
 
 
 def greater(a: Any, b: Any) -> Any:
-    """The greater of two numbers; in machine code half of what `np.maximum` costs."""
-    return np.where(a > b, a, b)
+    """The greater of two numbers; in machine code half of what `np.maximum` costs. NaN where one is NaN."""
+    return np.where(a <= b, b, np.where(b <= a, a, a + b))
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,8 @@ from biped_adrc.model.robots import RobotDescription
 
 WINDOW = 5e-3
 """[s]"""
+ROUND_OFF = 1e-9
+"""By which a force on the friction cone may lie outside of it, relative."""
 ENDS = 0.03
 """Share of a step at either end in which the swing foot may be at the ground."""
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.studies.plan import BOTH, RISE, Plan
-from biped_adrc.studies.push_map import counts
+from biped_adrc.studies.push_map import certain, counts
 from biped_adrc.studies.verdicts import Results, distance
 
 
@@ -50,7 +50,7 @@ def _heavier(r: Results) -> str:
 
 def _fixed_point(plan: Plan, r: Results) -> str:
     walks = [r[f"nominal {p} {c}"] for p in plan.presets for c in BOTH]
-    gap = max(distance(o) for o in walks)
+    gap = float(np.max([distance(o) for o in walks]))
     return (
         f"After {walks[0].run.impacts} undisturbed impacts the gait designed through the published x* "
         f"is at most {gap:.1e} from it, under both controllers, in: {', '.join(plan.presets)}."
@@ -69,7 +69,7 @@ def _recipe(plan: Plan, r: Results) -> str:
     torques = [f.record["peak_torque"] for f in stable]
     return (
         f"{text}, no component of its state more than {gap:.2g} (rad, rad/s) from x*; its torque peaks "
-        f"between {min(torques):.0f} and {max(torques):.0f} N m, where RABBIT's motors give 150."
+        f"between {np.min(torques):.0f} and {np.max(torques):.0f} N m, where RABBIT's motors give 150."
     )
 
 
@@ -87,11 +87,12 @@ def _stability(r: Results) -> str:
 
 def _map(cells: list[Any]) -> list[str]:
     parts = []
-    for name, found in counts(cells).items():
+    for name, found in counts(certain(cells)).items():
         total = sum(found["NPD"].values())
         npd, adrc = found["NPD"], found["ADRC"]
         parts.append(
-            f"of {total} pushes NPD falls in {npd['fell']} and walks on legally in {npd['legal']}, "
+            f"of {total} pushes that are not marginal NPD falls in {npd['fell']} and walks on legally in "
+            f"{npd['legal']}, "
             f"ADRC falls in {adrc['fell']} and walks on legally in {adrc['legal']} ({name})"
         )
     return ["The map of pushes: " + "; ".join(parts) + "."]
@@ -99,6 +100,9 @@ def _map(cells: list[Any]) -> list[str]:
 
 def _torso(r: Results) -> str:
     npd, adrc = (r[f"torso {c}"] for c in BOTH)
+    short = [f"{o.run.controller} makes no step" for o in (npd, adrc) if len(o.durations) == 0]
+    if short:
+        return f"Under a push on the unactuated torso {' and '.join(short)}."
     usual = float(npd.durations[0])
     slow = [float(o.durations[np.argmax(np.abs(o.durations - usual))]) for o in (npd, adrc)]
     return (

@@ -41,8 +41,8 @@ MAP_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
 STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (1.25e-4, 5e-5)}
 """[s], of every run, and where a push switches and in the single support after; halved, no figure of merit
 changes by more than 1 % or its resolution (`studies.convergence`)."""
-RESET_STEP = 5e-5
-"""[s], for what follows an impact that the observer does not expect."""
+RESET_STEP = 2.5e-5
+"""[s], for what follows an impact that the observer does not expect; the mean friction asks for it."""
 ENGINES_STEP = 1e-3
 """[s], at which the two engines are compared over the pushed step."""
 RISE = 0.01

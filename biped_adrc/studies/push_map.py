@@ -9,6 +9,7 @@ Every walk is carried out at two steps. A cell in which they end differently is 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
@@ -44,7 +45,7 @@ class Fate:
     """What became of one walk.
 
     outcome: "fell", "ended" (otherwise, as `status` says), "made" (all steps, but the ground or the motors
-    could not have carried them) or "legal". marginal: at half the step it is another.
+    could not have carried them) or "legal". marginal: at half the step its word is another.
     """
 
     outcome: str
@@ -52,16 +53,29 @@ class Fate:
     mean_normal_force: float | None
     """The least F_N averaged over 5 ms [N]; the ground would have had to pull where it is negative."""
     mean_friction: float | None
-    """The largest |F_T| / F_N of such an average; None where there was no contact."""
+    """The largest |F_T| / F_N of such an average; None where the ground never pushed."""
+    impulse_ratio: float | None
+    """The largest of the impacts; it makes no walk illegal."""
+    reasons: tuple[str, ...] = ()
+    """Why it is not legal, by the names of `Legality.reasons`."""
     marginal: bool = False
 
     @classmethod
     def of(cls, o: Outcome) -> Fate:
         """Of a run carried out at two steps."""
         assert o.half is not None
-        l = o.legality  # noqa: E741
-        same = (l.outcome, o.status) == (o.half.legality.outcome, o.half.status)
-        return cls(l.outcome, o.status, l.mean_normal_force, l.mean_friction, not same)
+        used, half = cls._at(o), cls._at(o.half)
+        same = (used.word, used.status) == (half.word, half.status)
+        return replace(used, marginal=not same)
+
+    @classmethod
+    def _at(cls, o: Outcome) -> Fate:
+        found = o.legality
+        normal, friction, impulse = (
+            x if math.isfinite(x) else None
+            for x in (found.mean_normal_force, found.mean_friction, found.impulse_ratio)
+        )
+        return cls(found.outcome, o.status, normal, friction, impulse, tuple(found.reasons))
 
     @property
     def word(self) -> str:

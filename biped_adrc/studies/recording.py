@@ -8,6 +8,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
+import numpy as np
+
 from biped_adrc.analysis.certificate import Certificate, certificates, supports
 from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.signals import Signals, signals
@@ -63,7 +65,7 @@ class Recording(ABC):
         return Legality(
             self.trajectory.status,
             (*finished, *supports(self.walker, rest, self.signals, limits)),
-            max((c.impulse_ratio for c in finished), default=0.0),
+            float(np.max([c.impulse_ratio for c in finished], initial=0.0)),
             limits.of(self.walker.plant.description),
         )
 

@@ -57,7 +57,7 @@ def _row(o: Outcome) -> list[Any]:
         float(np.median([s.duration for s in steps])) if steps else None,
         o.legality.mean_friction,
         o.legality.mean_normal_force,
-        max((s.impulse_ratio for s in steps), default=None),
+        float(np.max([s.impulse_ratio for s in steps])) if steps else None,
         o.method,
         o.engine,
     ]

@@ -69,8 +69,8 @@ FIGURES = {
     ),
     "push_map": (
         "Map of pushes",
-        "Which controller falls, over when in the step the push comes, how strong it is and which joints it "
-        "turns.",
+        "How each controller walks on, over when in the step the push comes, how strong it is and which "
+        "joints it turns.",
     ),
 }
 """Heading of each figure and what to look for in it, by the start of its name."""

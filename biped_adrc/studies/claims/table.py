@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from biped_adrc.studies.claims.gathered import Evidence, gathered
 from biped_adrc.studies.claims.rows_control import control_claims
 from biped_adrc.studies.claims.rows_gait import gait_claims
@@ -30,7 +32,7 @@ def claims(presets: tuple[str, ...], results: dict[str, Any]) -> list[Claim]:
     heads = {c: results[f"headline {c}"].outcome for c in CONTROLLERS}
     made = {c: (o.impacts, o.run.impacts) for c, o in heads.items()}
     nominal = [distance(results[f"nominal {p} {c}"]) for p in presets for c in CONTROLLERS]
-    return rows(gathered(presets, results), results["numerics"][1], made, max(nominal))
+    return rows(gathered(presets, results), results["numerics"][1], made, float(np.max(nominal)))
 
 
 def rows(
