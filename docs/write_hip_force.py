@@ -19,7 +19,15 @@ from biped_adrc.studies.hip_case import PushedWalk
 from biped_adrc.studies.hip_push import HipPush, hip_push
 
 COMMAND = "python docs/write_hip_force.py"
-NEEDS = ("peak torque, N m", "friction needed", "clearance, mm")
+NEEDS = (
+    "peak torque, N m",
+    "friction, mean of 5 ms",
+    "friction at an instant",
+    "outside the cone, % of time",
+    "least F_N, N",
+    "clearance, mm",
+    "outcome",
+)
 
 INTRODUCTION = """\
 Written by `{command}`.
@@ -39,8 +47,12 @@ down.
 SEARCH = """\
 Forces are searched to {resolution:g} N; the walk at the force named and the one just below it were both
 simulated, and that more force is never better was taken for granted. The other columns are of the walk just
-below: the mean speed of its last five steps, that of its slowest step, and what its steps needed. Where the
-friction needed is above 0.6, say, a real foot slips first; the model, pinned at its foot, does not.
+below: the mean speed of its last five steps, that of its slowest step, and what its steps needed. The outcome
+is `legal` where ground and motors of the robot's record could have carried every step, and `made` where all
+steps were made and not all of them legally ([what legal means](guide/hardware.md)): friction counts in the mean
+of 5 ms, and the outermost values at an instant, the share of the time outside the friction cone and the least
+normal force stand beside it. Where a walk is `made`, a real foot slips first; the model, pinned at its foot,
+does not.
 
 The quadratures know no controller. With exact tracking and $\\zeta = \\sigma_-^2 / 2$ a step is
 
@@ -95,15 +107,17 @@ def finding(study: HipPush) -> str:
     inside = sum(x.below.force < x.predicted <= x.stops.force for x in study.limits)
     ends = [len(x.stops.speeds) + 1 for x in study.limits if x.case.stride]
     walked = [w for _, w in study.kept if w.walks]
-    if not all(w.clearance > 0.0 for _, w in study.kept):
+    if any(w.legality is not None and w.legality.scuffing > 0.0 for _, w in study.kept):
         raise SimulationError(
             "a walk with the PI scuffs its swing foot; the page says that none does"
         )
-    gap = max(abs(w.speed() - 0.5) for w in walked)
+    gap = max(abs(speed - 0.5) for w in walked if (speed := w.speed()) is not None)
+    legal = sum(w.outcome == "legal" for w in walked)
     lines += [
         f"- The quadratures are inside the simulated bracket in {inside} of {len(study.limits)} cases.",
         f"- At the force that stops the tracking, and above, {len(walked)} of {len(study.kept)} walks with "
-        f"the PI make all steps; the last five of each are on average within {1e3 * gap:.1g} mm/s of 0.50 m/s.",
+        f"the PI make all steps, {legal} of them legally; the last five of each are on average within "
+        f"{1e3 * gap:.1g} mm/s of 0.50 m/s.",
         f"- The force that stops a walk with the PI does so by step {max(ends)}, in all presets. The loop "
         "has to see a slow step before it acts, so the first steps under the full force decide, not what the "
         "correction could hold in the long run.",
@@ -118,7 +132,7 @@ def limits_table(study: HipPush) -> str:
     for x in study.limits:
         end = f"{x.stops.status.name}, step {len(x.stops.speeds) + 1}"
         force = [f"{x.stops.force:.1f}", f"{x.predicted:.2f}", end]
-        speed = [f"{x.below.speed():.3f}", f"{min(x.below.speeds):.3f}"]
+        speed = [number(x.below.speed(), 3), number(min(x.below.speeds, default=None), 3)]
         rows.append([x.case.preset, x.case.name, *force, *speed, *needs(x.below)])
     return table([*columns, "speed below, m/s", "slowest step, m/s", *NEEDS], rows)
 
@@ -126,10 +140,9 @@ def limits_table(study: HipPush) -> str:
 def kept_table(study: HipPush) -> str:
     """The PI's walks."""
     rows = [
-        [c.preset, c.name, f"{w.force:.1f}", w.status.name, f"{w.speed():.4f}", *needs(w)]
-        for c, w in study.kept
+        [c.preset, c.name, f"{w.force:.1f}", number(w.speed(), 4), *needs(w)] for c, w in study.kept
     ]
-    return table(["preset", "controller", "force, N", "status", "settles at, m/s", *NEEDS], rows)
+    return table(["preset", "controller", "force, N", "settles at, m/s", *NEEDS], rows)
 
 
 def directions_table(study: HipPush) -> str:
@@ -144,8 +157,25 @@ def directions_table(study: HipPush) -> str:
 
 
 def needs(w: PushedWalk) -> list[str]:
-    """Peak torque, friction, clearance."""
-    return [f"{w.peak_torque:.0f}", f"{w.friction:.2f}", f"{1e3 * w.clearance:.0f}"]
+    """What its steps needed, and how it ended."""
+    if w.legality is None:
+        return [*("-" for _ in NEEDS[1:]), w.outcome]
+    r = w.legality.record()
+    share = None if r["share_outside"] is None else 100.0 * r["share_outside"]
+    return [
+        number(r["peak_torque"], 0),
+        number(r["mean_friction"], 2),
+        number(r["friction"], 2),
+        number(share, 1),
+        number(r["least_normal_force"], 0),
+        number(None if w.clearance is None else 1e3 * w.clearance, 0),
+        w.outcome,
+    ]
+
+
+def number(x: float | None, digits: int) -> str:
+    """A number of a table, or a dash."""
+    return "-" if x is None else f"{x:.{digits}f}"
 
 
 def main() -> int:

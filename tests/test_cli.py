@@ -157,6 +157,7 @@ def test_simulate_says_what_ground_and_motors_had_to_give():
     assert legal.exit_code == 0
     assert "it made all steps legally" in legal.output
     assert "0.519" in legal.output  # the impulse's friction
+    assert "outside the friction cone for 0 % of the time" in " ".join(legal.output.split())
     strict = inside(*common, "--friction-limit", "0.3", "--force-window", "0.01")
     assert strict.exit_code == 0
     assert "not all of them legally" in strict.output
@@ -177,4 +178,6 @@ def test_poincare_says_what_the_nominal_step_needs():
     done = inside("poincare", "--robot", "compass", "--samples", "0")
     assert done.exit_code == 0
     assert "friction at impact 0.246" in done.output
+    for words in ("at an instant F_N is", "outside the friction cone for", "scuffs by"):
+        assert words in done.output
     assert "not legal: the swing foot scuffs" in done.output

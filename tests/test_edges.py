@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import math
 
 import numpy as np
@@ -82,6 +83,64 @@ def test_an_edge_at_an_impact_is_named(off, step, walked):
     (remark,) = walked(pulse(step, 0.1, end + off, small)).remarks
     assert f"edge at {end + off:g} s within 1 ms of the impact at {end:.4f} s" in remark
     assert walked(pulse(step, 0.1, end - 5e-3, small)).remarks == ()
+
+
+@pytest.mark.parametrize("start", [1e-6, 0.9e-3])
+def test_an_edge_just_after_the_impact_that_begins_its_step_is_named_and_one_at_0_is_not(
+    start, walked
+):
+    end = walked().trajectory.events("foot_strike")[0].t
+    (remark,) = walked(pulse(2, start, 0.2)).remarks
+    assert f"edge at {start:g} s within 1 ms of the impact before it, at {end:.4f} s" in remark
+    assert walked(pulse(2, 0.0, 0.2)).remarks == ()
+    assert walked(pulse(2, 1.1e-3, 0.2)).remarks == ()
+    assert walked(pulse(1, start, 0.2)).remarks == (), (
+        "no impact of this walk begins its first step"
+    )
+
+
+@pytest.fixture(scope="module")
+def observed(biped, gait):
+    """The largest error and the remarks of a pushed ADRC walk with a step h [s]."""
+
+    def made(bandwidth, h, push=(2, 0.1, 0.3), method=ba.Exponential):
+        observer = ba.GPIObserver.from_bandwidth(bandwidth, 4)
+        law = ba.ADRCController(gait.constraint, observer)
+        walker = ba.Walker(biped, law, pulse(*push))
+        walk = ba.walk(walker, gait, 2, None if h is None else method(h), engine="compiled")
+        return walk.signals.peak_error, walk.remarks
+
+    return made
+
+
+def test_a_step_too_long_for_the_observer_is_named_where_it_spoils_the_errors(observed):
+    for bandwidth, h, share in ((5000.0, 5e-4, 3.0), (2000.0, 1e-3, 0.1)):
+        exact, silent = observed(bandwidth, 5e-5)
+        assert silent == ()
+        wrong, remarks = observed(bandwidth, h)
+        assert abs(wrong / exact - 1.0) > share
+        (remark,) = remarks
+        assert f"the step of {1e3 * h:g} ms beside the edges" in remark
+        assert f"({1e3 / bandwidth:.2g} ms)" in remark
+    right, silent = observed(500.0, 1e-3)
+    assert silent == ()
+    assert right == pytest.approx(observed(500.0, 5e-5)[0], rel=1e-2)
+
+
+def test_only_the_steps_beside_an_edge_have_to_be_short(observed):
+    assert observed(5000.0, None)[1] == (), "0.5 ms in the first step, 0.05 ms in the pushed one"
+    assert len(observed(5000.0, 5e-4, (1, 0.1, 0.3))[1]) == 1
+    assert "did not act" in observed(5000.0, 5e-4, (9, 0.1, 0.3))[1][0]
+    assert len(observed(5000.0, 5e-4, (9, 0.1, 0.3))[1]) == 1
+
+
+def test_the_default_step_of_python_is_named_where_the_walk_is_shown(biped, gait):
+    law = ba.ADRCController(gait.constraint)
+    walk = ba.walk(ba.Walker(biped, law, pulse(1, 0.1, 0.15)), gait, 1)
+    (remark,) = walk.remarks
+    assert "0.5 ms" in remark
+    assert "0.05 ms" in remark
+    assert remark in html.unescape(walk._repr_html_())
 
 
 def test_a_fall_cuts_nothing_off(walked):

@@ -188,8 +188,8 @@ def test_bad_values_are_refused(bare, gait):
 
 def test_the_text_says_what_was_found():
     walked, stopped = (
-        PushedWalk(2.9, ba.Status.COMPLETED, (0.3, 0.25), 14.0, 0.4, 0.01),
-        PushedWalk(3.0, ba.Status.STALLED, (), np.nan, np.nan, np.nan),
+        PushedWalk(2.9, ba.Status.COMPLETED, (0.3, 0.25), None, 0.01),
+        PushedWalk(3.0, ba.Status.STALLED, (), None, None),
     )
     case = HipCase("NPD", stride=False)
     study = HipPush((HipLimit(case, 2.92, walked, stopped),), ((case, walked),), {})
@@ -198,4 +198,17 @@ def test_the_text_says_what_was_found():
     assert study.limit("identified-bare", "NPD", False).predicted == 2.92
     with pytest.raises(InputError, match="was not studied"):
         study.limit("tac2003", "NPD", False)
-    assert np.isnan(stopped.speed())
+    assert stopped.speed() is None
+    assert stopped.outcome == "ended"
+
+
+def test_what_the_walks_of_the_force_needed_is_what_their_steps_needed(alone):
+    """Of the finished steps alone; a walk that is stopped is not legal whatever these needed."""
+    made = alone.case.walk(alone.below.force)
+    r = alone.below.legality.record()
+    assert r == made.legality.record()
+    assert r["outcome"] == alone.below.outcome == "legal"
+    assert 0.0 < r["mean_friction"] <= r["friction"] < 0.6
+    assert r["share_outside"] == 0.0
+    assert alone.stops.outcome in ("fell", "ended")
+    assert len(alone.stops.legality.supports) == len(alone.stops.speeds)

@@ -1,5 +1,6 @@
 """What ground and motors could have carried: mean force against momentum, hand-made steps, walks cut short."""
 
+import json
 from dataclasses import fields, replace
 
 import numpy as np
@@ -136,6 +137,21 @@ def test_scuffing_counts_away_from_the_ends_below_the_lower_foothold(walker):
     assert support(up, handmade(t, F_N, height=middle), KNOWN).scuffing == pytest.approx(2e-3)
     late = np.where(t > 0.39, -1e-3, 0.02)
     assert support(walker, handmade(t, F_N, height=late), KNOWN, finished=False).scuffing > 0.0
+
+
+def test_the_record_has_no_number_that_is_not_finite(walker):
+    t = grid()
+    carried = support(walker, handmade(t, np.full(len(t), 100.0), np.full(len(t), 50.0)), KNOWN)
+    lifted = support(walker, handmade(t, np.full(len(t), -5.0), np.full(len(t), 50.0)), KNOWN)
+    r = Legality(ba.Status.TIME_OUT, (carried, lifted), np.inf, KNOWN).record()
+    assert {name for name, x in r.items() if x is None} == {
+        "friction",
+        "mean_friction",
+        "impulse_ratio",
+    }
+    assert (r["share_outside"], r["least_normal_force"], r["outcome"]) == (0.5, -5.0, "ended")
+    assert (r["legal_impacts"], list(r["reasons"])) == (0, ["normal_force"])
+    assert json.loads(json.dumps(r, allow_nan=False)) == r
 
 
 def test_torque_at_its_limit_is_legal_and_above_is_not(walker):

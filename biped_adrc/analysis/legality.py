@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -32,6 +32,17 @@ OUTCOMES = {
     "legal": "it made all steps legally",
 }
 """Of a walk, in words."""
+NUMBERS = (
+    "share_outside",
+    "least_normal_force",
+    "friction",
+    "mean_normal_force",
+    "mean_friction",
+    "scuffing",
+    "impulse_ratio",
+    "peak_torque",
+)
+"""Of `Legality`, in its record."""
 
 
 def outcome_of(status: Status, legal: bool) -> str:
@@ -123,6 +134,16 @@ class Legality:
 
     def _least(self, name: str) -> float:
         return float(np.min([getattr(s, name) for s in self.supports]))
+
+    def record(self) -> dict[str, Any]:
+        """All of it as plain values; None where a number is not finite, as a friction without contact is."""
+        numbers = {name: float(getattr(self, name)) for name in NUMBERS}
+        return {
+            "outcome": self.outcome,
+            "legal_impacts": self.legal_impacts,
+            **{name: x if math.isfinite(x) else None for name, x in numbers.items()},
+            "reasons": self.reasons,
+        }
 
     def text(self) -> str:
         """In words, with the reasons."""

@@ -186,13 +186,22 @@ def _print_steps(o: Outcome, legality: Legality) -> None:
         )
     console.print(table)
     console.print(
-        f"F_N and friction: least and largest mean over {1e3 * legality.limits.window:g} ms\n"
+        f"F_N and friction: least and largest mean over {1e3 * legality.limits.window:g} ms; "
+        f"{_instants(legality)}\n"
         f"{o.status}: {o.message}\n{o.impacts} impacts, largest tracking error {error_text(o)}, "
         f"peak torque {o.peak_torque:.1f} N m, {o.method}, engine {o.engine}\n{legality.text()}"
     )
     stays = [c.step for c in o.certificates if not c.old_foot_velocity > 0.0]
     if stays:
         console.print(f"the old stance foot does not lift off after steps {stays}")
+
+
+def _instants(needed: Legality | Certificate) -> str:
+    """What no mean hides."""
+    return (
+        f"at an instant F_N is {needed.least_normal_force:.1f} N at least, and the force is outside the "
+        f"friction cone for {100.0 * needed.share_outside:.2g} % of the time"
+    )
 
 
 def _nominal(c: Certificate) -> str:
@@ -203,7 +212,7 @@ def _nominal(c: Certificate) -> str:
     return (
         f"its step: {c.step_length:.4f} m in {c.duration:.4f} s, peak torque {c.peak_torque:.1f} N m; in the "
         f"mean of {1e3 * c.window:g} ms friction {ratio_text(c.mean_friction)}, "
-        f"F_N {c.mean_normal_force:.1f} N; "
+        f"F_N {c.mean_normal_force:.1f} N; {_instants(c)}; the swing foot scuffs by {1e3 * c.scuffing:.2g} mm; "
         f"friction at impact {ratio_text(c.impulse_ratio)}, limit {c.friction_limit:g}; "
         f"{'not legal: ' + missed if missed else 'legal'}"
     )

@@ -6,8 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from biped_adrc.analysis.legality import OUTCOMES
 from biped_adrc.studies.plan import BOTH, RISE, Plan
 from biped_adrc.studies.push_map import certain, counts
+from biped_adrc.studies.runs import Outcome
 from biped_adrc.studies.verdicts import Results, distance
 
 
@@ -30,10 +32,19 @@ def _push(plan: Plan, r: Results) -> str:
     pushes = "; ".join(push.in_words() for push in plan.pushes)
     return (
         f"Under the push ({pushes}) NPD makes {npd.impacts} and ADRC {adrc.impacts} of "
-        f"{npd.run.impacts} impacts. The largest tracking error is {npd.peak_error:.3g} rad under NPD "
-        f"and {adrc.peak_error:.3g} rad under ADRC; where the push rises and falls in {1e3 * RISE:g} ms "
-        f"{slow[0].peak_error:.3g} and {slow[1].peak_error:.3g} rad."
+        f"{npd.run.impacts} impacts; {_carried(npd, adrc)}. The largest tracking error is "
+        f"{npd.peak_error:.3g} rad under NPD and {adrc.peak_error:.3g} rad under ADRC; "
+        f"where the push rises and falls in {1e3 * RISE:g} ms {slow[0].peak_error:.3g} and "
+        f"{slow[1].peak_error:.3g} rad."
     )
+
+
+def _carried(npd: Outcome, adrc: Outcome) -> str:
+    """Whether ground and motors could have carried both."""
+    words = [o.legality.outcome for o in (npd, adrc)]
+    if words[0] == words[1]:
+        return f"of either walk: {OUTCOMES[words[0]]}"
+    return f"of NPD's walk: {OUTCOMES[words[0]]}; of ADRC's: {OUTCOMES[words[1]]}"
 
 
 def _heavier(r: Results) -> str:

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.forced_steps import stopping_force
+from biped_adrc.analysis.legality import Legality, outcome_of
 from biped_adrc.analysis.stride_directions import STANCE_KNEE
 from biped_adrc.analysis.stride_gain import stride_response
 from biped_adrc.control.adrc import ADRCController
@@ -100,18 +100,16 @@ class HipCase:
 
 @dataclass(frozen=True)
 class PushedWalk:
-    """What one force did. Peaks are over all finished steps, NaN where there is none."""
+    """What one force did, and what the finished steps needed; None where there is no finished step."""
 
     force: float
     """Rearward [N]."""
     status: Status
     speeds: tuple[float, ...]
     """L / T of every finished step [m/s]."""
-    peak_torque: float
-    """[N m]."""
-    friction: float
-    """Largest |F_T| / F_N; infinite where the foot would lift off."""
-    clearance: float
+    legality: Legality | None
+    """Of the finished steps, within the limits of the robot's record."""
+    clearance: float | None
     """Least height of the swing foot inside a step [m]."""
 
     @classmethod
@@ -119,14 +117,14 @@ class PushedWalk:
         """Simulate it."""
         made = case.walk(force)
         arcs = tuple(arc for arc in made.trajectory.arcs if arc.mode.step <= _finished(made))
-        steps = replace(made, trajectory=replace(made.trajectory, arcs=arcs)).certificates
+        finished = replace(made, trajectory=replace(made.trajectory, arcs=arcs))
+        steps = finished.certificates if arcs else ()
         return cls(
             force,
             made.trajectory.status,
             tuple(step.step_length / step.duration for step in steps),
-            max((step.peak_torque for step in steps), default=np.nan),
-            max((_friction(step) for step in steps), default=np.nan),
-            min((step.clearance for step in steps), default=np.nan),
+            finished.legality if arcs else None,
+            min((step.clearance for step in steps), default=None),
         )
 
     @property
@@ -134,14 +132,15 @@ class PushedWalk:
         """Whether all steps were made."""
         return self.status.ok
 
-    def speed(self, last: int = 5) -> float:
-        """Mean of the last steps [m/s]; NaN without a step."""
-        return float(np.mean(self.speeds[-last:])) if self.speeds else np.nan
+    @property
+    def outcome(self) -> str:
+        """One of the words in `analysis.legality.OUTCOMES`."""
+        return outcome_of(self.status, False) if self.legality is None else self.legality.outcome
+
+    def speed(self, last: int = 5) -> float | None:
+        """Mean of the last steps [m/s]."""
+        return float(np.mean(self.speeds[-last:])) if self.speeds else None
 
 
 def _finished(made: Walk) -> int:
     return len(made.trajectory.events(FOOT_STRIKE))
-
-
-def _friction(step: Certificate) -> float:
-    return step.friction if step.least_normal_force > 0.0 else math.inf

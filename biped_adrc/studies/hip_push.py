@@ -96,16 +96,17 @@ class HipPush:
         for x in self.limits:
             lines.append(
                 f"{x.case.preset:<17} {x.case.name:<14} {x.stops.force:12.1f} {x.predicted:14.2f} "
-                f"{x.below.speed():18.4f}"
+                f"{_shown(x.below.speed()):>18}"
             )
         lines += [
             "",
-            "preset            controller        force [N]  status      speed [m/s]  peak [N m]",
+            "preset            controller        force [N]  outcome     speed [m/s]  peak [N m]",
         ]
         for case, w in self.kept:
+            peak = None if w.legality is None else w.legality.peak_torque
             lines.append(
-                f"{case.preset:<17} {case.name:<14} {w.force:12.1f}  {w.status.name:<10} "
-                f"{w.speed():12.4f} {w.peak_torque:11.1f}"
+                f"{case.preset:<17} {case.name:<14} {w.force:12.1f}  {w.outcome:<10} "
+                f"{_shown(w.speed()):>12} {_shown(peak, 1):>11}"
             )
         lines += [
             "",
@@ -116,6 +117,10 @@ class HipPush:
                 f"{preset:<17} {d.name:<14} {d.static_gain:18.3f} {d.merit:25.5f}" for d in merits
             ]
         return "\n".join(lines)
+
+
+def _shown(x: float | None, digits: int = 4) -> str:
+    return "-" if x is None else f"{x:.{digits}f}"
 
 
 def hip_push(

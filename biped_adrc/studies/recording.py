@@ -16,7 +16,7 @@ from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.limits import Limits
-from biped_adrc.studies.edges import edge_remarks
+from biped_adrc.studies.edges import edge_remarks, step_remarks
 from biped_adrc.walker import FOOT_STRIKE, Walker
 
 if TYPE_CHECKING:
@@ -71,8 +71,9 @@ class Recording(ABC):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What was not as it was asked for, such as a push that an impact cut off; a sentence each."""
-        return edge_remarks(self.walker, self.trajectory)
+        """What to know before using its numbers: a push that an impact cut off, too long a step at an edge."""
+        walker, trajectory = self.walker, self.trajectory
+        return (*edge_remarks(walker, trajectory), *step_remarks(walker, trajectory))
 
     @property
     def controller_name(self) -> str:
@@ -106,13 +107,14 @@ class Recording(ABC):
         export_run(vars(self.signals), path, note=self.note)
 
     def _repr_html_(self) -> str:
-        """What a notebook shows: the animation and the figure of `plot`."""
+        """What a notebook shows: status and remarks, the animation and the figure of `plot`."""
         from biped_adrc.viz.meshcat import animation_html
         from biped_adrc.viz.notebook import inline
 
         impacts = len(self.trajectory.events(FOOT_STRIKE))
         status = self.trajectory.status
         summary = f"{self.controller_name}: {impacts} impacts. {status.name}: {status.value}"
+        summary = " ".join((summary, *(f"Note: {remark}." for remark in self.remarks)))
         return inline(summary, animation_html({self.controller_name: self}), [self.plot()])
 
 

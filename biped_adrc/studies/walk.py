@@ -79,7 +79,7 @@ def default_method(walker: Walker) -> OneStepMethod:
 def default_parts(walker: Walker, impacts: int, first_step: int, engine: str) -> tuple[Part, ...]:
     """The default method, on the compiled engine with `FINE_STEP` where a push switches.
 
-    In Python the fine steps would take minutes; there they have to be asked for.
+    In Python the fine steps would take minutes; there they have to be asked for, and `Walk.remarks` says so.
     """
     method = default_method(walker)
     if not isinstance(method, Exponential) or engine != COMPILED:
@@ -122,9 +122,11 @@ def walk(
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
 
     method: by default `default_parts`. engine: "pinocchio" or "compiled"; the trajectory's settings say what
-    ran. Every step of the method is kept, so that peaks and certificates miss none. A fall is a status of the
-    trajectory. legal: the walk ends, with the status ILLEGAL, where it would leave these limits; without, they
-    are looked up in `Walk.legality` alone. Raises InputError for parts that do not fit together.
+    ran. Under ADRC and a push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an
+    edge (ten times too large under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every
+    step of the method is kept, so that peaks and certificates miss none. A fall is a status of the trajectory.
+    legal: the walk ends, with the status ILLEGAL, where it would leave these limits; without, they are looked
+    up in `Walk.legality` alone. Raises InputError for parts that do not fit together.
     """
     check_count(impacts, f"the walk asks for {impacts} impacts")
     parts = (

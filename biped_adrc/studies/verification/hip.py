@@ -53,7 +53,7 @@ def hip_rows(tracking: str, steps: int = 25) -> tuple[Row, ...]:
             f"{name} with PI",
             f"speed at {above:.2f} N, mean of the last five steps [m/s]",
             0.5,
-            held.speed(),
+            held.speed() or 0.0,
             1e-3,
             "the speed the PI is asked for",
         ),
