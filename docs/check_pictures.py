@@ -4,7 +4,9 @@ Run: python docs/check_pictures.py OUT
 
 OUT: folder of `biped-adrc reproduce`, quick or not. Each picture has a JSON file of its numbers beside it,
 written by the script that made it. Here they are compared with the runs in OUT, within 1 %; of the maps of
-docs/guide/sweep.md some points are run again. A picture ages with its numbers and not with each commit.
+docs/guide/sweep.md some points are run again. Pictures of longer runs, those of the comparison and the maps of
+pushes, are held against the summaries kept beside them. A picture ages with its numbers and not with each
+commit.
 """
 
 from __future__ import annotations
@@ -18,10 +20,14 @@ from typing import NamedTuple
 
 import make_maps
 import make_pictures
+import write_comparison
+import write_critical_phase
 import write_results
 
 from biped_adrc.errors import BipedError
-from biped_adrc.viz.numbers import Numbers, differences
+from biped_adrc.studies.bench.compare_study import figures
+from biped_adrc.viz.figures import push_map_figure
+from biped_adrc.viz.numbers import Numbers, differences, numbers_of
 
 DOCS = Path(__file__).resolve().parent
 KINDS = (".svg", ".gif", ".png")
@@ -68,6 +74,25 @@ def pictures(out: Path, docs: Path = DOCS) -> list[Picture]:
     ]
 
 
+def kept() -> list[Picture]:
+    """The pictures of the runs whose summaries are kept in docs/. Raises InputError without a summary."""
+    compared, pushed = write_comparison.FOLDER, write_critical_phase.FOLDER
+    cells = write_critical_phase.read(pushed / "summary.json")
+    maps = {
+        preset: push_map_figure([cell.row() for cell in cells if cell.preset == preset])
+        for preset in write_critical_phase.presets_of(cells)
+    }
+    commands = {
+        "make comparison": (compared, figures(write_comparison.read(compared / "summary.json"))),
+        "python docs/write_critical_phase.py OUT": (pushed, maps),
+    }
+    return [
+        Picture(folder / f"{name}.svg", command, lambda _, drawn=drawn: numbers_of(drawn))
+        for command, (folder, found) in commands.items()
+        for name, drawn in found.items()
+    ]
+
+
 def _stored(path: Path) -> Callable[[Numbers], Numbers]:
     return lambda _: json.loads(path.read_text(encoding="utf-8"))
 
@@ -106,8 +131,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path, help="folder of 'biped-adrc reproduce'")
     try:
-        shown = pictures(parser.parse_args().out)
-        lines = complaints(shown) + without_numbers((DOCS / "images", DOCS / "results"), shown)
+        shown = [*pictures(parser.parse_args().out), *kept()]
+        folders = dict.fromkeys(picture.path.parent for picture in shown)
+        lines = complaints(shown) + without_numbers(folders, shown)
     except (BipedError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2

@@ -28,6 +28,13 @@ def marked(page, marks):
     return page.split(marks[0])[1].split(marks[1])[0].strip()
 
 
+def leaves(x):
+    """The values in nested dictionaries and lists, in order."""
+    if isinstance(x, dict | list):
+        return [leaf for y in (x.values() if isinstance(x, dict) else x) for leaf in leaves(y)]
+    return [x]
+
+
 def check_numbers(folder, drawn):
     """The files beside the pictures are what the figures drawn now show, and no picture is left over."""
     names = {path.stem for path in (DOCS / folder).glob("*.svg")}
@@ -39,6 +46,7 @@ def check_numbers(folder, drawn):
         assert now["panels"]
         stored = json.loads(read(f"{folder}/{name}.json"))
         assert differences(stored, now) == [], f"docs/{folder}/{name}.svg shows other numbers"
+        assert leaves(stored) == pytest.approx(leaves(now), rel=0.01, abs=0.0)
 
 
 @pytest.fixture

@@ -325,7 +325,9 @@ def greater(a: Any, b: Any) -> Any:
 class Meter:
     """Measures the error from this constraint, and forces against `limits` on the plant's own ground.
 
-    lifting [s]: how long after an impact the swing foot may still be in the ground.
+    lifting [s]: how long after an impact the swing foot may still be in the ground, 3 % of a step of 0.4 s. A
+    certificate excuses 3 % of each step at both of its ends: at a tick nobody knows when the step will end, so
+    that here nothing is excused before the impact.
     """
 
     constraint: VirtualConstraint

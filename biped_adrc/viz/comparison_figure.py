@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import cycle
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
@@ -49,7 +51,7 @@ def legal_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
         axes.pcolormesh(*edges, shares, cmap=GREYS, vmin=0.0, vmax=1.0, ec="black", lw=0.4)
         _grid(axes, rows, columns)
         label(
-            axes, "", "", "walks that are legal, 95 % intervals; below, those that make all steps"
+            axes, "", "", "walks that are legal, 95 % intervals;\nbelow, those that make all steps"
         )
         return figure
 
@@ -137,11 +139,11 @@ def push_figure(pushes: Sequence[Mapping[str, Any]]) -> Figure:
             axes.set_ylim(len(directions) - 0.5, -0.5)
             axes.set_xlim(0.0, 1.12 * _farthest(pushes))
             label(axes, "largest push [N m]", "", f"{phase} in the step")
-        for i, name in enumerate(columns):
-            panels[0].plot(
-                [], [], MARKERS[i % len(MARKERS)], color=PALETTE[i % len(PALETTE)], label=name
-            )
-        figure.legend(loc="outside lower center", ncols=min(len(columns), 5))
+        handles = [
+            Line2D([], [], ls="", marker=marker, color=colour, label=name)
+            for name, marker, colour in zip(columns, cycle(MARKERS), cycle(PALETTE), strict=False)
+        ]
+        figure.legend(handles=handles, loc="outside lower center", ncols=min(len(columns), 5))
         return figure
 
 

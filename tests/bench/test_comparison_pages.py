@@ -98,6 +98,12 @@ def test_pushes_that_pass_the_highest_rung_have_an_arrow(summary):
     assert all(320.0 < a.xy[0] < panels[0].get_xlim()[1] for a in arrows)
 
 
+def test_legends_name_each_controller_once(summary):
+    for name, figure in figures(summary).items():
+        shown = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+        assert shown == ([] if name == "legal" else ["NPD", "ADRC", "DOB"])
+
+
 def test_the_page_says_first_that_settings_are_not_alike(summary):
     html = comparison_html(summary, {})
     order = [

@@ -351,6 +351,27 @@ def test_a_trial_says_whether_it_was_legal_and_why_not():
         assert unit in refused["detail"]
 
 
+def test_steps_shorter_than_the_window_are_judged_as_a_whole(biped, gait):
+    """By the change of momentum over a step of the gait, T F = m (v-) - m (v+) + T m g e_z."""
+    q, v = gait.start(biped)
+    change = biped.momentum(gait.q_minus, gait.v_minus) - biped.momentum(q, v)
+    F = change / gait.period + biped.weight * np.array([0.0, 1.0])
+    needed = abs(F[0]) / F[1]
+    for share, step in ((1.02, 0.0), (0.98, 1.0)):
+        limits = ba.Limits(friction=share * needed, window=2.0 * gait.period)
+        walker = ba.Walker(
+            biped,
+            ba.NPDController(gait.constraint),
+            timing=ba.SampledTime(2.0 * T),
+            meter=Meter(gait.constraint, limits),
+        )
+        run = ba.walk(walker, gait, impacts=3, engine="compiled").trajectory
+        g = reading(walker.held_at(run.final_state).g)
+        assert (g.windows, g.illegal_step) == (3.0, step)
+        assert g.mean_normal_force == pytest.approx(F[1], rel=1e-3)
+        assert g.mean_friction == pytest.approx(needed, rel=1e-2)
+
+
 class Tied(ba.OnLink):
     """A force on a link whose law says nothing of its resultant."""
 

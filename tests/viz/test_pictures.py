@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
+from biped_adrc.errors import InputError
+from biped_adrc.studies.push_map import Cell, Fate
 from biped_adrc.studies.runs import CONTROLLERS, Run
 from biped_adrc.studies.runs import execute_fully as execute
 from biped_adrc.viz.figures import comparison_figure
@@ -23,7 +27,8 @@ DOCS = Path(__file__).parents[2] / "docs"
 def scripts(monkeypatch: pytest.MonkeyPatch) -> Iterator[dict[str, ModuleType]]:
     """The scripts of docs/, which import one another."""
     monkeypatch.syspath_prepend(str(DOCS))
-    names = ("check_pictures", "make_pictures", "make_maps", "write_results")
+    names = ("check_pictures", "make_pictures", "make_maps", "write_comparison")
+    names += ("write_critical_phase", "write_results")
     for name in names:
         monkeypatch.delitem(sys.modules, name, raising=False)
     yield {name: __import__(name) for name in names}
@@ -121,3 +126,40 @@ def test_a_map_is_checked_by_running_some_of_its_points_again(
     assert len(scripts["check_pictures"].differences(old, now)) == 6
     del old["legal"]
     assert len(scripts["check_pictures"].differences(old, now)) == 7
+
+
+def test_pictures_of_long_runs_are_held_against_the_summaries_that_are_kept(
+    scripts: dict[str, ModuleType], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a map of one cell and of a comparison of one figure; then a walk of the map was another."""
+    check, compared, pushed = (
+        scripts[name] for name in ("check_pictures", "write_comparison", "write_critical_phase")
+    )
+    folders = tmp_path / "comparison", tmp_path / "critical_phase"
+    monkeypatch.setattr(compared, "FOLDER", folders[0])
+    monkeypatch.setattr(pushed, "FOLDER", folders[1])
+    monkeypatch.setattr(check, "figures", lambda summary: {summary["name"]: Figure()})
+    legal = Fate("legal", "COMPLETED", 100.0, 0.4)
+    cell = Cell("identified", 0.1, 20.0, "all +", 150.0, legal, legal)
+    for folder in folders:
+        folder.mkdir()
+    (folders[0] / "summary.json").write_text('{"name": "legal"}')
+    (folders[1] / "summary.json").write_text(pushed.compact([cell]))
+    for picture in check.kept():
+        picture.path.write_text("<svg/>")
+        picture.path.with_suffix(".json").write_text(as_text(picture.now({})))
+    assert {f"{p.path.parent.name}/{p.path.stem}" for p in check.kept()} == {
+        "comparison/legal",
+        "critical_phase/identified",
+    }
+    assert check.complaints(check.kept()) == check.without_numbers(folders, check.kept()) == []
+    fell = replace(cell, adrc=Fate("fell", "FELL", None, None))
+    (folders[1] / "summary.json").write_text(pushed.compact([fell]))
+    (line,) = check.complaints(check.kept())
+    assert "critical_phase/identified.svg" in line
+    (folders[0] / "survival.svg").write_text("<svg/>")
+    (line,) = check.without_numbers(folders, check.kept())
+    assert "survival.svg: no command makes it" in line
+    (folders[0] / "summary.json").unlink()
+    with pytest.raises(InputError, match="biped-adrc compare"):
+        check.kept()

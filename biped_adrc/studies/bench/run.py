@@ -52,7 +52,7 @@ COLUMNS = {
     "share_outside": "Share of the ticks with the force outside the friction cone.",
     "mean_normal_force": "Least F_N averaged over the window [N].",
     "mean_friction": "Largest |F_T| / F_N of the averaged forces.",
-    "scuffing": "How deep the swing foot was in the ground, from 3 % of a step on [m].",
+    "scuffing": "How deep the swing foot was in the ground, after the first 3 % of the gait's step [m].",
     "impulse_ratio": "Largest |F_T| / F_N of the impacts; it makes no step illegal.",
     "bad_normal_force": "1 when an averaged F_N was not positive, else 0.",
     "bad_friction": "1 when an averaged force was outside the friction cone, else 0.",
