@@ -246,10 +246,13 @@ def _strikes(run: Run, speed: float, h: float, impacts: int) -> int:
 def least_speed(run: Run) -> float:
     """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact."""
     biped, gait = nominal(run.preset, run.gait)
-    zero = ZeroDynamics.of(biped, gait.constraint)
+    zero = ZeroDynamics.of(biped, gait.constraint, nodes=120)
     sigma = biped.angular_momentum(*gait.start(biped))
     gained = zero.sigma_squared(0.0)
-    return float(np.sqrt(max(-float(np.min(gained)), 0.0)) / abs(sigma))
+    k = min(max(int(np.argmin(gained)), 1), len(gained) - 2)
+    near = np.polyfit(zero.theta[k - 1 : k + 2] - zero.theta[k], gained[k - 1 : k + 2], 2)
+    lowest = float(near[2] - near[1] ** 2 / (4.0 * near[0]))  # of the parabola through three nodes
+    return float(np.sqrt(max(-lowest, 0.0)) / abs(sigma))
 
 
 class Jumps(NamedTuple):
