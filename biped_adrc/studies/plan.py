@@ -42,7 +42,9 @@ STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (1.25e-4, 5e-5)}
 """[s], of every run, and where a push switches and in the single support after; halved, no figure of merit
 changes by more than 1 % or its resolution (`studies.convergence`)."""
 RESET_STEP = 2.5e-5
-"""[s], for what follows an impact that the observer does not expect; the mean friction asks for it."""
+"""[s], for what follows an impact that the observer does not expect; the mean forces ask for it."""
+DIVERGING_STEP = 5e-5
+"""[s], the same for the walk that diverges 1.2 ms after the impact, of which only the ending is compared."""
 ENGINES_STEP = 1e-3
 """[s], at which the two engines are compared over the pushed step."""
 RISE = 0.01
@@ -158,7 +160,9 @@ def literal_runs(plan: Plan) -> dict[str, Run]:
         for limit in (None, 150.0):
             name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
             run = Run(preset=plan.preset, reset=policy, torque_limit=limit, impacts=3)
-            runs[name] = replace(run, method="exponential", h=RESET_STEP)
+            diverges = policy == "none" and limit is None
+            h = DIVERGING_STEP if diverges else RESET_STEP
+            runs[name] = replace(run, method="exponential", h=h)
     return runs
 
 
