@@ -16,8 +16,18 @@ from biped_adrc.studies.claims.admissible import Member, convergence, declared, 
 from biped_adrc.studies.claims.evidence import Cycle, Jumps, Needs, Pair, Start
 from biped_adrc.studies.claims.gathered import Evidence
 from biped_adrc.studies.claims.orders import Order, bandwidth_with
-from biped_adrc.studies.claims.table import rows
-from biped_adrc.studies.claims.walks import MemberOutcome, Track, Walked, prepared, tried
+from biped_adrc.studies.claims.table import map_cells, rows
+from biped_adrc.studies.claims.walks import (
+    MemberOutcome,
+    Prepared,
+    Track,
+    Walked,
+    _ending,
+    _undisturbed,
+    nominal,
+    prepared,
+    tried,
+)
 from biped_adrc.studies.claims.words import (
     MEANINGS,
     Case,
@@ -29,10 +39,12 @@ from biped_adrc.studies.claims.words import (
     claim_checks,
     span,
 )
+from biped_adrc.studies.push_map import Cell, Fate
 from biped_adrc.viz.report import CLAIM_COLUMNS
 
 NUMERICS = {
     "tracking error per unit disturbance on a held joint, simulated [s^2]": 2e-5,
+    "the same at half the step [s^2]": 2e-5,
     "the same by (23) corrected [s^2]": 2e-5,
     "the same by (23) as printed [s^2]": 1e-5,
 }
@@ -114,10 +126,44 @@ def test_an_observer_that_starts_at_zero_knows_the_rates_and_no_disturbance():
 
 def test_a_deviation_is_taken_from_the_onset_on_against_the_walk_without_a_push():
     t = np.linspace(0.0, 1.0, 101)
-    usual = Track(t, np.column_stack((t, -t)), -1.0, 1.0)
+    slope = np.tile([1.0, -1.0], (101, 1))
+    usual = Track(t, np.column_stack((t, -t)), slope, -1.0, 1.0)
     pushed = usual.error + np.where((t > 0.5)[:, np.newaxis], [[0.0, 0.25]], [[3.0, 3.0]])
-    found = Track(t, pushed, -1.0, 1.0).away_from(usual, 0.505)
+    found = Track(t, pushed, slope, -1.0, 1.0).away_from(usual, 0.505)
     assert found == pytest.approx(0.25, abs=1e-12)
+
+
+def test_peaks_lie_between_the_nodes():
+    """Of sin(t) on nodes around its peak, and of its deviation from a walk on other nodes."""
+    t, other = np.linspace(0.0, 3.0, 10), np.linspace(0.0, 3.0, 31)
+    one = Track(t, np.sin(t)[:, None], np.cos(t)[:, None], -1.0, 3.0)
+    assert np.max(np.abs(one.error)) < 0.996
+    assert one.peak == pytest.approx(1.0, abs=1e-3)
+    usual = Track(other, other[:, None] ** 2, 2.0 * other[:, None], -1.0, 3.0)
+    pushed = one._replace(error=one.error + t[:, None] ** 2, derror=one.derror + 2.0 * t[:, None])
+    assert pushed.away_from(usual, 0.0) == pytest.approx(1.0, abs=1e-3)
+
+
+def test_a_walk_is_taken_from_the_undisturbed_one_at_either_step():
+    """Two tracks, each at its own step, that nobody can change for the others."""
+    of = ("identified", "NPD", "published", "model", "solved")
+    h = declared()["steps"]["NPD"]
+    usual, half = (_undisturbed(*of, step) for step in (h, 0.5 * h))
+    assert len(half.t) > 1.9 * len(usual.t)
+    with pytest.raises(ValueError, match="read-only"):
+        usual.error[0] = 1.0
+    with pytest.raises(ValueError, match="read-only"):
+        nominal("identified", "published")[1].q_minus[0] = 1.0
+
+
+def test_a_walk_that_is_not_finite_is_not_legal(monkeypatch):
+    run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "model", "solved").run("NPD", 1e-3)
+    made = prepared(run)
+    walk = made.simulate(1e-3, 1)
+    arc = walk.arcs[0]
+    lost = replace(walk, arcs=(replace(arc, x=np.full_like(arc.x, np.nan)),))
+    monkeypatch.setattr(Prepared, "simulate", lambda *_: lost)
+    assert _ending(made, 1e-3).illegal == ("not finite",)
 
 
 # -- cases and tallies -----------------------------------------------------------------------------
@@ -127,9 +173,10 @@ def test_a_number_is_judged_at_both_steps():
     assert not below_limit("a", Figure(0.0098, 0.0099), 0.01, (0.05, 0.0)).marginal
     assert below_limit("a", Figure(0.002, 0.001), 0.01, (0.01, 1e-9)).marginal
     assert not below_limit("a", Figure(2e-10, 1e-10), 0.01, (0.01, 1e-9)).marginal
-    for bad in (math.nan, math.inf):
-        case = below_limit("a", Figure(bad, bad), 0.01, (0.01, 1e-9))
-        assert (case.holds, case.marginal) == (False, False)
+    infinite = below_limit("a", Figure(math.inf, math.inf), 0.01, (0.01, 1e-9))
+    assert (infinite.holds, infinite.marginal) == (False, False)
+    nothing = below_limit("a", Figure(math.nan, math.nan), 0.01, (0.01, 1e-9))
+    assert (nothing.holds, nothing.marginal) == (False, True)  # a search that failed says nothing
     assert below_limit("a", Figure(math.nan, 0.001), 0.01, (0.01, 1e-9)).marginal
 
 
@@ -143,6 +190,23 @@ def test_a_tally_counts_what_is_firm():
     assert "marginal: m" in Tally((good, good, doubtful)).share
     assert Tally((doubtful,)).word == "not testable"
     assert Tally(()).word == "not testable"
+
+
+def test_a_run_with_fewer_cases_than_declared_says_so():
+    good = Case("g", figure(1.0), True)
+    assert "4 of the 36 cases declared were run" in Tally((good,) * 4, 36).share
+    assert "declared" not in Tally((good,) * 4, 4).share
+    assert "where a run tried fewer" in MEANINGS["replicated"]
+
+
+def test_every_row_of_a_run_in_one_preset_says_how_many_were_declared():
+    one = rows(EVIDENCE, NUMERICS, MADE, 1e-5)
+    told = {c.claim for c in one if "cases declared were run" in c.share}
+    counted = {c.claim for c in one if " with 95 %" in c.share}
+    untold = counted - told
+    others = {"Under ADRC 'the stability", "The total disturbances", "'Global stability"}
+    assert all(any(claim.startswith(start) for claim in told) for start in others)
+    assert {text.split()[0] for text in untold} == {"Each", "More"}  # headline runs; closed forms
 
 
 def test_the_interval_is_wilson_s():
@@ -203,7 +267,7 @@ def test_rejection(odd, word):
 def test_a_marginal_member_is_named_and_counts_for_nothing():
     odd = outcome(adrc=walk(1e-6, change=0.02))
     claim = of(rows_push.rejection, odd)
-    assert claim.share.startswith("5 of 5")
+    assert claim.share.startswith("5 of 5, ")
     assert odd.member.name in claim.share
     assert claim.asserted == 5 / 6
 
@@ -240,6 +304,11 @@ def test_the_cycle_after_the_push():
     assert of(rows_push.unaffected, outcome(adrc=walk(1e-6, rate=-1.1e-5))).word == "depends"
 
 
+def test_a_cycle_that_ends_is_affected_whatever_the_step():
+    claim = of(rows_push.unaffected, outcome(adrc=walk(math.nan, made=1, rate=math.nan)))
+    assert (claim.word, claim.marginal) == ("depends", 0)
+
+
 def test_npd_has_to_deviate():
     assert of(rows_push.deviates, outcome(npd=walk(0.9e-3))).word == "depends"
     assert of(rows_push.deviates, outcome(npd=walk(1.1e-3))).word == "replicated"
@@ -259,6 +328,46 @@ def test_a_critical_phase_needs_a_member_that_throws_npd():
     assert of(rows_push.critical_phase, outcome(npd=fallen, adrc=fallen)).word == "contradicted"
 
 
+def test_a_critical_phase_that_the_step_decides_says_nothing():
+    fallen = walk(math.nan, made=0, period=math.nan)
+    odd = outcome(npd=fallen._replace(same=False))
+    claim = rows_push.critical_phase([odd])
+    assert (claim.word, claim.marginal) == ("not testable", 1)
+
+
+def cell(npd, adrc, doubtful=False):
+    fates = (Fate(x, "FELL" if x == "fell" else "COMPLETED", 100.0, 0.4) for x in (npd, adrc))
+    one, other = fates
+    return Cell("identified", 0.1, 90.0, "all +", None, one, replace(other, marginal=doubtful))
+
+
+@pytest.mark.parametrize(
+    ("cells", "word", "number"),
+    [
+        ([("fell", "legal")], "replicated", "lost in 1 of 1"),
+        ([("fell", "legal"), ("ended", "fell")], "depends", "lost in 2 of 2"),
+        ([("fell", "made")], "contradicted", "walks on in 1, legally in 0"),
+        ([("fell", "fell"), ("legal", "fell")], "contradicted", "ADRC alone is lost in 1"),
+        ([("legal", "legal")], "not testable", "lost in 0 of 1"),
+    ],
+)
+def test_a_critical_phase_is_judged_over_the_map(cells, word, number):
+    claim = rows_push.critical_phase([outcome()], [cell(*fates) for fates in cells])
+    assert claim.word == word
+    assert number in claim.number
+    table = rows(EVIDENCE, NUMERICS, MADE, 1e-5, [cell(*fates) for fates in cells])
+    assert [c.word for c in table if "critical phase" in c.claim] == [word]
+
+
+def test_marginal_cells_of_the_map_carry_nothing():
+    cells = [cell("fell", "legal"), cell("fell", "fell", doubtful=True)]
+    claim = rows_push.critical_phase([], cells)
+    assert claim.word == "replicated"
+    assert "half the step, 1, are left out" in claim.reason
+    found = map_cells({"map a": cells, "nominal": None, "map b": cells[:1]})
+    assert len(found) == 3
+
+
 def test_the_long_walks():
     assert rows_push.long_walk({"NPD": (25, 25), "ADRC": (25, 25)}).word == "replicated"
     short = rows_push.long_walk({"NPD": (25, 25), "ADRC": (24, 25)})
@@ -267,13 +376,13 @@ def test_the_long_walks():
 
 
 # -- the controller --------------------------------------------------------------------------------
-def pair(ratio=1.0, *, made=True, name="identified, 20 N m on the torso"):
+def pair(ratio=1.0, *, made=True, name="identified, 20 N m on the torso", same=True):
     peaks = {"NPD": figure(1e-2), "ADRC": figure(1e-2 * ratio)}
-    return Pair(name, peaks, peaks, {"NPD": made, "ADRC": made})
+    return Pair(name, peaks, peaks, {"NPD": made, "ADRC": made}, same)
 
 
 @pytest.mark.parametrize(
-    ("ratio", "word"), [(1.0, "contradicted"), (0.0099, "replicated"), (math.nan, "contradicted")]
+    ("ratio", "word"), [(1.0, "contradicted"), (0.0099, "replicated"), (math.nan, "not testable")]
 )
 def test_unmatched_torques_model_errors_and_gait_b(ratio, word):
     pairs = [pair(ratio)] * 3
@@ -290,9 +399,37 @@ def test_less_error_of_a_heavier_plant():
     assert [c.holds for c in claim_checks([less, more])] == [True, True, False]
 
 
-def test_risk_needs_one_counterexample():
+def test_less_of_an_error_is_nothing_where_a_walk_ends():
+    for rule in (rows_control.model_uncertainty, lambda p: [rows_control.unmatched_rejection(p)]):
+        for claim in rule([pair(1e-3, made=False)] * 3):
+            assert claim.word == "contradicted"
+            assert claim.asserted in (None, 0.0)
+        (claim, *_) = rule([pair(1e-3, made=False, same=False)] * 3)
+        assert (claim.word, claim.marginal) == ("not testable", 3)
+
+
+def test_risk_needs_a_counterexample_in_every_preset():
     assert rows_control.not_at_risk([pair(), pair()]).word == "not testable"
-    assert rows_control.not_at_risk([pair(), pair(made=False)]).word == "contradicted"
+    assert rows_control.not_at_risk([pair(), pair(made=False)]).word == "depends"
+    both = rows_control.not_at_risk([pair(made=False)] * 2)
+    assert both.word == "contradicted"
+    assert "chosen" in both.reason
+    doubtful = rows_control.not_at_risk([pair(made=False), pair(made=False, same=False)])
+    assert (doubtful.word, doubtful.marginal) == ("depends", 1)
+
+
+@pytest.mark.parametrize(
+    ("sizes", "word"),
+    [
+        ((20.0, 50.0), "contradicted"),
+        ((20.0, 0.9), "depends"),
+        ((1e-15, 0.0), "not testable"),
+        ((20.0, math.nan), "depends"),
+    ],
+)
+def test_a_jump_of_the_disturbance_has_a_size(sizes, word):
+    found = [Jumps("p", size, 30.0) for size in sizes]
+    assert rows_control.smooth_disturbance(found).word == word
 
 
 def order(name, gain, noise, m=1):
@@ -317,6 +454,9 @@ def test_an_error_that_stays():
     assert rows_control.tends_to_zero({}).word == "not testable"
     other = {**NUMERICS, "the same by (23) corrected [s^2]": 3e-5}
     assert rows_control.tends_to_zero(other).word == "not testable"
+    for half in (1.9e-5, math.nan):
+        claim = rows_control.tends_to_zero({**NUMERICS, "the same at half the step [s^2]": half})
+        assert (claim.word, claim.marginal) == ("not testable", 1)
 
 
 # -- the gait --------------------------------------------------------------------------------------
@@ -335,6 +475,31 @@ def test_stability(multiplier, word):
         claim = rule([cycle(), odd])
         assert claim.word == word
         assert claim_checks([claim])[1].holds == (word == "replicated")
+
+
+def test_multipliers_agree_to_a_share_or_the_round_off_of_their_differences():
+    for found, marginal in (
+        (Figure(0.706, 0.7), 0),
+        (Figure(0.708, 0.7), 1),
+        (Figure(1e-4, 2e-5), 0),
+        (Figure(1.3e-4, 2e-5), 1),
+    ):
+        odd = cycle()._replace(multiplier=found)
+        assert rows_gait.stable([odd]).marginal == marginal
+
+
+def test_a_cycle_that_was_not_found_says_nothing():
+    lost = cycle()._replace(multiplier=Figure(math.nan, math.nan), rate=Figure(math.nan, math.nan))
+    for rule in (rows_gait.stable, rows_gait.recipe_speed):
+        claim = rule([lost])
+        assert (claim.word, claim.marginal) == ("not testable", 1)
+
+
+def test_the_speed_says_on_which_limit_it_hangs():
+    text = rows_gait.recipe_speed([cycle(rate=-1.257 * 1.046), cycle(rate=-1.257 * 1.03)]).reason
+    assert "largest deviation is 4.6 %: a limit of 4 % would make it 'depends'" in text
+    text = rows_gait.recipe_speed([cycle(rate=-1.257 * 0.968)] * 2).reason
+    assert "largest deviation is 3.2 %: a limit of 3 % would make it 'contradicted'" in text
 
 
 def test_the_speed_of_the_recipe():
@@ -357,6 +522,7 @@ def need(gait="recipe", *, impulse=0.5, cost=1.0, jump=1.0, illegal=()):
         figure(10.0),
         jump,
         illegal,
+        figure(100.0),
     )
 
 
@@ -370,6 +536,21 @@ def test_what_gaits_need():
         assert rows_gait.not_optimal([need(cost=cost), need("published")]).word == word
 
 
+@pytest.mark.parametrize(
+    "odd",
+    [
+        {"same": False},
+        {"friction": Figure(0.6, 0.61)},
+        {"normal": Figure(100.0, 102.0)},
+        {"torque": Figure(149.0, 151.0)},
+        {"friction": Figure(math.nan, math.nan)},
+    ],
+)
+def test_needs_that_the_step_decides(odd):
+    claim = rows_gait.recipe_needs([need()._replace(**odd)])
+    assert (claim.word, claim.marginal) == ("not testable", 1)
+
+
 def test_a_need_that_is_not_converged_is_said_to_be():
     odd = need()._replace(friction_at_an_instant=Figure(9.6, 10.1))
     assert "not converged" in rows_gait.recipe_needs([odd]).number
@@ -381,6 +562,13 @@ def test_a_basin_that_ends():
     assert rows_gait.global_stability([below, above]).word == "contradicted"
     walks = below._replace(impacts={"NPD": 3, "ADRC": 3})
     assert rows_gait.global_stability([walks, above]).word == "not testable"
+    assert rows_gait.global_stability([walks, below, above]).word == "depends"
+    stops = above._replace(impacts={"NPD": 3, "ADRC": 0})
+    assert rows_gait.global_stability([below, stops]).word == "not testable"
+    assert rows_gait.global_stability([below, above, stops]).word == "depends"
+    doubtful = rows_gait.global_stability([below, above, above._replace(same=False)])
+    assert (doubtful.word, doubtful.marginal) == ("depends", 1)
+    assert rows_gait.global_stability([]).word == "not testable"
 
 
 def test_printed_multipliers_would_need_short_steps():
@@ -397,7 +585,10 @@ EVIDENCE = Evidence(
     unmatched=(pair(), pair(name="identified, 120 N m on the torso", made=False)),
     uncertainty=(pair(0.5),),
     pushed_recipe=(outcome(),),
-    basin=(Start("b", 0.58, 0.97, {"NPD": 0, "ADRC": 0}, 3),),
+    basin=(
+        Start("b", 0.58, 0.97, {"NPD": 0, "ADRC": 0}, 3),
+        Start("a", 0.58, 1.03, {"NPD": 3, "ADRC": 3}, 3),
+    ),
     jumps=(Jumps("identified", 20.0, 30.0),),
     orders=(
         order("Table I", 2.0, 0.5, 7),

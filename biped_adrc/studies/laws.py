@@ -135,8 +135,12 @@ class HeldJoint(HybridSystem):
         return np.concatenate((v, a, self.controller.flow(s, m, u)))
 
 
+HELD_STEP = 5e-4
+"""[s]"""
+
+
 def held_joint(
-    frequency: float = 5.0, factor: float = 0.05, t_end: float = 2.0, h: float = 5e-4
+    frequency: float = 5.0, factor: float = 0.05, t_end: float = 2.0, h: float = HELD_STEP
 ) -> tuple[float, float, float]:
     """Steady amplitude of the tracking error per unit disturbance [s^2]: simulated, (23) corrected, as printed.
 
@@ -195,12 +199,16 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
 
 def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
     """(23) on a held joint, the order in the sampling period, the order of the exponential method."""
-    simulated, corrected, printed = held_joint()
+    (simulated, corrected, printed), (half, *_) = held_joint(), held_joint(h=0.5 * HELD_STEP)
     order = sampling_order(Run("NPD", preset=preset, engine=COMPILED))
     etd, _ = exponential_order(preset, 0.05)
     etd_table, error = exponential_order(preset, 1.0)
     gap = abs(simulated - corrected) / corrected
+    change = abs(simulated - half) / half
     checks = [
+        at_most(
+            "tracking error on a held joint, change when the step is halved", "law", change, 0.01
+        ),
         at_most(
             "tracking error on a held joint against (23) corrected, relative", "law", gap, 1e-3
         ),
@@ -211,6 +219,7 @@ def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
     ]
     figures = {
         "tracking error per unit disturbance on a held joint, simulated [s^2]": simulated,
+        "the same at half the step [s^2]": half,
         "the same by (23) corrected [s^2]": corrected,
         "the same by (23) as printed [s^2]": printed,
         "order of the exponential method with Table I itself": etd_table,

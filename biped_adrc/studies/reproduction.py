@@ -23,8 +23,8 @@ from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
 from biped_adrc.studies.checks import Check
 from biped_adrc.studies.claims.gathered import gathered
-from biped_adrc.studies.claims.table import PREFACE, claims
-from biped_adrc.studies.claims.words import MEANINGS, claim_checks
+from biped_adrc.studies.claims.table import PREFACE, claims, map_cells
+from biped_adrc.studies.claims.words import MEANINGS, Claim, claim_checks
 from biped_adrc.studies.convergence import observed_order, records
 from biped_adrc.studies.figures import push_window
 from biped_adrc.studies.findings import findings
@@ -34,6 +34,7 @@ from biped_adrc.studies.plan import BOTH, Headline, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.poincare import regression_of
 from biped_adrc.studies.pool import TaskProgress, run_tasks
+from biped_adrc.studies.push_map import Cell
 from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
 from biped_adrc.studies.versions import versions
@@ -58,42 +59,20 @@ def reproduce(
     named = planned_tasks(plan)
     done = run_tasks(list(named.values()), workers, progress)
     results = {name: found.value for name, found in zip(named, done, strict=True)}
-    cells = [cell for name, value in results.items() if name.startswith("map ") for cell in value]
-    laws, figures = results["numerics"]
-    for c in BOTH:
-        results[f"headline {c}"], more = results[f"headline {c}"]
-        laws = laws + more
-        results[f"regression {c}"] = regression_of(results[f"headline {c}"].outcome)
-    for preset in plan.presets:
-        laws = laws + results[f"model {preset}"]
-        laws = laws + [work_identity(results[f"nominal {preset} {c}"]) for c in BOTH]
+    cells = map_cells(results)
+    laws, figures = _laws(plan, results)
     found = claims(plan.presets, results)
     checks = _checks(plan, results) + claim_checks(found) + laws
     simulated = time.perf_counter()
     summary = {
         "command": command,
-        "preset": plan.preset,
-        "left_out": list(plan.left_out),
-        "findings": findings(plan, results, cells),
-        "settings": _settings(plan),
-        "versions": versions(),
+        **_said(plan, results, cells, found),
         "holds": all(check.holds for check in checks),
-        "claims_preface": PREFACE,
-        "claims_words": MEANINGS,
-        "claims": [claim.record() for claim in found],
-        "claims_evidence": gathered(plan.presets, results).record(),
         "checks": [check.record() for check in checks],
         "tables": tables(plan, results, cells, figures),
-        "nominal": _nominal(plan, results),
-        "multipliers": {
-            c: results[f"multipliers {c}"].record() for c in BOTH if f"multipliers {c}" in results
-        },
-        "headline": {c: _three_steps(verdicts.headline_of(results, c)) for c in BOTH},
-        "convergence": list(records(verdicts.run_twice(results))),
-        "regression": {c: results[f"regression {c}"].record() for c in BOTH},
+        **_numbers(plan, results),
         "push_map": [cell.row() for cell in cells],
-        "seconds": {name: found.seconds for name, found in zip(named, done, strict=True)},
-        "notes": _notes() + verdicts.recipe_notes(results, plan),
+        "seconds": {name: one.seconds for name, one in zip(named, done, strict=True)},
     }
     for c in BOTH:
         head = verdicts.headline_of(results, c)
@@ -106,6 +85,51 @@ def reproduce(
     summary["seconds_writing"] = time.perf_counter() - simulated
     write_text(out / "summary.json", json.dumps(clean(summary), indent=1) + "\n")
     return summary
+
+
+def _laws(plan: Plan, results: dict[str, Any]) -> tuple[list[Check], dict[str, float]]:
+    """The laws of all runs, and the figures of the numerical ones; leaves the headline runs and their
+    regressions in `results`."""
+    laws, figures = results["numerics"]
+    for c in BOTH:
+        results[f"headline {c}"], more = results[f"headline {c}"]
+        laws = laws + more
+        results[f"regression {c}"] = regression_of(results[f"headline {c}"].outcome)
+    for preset in plan.presets:
+        laws = laws + results[f"model {preset}"]
+        laws = laws + [work_identity(results[f"nominal {preset} {c}"]) for c in BOTH]
+    return laws, figures
+
+
+def _said(
+    plan: Plan, results: dict[str, Any], cells: list[Cell], found: list[Claim]
+) -> dict[str, Any]:
+    """What the summary says in words: settings, findings, claims, notes."""
+    return {
+        "preset": plan.preset,
+        "left_out": list(plan.left_out),
+        "findings": findings(plan, results, cells),
+        "settings": _settings(plan),
+        "versions": versions(),
+        "claims_preface": PREFACE,
+        "claims_words": MEANINGS,
+        "claims": [claim.record() for claim in found],
+        "notes": _notes() + verdicts.recipe_notes(results, plan),
+    }
+
+
+def _numbers(plan: Plan, results: dict[str, Any]) -> dict[str, Any]:
+    """The numbers of the runs, at the steps at which they were made."""
+    return {
+        "claims_evidence": gathered(plan.presets, results).record(),
+        "nominal": _nominal(plan, results),
+        "multipliers": {
+            c: results[f"multipliers {c}"].record() for c in BOTH if f"multipliers {c}" in results
+        },
+        "headline": {c: _three_steps(verdicts.headline_of(results, c)) for c in BOTH},
+        "convergence": list(records(verdicts.run_twice(results))),
+        "regression": {c: results[f"regression {c}"].record() for c in BOTH},
+    }
 
 
 def _checks(plan: Plan, results: dict[str, Any]) -> list[Check]:

@@ -21,7 +21,7 @@ MEASURES = {
     "rms_torque": "torque, root mean square [N m]",
     "cost_of_transport": "cost of transport",
     "speed_change": "change of speed",
-    "peak_matched": "matched part of the push [rad/s^2]",
+    "peak_matched": "matched part of what the model does not know [rad/s^2]",
     "peak_unmatched": "unmatched part [rad/s^2]",
 }
 """Columns of a row of which the median over legal walks is shown."""

@@ -44,9 +44,7 @@ class Member:
         gait = "" if self.gait == "published" else f"gait '{self.gait}', "
         return (
             f"{gait}{self.preset}, {self.amplitude:g} N m on {'+'.join(self.joints)} from "
-            f"{self.onset:g} "
-            "s, "
-            f"rise {1e3 * self.rise:g} ms, xi^ {self.start}, Theta'' {self.theta}"
+            f"{self.onset:g} s, rise {1e3 * self.rise:g} ms, xi^ {self.start}, Theta'' {self.theta}"
         )
 
     @property
@@ -90,6 +88,11 @@ def members() -> tuple[Member, ...]:
             chosen = {name: factors[name][level] for name, level in at.items()}
             found.append(Member(**(chosen | {"joints": tuple(chosen["joints"])})))
     return tuple(found)
+
+
+def in_all(cases: int) -> int:
+    """How many cases are declared where each preset has so many."""
+    return cases * len(declared()["factors"]["preset"])
 
 
 def _levels(rule: dict[str, list[int]], i: int, j: int, count: int) -> dict[str, int]:

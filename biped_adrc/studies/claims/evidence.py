@@ -15,8 +15,7 @@ from biped_adrc.errors import BipedError
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.studies.claims.admissible import Member, declared, method
-from biped_adrc.studies.claims.legality import illegal
-from biped_adrc.studies.claims.walks import MemberOutcome, nominal, prepared, track, tried
+from biped_adrc.studies.claims.walks import MemberOutcome, nominal, prepared, tracks, tried
 from biped_adrc.studies.claims.words import Figure
 from biped_adrc.studies.poincare import poincare
 from biped_adrc.studies.push import Push
@@ -95,6 +94,10 @@ class Needs(NamedTuple):
     rate_jump: float
     """Largest jump of a joint's rate against its reference at impact [rad/s]."""
     illegal: tuple[str, ...]
+    normal: Figure
+    """Least F_N in the mean over the window [N]."""
+    same: bool = True
+    """Whether it is legal or not alike at half of the step."""
 
 
 def needs(preset: str) -> tuple[Needs, ...]:
@@ -106,12 +109,11 @@ def _needs(preset: str, gait: str) -> Needs:
     h = declared()["steps"]["needs"]
     run = Run("NPD", preset=preset, gait=gait, engine=COMPILED)
     steps: list[Certificate] = []
-    why: tuple[str, ...] = ()
     made = prepared(run)
     for step in (h, 0.5 * h):
         found = watched(made.walker, made.gait, made.simulate(step, 2)).certificates
         steps.append(found[-1])
-        why = illegal(found[-1:])
+    why, at_half = (tuple(one.illegal().values()) for one in steps)
     biped = nominal(preset, gait)[0]
 
     def figure(name: str) -> Figure:
@@ -128,7 +130,9 @@ def _needs(preset: str, gait: str) -> Needs:
         figure("cost_of_transport"),
         Figure(*(one.joint_work / one.step_length for one in steps)),
         float(np.max(np.abs(impact_smoothness(made.gait, biped)))),
-        why,
+        at_half,
+        figure("mean_normal_force"),
+        bool(why) == bool(at_half),
     )
 
 
@@ -137,29 +141,33 @@ class Pair(NamedTuple):
 
     name: str
     peak: dict[str, Figure]
-    """max |q_b - q_d| over all steps [rad], by controller."""
+    """max |q_b - q_d| over all steps, between the nodes too [rad], by controller."""
     delay: dict[str, Figure]
-    """Largest change of a step's time against the first undisturbed one [s], by controller."""
+    """Largest change of a step's time against that of the gait [s], by controller; NaN where one never ends."""
     made: dict[str, bool]
-    """Whether all impacts were made, by controller."""
+    """Whether all impacts were made at both steps, by controller."""
+    same: bool = True
+    """Whether both walks make as many at half of the step."""
 
 
 def _pair(name: str, runs: dict[str, Run]) -> Pair:
     peak, delay = {}, {}
     made: dict[str, bool] = {}
+    same = True
     h = declared()["steps"]["plain"]
     for c, run in runs.items():
-        peaks, delays = [], []
+        peaks, delays, impacts = [], [], []
         ready = prepared(run)
         for step in (h, 0.5 * h):
             walk = ready.simulate(step, run.impacts)
-            arcs = [replace(walk, arcs=(arc,)) for arc in walk.arcs]
-            tracks = [track(ready.gait.constraint, one) for one in arcs]
-            peaks.append(max(t.peak for t in tracks))
-            delays.append(max(abs(t.period - ready.gait.period) for t in tracks))
-            made[c] = made.get(c, True) and len(walk.events(FOOT_STRIKE)) == run.impacts
+            found = tracks(ready, walk)
+            # NumPy's, since max passes over the NaN of a step that never ends
+            peaks.append(float(np.max([t.peak for t in found])))
+            delays.append(float(np.max([abs(t.period - ready.gait.period) for t in found])))
+            impacts.append(len(walk.events(FOOT_STRIKE)))
+        made[c], same = min(impacts) == run.impacts, same and impacts[0] == impacts[1]
         peak[c], delay[c] = Figure(*peaks), Figure(*delays)
-    return Pair(name, peak, delay, made)
+    return Pair(name, peak, delay, made, same)
 
 
 def _both(**settings: Any) -> dict[str, Run]:
@@ -211,6 +219,8 @@ class Start(NamedTuple):
     impacts: dict[str, int]
     """Made, by controller."""
     asked: int
+    same: bool = True
+    """Whether as many are made at half of the step."""
 
 
 def basin(preset: str) -> tuple[Start, ...]:
@@ -220,26 +230,36 @@ def basin(preset: str) -> tuple[Start, ...]:
     least = least_speed(runs["NPD"])
     found = []
     for factor in k["factors"]:
-        made = {}
-        for c, run in runs.items():
-            walk = prepared(run, speed=factor * least).simulate(h, k["impacts"])
-            made[c] = len(walk.events(FOOT_STRIKE))
+        made, half = (
+            {c: _strikes(run, factor * least, step, k["impacts"]) for c, run in runs.items()}
+            for step in (h, 0.5 * h)
+        )
         name = f"{preset}, {factor * least:.3f} of the gait's speed after impact"
-        found.append(Start(name, least, factor, made, k["impacts"]))
+        found.append(Start(name, least, factor, made, k["impacts"], made == half))
     return tuple(found)
+
+
+def _strikes(run: Run, speed: float, h: float, impacts: int) -> int:
+    return len(prepared(run, speed=speed).simulate(h, impacts).events(FOOT_STRIKE))
 
 
 def least_speed(run: Run) -> float:
     """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact."""
     biped, gait = nominal(run.preset, run.gait)
-    zero = ZeroDynamics.of(biped, gait.constraint)
+    zero = ZeroDynamics.of(biped, gait.constraint, nodes=120)
     sigma = biped.angular_momentum(*gait.start(biped))
     gained = zero.sigma_squared(0.0)
-    return float(np.sqrt(max(-float(np.min(gained)), 0.0)) / abs(sigma))
+    k = min(max(int(np.argmin(gained)), 1), len(gained) - 2)
+    near = np.polyfit(zero.theta[k - 1 : k + 2] - zero.theta[k], gained[k - 1 : k + 2], 2)
+    lowest = float(near[2] - near[1] ** 2 / (4.0 * near[0]))  # of the parabola through three nodes
+    return float(np.sqrt(max(-lowest, 0.0)) / abs(sigma))
 
 
 class Jumps(NamedTuple):
-    """How far the total disturbance xi of (13) is from smooth, largest over the joints [rad/s^2]."""
+    """How far the total disturbance xi of (13) is from smooth, largest over the joints [rad/s^2].
+
+    Both are differences of closed forms at one state: there is no step to halve.
+    """
 
     name: str
     at_impact: float

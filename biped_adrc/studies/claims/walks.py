@@ -7,15 +7,15 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicHermiteSpline
 
+from biped_adrc.analysis.quadrature import largest
+from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.engine.choice import simulate_by
-from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.studies.claims.admissible import Member, declared
-from biped_adrc.studies.claims.legality import illegal
 from biped_adrc.studies.claims.words import Figure
 from biped_adrc.studies.runs import CONTROLLERS, Run
 from biped_adrc.studies.walk import watched
@@ -30,7 +30,7 @@ class Walked(NamedTuple):
     impacts: int
     asked: int
     peak: Figure
-    """max |q_b - q_d| in the pushed step [rad]."""
+    """max |q_b - q_d| in the pushed step, between the nodes too [rad]."""
     deviation: Figure
     """The same of the error less that of the walk without a push, from the onset on [rad]."""
     rate: Figure
@@ -97,7 +97,10 @@ class Prepared(NamedTuple):
 def nominal(preset: str, gait: str) -> tuple[Biped, Gait]:
     """RABBIT in a preset and one of its gaits."""
     biped = Run(preset=preset).biped()
-    return biped, load_gait(gait, biped)
+    found = load_gait(gait, biped)
+    for shared in (found.q_minus, found.v_minus):
+        shared.flags.writeable = False
+    return biped, found
 
 
 def prepared(run: Run, zero: bool = False, speed: float = 1.0) -> Prepared:
@@ -115,11 +118,13 @@ def prepared(run: Run, zero: bool = False, speed: float = 1.0) -> Prepared:
 
 
 class Track(NamedTuple):
-    """The error over time in the first step, and Theta' before the impact that ends it."""
+    """The error over time in a single support, and Theta' before the impact that ends it."""
 
     t: Array
     error: Array
     """(K, p) [rad]."""
+    derror: Array
+    """(K, p) its derivative in time [rad/s]."""
     rate: float
     """[rad/s], NaN when there is no impact."""
     period: float
@@ -127,68 +132,68 @@ class Track(NamedTuple):
 
     @property
     def peak(self) -> float:
-        """[rad]."""
-        return float(np.max(np.abs(self.error)))
+        """Between the nodes too [rad]."""
+        return largest(self.t, self.error, self.derror)
 
     def away_from(self, usual: Track, onset: float) -> float:
         """max |error - that of `usual`| from the onset on, while both last [rad].
 
-        `usual` is smooth: cubic splines between its nodes. NaN when there is nothing to compare.
+        `usual` is smooth: cubics between its nodes. NaN when there is nothing to compare.
         """
         seen = (self.t >= onset) & (self.t <= usual.t[-1])
         t, first = np.unique(usual.t, return_index=True)
         if not np.any(seen) or not np.all(np.isfinite(usual.error)):
             return float("nan")
-        there = CubicSpline(t, usual.error[first])(self.t[seen])
-        return float(np.max(np.abs(self.error[seen] - there)))
+        there = CubicHermiteSpline(t, usual.error[first], usual.derror[first])
+        at = self.t[seen]
+        return largest(at, self.error[seen] - there(at), self.derror[seen] - there(at, 1))
 
 
-def track(constraint: VirtualConstraint, one: Trajectory) -> Track:
-    """What the first arc of a trajectory says."""
-    arc = one.arcs[0]
+def tracks(made: Prepared, walk: Trajectory) -> tuple[Track, ...]:
+    """Every single support of a walk."""
+    s = signals(made.walker, walk, made.gait.constraint)
+    return tuple(_track(s.of_step(arc.mode.step), arc) for arc in walk.arcs)
+
+
+def _track(s: Signals, arc: Arc) -> Track:
     struck = arc.event is not None and arc.event.guard == FOOT_STRIKE
-    n = len(constraint.phase)
-    rate = float(constraint.phase @ arc.x[-1, n : 2 * n]) if struck else float("nan")
-    period = float(arc.t[-1] - arc.t[0]) if struck else float("nan")
-    return Track(arc.t - arc.t[0], _errors(constraint, arc), rate, period)
-
-
-def _errors(constraint: VirtualConstraint, arc: Arc) -> Array:
-    """q_b - h(Theta) at the nodes of an arc (K, p) [rad]."""
-    k = constraint.parameters
-    q = arc.x[:, : len(k.c)]
-    s = k.rate * (q @ k.c - k.theta_plus)
-    p = k.curve.stacked.shape[0] // 3
-    h: Array = s[:, np.newaxis] ** k.curve.powers @ k.curve.stacked[:p].T
-    return q[:, :p] - h
+    rate, period = (s.dtheta[-1], s.t[-1] - s.t[0]) if struck else (np.nan, np.nan)
+    p = s.error.shape[1]
+    return Track(s.t - s.t[0], s.error, s.v[:, :p] - s.dq_d, float(rate), float(period))
 
 
 @lru_cache(maxsize=64)
-def _undisturbed(preset: str, controller: str, gait: str, start: str, theta: str) -> Track:
-    """The same walk without a push, its error at nodes for a spline between them."""
-    steps = declared()["steps"]
-    plain = Member(preset, 0.0, 0.0, ("q1",), 0.0, start, theta).run(controller, steps["plain"])
+def _undisturbed(
+    preset: str, controller: str, gait: str, start: str, theta: str, h: float
+) -> Track:
+    """The same walk without a push, its error at nodes for cubics between them."""
+    plain = Member(preset, 0.0, 0.0, ("q1",), 0.0, start, theta).run(controller, h)
     made = prepared(replace(plain, pushes=(), gait=gait), start == "zero")
-    return track(made.gait.constraint, made.simulate(steps["undisturbed"], 1))
+    found = tracks(made, made.simulate(h, 1))[0]
+    for shared in (found.t, found.error, found.derror):
+        shared.flags.writeable = False
+    return found
 
 
 def walked(run: Run, start: str = "model") -> Walked:
     """The pushed step with run.h and half of it, and all impacts with the step for what comes later."""
     steps = declared()["steps"]
-    theta = "solved" if run.solve_theta else "printed"
-    usual = _undisturbed(run.preset, run.controller, run.gait, start, theta)
     made = prepared(run, start == "zero")
     assert run.h is not None
-    constraint, onset = made.gait.constraint, min(push.start for push in run.pushes)
-    fine, half = (track(constraint, made.simulate(h, 1)) for h in (run.h, 0.5 * run.h))
-    first, second = (_ending(made, h) for h in (steps["later"], 0.5 * steps["later"]))
+    onset = min(push.start for push in run.pushes)
+    theta = "solved" if run.solve_theta else "printed"
+    of = (run.preset, run.controller, run.gait, start, theta)
+    pushed = [tracks(made, made.simulate(share * run.h, 1))[0] for share in (1.0, 0.5)]
+    usual = [_undisturbed(*of, share * run.h) for share in (1.0, 0.5)]
+    both = list(zip(pushed, usual, strict=True))
+    first, second = (_ending(made, share * steps["later"]) for share in (1.0, 0.5))
     return Walked(
         *first[:2],
         run.impacts,
-        Figure(fine.peak, half.peak),
-        Figure(fine.away_from(usual, onset), half.away_from(usual, onset)),
-        Figure(fine.rate - usual.rate, half.rate - usual.rate),
-        Figure(fine.period, half.period),
+        Figure(*(one.peak for one in pushed)),
+        Figure(*(one.away_from(other, onset) for one, other in both)),
+        Figure(*(one.rate - other.rate for one, other in both)),
+        Figure(*(one.period for one in pushed)),
         first.illegal,
         first[:2] == second[:2] and bool(first.illegal) == bool(second.illegal),
     )
@@ -205,8 +210,9 @@ class Ending(NamedTuple):
 def _ending(made: Prepared, h: float) -> Ending:
     """Of all impacts of a run, with steps of h."""
     walk = made.simulate(h, made.run.impacts)
-    finite = all(bool(np.all(np.isfinite(arc.x))) for arc in walk.arcs)
-    why = illegal(watched(made.walker, made.gait, walk).legality.supports) if finite else ()
+    why: tuple[str, ...] = ("not finite",)
+    if all(bool(np.all(np.isfinite(arc.x))) for arc in walk.arcs):
+        why = tuple(watched(made.walker, made.gait, walk).legality.reasons.values())
     return Ending(walk.status.name, len(walk.events(FOOT_STRIKE)), why)
 
 

@@ -17,7 +17,8 @@ CONTRADICTED = "contradicted"
 NOT_TESTABLE = "not testable"
 
 MEANINGS = {
-    REPLICATED: "it could have failed, and holds for every case declared before the run",
+    REPLICATED: "it could have failed, and holds for every case declared before the run; where a run tried "
+    "fewer, for all of those, and the share says how many were declared",
     DEPENDS: "it holds in a share of the cases",
     BY_CONSTRUCTION: "it was put in, or follows from what was put in",
     CONTRADICTED: "it holds in none of the cases, or a case shows the opposite",
@@ -43,9 +44,9 @@ class Figure(NamedTuple):
     def converged(self, convergence: float, round_off: float) -> bool:
         """Whether halving the step moves it by less than a share or than round-off.
 
-        A number that is finite at neither step is as good at one as at the other.
+        What is infinite at both is; what is no number at one, such as of a search that failed, is not.
         """
-        if not math.isfinite(self.value) and not math.isfinite(self.at_half):
+        if self.value == self.at_half:
             return True
         return self.change <= convergence or abs(self.value - self.at_half) <= round_off
 
@@ -80,6 +81,8 @@ class Tally:
     """What a set of cases comes to. No claim rests on the marginal ones."""
 
     cases: tuple[Case, ...]
+    declared: int = 0
+    """How many cases the set has, all presets included; a quick run has fewer."""
 
     @property
     def firm(self) -> tuple[Case, ...]:
@@ -114,9 +117,10 @@ class Tally:
         if self.firm:
             found = share(self.held, len(self.firm))
             text = (
-                f"{self.held} of {len(self.firm)}, between {found.low:.2f} and {found.high:.2f} "
-                "with 95 %"
+                f"{self.held} of {len(self.firm)}, between {found.low:.2f} and {found.high:.2f} with 95 "
+                "%"
             )
+        text += fewer(len(self.cases), self.declared)
         if self.marginal:
             text += f"; marginal: {'; '.join(self.marginal)}"
         return text
@@ -125,6 +129,11 @@ class Tally:
     def convergence(self) -> str:
         """The largest change when the step is halved, over the firm cases with finite numbers."""
         return changes([case.figure for case in self.firm])
+
+
+def fewer(count: int, declared: int) -> str:
+    """What a share says of a run with fewer cases than were declared."""
+    return f"; {count} of the {declared} cases declared were run" if count < declared else ""
 
 
 def changes(figures: Sequence[Figure], relevant: float = 0.01) -> str:
