@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import fields, replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -302,8 +303,8 @@ def test_the_finding_of_the_push_says_of_both_walks_whether_they_were_legal():
             known = o.legality.limits._replace(friction=friction if c == "NPD" else 0.6)
             supports = tuple(replace(s, friction_limit=known.friction) for s in o.legality.supports)
             walks[c] = replace(o, legality=replace(o.legality, supports=supports, limits=known))
-        both = {f"{kind} {c}": o for c, o in walks.items() for kind in ("headline", "rising push")}
-        return _push(plan, both)
+        full = {f"headline {c}": SimpleNamespace(outcome=o) for c, o in walks.items()}
+        return _push(plan, {**full, **{f"rising push {c}": o for c, o in walks.items()}})
 
     assert "of either walk: it made all steps legally" in found(0.6)
     assert (
