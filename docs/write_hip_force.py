@@ -51,8 +51,8 @@ below: the mean speed of its last five steps, that of its slowest step, and what
 is `legal` where ground and motors of the robot's record could have carried every step, and `made` where all
 steps were made and not all of them legally ([what legal means](guide/hardware.md)): friction counts in the mean
 of 5 ms, and the outermost values at an instant, the share of the time outside the friction cone and the least
-normal force stand beside it. Where a walk is `made`, a real foot slips first; the model, pinned at its foot,
-does not.
+normal force stand beside it. Where a walk is `made`, a real robot would have slipped or lacked torque first;
+the model, pinned at its foot and with unlimited torque, does not.
 
 The quadratures know no controller. With exact tracking and $\\zeta = \\sigma_-^2 / 2$ a step is
 

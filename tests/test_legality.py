@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import fields, replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,9 @@ from biped_adrc.analysis.legality import Legality, first_violation, outcome_of
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.analysis.window import window_means
 from biped_adrc.model.limits import KnownLimits
+from biped_adrc.studies.findings import _push
+from biped_adrc.studies.plan import Plan
+from biped_adrc.studies.runs import Run, execute
 
 KNOWN = KnownLimits(0.6, 150.0, 5e-3)
 WEIGHT = 300.0
@@ -301,3 +305,24 @@ def test_a_model_without_error_leaves_the_push_as_it_is(biped, gait):
     outside_push = ~np.any(s.zeta, axis=1)
     assert np.all(s.xi_external[outside_push] == 0.0)
     assert np.all(s.xi_unmatched == 0.0)
+
+
+def test_the_finding_of_the_push_says_of_both_walks_whether_they_were_legal():
+    """The walks of figures 4 and 5: whatever a walk needed, the sentence does not leave it out."""
+    plan = Plan(quick=True)
+
+    def found(friction):
+        walks = {}
+        for c in ("NPD", "ADRC"):
+            o = execute(Run(c, impacts=1, pushes=plan.pushes, first_step=19, engine="compiled"))
+            known = o.legality.limits._replace(friction=friction if c == "NPD" else 0.6)
+            supports = tuple(replace(s, friction_limit=known.friction) for s in o.legality.supports)
+            walks[c] = replace(o, legality=replace(o.legality, supports=supports, limits=known))
+        full = {f"headline {c}": SimpleNamespace(outcome=o) for c, o in walks.items()}
+        return _push(plan, {**full, **{f"rising push {c}": o for c, o in walks.items()}})
+
+    assert "of either walk: it made all steps legally" in found(0.6)
+    assert (
+        "of NPD's walk: it made all steps, not all of them legally; of ADRC's: it made all steps legally"
+        in found(0.3)
+    )

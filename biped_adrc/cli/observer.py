@@ -16,6 +16,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.files import output_path, write_bytes
 
 if TYPE_CHECKING:
+    from biped_adrc.analysis.observer_design import ObserverReport
     from biped_adrc.control.tracking import Gains
     from biped_adrc.gait.gait import Gait
     from biped_adrc.model.biped import Biped
@@ -23,38 +24,50 @@ if TYPE_CHECKING:
     from biped_adrc.studies.observer_check import DelayCheck, Walked
 
 
+Poles = Annotated[
+    str | None,
+    typer.Option(help="m + 2 observer poles [rad/s], comma separated; by default Table I."),
+]
+Bandwidth = Annotated[
+    float | None, typer.Option(help="All m + 2 poles at minus this [rad/s], instead of poles.")
+]
+Order = Annotated[
+    int | None,
+    typer.Option(help="m; 1 with --bandwidth if not given, checked against --poles."),
+]
+Proportional = Annotated[float, typer.Option("--K-p", help="K_p [1/s^2].")]
+Derivative = Annotated[float, typer.Option("--K-d", help="K_d [1/s].")]
+Period = Annotated[float, typer.Option(help="Sampling period [s].")]
+Counts = Annotated[float, typer.Option(help="Of the encoders per revolution.")]
+Delay = Annotated[float, typer.Option(help="From a tick to its torque [s].")]
+Known = Annotated[
+    bool, typer.Option("--known", help="Feed the observer with the torque that acts.")
+]
+StoredGait = Annotated[str, typer.Option(help="A stored gait by name, or a .json file.")]
+Confirm = Annotated[
+    bool, typer.Option("--confirm", help="Walk below and above the margins, and with encoders.")
+]
+Out = Annotated[
+    Path | None, typer.Option("--out", "-o", help="Draw the transfer functions: .png or .svg.")
+]
+
+
 @app.command("observer")
 def observer_command(
-    poles: Annotated[
-        str | None,
-        typer.Option(help="m + 2 observer poles [rad/s], comma separated; by default Table I."),
-    ] = None,
-    bandwidth: Annotated[
-        float | None, typer.Option(help="All m + 2 poles at minus this [rad/s], instead of poles.")
-    ] = None,
-    order: Annotated[
-        int | None,
-        typer.Option(help="m; 1 with --bandwidth if not given, checked against --poles."),
-    ] = None,
-    k_p: Annotated[float, typer.Option("--K-p", help="K_p [1/s^2].")] = 5000.0,
-    k_d: Annotated[float, typer.Option("--K-d", help="K_d [1/s].")] = 50.0,
-    period: Annotated[float, typer.Option(help="Sampling period [s].")] = 1.5e-3,
-    counts: Annotated[float, typer.Option(help="Of the encoders per revolution.")] = 8192.0,
-    delay: Annotated[float, typer.Option(help="From a tick to its torque [s].")] = 0.0,
-    known: Annotated[
-        bool, typer.Option("--known", help="Feed the observer with the torque that acts.")
-    ] = False,
+    poles: Poles = None,
+    bandwidth: Bandwidth = None,
+    order: Order = None,
+    k_p: Proportional = 5000.0,
+    k_d: Derivative = 50.0,
+    period: Period = 1.5e-3,
+    counts: Counts = 8192.0,
+    delay: Delay = 0.0,
+    known: Known = False,
     robot: Robot = "rabbit",
     preset: RobotPreset = None,
-    gait: Annotated[
-        str, typer.Option(help="A stored gait by name, or a .json file.")
-    ] = "published",
-    confirm: Annotated[
-        bool, typer.Option("--confirm", help="Walk below and above the margins, and with encoders.")
-    ] = False,
-    out: Annotated[
-        Path | None, typer.Option("--out", "-o", help="Draw the transfer functions: .png or .svg.")
-    ] = None,
+    gait: StoredGait = "published",
+    confirm: Confirm = False,
+    out: Out = None,
 ) -> None:
     """Say what an observer asks of encoders, clock and motors, and which one a robot allows."""
     from biped_adrc.analysis.observer_design import observer_report
@@ -69,6 +82,14 @@ def observer_command(
     report = observer_report(
         chosen, gains, period, robot=biped, gait=found, counts=counts, delay=delay, known=known
     )
+    _print_report(report)
+    if confirm:
+        _confirm(biped, found, chosen, gains, (period, counts, delay, known))
+    if path is not None:
+        _draw(report, path)
+
+
+def _print_report(report: ObserverReport) -> None:
     console.print(report.verdict, markup=False, highlight=False, soft_wrap=True)
     for section in report.sections:
         header = (escape(name) for name in section.header)
@@ -76,15 +97,15 @@ def observer_command(
         for row in section.rows:
             table.add_row(*(escape(cell) for cell in row))
         console.print(table)
-    if confirm:
-        _confirm(biped, found, chosen, gains, (period, counts, delay, known))
-    if path is not None:
-        from biped_adrc.viz.observer_figure import observer_figure
-        from biped_adrc.viz.style import render
 
-        kind = path.suffix.lower().removeprefix(".")
-        write_bytes(path, render(observer_figure([report]), kind))
-        say_written(path)
+
+def _draw(report: ObserverReport, path: Path) -> None:
+    from biped_adrc.viz.observer_figure import observer_figure
+    from biped_adrc.viz.style import render
+
+    kind = path.suffix.lower().removeprefix(".")
+    write_bytes(path, render(observer_figure([report]), kind))
+    say_written(path)
 
 
 def _observer(poles: str | None, bandwidth: float | None, order: int | None) -> GPIObserver:
