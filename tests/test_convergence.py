@@ -113,7 +113,7 @@ def test_all_figures_of_merit_are_compared():
     ("half", "word"),
     [
         ({"peak_error": 1.001e-3}, "rad (1.001e-03 at half the step)"),
-        ({"peak_error": 2e-3}, "mostly an error of integration: shorten the step"),
+        ({"peak_error": 2e-3}, "the step decides it: shorten it"),
         ({"status": "FELL", "impacts": 1}, "the walk ends as FELL after 1 impacts"),
     ],
 )

@@ -10,9 +10,9 @@ from biped_adrc.types import Array
 def window_means(t: Array, y: Array, window: float) -> tuple[Array, Array]:
     """Means of y (K, m) over [s - window, s] within t (K,): the ends s in order (M,), and the means (M, m).
 
-    y is taken as linear between nodes; a repeated time is a jump with both its sides. The windows are those that
-    begin or end at a node; the mean of one between them may be more extreme by what y changes from node to node.
-    What is shorter than the window is averaged as a whole.
+    y is taken as linear between nodes; a repeated time is a jump with both its sides. The windows are those
+    that begin or end at a node; the mean of one between them may be more extreme by what y changes from node to
+    node. What is shorter than the window is averaged as a whole.
     """
     duration = t[-1] - t[0]
     if duration <= 0.0:

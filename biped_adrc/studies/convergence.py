@@ -137,7 +137,7 @@ def error_text(o: Outcome) -> str:
     found = next(h for h in halved(o) if h.name == "peak error")
     if found.agrees:
         return text
-    return f"{text}, mostly an error of integration: shorten the step"
+    return f"{text}, the step decides it: shorten it"
 
 
 def observed_order(o: Outcome, of: Callable[[Outcome], float]) -> float:
