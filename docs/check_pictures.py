@@ -77,7 +77,7 @@ def pictures(out: Path, docs: Path = DOCS) -> list[Picture]:
 def kept() -> list[Picture]:
     """The pictures of the runs whose summaries are kept in docs/. Raises InputError without a summary."""
     compared, pushed = write_comparison.FOLDER, write_critical_phase.FOLDER
-    cells = write_critical_phase.read(pushed / "summary.json")
+    cells = write_critical_phase.read(pushed / "summary.json").cells
     maps = {
         preset: push_map_figure([cell.row() for cell in cells if cell.preset == preset])
         for preset in write_critical_phase.presets_of(cells)

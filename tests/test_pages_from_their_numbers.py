@@ -115,7 +115,7 @@ def test_walks_put_the_observers_in_the_order_of_the_table_above_them(script):
 
 def test_the_pictures_of_the_map_are_those_of_its_cells(script):
     module = script("write_critical_phase")
-    cells = module.read(module.FOLDER / "summary.json")
+    cells = module.read(module.FOLDER / "summary.json").cells
     drawn = {
         preset: push_map_figure([cell.row() for cell in cells if cell.preset == preset])
         for preset in module.presets_of(cells)

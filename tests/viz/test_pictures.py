@@ -139,12 +139,12 @@ def test_pictures_of_long_runs_are_held_against_the_summaries_that_are_kept(
     monkeypatch.setattr(compared, "FOLDER", folders[0])
     monkeypatch.setattr(pushed, "FOLDER", folders[1])
     monkeypatch.setattr(check, "figures", lambda summary: {summary["name"]: Figure()})
-    legal = Fate("legal", "COMPLETED", 100.0, 0.4)
+    legal = Fate("legal", "COMPLETED", 100.0, 0.4, 0.5)
     cell = Cell("identified", 0.1, 20.0, "all +", 150.0, legal, legal)
     for folder in folders:
         folder.mkdir()
     (folders[0] / "summary.json").write_text('{"name": "legal"}')
-    (folders[1] / "summary.json").write_text(pushed.compact([cell]))
+    (folders[1] / "summary.json").write_text(pushed.compact(pushed.Study([cell], [[]])))
     for picture in check.kept():
         picture.path.write_text("<svg/>")
         picture.path.with_suffix(".json").write_text(as_text(picture.now({})))
@@ -153,8 +153,8 @@ def test_pictures_of_long_runs_are_held_against_the_summaries_that_are_kept(
         "critical_phase/identified",
     }
     assert check.complaints(check.kept()) == check.without_numbers(folders, check.kept()) == []
-    fell = replace(cell, adrc=Fate("fell", "FELL", None, None))
-    (folders[1] / "summary.json").write_text(pushed.compact([fell]))
+    fell = replace(cell, adrc=Fate("fell", "FELL", None, None, None))
+    (folders[1] / "summary.json").write_text(pushed.compact(pushed.Study([fell], [[]])))
     (line,) = check.complaints(check.kept())
     assert "critical_phase/identified.svg" in line
     (folders[0] / "survival.svg").write_text("<svg/>")
