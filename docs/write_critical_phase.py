@@ -62,16 +62,9 @@ def fate(row: dict[str, Any]) -> Fate:
 
 def undisturbed(summary: dict[str, Any]) -> list[list[Any]]:
     """What the walk without a push needs, a row of `NEEDS` for each preset."""
-    wanted = (
-        "preset",
-        "outcome",
-        "mean friction",
-        "mean F_N [N]",
-        "peak torque [N m]",
-        "impulse ratio",
-    )
-    at = [table["columns"].index(name) for name in wanted]
-    named = (row for row in table["rows"] if row[0].startswith("nominal") and row[1] == "NPD")
+    runs = summary["tables"]["Runs"]
+    at = [runs["columns"].index(name) for name in NEEDS]
+    named = (row for row in runs["rows"] if row[0].startswith("nominal") and row[1] == "NPD")
     return [[row[k] for k in at] for row in named]
 
 

@@ -132,3 +132,15 @@ def test_the_guide_to_sweeps_says_how_many_walks_of_its_maps_are_legal():
             f"{made} of the {found['points']} walks make all steps, {legal} of them legally"
             in guide
         )
+
+
+def test_what_the_walk_needs_is_read_off_the_table_of_runs(script):
+    module = script("write_critical_phase")
+    columns = ["run", "controller", *module.NEEDS]
+    rows = [
+        ["nominal bare NPD", "NPD", "bare", "legal", 0.3, 210.0, 63.0, 0.86],
+        ["nominal bare ADRC", "ADRC", "bare", "legal", 0.3, 210.0, 63.0, 0.86],
+        ["sine NPD", "NPD", "bare", "made", 0.9, 10.0, 99.0, 0.86],
+    ]
+    summary = {"tables": {"Runs": {"columns": columns, "rows": rows}}}
+    assert module.undisturbed(summary) == [["bare", "legal", 0.3, 210.0, 63.0, 0.86]]

@@ -5,9 +5,8 @@
     strike  (t, step, x) -> x+                           (7), (8), relabelling, and the controller's jump
     watch   (q) -> clearance, x of the swing foot, height of the hip
 
-`outside` is for the meter: forces [N], their impulse since the last tick [N s], drop of the ground [m].
-flow, tick and strike add, after x, the least pivot of the matrices inverted by the controller. The exponential
-method has `to`, `back` and `remainder`.
+`outside`, for the meter: forces [N], impulse since the last tick [N s], drop of the ground [m]. flow, tick and
+strike add, after x, the least pivot of the matrices that the controller inverts.
 """
 
 from __future__ import annotations
@@ -299,9 +298,8 @@ class Equations:
         assert isinstance(k, HeldParameters)
         assert at.held is not None
         loads = mechanics.loads(self.make.robot, self.numbers.plant, q, v, a, at.outside)
-        unknown = self.unknown(true.terms, a, u, at.zeta)
-        given = (q, v, u, mean, unknown, true.terms, true.t, true.step, true.t_step, loads)
-        return at.trace(metered)(k.meter, at.held.g, *given)
+        given = (q, v, u, mean, self.unknown(true.terms, a, u, at.zeta), true.terms)
+        return at.trace(metered)(k.meter, at.held.g, *given, true.t, true.step, true.t_step, loads)
 
     def unknown(self, terms: Reduction, a: Any, u: Any, zeta: Any) -> Any:
         """xi~ of (11), as `Walker.unknown`."""
