@@ -288,8 +288,7 @@ class Equations:
         a = self.acceleration(true.terms, true.q, true.v, self.force(u, at.zeta))
         if k.sizes.meter:
             g = self.metered(at, true, u, mean_torque(k.motors, line), a)
-        x = (true.q, true.v, s, written(Held(w, g, line)))
-        out = column(*x, at.trace.solver.least, a)
+        out = column(true.q, true.v, s, written(Held(w, g, line)), at.trace.solver.least, a)
         return Function(self.K, at.inp.symbol, out, tuple(at.trace.calls))
 
     def metered(self, at: At, true: Measurement, u: Any, mean: Any, a: Any) -> Any:
