@@ -336,7 +336,7 @@ def test_a_critical_phase_that_the_step_decides_says_nothing():
 
 
 def cell(npd, adrc, doubtful=False):
-    fates = (Fate(x, "FELL" if x == "fell" else "COMPLETED", 100.0, 0.4) for x in (npd, adrc))
+    fates = (Fate(x, "FELL" if x == "fell" else "COMPLETED", 100.0, 0.4, 0.5) for x in (npd, adrc))
     one, other = fates
     return Cell("identified", 0.1, 90.0, "all +", None, one, replace(other, marginal=doubtful))
 

@@ -130,7 +130,7 @@ def base_runs(plan: Plan) -> dict[str, Run]:
         runs[f"sine {c}"] = replace(run, pushes=(SINE,), first_step=17, impacts=9)
         runs[f"torso {c}"] = replace(run, pushes=(TORSO,), first_step=17, impacts=9)
         runs[f"1 kHz {c}"] = Run(c, preset=plan.preset, pushes=plan.pushes, period=1e-3, h=1e-3)
-        heavier = replace(run, mass=HEAVIER, impacts=12, fine=None)
+        heavier = replace(run, mass=HEAVIER, impacts=8, fine=None)
         runs[f"heavier, masses {c}"] = heavier
         runs[f"heavier, masses and inertias {c}"] = replace(heavier, inertia=HEAVIER)
     if not plan.quick:
@@ -154,12 +154,12 @@ def literal_runs(plan: Plan) -> dict[str, Run]:
     """(20) as printed, and every reset policy with and without RABBIT's torque limit."""
     runs = {}
     for c in BOTH:
-        printed = stepped(Run(c, preset=plan.preset, solve_theta=False, impacts=15))
+        printed = stepped(Run(c, preset=plan.preset, solve_theta=False, impacts=8))
         runs[f"as printed {c}"] = printed
     for policy in POLICIES:
         for limit in (None, 150.0):
             name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
-            run = Run(preset=plan.preset, reset=policy, torque_limit=limit, impacts=3)
+            run = Run(preset=plan.preset, reset=policy, torque_limit=limit, impacts=2)
             diverges = policy == "none" and limit is None
             h = DIVERGING_STEP if diverges else RESET_STEP
             runs[name] = replace(run, method="exponential", h=h)
