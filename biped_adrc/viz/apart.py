@@ -26,9 +26,9 @@ from biped_adrc.viz.moving import (
     REFERENCE,
     SOLE,
     TORQUE,
+    DrawnRobot,
     Footprints,
     Forces,
-    Robot,
     follow,
     ground,
 )
@@ -102,9 +102,9 @@ class _Panel:
         self.prints = Footprints(axes, self.view, 1.0, 2)
         # wider than the robot, so that a posture on its reference shows it
         self.behind = (
-            Robot(axes, self.reference, 1.0, 2, REFERENCE, 1.7) if self.magnified else None
+            DrawnRobot(axes, self.reference, 1.0, 2, REFERENCE, 1.7) if self.magnified else None
         )
-        self.robot = Robot(axes, self.view, 1.0, 3)
+        self.robot = DrawnRobot(axes, self.view, 1.0, 3)
         self.forces = Forces(axes, self.view, 1.0, 4)
         self.title = axes.text(0.04, 0.99, self.name, fontsize=15, color=self.colour, weight="bold")
         self.text = axes.text(0.04, 0.915, "", fontsize=11)

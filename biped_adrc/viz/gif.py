@@ -25,8 +25,8 @@ from biped_adrc.viz.moving import (
     REFERENCE,
     SOLE,
     TORQUE,
+    DrawnRobot,
     Forces,
-    Robot,
     Trail,
     follow,
     ground,
@@ -138,7 +138,7 @@ def _frames(scenes: Mapping[str, Scene], times: Array, width: int, speed: str) -
     ground(axes, views)
     opacities = [GHOST] * (len(views) - 1) + [1.0]
     drawn = [
-        (Trail(axes, v, times, o, k), Robot(axes, v, o, k), Forces(axes, v, o, k))
+        (Trail(axes, v, times, o, k), DrawnRobot(axes, v, o, k), Forces(axes, v, o, k))
         for k, (v, o) in enumerate(zip(views, opacities, strict=True), start=2)
     ]
     *ghosts, solid = scenes

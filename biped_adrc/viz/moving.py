@@ -45,7 +45,7 @@ def follow(axes: Axes, view: SideView, t: float, left: float, right: float) -> N
     axes.set_ylim(z - SOLE, z + HEADROOM * view.height)
 
 
-class Robot:
+class DrawnRobot:
     """The links of one posture, in the colours of its legs or in one colour."""
 
     def __init__(
