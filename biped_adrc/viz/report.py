@@ -41,7 +41,7 @@ FIGURES = {
     "comparison": (
         "The controllers side by side",
         "The push, the error before, under and after it on one logarithmic scale, and the milliseconds after "
-        "either edge of the push. Where nothing pushes, both lines are at what the method leaves, about 1e-9 "
+        "either edge of the push. Where nothing pushes, both lines are at what the method leaves, below 1e-9 "
         "rad. Below: the size of the error, and what the motors gave for it.",
     ),
     "disturbance": (
