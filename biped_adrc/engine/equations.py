@@ -22,7 +22,6 @@ from biped_adrc.engine import mechanics
 from biped_adrc.engine.called import Call, call, result_size
 from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.mechanics import Structure
-from biped_adrc.engine.plant import PlantArrays
 from biped_adrc.engine.symbols import (
     Tracer,
     Untraceable,
@@ -46,7 +45,9 @@ from biped_adrc.hardware.held import (
 from biped_adrc.hardware.meter import Hit, metered
 from biped_adrc.hardware.motors import acting, limited, mean_torque, sent
 from biped_adrc.hardware.sensors import sense
+from biped_adrc.model import planar
 from biped_adrc.model.biped import STICTION_SPEED
+from biped_adrc.model.planar import PlantArrays
 from biped_adrc.model.reduction import Reduction, reduce, unknown_force
 from biped_adrc.observers.base import Estimate
 from biped_adrc.split import SplitLaws
@@ -176,7 +177,7 @@ class Equations:
         """The nominal model's."""
         robot, numbers = self.make.robot, self.numbers
         K = numbers.plant if numbers.model is None else numbers.model
-        terms: Reduction = trace(reduce)(*mechanics.inertia_and_bias(robot, K, q, v), robot.p)
+        terms: Reduction = trace(reduce)(*planar.inertia_and_bias(robot, K, q, v), robot.p)
         return terms
 
     def measured(
@@ -194,7 +195,7 @@ class Equations:
         if numbers.model is None and terms is not None:
             D, Omega = terms.D, terms.Omega
         else:
-            D, Omega = mechanics.inertia_and_bias(robot, numbers.plant, q, v)
+            D, Omega = planar.inertia_and_bias(robot, numbers.plant, q, v)
         return solve_positive(D, self.with_friction(force, v) - Omega, "D_s")
 
     def with_friction(self, force: Any, v: Any) -> Any:
@@ -389,9 +390,9 @@ class Equations:
         """What the guards look at."""
         robot, plant = self.make.robot, self.numbers.plant
         inp = Vector("inp", robot.n)
-        t = mechanics.turned(robot, inp.take(robot.n))
-        x, z = mechanics.point(t, plant.foot_re, plant.foot_im)
-        _, hip = mechanics.point(t, plant.hip_re, plant.hip_im)
+        t = planar.turned(robot, inp.take(robot.n))
+        x, z = planar.point(t, plant.foot_re, plant.foot_im)
+        _, hip = planar.point(t, plant.hip_re, plant.hip_im)
         return Function(self.K, inp.symbol, column(z + self.numbers.tan_slope * x, x, hip))
 
     def given(self, at: At, *parts: Any) -> Function:

@@ -108,6 +108,7 @@ def versions_text() -> str:
     root = Path(__file__).parents[1]
     own = [
         *sorted((root / "engine").glob("*.py")),
+        root / "model" / "planar.py",
         root / "model" / "reduction.py",
         root / "linear.py",
     ]

@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.engine import mechanics
 from biped_adrc.engine.equations import At, Equations, Function, Make, Numbers, count, masked
 from biped_adrc.engine.symbols import Vector, column
 from biped_adrc.gait.constraint import ConstraintParameters, virtual_constraint
+from biped_adrc.model import planar
 from biped_adrc.model.reduction import disturbance_parts
 
 
@@ -79,14 +79,14 @@ class Observation:
         e, m, watched = self.equations, at.m, self.watched
         plant, r = e.numbers.plant, at.trace(virtual_constraint)(watched.h, m.q, m.v)
         robot, terms, p = e.make.robot, m.terms, e.make.robot.p
-        t = mechanics.turned(robot, m.q)
+        t = planar.turned(robot, m.q)
         if e.make.laws.estimate is None:
             xi = np.full(p, float("nan"), dtype=object)
         else:
             xi = e.law(at, "estimate", at.s).disturbance
         matched, unmatched = at.trace(disturbance_parts)(terms, e.unknown(terms, a, u, at.zeta))
-        D, _ = mechanics.inertia_and_bias(robot, plant, m.q, m.v)
-        _, height = mechanics.point(t, plant.w_re, plant.w_im)
+        D, _ = planar.inertia_and_bias(robot, plant, m.q, m.v)
+        _, height = planar.point(t, plant.w_re, plant.w_im)
         return Seen(
             a,
             watched.c @ m.q,
@@ -100,9 +100,9 @@ class Observation:
             unmatched,
             terms.xi,
             terms.kappa_inverse @ (xi - terms.xi),
-            mechanics.ground_reaction(robot, plant, m.q, m.v, a),
+            planar.ground_reaction(robot, plant, m.q, m.v, a),
             0.5 * (m.v @ (D @ m.v)),
             plant.gravity * height,
-            np.array(mechanics.point(t, plant.foot_re, plant.foot_im), dtype=object),
-            np.array(mechanics.point(t, plant.hip_re, plant.hip_im), dtype=object),
+            np.array(planar.point(t, plant.foot_re, plant.foot_im)),
+            np.array(planar.point(t, plant.hip_re, plant.hip_im)),
         )

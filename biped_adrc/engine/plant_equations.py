@@ -15,8 +15,9 @@ import numpy as np
 from biped_adrc.engine import mechanics
 from biped_adrc.engine.equations import Function, count
 from biped_adrc.engine.mechanics import Structure
-from biped_adrc.engine.plant import PlantArrays
 from biped_adrc.engine.symbols import Tracer, Vector, column, solve_positive
+from biped_adrc.model import planar
+from biped_adrc.model.planar import PlantArrays
 from biped_adrc.model.reduction import reduce
 
 
@@ -45,7 +46,7 @@ class PlantEquations:
         n, p = self.robot.n, self.robot.p
         inp = Vector("inp", 2 * n)
         q, v = inp.take(n), inp.take(n)
-        D, Omega = mechanics.inertia_and_bias(self.robot, K, q, v)
+        D, Omega = planar.inertia_and_bias(self.robot, K, q, v)
         rows = [_rows(part, n) for part in Tracer()(reduce)(D, Omega, p)]
         return Function(self.K, inp.symbol, column(*rows))
 
@@ -62,7 +63,7 @@ class PlantEquations:
         n = self.robot.n
         inp = Vector("inp", 3 * n)
         q, v, force = inp.take(n), inp.take(n), inp.take(n)
-        D, Omega = mechanics.inertia_and_bias(self.robot, K, q, v)
+        D, Omega = planar.inertia_and_bias(self.robot, K, q, v)
         return Function(self.K, inp.symbol, column(solve_positive(D, force - Omega, "D_s")))
 
     def ground(self) -> Function:
@@ -71,9 +72,7 @@ class PlantEquations:
         n = self.robot.n
         inp = Vector("inp", 3 * n)
         q, v, a = inp.take(n), inp.take(n), inp.take(n)
-        return Function(
-            self.K, inp.symbol, column(mechanics.ground_reaction(self.robot, K, q, v, a))
-        )
+        return Function(self.K, inp.symbol, column(planar.ground_reaction(self.robot, K, q, v, a)))
 
 
 def _rows(part: Any, n: int) -> Any:
