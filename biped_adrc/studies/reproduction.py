@@ -23,8 +23,8 @@ from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
 from biped_adrc.studies.checks import Check
 from biped_adrc.studies.claims.gathered import gathered
-from biped_adrc.studies.claims.table import PREFACE, claims, map_cells
-from biped_adrc.studies.claims.words import MEANINGS, Claim, claim_checks
+from biped_adrc.studies.claims.table import claims, map_cells
+from biped_adrc.studies.claims.words import MEANINGS, PREFACE, Claim, claim_checks
 from biped_adrc.studies.convergence import observed_order, records
 from biped_adrc.studies.figures import push_window
 from biped_adrc.studies.findings import findings
