@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -12,27 +11,20 @@ from biped_adrc.studies.claims.rows_control import control_claims
 from biped_adrc.studies.claims.rows_gait import gait_claims
 from biped_adrc.studies.claims.rows_push import long_walk, push_claims
 from biped_adrc.studies.claims.words import Claim, told
+from biped_adrc.studies.plan import Plan
 from biped_adrc.studies.push_map import Cell
-from biped_adrc.studies.runs import CONTROLLERS
+from biped_adrc.studies.results import Results
 from biped_adrc.studies.verdicts import distance
 
 UNDECIDED = ("lumped", "smooth_references", "same_gains", "curves", "earlier_approaches")
 """Rows that no run can decide."""
 
 
-def claims(presets: tuple[str, ...], results: dict[str, Any]) -> list[Claim]:
+def claims(plan: Plan, r: Results) -> list[Claim]:
     """All rows, from the results of the reproduction."""
-    heads = {c: results[f"headline {c}"].outcome for c in CONTROLLERS}
-    made = {c: (o.impacts, o.run.impacts) for c, o in heads.items()}
-    nominal = [distance(results[f"nominal {p} {c}"]) for p in presets for c in CONTROLLERS]
-    farthest = float(np.max(nominal))
-    numerics = results["numerics"][1]
-    return rows(gathered(presets, results), numerics, made, farthest, map_cells(results))
-
-
-def map_cells(results: dict[str, Any]) -> list[Cell]:
-    """The pushes of the map; none where it was not asked for."""
-    return [cell for name, found in results.items() if name.startswith("map ") for cell in found]
+    made = {c: (head.outcome.impacts, head.outcome.run.impacts) for c, head in r.heads.items()}
+    farthest = float(np.max([distance(o) for _, o in r.nominal(plan)]))
+    return rows(gathered(plan.presets, r.claims), r.figures, made, farthest, r.cells)
 
 
 def rows(
