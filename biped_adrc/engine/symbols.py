@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import math
 import operator
+import traceback
 import types
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import casadi as ca
@@ -22,10 +24,6 @@ from biped_adrc.errors import InputError
 
 class Untraceable(InputError):
     """The law looks at a number to decide what to do, or does what has no symbol."""
-
-    def __init__(self, reason: str, law: str = ""):
-        super().__init__(reason)
-        self.law = law
 
 
 class Scalar:
@@ -218,11 +216,10 @@ def _larger_first(one: list[Any], other: list[Any], j: int) -> tuple[list[Any], 
 
 
 class Tracer:
-    """Copies of laws that run on symbols, with one solver for all, and the calls of laws that do not."""
+    """Copies of laws that run on symbols, with one solver for all."""
 
     def __init__(self) -> None:
         self.solver = Solver()
-        self.calls: list[Any] = []
         functions = {name: elementwise(_function(theirs)) for name, theirs in FUNCTIONS.items()}
         numpy = {
             **functions,
@@ -258,21 +255,44 @@ class Tracer:
         if law not in self._copies:
             scope = dict(law.__globals__)
             scope["float"] = lambda x: x
+            cells = [types.CellType(c.cell_contents) for c in law.__closure__ or ()]
             copy = types.FunctionType(
-                law.__code__, scope, law.__name__, law.__defaults__, law.__closure__
+                law.__code__, scope, law.__name__, law.__defaults__, tuple(cells) or None
             )
             copy.__kwdefaults__ = law.__kwdefaults__
             self._copies[law] = copy
             for name in names_of(law.__code__):
                 if name in scope:
                     scope[name] = self._substitute(scope[name])
+            for cell in cells:
+                cell.cell_contents = self._substitute(cell.cell_contents)
         return self._copies[law]
 
     def _substitute(self, value: Any) -> Any:
         for old, new in self._substitutes:
             if value is old:
                 return new
+        if isinstance(value, tuple):
+            parts = [self._substitute(part) for part in value]
+            return value._make(parts) if hasattr(value, "_make") else tuple(parts)
         return self(value)
+
+
+def run(trace: Tracer, law: Any, *arguments: Any) -> Any:
+    """A law on symbols. Raises Untraceable that names the function which cannot be run so."""
+    try:
+        return trace(law)(*arguments)
+    except Exception as error:  # whatever NumPy says of an object that is no float
+        frames = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
+        own = [code for code in frames if not code.co_filename.startswith(LIBRARIES)]
+        where = own[-1] if own else law.__code__
+        place = f"{Path(where.co_filename).stem}.{where.co_qualname}".replace(".<locals>", "")
+        reason = f"law '{place}' cannot be compiled: {error}"
+        raise Untraceable(reason) from error
+
+
+LIBRARIES = (__file__, str(Path(np.__file__).parent), str(Path(ca.__file__).parent))
+"""Where the functions are that laws call, and that are no laws themselves."""
 
 
 def names_of(code: types.CodeType) -> set[str]:

@@ -31,11 +31,6 @@ class Chain(Protocol):
         """[rad/s]."""
 
 
-def rows(k: Chain, z: Array) -> Array:
-    """Z (m + 2, p), the flat state z by rows; no copy."""
-    return z.reshape(k.order, -1)
-
-
 def chain_state(k: Chain, x: Estimate) -> Array:
     """Z (m + 2, p) that agrees with x, higher derivatives zero."""
     Z = np.zeros((k.order, len(x.position)))
@@ -118,15 +113,3 @@ class ChainObserver(Observer):
     @property
     def order(self) -> int:
         return self.m + 2
-
-    def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
-        return chain_state(self, Estimate(y, dy, xi)).ravel()
-
-    def estimate(self, z: Array) -> Estimate:
-        return chain_estimate(self, rows(self, z))
-
-    def reset(
-        self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
-    ) -> Array:
-        x = Estimate(y, dy, xi)
-        return chain_reset(self, policy.code, rows(self, z), swap, x).ravel()

@@ -28,7 +28,6 @@ from biped_adrc.observers.chain import (
     chain_reset,
     chain_state,
     equal_poles,
-    rows,
     stable_poles,
     whole,
 )
@@ -99,9 +98,6 @@ class GPIObserver(ChainObserver):
         return ObserverLaws(
             self.parameters, chain_state, chain_estimate, chain_reset, flow=gpi_flow
         )
-
-    def flow(self, z: Array, y: Array, input: Array) -> Array:
-        return gpi_flow(self.parameters, rows(self, z), y, input).ravel()
 
     def sampled(self, period: float) -> SampledGPIObserver:
         """The current (filtered) discrete observer with poles exp(s T)."""

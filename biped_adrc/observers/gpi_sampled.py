@@ -25,7 +25,6 @@ from biped_adrc.observers.chain import (
     chain_estimate,
     chain_reset,
     chain_state,
-    rows,
     stable_poles,
 )
 from biped_adrc.types import Array
@@ -103,9 +102,3 @@ class SampledGPIObserver(ChainObserver):
             correct=gpi_correct,
             predict=gpi_predict,
         )
-
-    def correct(self, z: Array, y: Array) -> Array:
-        return gpi_correct(self.parameters, rows(self, z), y).ravel()
-
-    def predict(self, z: Array, input: Array) -> Array:
-        return gpi_predict(self.parameters, rows(self, z), input).ravel()

@@ -28,7 +28,6 @@ from biped_adrc.observers.chain import (
     chain_estimate,
     chain_reset,
     chain_state,
-    rows,
     whole,
 )
 from biped_adrc.observers.gpi import GPIParameters, gpi_flow
@@ -80,9 +79,6 @@ class HighGainObserver(ChainObserver):
         return ObserverLaws(
             self.parameters, chain_state, chain_estimate, chain_reset, flow=gpi_flow
         )
-
-    def flow(self, z: Array, y: Array, input: Array) -> Array:
-        return gpi_flow(self.parameters, rows(self, z), y, input).ravel()
 
     def sampled(self, period: float) -> SampledGPIObserver:
         """The current (filtered) discrete observer with poles exp(s T)."""
