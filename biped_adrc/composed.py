@@ -15,9 +15,9 @@ from typing import Any, ClassVar
 class Composed(ABC):
     """Base of what has laws: controllers, observers, references, disturbances."""
 
-    kind: ClassVar[str]
+    _kind: ClassVar[str]
     """What it is, in a word."""
-    methods: ClassVar[frozenset[str]]
+    _methods: ClassVar[frozenset[str]]
     """Names of the methods that its laws stand for."""
 
     @property
@@ -29,21 +29,21 @@ class Composed(ABC):
     def _laws(self) -> Any:
         return self.laws
 
-    def law(self, name: str) -> Callable[..., Any] | None:
+    def _law(self, name: str) -> Callable[..., Any] | None:
         """The law of this name with its parameters filled in; None without."""
         law = getattr(self._laws, name, None)
         return None if law is None else partial(law, self._laws.parameters)
 
     @property
-    def obstacle(self) -> str:
+    def _obstacle(self) -> str:
         """Why laws do not say all that it does: there are none, or a subclass writes a method over them."""
-        name = f"{self.kind} {type(self).__name__}"
+        name = f"{self._kind} {type(self).__name__}"
         if self._laws is None:
             return f"{name} has no laws of arrays"
         for cls in type(self).__mro__:
             if "laws" in vars(cls):
                 break
-            written = self.methods.intersection(vars(cls))
+            written = self._methods.intersection(vars(cls))
             if written:
                 return f"{name} writes {min(written)} over the laws that it inherits"
         return ""

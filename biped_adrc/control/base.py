@@ -87,8 +87,8 @@ class ControllerLaws(NamedTuple):
 class Controller(Composed):
     """Base of all controllers: write `output` and what else it needs, or give `laws`, which they all call."""
 
-    kind: ClassVar[str] = "controller"
-    methods: ClassVar[frozenset[str]] = frozenset(
+    _kind: ClassVar[str] = "controller"
+    _methods: ClassVar[frozenset[str]] = frozenset(
         (
             "output",
             "initial_state",
@@ -109,7 +109,7 @@ class Controller(Composed):
 
     def output(self, s: Array, m: Measurement) -> Array:
         """u (p,) [N m]."""
-        law = self.law("output")
+        law = self._law("output")
         if law is None:
             raise InputError(
                 f"{type(self).__name__} has neither a method output(s, m) nor laws; write one of them: u (p,) "
@@ -120,13 +120,13 @@ class Controller(Composed):
 
     def initial_state(self, m: Measurement) -> Array:
         """s at the start of a run; empty for a controller without state."""
-        law = self.law("initial_state")
+        law = self._law("initial_state")
         return np.zeros(0) if law is None else law(m)
 
     def flow(self, s: Array, m: Measurement, u: Array) -> Array:
         """s' in continuous time, under the applied torque u."""
-        law = self.law("flow")
-        if law is None and self.law("predict") is not None:
+        law = self._law("flow")
+        if law is None and self._law("predict") is not None:
             raise InputError(
                 f"{type(self).__name__} works in sampled time only; give a SampledTime"
             )
@@ -134,8 +134,8 @@ class Controller(Composed):
 
     def correct(self, s: Array, m: Measurement) -> Array:
         """Sampled: s with the measurement of this tick taken in."""
-        law = self.law("correct")
-        if law is None and self.law("flow") is not None:
+        law = self._law("correct")
+        if law is None and self._law("flow") is not None:
             raise InputError(
                 f"{type(self).__name__} works in continuous time; call sampled(period)"
             )
@@ -143,8 +143,8 @@ class Controller(Composed):
 
     def predict(self, s: Array, m: Measurement, u: Array) -> Array:
         """Sampled: s at the next tick, under the applied torque u."""
-        law = self.law("predict")
-        if law is None and self.law("flow") is not None:
+        law = self._law("predict")
+        if law is None and self._law("flow") is not None:
             raise InputError(
                 f"{type(self).__name__} works in continuous time; call sampled(period)"
             )
@@ -152,12 +152,12 @@ class Controller(Composed):
 
     def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
         """s after impact; `swap` (p,) relabels the joints, `after` is the state after it."""
-        law = self.law("jump")
+        law = self._law("jump")
         return s if law is None else law(s, after, swap)
 
     def estimate(self, s: Array, m: Measurement) -> Estimate | None:
         """What an observer inside says; None without one."""
-        law = self.law("estimate")
+        law = self._law("estimate")
         return None if law is None else law(s, m)
 
     def sampled(self, period: float) -> Controller:
@@ -165,7 +165,7 @@ class Controller(Composed):
 
         Raises InputError for a controller that has a state in continuous time and no discrete form.
         """
-        if type(self).flow is not Controller.flow or self.law("flow") is not None:
+        if type(self).flow is not Controller.flow or self._law("flow") is not None:
             raise InputError(
                 f"{type(self).__name__} has no discrete form: give it a method sampled(period), "
                 "or use ContinuousTime()"
@@ -179,7 +179,7 @@ class Controller(Composed):
 
 def controller_laws(controller: Controller) -> ControllerLaws:
     """The laws of a controller, or its methods as laws, which run in Python only and say so."""
-    if not controller.obstacle:
+    if not controller._obstacle:
         laws: ControllerLaws = controller.laws  # type: ignore[assignment]
         return laws
     return ControllerLaws(
@@ -191,7 +191,7 @@ def controller_laws(controller: Controller) -> ControllerLaws:
         lambda k, s, m: controller.correct(s, m),
         lambda k, s, m, u: controller.predict(s, m, u),
         lambda k, s, m: controller.estimate(s, m),
-        controller.obstacle,
+        controller._obstacle,
     )
 
 

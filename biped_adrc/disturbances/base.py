@@ -44,8 +44,8 @@ class DisturbanceLaw(NamedTuple):
 class Disturbance(Composed):
     """A pure function of time, step and state: give `laws`, or write `torque`. `a + b` adds two of them up."""
 
-    kind: ClassVar[str] = "disturbance"
-    methods: ClassVar[frozenset[str]] = frozenset(
+    _kind: ClassVar[str] = "disturbance"
+    _methods: ClassVar[frozenset[str]] = frozenset(
         (
             "torque",
             "resultant",
@@ -100,14 +100,14 @@ class Disturbance(Composed):
         return written or any(law.resultant is not None for law in self._laws or ())
 
     @property
-    def obstacle(self) -> str:
+    def _obstacle(self) -> str:
         written = type(self).resultant is not Disturbance.resultant
         if written and all(law.resultant is None for law in self._laws or ()):
             return (
                 f"disturbance {type(self).__name__} has a resultant and no law of it; give "
                 "DisturbanceLaw(..., resultant=...)"
             )
-        return super().obstacle
+        return super()._obstacle
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
@@ -120,14 +120,14 @@ class Disturbance(Composed):
 
 def disturbance_laws(disturbance: Disturbance) -> tuple[DisturbanceLaw, ...]:
     """The laws of a disturbance, or its methods as a law, which runs in Python only and says so."""
-    if not disturbance.obstacle:
+    if not disturbance._obstacle:
         return disturbance.laws or ()
     made = DisturbanceLaw(
         (),
         lambda k, *at: disturbance.torque(*at),
         disturbance.switches,
         lambda k, *at: disturbance.resultant(*at[:3]),
-        obstacle=disturbance.obstacle,
+        obstacle=disturbance._obstacle,
     )
     return (made if disturbance.pulls else made._replace(resultant=None),)
 

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, Windowed, disturbance_laws
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
@@ -26,6 +28,10 @@ class LinkParameters(NamedTuple):
     wave: Any
 
 
+AT_REST = np.zeros(3), np.zeros(3)
+"""What a wave is given for q and q': it is a function of time."""
+
+
 @lru_cache(maxsize=64)
 def link_law(wave: DisturbanceLaw) -> DisturbanceLaw:
     """The law of a force and a moment that go as a wave does, both without their parameters."""
@@ -34,10 +40,10 @@ def link_law(wave: DisturbanceLaw) -> DisturbanceLaw:
     def on_coordinates(
         k: LinkParameters, t: float, step: int, t_start: float, q: Array, v: Array
     ) -> Array:
-        return wrench_torque(k.point, q, torque(k.wave, t, step, t_start, q, v))
+        return wrench_torque(k.point, q, torque(k.wave, t, step, t_start, *AT_REST))
 
     def force(k: LinkParameters, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        return torque(k.wave, t, step, t_start, q, v)[:2]
+        return torque(k.wave, t, step, t_start, *AT_REST)[:2]
 
     def acts(k: LinkParameters, t: float, step: int, t_start: float) -> Any:
         return 1.0 if active is None else active(k.wave, t, step, t_start)

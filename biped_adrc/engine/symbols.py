@@ -81,6 +81,20 @@ for _name in ("lt", "le", "gt", "ge", "eq", "ne"):
     setattr(Scalar, f"__{_name}__", _binary(_name, False))
 Scalar.__hash__ = object.__hash__  # type: ignore[method-assign]
 
+
+def _compare(name: str) -> Callable[[Any, Any], Any]:
+    compare = getattr(np, name)
+    return lambda self, other: compare(self, other, dtype=object)
+
+
+class Symbols(np.ndarray):
+    """An array of Scalars; comparisons give Scalars too, for `np.where`."""
+
+    __lt__, __le__ = _compare("less"), _compare("less_equal")
+    __gt__, __ge__ = _compare("greater"), _compare("greater_equal")
+    __hash__ = None
+
+
 FUNCTIONS = {
     **{name: name for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "sinh", "cosh", "tanh")},
     **{f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan")},
@@ -215,6 +229,15 @@ def _larger_first(one: list[Any], other: list[Any], j: int) -> tuple[list[Any], 
     return first, second
 
 
+BUILTINS: dict[str, Any] = {
+    "float": lambda x: x,
+    "abs": np.abs,
+    "min": lambda a, b: minimum(a, b),
+    "max": lambda a, b: maximum(a, b),
+}
+"""What laws find under these names."""
+
+
 class Tracer:
     """Copies of laws that run on symbols, with one solver for all."""
 
@@ -254,7 +277,7 @@ class Tracer:
             return law
         if law not in self._copies:
             scope = dict(law.__globals__)
-            scope["float"] = lambda x: x
+            scope = {**BUILTINS, **scope}
             cells = [types.CellType(c.cell_contents) for c in law.__closure__ or ()]
             copy = types.FunctionType(
                 law.__code__, scope, law.__name__, law.__defaults__, tuple(cells) or None
@@ -316,7 +339,7 @@ class Vector:
         if not shape:
             self._taken += 1
             return Scalar(self.symbol[self._taken - 1])
-        out = np.empty(shape, dtype=object)
+        out = np.empty(shape, dtype=object).view(Symbols)
         for index in np.ndindex(*shape):
             out[index] = self.take()
         return out

@@ -46,8 +46,8 @@ class ReferenceLaws(NamedTuple):
 class Reference(Composed):
     """A pure function of (t, q, q'): give `laws`, or write `__call__`."""
 
-    kind: ClassVar[str] = "reference"
-    methods: ClassVar[frozenset[str]] = frozenset(("__call__",))
+    _kind: ClassVar[str] = "reference"
+    _methods: ClassVar[frozenset[str]] = frozenset(("__call__",))
 
     @property
     def laws(self) -> ReferenceLaws | None:
@@ -67,10 +67,10 @@ class Reference(Composed):
 
 def reference_laws(reference: Reference) -> ReferenceLaws:
     """The laws of a reference, or its method as a law, which runs in Python only and says so."""
-    if not reference.obstacle:
+    if not reference._obstacle:
         laws: ReferenceLaws = reference.laws  # type: ignore[assignment]
         return laws
-    return ReferenceLaws((), lambda k, t, q, v: reference(t, q, v), reference.obstacle)
+    return ReferenceLaws((), lambda k, t, q, v: reference(t, q, v), reference._obstacle)
 
 
 @dataclass(frozen=True)

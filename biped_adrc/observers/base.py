@@ -120,8 +120,8 @@ class Observer(Composed):
     Give `laws`, whose parameters have `order`, the states per joint; or write the methods.
     """
 
-    kind: ClassVar[str] = "observer"
-    methods: ClassVar[frozenset[str]] = frozenset(
+    _kind: ClassVar[str] = "observer"
+    _methods: ClassVar[frozenset[str]] = frozenset(
         (
             "initial_state",
             "estimate",
@@ -191,7 +191,7 @@ class Observer(Composed):
 
     def _next(self, name: str, works_in: str, z: Array, *given: Array) -> Array:
         """z by the law of this name."""
-        law = self.law(name)
+        law = self._law(name)
         if law is None:
             raise InputError(f"{type(self).__name__} works in {works_in}")
         made: Array = law(rows(self._laws.parameters, z), *given).ravel()
@@ -206,7 +206,7 @@ class MethodParameters(NamedTuple):
 
 def observer_laws(observer: Observer) -> ObserverLaws:
     """The laws of an observer, or its methods as laws, which run in Python only and say so."""
-    if not observer.obstacle:
+    if not observer._obstacle:
         laws: ObserverLaws = observer.laws  # type: ignore[assignment]
         return laws
     policies = list(ResetPolicy)
@@ -215,9 +215,11 @@ def observer_laws(observer: Observer) -> ObserverLaws:
         lambda k, x: observer.initial_state(*x)[np.newaxis],
         lambda k, Z: observer.estimate(Z[0]),
         lambda k, code, Z, swap, x: observer.reset(Z[0], policies[code], swap, *x)[np.newaxis],
-        obstacle=observer.obstacle,
+        obstacle=observer._obstacle,
     )
-    discrete = type(observer).predict is not Observer.predict or observer.law("predict") is not None
+    discrete = (
+        type(observer).predict is not Observer.predict or observer._law("predict") is not None
+    )
     if not discrete:
         return made._replace(flow=lambda k, Z, y, input: observer.flow(Z[0], y, input)[np.newaxis])
     return made._replace(

@@ -24,9 +24,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.observers.base import ErrorSystem, ObserverLaws
 from biped_adrc.observers.chain import (
     ChainObserver,
-    chain_estimate,
-    chain_reset,
-    chain_state,
+    chain_laws,
     equal_poles,
     stable_poles,
     whole,
@@ -95,9 +93,7 @@ class GPIObserver(ChainObserver):
 
     @property
     def laws(self) -> ObserverLaws:
-        return ObserverLaws(
-            self.parameters, chain_state, chain_estimate, chain_reset, flow=gpi_flow
-        )
+        return chain_laws(self.parameters, gpi_flow)
 
     def sampled(self, period: float) -> SampledGPIObserver:
         """The current (filtered) discrete observer with poles exp(s T)."""

@@ -22,9 +22,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.observers.base import ObserverLaws
 from biped_adrc.observers.chain import (
     ChainObserver,
-    chain_estimate,
-    chain_reset,
-    chain_state,
+    chain_laws,
     stable_poles,
 )
 from biped_adrc.types import Array
@@ -94,11 +92,4 @@ class SampledGPIObserver(ChainObserver):
 
     @property
     def laws(self) -> ObserverLaws:
-        return ObserverLaws(
-            self.parameters,
-            chain_state,
-            chain_estimate,
-            chain_reset,
-            correct=gpi_correct,
-            predict=gpi_predict,
-        )
+        return chain_laws(self.parameters, correct=gpi_correct, predict=gpi_predict)
