@@ -64,11 +64,12 @@ def deciding(tree: ast.Module, own: frozenset[str]) -> Iterator[int]:
             called = [x for x in ast.walk(node.left) if isinstance(x, ast.Call)]
             if any(isinstance(x.func, ast.Name) and x.func.id == "type" for x in called):
                 yield node.lineno
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-            if node.func.id == "isinstance" and len(node.args) == 2:
-                named = {x.id for x in ast.walk(node.args[1]) if isinstance(x, ast.Name)}
-                if named & own:
-                    yield node.lineno
+        if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)):
+            continue
+        if node.func.id == "isinstance" and len(node.args) == 2:
+            named = {x.id for x in ast.walk(node.args[1]) if isinstance(x, ast.Name)}
+            if named & own:
+                yield node.lineno
 
 
 def counted(path: Path, own: frozenset[str]) -> Counted:

@@ -94,6 +94,10 @@ class Symbols(np.ndarray):
     __gt__, __ge__ = _compare("greater"), _compare("greater_equal")
     __hash__ = None
 
+    def __array_wrap__(self, array: Any, *_: Any) -> Any:
+        """What an operation gives: one number as itself, as NumPy does for its own arrays."""
+        return array.item() if array.ndim == 0 else array.view(Symbols)
+
 
 FUNCTIONS = {
     **{name: name for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "sinh", "cosh", "tanh")},
