@@ -241,7 +241,7 @@ def test_every_class_with_laws_is_tested_here():
     }
     assert found == {
         *("NPDController", "Passive", "PDGravityController", "ObservingController", "Delayed"),
-        *("GPIObserver", "SampledGPIObserver", "VirtualConstraint", "Windowed"),
+        *("ChainObserver", "GPIObserver", "SampledGPIObserver", "VirtualConstraint", "Windowed"),
         *("HighGainObserver", "MomentumObserver", "SampledMomentumObserver"),
         *("OnLink", "HipForce", "Sum"),
     }
