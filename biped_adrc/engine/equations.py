@@ -19,17 +19,16 @@ import numpy as np
 
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.engine import mechanics
-from biped_adrc.engine.called import Call, call, result_size
 from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.mechanics import Structure
 from biped_adrc.engine.symbols import (
     Tracer,
-    Untraceable,
     Vector,
     column,
     floats,
     maximum,
     minimum,
+    run,
     solve_positive,
     tanh,
 )
@@ -49,7 +48,6 @@ from biped_adrc.model import planar
 from biped_adrc.model.biped import STICTION_SPEED
 from biped_adrc.model.planar import PlantArrays
 from biped_adrc.model.reduction import Reduction, reduce, unknown_force
-from biped_adrc.observers.base import Estimate
 from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
 
@@ -88,8 +86,6 @@ class Make(NamedTuple):
     """Coordinates of the exponential method."""
     gained: bool = False
     """With an error of the impact map."""
-    called: dict[str, str] = {}  # noqa: RUF012
-    """Laws that are called because they branch on numbers, and the names of their functions."""
 
     @property
     def sampled(self) -> bool:
@@ -103,12 +99,11 @@ class Make(NamedTuple):
 
 
 class Function(NamedTuple):
-    """`void f(double* K, double* inp, double* out)` as CasADi's columns, and the laws that it calls."""
+    """`void f(double* K, double* inp, double* out)` as CasADi's columns."""
 
     K: Any
     inp: Any
     out: Any
-    calls: tuple[Call, ...] = ()
 
 
 class At(NamedTuple):
@@ -233,17 +228,8 @@ class Equations:
         return self.said(at.trace, name, self.numbers.k, s, at.m, *rest)
 
     def said(self, trace: Tracer, name: str, *arguments: Any) -> Any:
-        """The law on symbols, or a call of it. Raises Untraceable, with the law's name."""
-        make = self.make
-        if name in make.called:
-            size = result_size(name, make.robot.p, make.size)
-            made, result = call(make.called[name], arguments, size)
-            trace.calls.append(made)
-            return Estimate(*result.reshape(3, -1)) if name == "estimate" else result
-        try:
-            return trace(getattr(make.laws, name))(*arguments)
-        except Exception as error:  # whatever NumPy says of an object that is no float
-            raise Untraceable(f"{type(error).__name__}: {error}", name) from error
+        """The law on symbols. Raises Untraceable, with the law's name."""
+        return run(trace, getattr(self.make.laws, name), *arguments)
 
     def flow(self) -> Function:
         """x' between events."""
@@ -290,7 +276,7 @@ class Equations:
         if k.sizes.meter:
             g = self.metered(at, true, u, mean_torque(k.motors, line), a)
         out = column(true.q, true.v, s, written(Held(w, g, line)), at.trace.solver.least, a)
-        return Function(self.K, at.inp.symbol, out, tuple(at.trace.calls))
+        return Function(self.K, at.inp.symbol, out)
 
     def metered(self, at: At, true: Measurement, u: Any, mean: Any, a: Any) -> Any:
         """The meter's state after a tick."""
@@ -326,7 +312,7 @@ class Equations:
             after = self.measured(trace, t, step, 0.0 * t, *seen)
             s = self.said(trace, "jump", self.numbers.k, s, after, robot.swap)
         out = column(q, v, s, tail, trace.solver.least)
-        return Function(self.K, inp.symbol, out, tuple(trace.calls))
+        return Function(self.K, inp.symbol, out)
 
     def held_after(
         self, trace: Tracer, tail: Any, q_minus: Any, q: Any, v: Any, hit: Hit
@@ -398,4 +384,4 @@ class Equations:
     def given(self, at: At, *parts: Any) -> Function:
         """The parts, and the least pivot."""
         out = column(*parts, at.trace.solver.least)
-        return Function(self.K, at.inp.symbol, out, tuple(at.trace.calls))
+        return Function(self.K, at.inp.symbol, out)

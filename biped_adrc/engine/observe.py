@@ -73,7 +73,7 @@ class Observation:
         u = at.u if e.make.sampled else e.saturated(e.law(at, "output", at.s))
         a = e.acceleration(m.terms, m.q, m.v, e.force(u, at.zeta))
         seen = column(*self._seen(at, u, a))
-        return Function(e.K, at.inp.symbol, seen, tuple(at.trace.calls))
+        return Function(e.K, at.inp.symbol, seen)
 
     def _seen(self, at: At, u: Any, a: Any) -> Seen:
         e, m, watched = self.equations, at.m, self.watched
