@@ -33,7 +33,7 @@ from biped_adrc.viz.moving import (
     ground,
 )
 from biped_adrc.viz.placement import Recorded, Scene, is_wheel
-from biped_adrc.viz.plots.lines import angle_unit
+from biped_adrc.viz.plots.over_time import angle_unit
 from biped_adrc.viz.side_view import SideView
 from biped_adrc.viz.style import PUSH
 
