@@ -15,8 +15,8 @@ import numpy as np
 
 from biped_adrc.engine.equations import Function, count
 from biped_adrc.engine.mechanics import PlanarRobot, Structure
-from biped_adrc.engine.plant import PlantArrays
 from biped_adrc.engine.symbols import Vector, column
+from biped_adrc.model.planar import PlantArrays
 
 
 @dataclass(frozen=True)
