@@ -212,7 +212,7 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     if k.sizes.meter > 0:
         terms = loop.nominal.reduction(q, v) if k.sizes.sensors > 0 else m.terms
         g = measured_by_meter(loop, t, g, q, v, line, terms, mode)
-    return np.concatenate((q, v, s, written(Held(w, g, line))))
+    return np.concatenate((q, v, s, written(Held(w, g, line, h.own))))
 
 
 def decided(

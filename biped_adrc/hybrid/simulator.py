@@ -151,10 +151,11 @@ def simulate(
 
 
 def run(
-    system: HybridSystem, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
+    system: HybridSystem, x0: Array, mode: Mode, method: OneStepMethod | None, options: RunOptions
 ) -> Trajectory:
-    """As `simulate`."""
-    return run_arcs(partial(_flow_arc, system, method, options), x0, mode, method.label, options)
+    """As `simulate`; a system with a mover needs no method."""
+    label = "steps of the plant's own" if method is None else method.label
+    return run_arcs(partial(_flow_arc, system, method, options), x0, mode, label, options)
 
 
 def run_arcs(
@@ -201,7 +202,7 @@ def failed(error: Exception) -> Status:
 
 def _flow_arc(
     system: HybridSystem,
-    method: OneStepMethod,
+    method: OneStepMethod | None,
     options: RunOptions,
     t: float,
     x: Array,
@@ -211,7 +212,10 @@ def _flow_arc(
     """One arc from (t, x)."""
     record, t_arc, found = Record(options.store_every), t, None
     status, detail = Status.COMPLETED, ""
-    move = system.mover(fired) or _Steps(system, method, mode, t, x, fired)
+    move = system.mover(fired)
+    if move is None:
+        assert method is not None
+        move = _Steps(system, method, mode, t, x, fired)
     try:
         while t < options.t_end and found is None:
             x = _tick(system.clocks(), t, t_arc, options.t0, x, mode)
