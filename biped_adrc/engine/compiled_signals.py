@@ -7,67 +7,71 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import prod
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from biped_adrc.closed_loop.readings import Reading, reading, shapes
+from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import pointer_call
 from biped_adrc.engine.equations import Equations, Function, Make, Numbers, count
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.machine import Machine, Text, machine
-from biped_adrc.engine.program import TRACED, NotCompiled, Program
-from biped_adrc.engine.symbols import Untraceable, Vector, floats
+from biped_adrc.engine.program import NotCompiled, Program
+from biped_adrc.engine.symbols import Untraceable, Vector, floats, run
 from biped_adrc.errors import ModelError
-from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, virtual_constraint
-from biped_adrc.gait.reference import Reference
+from biped_adrc.gait.reference import Reference, ReferenceLaws, reference_laws
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.types import Array
 from biped_adrc.walker import Walker
 
 
 class Watched(NamedTuple):
-    """The walker's numbers, and the reference h that is looked at."""
+    """The walker's numbers, and those of the reference that is looked at."""
 
     walker: Numbers
-    h: ConstraintParameters
+    h: Any
 
 
 @dataclass(frozen=True)
 class Observation:
-    """`observe` for one make of walker and reference; h has symbols."""
+    """`observe` for one make of walker and reference, whose parameters are symbols."""
 
     equations: Equations
-    h: ConstraintParameters
+    h: ReferenceLaws
 
     @classmethod
-    def of(cls, make: Make, example: Watched) -> Observation:
+    def of(cls, make: Make, example: Watched, h: ReferenceLaws) -> Observation:
         """With symbols for the floats of an example."""
         K = Vector("K", count(example))
         watched = K.like(example)
-        return cls(Equations(make, K.symbol, watched.walker), watched.h)
+        return cls(Equations(make, K.symbol, watched.walker), h._replace(parameters=watched.h))
 
     def observe(self) -> Function:
         """The function."""
-        at = self.equations.at()
-        h = at.loop.trace(virtual_constraint)
-        parts = at.does(reading, lambda s, m: h(self.h, m.q, m.v))
-        return self.equations.made(at.inp, at.loop.trace, *parts)
+        at, h = self.equations.at(), self.h
+
+        def tracked(s: Any, m: Measurement) -> Any:
+            return run(at.loop.trace, h.point, h.parameters, m.t, m.q, m.v)
+
+        parts = at.does(reading, tracked)
+        return self.equations.made(at.inp, *parts)
 
 
 def compiled_readings(
     walker: Walker, trajectory: Trajectory, reference: Reference
 ) -> Reading | None:
     """At all nodes of a run; None where a part has no compiled form."""
-    if type(reference) is not VirtualConstraint:
+    h = reference_laws(reference)
+    if h.obstacle:
         return None
     nx = trajectory.arcs[0].x.shape[1]
     try:
         program = Program.of(walker, walker.controller_size(nx))
-        watched = Watched(program.numbers, reference.parameters)
-        code = _code(program.make, watched)
+        watched = Watched(program.numbers, h.parameters)
+        code = _code(program.make, watched, h)
     except (NotCompiled, Untraceable, ModelError):
         return None
     K = np.array([*floats(watched), 0.0])
@@ -92,15 +96,13 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
 _CODES: dict[str, Machine] = {}
 
 
-def _code(make: Make, watched: Watched) -> Machine:
-    laws = "\n".join(
-        law_text(law) for law in (*make.laws[1:], *TRACED, reading, virtual_constraint)
-    )
+def _code(make: Make, watched: Watched, h: ReferenceLaws) -> Machine:
+    laws = "\n".join(law_text(law) for law in (*make.laws[1:], h.point))
     key = hash_of(
         *("observe", skeleton(make.robot), laws, make.size, make.held),
         *(skeleton(watched), versions_text()),
     )
     if key not in _CODES:
-        observe = Observation.of(make, watched).observe
+        observe = Observation.of(make, watched, h).observe
         _CODES[key] = machine(key, ["observe"], lambda: Text(module_text({"observe": observe()})))
     return _CODES[key]

@@ -22,22 +22,20 @@ from biped_adrc import split
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.semantics import Mode
 from biped_adrc.control.base import ControllerLaws, Measurement
-from biped_adrc.engine.called import Call, call, result_size
 from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.mechanics import PlanarRobot, Structure
 from biped_adrc.engine.plant import PlantArrays
 from biped_adrc.engine.symbols import (
     Tracer,
-    Untraceable,
     Vector,
     column,
     floats,
     maximum,
     minimum,
+    run,
 )
 from biped_adrc.hardware.held import HeldParameters, HeldSizes
 from biped_adrc.hardware.meter import Outside
-from biped_adrc.observers.base import Estimate
 from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
 
@@ -76,8 +74,6 @@ class Make(NamedTuple):
     """Coordinates of the exponential method."""
     gained: bool = False
     """With an error of the impact map."""
-    called: dict[str, str] = {}  # noqa: RUF012
-    """Laws that are called because they branch on numbers, and the names of their functions."""
 
     @property
     def sampled(self) -> bool:
@@ -91,12 +87,11 @@ class Make(NamedTuple):
 
 
 class Function(NamedTuple):
-    """`void f(double* K, double* inp, double* out)` as CasADi's columns, and the laws that it calls."""
+    """`void f(double* K, double* inp, double* out)` as CasADi's columns."""
 
     K: Any
     inp: Any
     out: Any
-    calls: tuple[Call, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -126,19 +121,9 @@ class Laws:
         return None if self.make.laws.estimate is None else self.said("estimate", s, m)
 
     def said(self, name: str, s: Any, *rest: Any) -> Any:
-        """The law on symbols, or a call of it. Raises Untraceable, with the law's name."""
-        make, law = self.make, getattr(self.make.laws, name)
-        if law is None:
-            return s
-        if name in make.called:
-            size = result_size(name, make.robot.p, make.size)
-            made, result = call(make.called[name], (self.k, s, *rest), size)
-            self.trace.calls.append(made)
-            return Estimate(*result.reshape(3, -1)) if name == "estimate" else result
-        try:
-            return self.trace(law)(self.k, s, *rest)
-        except Exception as error:  # whatever NumPy says of an object that is no float
-            raise Untraceable(f"{type(error).__name__}: {error}", name) from error
+        """The law on symbols. Raises Untraceable, with the law's name."""
+        law = getattr(self.make.laws, name)
+        return s if law is None else run(self.trace, law, self.k, s, *rest)
 
 
 @dataclass(frozen=True)
@@ -249,15 +234,15 @@ class Equations:
         zeta, outside = inp.take(n), inp.take(OUTSIDE)
         return At(inp, SymbolicLoop(self.make, self.numbers, Tracer(), zeta, outside), t, x, mode)
 
-    def made(self, inp: Vector, trace: Tracer, *parts: Any) -> Function:
+    def made(self, inp: Vector, *parts: Any) -> Function:
         """The function of these inputs."""
-        return Function(self.K, inp.symbol, column(*parts), tuple(trace.calls))
+        return Function(self.K, inp.symbol, column(*parts))
 
     def flow(self) -> Function:
         """x' between events."""
         at = self.at()
         trace = at.loop.trace
-        return self.made(at.inp, trace, at.does(semantics.flow), trace.solver.least)
+        return self.made(at.inp, at.does(semantics.flow), trace.solver.least)
 
     def tick(self) -> Function:
         """x after the controller has acted, and q'' there."""
@@ -265,7 +250,7 @@ class Equations:
         trace, n = at.loop.trace, self.make.robot.n
         x = at.does(semantics.tick)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
-        return self.made(at.inp, trace, x, trace.solver.least, a)
+        return self.made(at.inp, x, trace.solver.least, a)
 
     def strike(self) -> Function:
         """x after impact, relabelling and the controller's jump; `step` is the one that begins."""
@@ -273,7 +258,7 @@ class Equations:
         t, step, x = inp.take(), inp.take(), inp.take(self.nx)
         loop = SymbolicLoop(self.make, self.numbers, trace)
         x = trace(semantics.struck)(loop, t, x, Mode(step, t))
-        return self.made(inp, trace, x, trace.solver.least)
+        return self.made(inp, x, trace.solver.least)
 
     def watch(self) -> Function:
         """What the guards look at."""
@@ -281,7 +266,7 @@ class Equations:
         q, plant = inp.take(self.make.robot.n), SymbolicLoop(self.make, self.numbers, trace).plant
         foot, hip = plant.swing_foot(q), plant.hip(q)
         clearance = semantics.clearance(self.numbers.tan_slope, foot)
-        return self.made(inp, trace, clearance, foot[0], hip[1])
+        return self.made(inp, clearance, foot[0], hip[1])
 
     def _split(self, trace: Tracer) -> SplitLaws:
         """The split's laws, for symbols."""
@@ -300,13 +285,13 @@ class Equations:
     def to(self) -> Function:
         """y = (w, E) of x."""
         inp, trace = Vector("inp", self.nx), Tracer()
-        return self.made(inp, trace, *self._split(trace).to(self.numbers.split, inp.take(self.nx)))
+        return self.made(inp, *self._split(trace).to(self.numbers.split, inp.take(self.nx)))
 
     def back(self) -> Function:
         """x of y = (w, E)."""
         inp, trace = Vector("inp", self.nx), Tracer()
         w, E = self._coordinates(inp.take(self.nx))
-        return self.made(inp, trace, self._split(trace).back(self.numbers.split, w, E))
+        return self.made(inp, self._split(trace).back(self.numbers.split, w, E))
 
     def remainder(self) -> Function:
         """N_w, and N_E in its forced rows, at y = (w, E) in place of x."""
@@ -315,4 +300,4 @@ class Equations:
         w, E = self._coordinates(at.x)
         laws = self._split(trace)
         N = trace(split.remainder)(at.loop, laws, at.t, w, E, at.mode)
-        return self.made(at.inp, trace, *N, trace.solver.least)
+        return self.made(at.inp, *N, trace.solver.least)
