@@ -144,7 +144,7 @@ def test_what_acted_is_recorded_and_stored(tmp_path):
     adrc = ba.ADRCController(reference, ba.GPIObserver.from_bandwidth(60.0), ba.Gains(80.0, 15.0))
     walked = run(loop(adrc, disturbance=push, torque_limit=60.0), t_end=1.5)
     (arc,) = walked.arcs
-    zeta = [push.torque(t, 1, 0.0, None, None) for t in arc.t]
+    zeta = [push.torque(t, 1, 0.0, np.zeros(1), np.zeros(1)) for t in arc.t]
     assert np.array_equal(arc.read["zeta"], np.array(zeta))
     late = arc.t > 1.0
     a = (arc.read["u"] + arc.read["zeta"]) / MASS - GRAVITY
