@@ -38,7 +38,7 @@ def pointer_call(machine: Machine, name: str, K: Array, inp: Array, out: Array) 
         given, result = given + inp.strides[0], result + out.strides[0]
 
 
-class _Call:
+class Call:
     """One function with its own input and output arrays."""
 
     def __init__(self, machine: Machine, name: str, K: Array, inputs: int, outputs: int):
@@ -101,7 +101,7 @@ class CompiledBiped(Biped):
         return self
 
     @cached_property
-    def _calls(self) -> dict[str, _Call]:
+    def _calls(self) -> dict[str, Call]:
         robot = self.robot
         assert robot is not None
         key = hash_of("plant", skeleton(robot.structure), skeleton(robot.arrays), versions_text())
@@ -116,7 +116,7 @@ class CompiledBiped(Biped):
             "accelerate": (3 * n, n),
             "ground": (3 * n, 2),
         }
-        return {name: _Call(code, name, K, *size) for name, size in sizes.items()}
+        return {name: Call(code, name, K, *size) for name, size in sizes.items()}
 
     @cached_property
     def shapes(self) -> Reduction:

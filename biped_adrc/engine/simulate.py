@@ -17,6 +17,7 @@ from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run import arc
 from biped_adrc.engine.kernels.tables import STATUS
 from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.reference_code import with_compiled_references
 from biped_adrc.engine.ticks import TERMINAL, run_ticks
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -53,6 +54,8 @@ def on_compiled_plant(
 ) -> Trajectory:
     """A run in Python with compiled dynamics. Raises as `run_compiled`."""
     walker = with_compiled_plant(walker)
+    controller = with_compiled_references(walker.controller, walker.plant.n)
+    walker = replace(walker, controller=controller)
     if walker.sampled:
         try:
             return run_ticks(walker, x0, mode, method, options)
