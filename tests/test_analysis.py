@@ -6,9 +6,9 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.regression import regress_multipliers
+from biped_adrc.checks import at_least, at_most, between
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.studies.checks import at_least, at_most, between
 from biped_adrc.studies.poincare import speed_slope
 from biped_adrc.studies.push import Push
 from biped_adrc.studies.runs import Run, execute, from_record

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from biped_adrc.checks import Check
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.errors import OutputError
 from biped_adrc.files import write_text
@@ -21,7 +22,6 @@ from biped_adrc.hybrid.storage import save
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
-from biped_adrc.studies.checks import Check
 from biped_adrc.studies.claims.gathered import gathered
 from biped_adrc.studies.claims.table import claims
 from biped_adrc.studies.claims.words import MEANINGS, PREFACE, Claim, claim_checks
@@ -36,7 +36,7 @@ from biped_adrc.studies.pool import TaskProgress, run_tasks
 from biped_adrc.studies.results import Results
 from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
-from biped_adrc.studies.versions import versions
+from biped_adrc.versions import versions
 from biped_adrc.viz.meshcat import animation_html
 from biped_adrc.viz.report import write_report
 

@@ -1,4 +1,4 @@
-"""What a study asserts: a value computed in the run, a limit, and whether it holds.
+"""What is asserted: a value that was computed, a limit, and whether it holds.
 
 kind: "law" (physics and numerics), "consistency" (what was built in, such as a gait that was designed to close
 on x*), "reproduced" (what could have failed).
@@ -22,6 +22,9 @@ class Check:
     value: float
     limit: str
     holds: bool
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.value:.1e} {'' if self.holds else 'is not '}{self.limit}"
 
     def record(self) -> dict[str, Any]:
         """As plain values; a value that is not finite becomes a text."""
