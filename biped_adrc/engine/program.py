@@ -21,10 +21,6 @@ from biped_adrc.engine.product import product
 from biped_adrc.engine.robot import Robot, robot_of
 from biped_adrc.engine.symbols import floats
 from biped_adrc.errors import InputError
-from biped_adrc.hardware.held import after_impact, motor_torque, read, written
-from biped_adrc.hardware.meter import metered
-from biped_adrc.hardware.motors import acting, limited, mean_torque, sent
-from biped_adrc.hardware.sensors import sense
 from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
 from biped_adrc.walker import Walker
@@ -120,25 +116,12 @@ def _numbers(
     )
 
 
-HARDWARE = (
-    sense,
-    limited,
-    sent,
-    acting,
-    mean_torque,
-    metered,
-    after_impact,
-    read,
-    written,
-    motor_torque,
-)
-"""Laws of what is between controller and plant."""
 _MACHINES: dict[str, Machine] = {}
 
 
 def _machine(make: Make, numbers: Numbers) -> Machine:
     split = () if make.split is None else make.split[3:]
-    laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split, *HARDWARE))
+    laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split))
     key = hash_of(
         "walker",
         skeleton(make.robot),

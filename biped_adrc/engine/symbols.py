@@ -287,8 +287,7 @@ class Tracer:
         if not isinstance(law, types.FunctionType):
             return law
         if law not in self._copies:
-            scope = dict(law.__globals__)
-            scope = {**BUILTINS, **scope}
+            scope = {**BUILTINS, **law.__globals__}
             cells = [types.CellType(c.cell_contents) for c in law.__closure__ or ()]
             copy = types.FunctionType(
                 law.__code__, scope, law.__name__, law.__defaults__, tuple(cells) or None

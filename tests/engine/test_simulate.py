@@ -2,6 +2,7 @@
 
 import shutil
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -17,7 +18,6 @@ from biped_adrc.engine import program
 from biped_adrc.engine.choice import simulate_by
 from biped_adrc.engine.fingerprint import law_text, skeleton
 from biped_adrc.engine.robot import robot_of
-from biped_adrc.engine.simulate import simulate
 from biped_adrc.engine.symbols import Untraceable, Vector
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import virtual_constraint
@@ -26,6 +26,8 @@ from biped_adrc.hybrid import simulator
 from biped_adrc.linear import solve
 from biped_adrc.versions import NEVER_TRACED, source_text
 from biped_adrc.walker import FOOT_STRIKE, Mode
+
+simulate = partial(simulate_by, "compiled")
 
 SHARP = 1e-11
 """What sums in another order leave, where no step is chosen and nothing is amplified."""

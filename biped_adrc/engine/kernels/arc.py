@@ -10,7 +10,16 @@ import math
 
 import numpy as np
 
-from biped_adrc.engine.kernels.call import Ints, Rows, data, inner, kernel, shift
+from biped_adrc.engine.kernels.call import (
+    Ints,
+    Rows,
+    call,
+    data,
+    inner,
+    kernel,
+    shift,
+    unit,
+)
 from biped_adrc.engine.kernels.laws import (
     act,
     copy,
@@ -24,6 +33,7 @@ from biped_adrc.engine.kernels.layout import (
     ARC,
     ARMED,
     COMPLETED,
+    COORDINATES,
     COUNT,
     DX0,
     END,
@@ -130,16 +140,13 @@ def save(P: Ints, W: Array, s: Array) -> None:
     copy(row(P, W, X0), shift(s, HEAD), P[STATES])
 
 
-@kernel
-def arc(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array, kept: Rows) -> int:
-    """Go on from `run` to the first event or its END; a code. `run` is as it was where `kept` is FULL."""
-    P, F, K, W, s = data(ints), data(floats), data(numbers), data(work), data(run)
-    R = data(kept)
+@inner
+def go_on(P: Ints, F: Array, K: Array, W: Array, s: Array, R: Array) -> int:
+    """From the run's vector s, whose ROOM is the rows of R, to the first event or its END; a code."""
     load(P, W, s)
     lower(P, F, W)
     if W[ARMED] == 0.0:
         arm(P, F, K, W)
-    W[ROOM] = kept.shape[0]
     code = travel(P, F, K, W, R)
     if W[EVERY] > 0.0 and W[COUNT] == 0.0 and code != FULL:
         dx = row(P, W, DX0)
@@ -149,4 +156,24 @@ def arc(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array, kept:
             code = FULL
     if code != FULL:
         save(P, W, s)
+    return code
+
+
+@kernel
+def arc(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array, kept: Rows) -> int:
+    """Go on from `run` to the first event or its END; a code. `run` is as it was where `kept` is FULL."""
+    run[ROOM] = kept.shape[0]
+    return go_on(data(ints), data(floats), data(numbers), data(work), data(run), data(kept))
+
+
+@unit
+def hold(
+    P: Ints, F: Array, K: Array, W: Array, s: Array, R: Array, law: int, model: Array, seen: Array
+) -> int:
+    """As `arc`, and in `seen` (q, q') there with what the law at this address says of them."""
+    code, size = go_on(P, F, K, W, s, R), 2 * P[COORDINATES]
+    if code != FULL:
+        x = shift(s, HEAD)
+        copy(x, seen, size)
+        call(law, model, x, shift(seen, size))
     return code

@@ -28,6 +28,8 @@ types: Any = numba.types
 KERNELS: list[Any] = []
 UNITS: dict[str, tuple[Any, Any]] = {}
 """By symbol: the signature and the function, in the order in which they need each other."""
+ADDRESSES: dict[str, int] = {}
+"""Of the units in memory, by name."""
 _NUMBERS = {"int": types.int64, "float": types.float64, "None": types.void}
 _POINTERS = {"Ints": types.CPointer(types.int64), "Array": types.CPointer(types.float64)}
 _ARRAYS = {"Ints": types.int64[::1], "Array": types.float64[::1], "Rows": types.float64[:, ::1]}
@@ -81,6 +83,7 @@ def compile_all() -> None:
     for symbol, (signature, function) in UNITS.items():
         compiled = cfunc(signature, cache=True, error_model="numpy")(function)
         _KEEP.append(compiled)
+        ADDRESSES[symbol.rpartition(".")[2]] = compiled.address
         binding.add_symbol(symbol, compiled.address)
     for made in KERNELS:
         made.compile(tuple(_signature(made.py_func, _ARRAYS)[0]))
