@@ -1,7 +1,8 @@
-"""Files that are written: their names, plain values for JSON, and writing them whole or not at all."""
+"""Files: their names, JSON that is read, plain values for JSON, and writing whole or not at all."""
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import re
@@ -14,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.errors import InputError, OutputError
+from biped_adrc.errors import BipedError, InputError, OutputError
 
 _KIND = re.compile(r"\.[A-Za-z]\w*")
 """The end of a name that says what is in a file; '.1' of 'push_0.1' does not."""
@@ -55,6 +56,18 @@ def _same(a: Path, b: Path) -> bool:
         return os.path.samefile(a, b)
     except OSError:
         return os.path.realpath(a) == os.path.realpath(b)
+
+
+def read_json(path: Path, what: str, error: type[BipedError] = InputError) -> Any:
+    """What a file holds. Raises `error`, which says `what` the file should be, where it cannot be read."""
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise error(f"{what} '{path}' not found") from None
+    except OSError as reason:
+        raise error(f"{what} '{path}' cannot be read: {reason.strerror}") from reason
+    except (json.JSONDecodeError, UnicodeDecodeError) as reason:
+        raise error(f"{what} '{path}' is not valid JSON: {reason}") from reason
 
 
 def plain(value: Any) -> Any:
