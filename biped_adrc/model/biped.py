@@ -14,6 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -306,26 +307,31 @@ class Biped:
         `mass` alone leaves the inertias about the COM as they are. Raises ModelError for an unknown
         body or a factor that is not positive.
         """
-        inertials: dict[str, Inertial] = {}
-        for factors, key in ((mass or {}, "mass"), (inertia or {}, "inertia")):
+        for kind, factors in (("mass", mass or {}), ("inertia", inertia or {})):
             for body, factor in factors.items():
                 if not (math.isfinite(factor) and factor > 0):
-                    raise ModelError(f"{key} factor of '{body}' is {factor}, expected > 0")
+                    raise ModelError(f"{kind} factor of '{body}' is {factor}, expected > 0")
+        friction = self.friction if friction is None else friction
+        return replace(
+            self.scaled({"mass": mass or {}, "inertia": inertia or {}}), friction=friction
+        )
+
+    def scaled(self, factors: Mapping[str, Mapping[str, float]]) -> Biped:
+        """The robot with "mass", "com" and "inertia" multiplied, each by class or link name.
+
+        Raises ModelError for an unknown body, or one without mass.
+        """
+        inertials: dict[str, Inertial] = {}
+        for kind, by_body in factors.items():
+            for body, factor in by_body.items():
                 for link in self._links(body):
                     old = inertials.get(link) or self.tree.links[link].inertial
                     if old is None:
-                        raise ModelError(f"link '{link}' has no mass to scale")
-                    if key == "mass":
-                        new = replace(old, mass=old.mass * factor)
-                    else:
-                        moments = tuple(m * factor for m in old.inertia)
-                        new = replace(old, inertia=moments)  # type: ignore[arg-type]
-                    inertials[link] = new
-        return replace(
-            self,
-            tree=self.tree.with_inertials(inertials),
-            friction=self.friction if friction is None else friction,
-        )
+                        raise ModelError(f"link '{link}' has no mass, so its {kind} cannot change")
+                    x = getattr(old, kind)
+                    new: Any = factor * x if kind == "mass" else tuple(factor * y for y in x)
+                    inertials[link] = replace(old, **{kind: new})
+        return replace(self, tree=self.tree.with_inertials(inertials))
 
     def _links(self, body: str) -> tuple[str, ...]:
         if body in self.description.links:
