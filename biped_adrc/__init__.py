@@ -57,12 +57,16 @@ if TYPE_CHECKING:
     from biped_adrc.model.own import biped_from_urdf
     from biped_adrc.observers.base import Observer, ResetPolicy
     from biped_adrc.observers.gpi import TABLE_I, GPIObserver
+    from biped_adrc.scenario.push import Push
+    from biped_adrc.scenario.recording import Walk
+    from biped_adrc.scenario.registry import register
+    from biped_adrc.scenario.run import passive_walk, walk_scenario
+    from biped_adrc.scenario.scenario import Scenario
+    from biped_adrc.scenario.stored import load_walk
+    from biped_adrc.scenario.walk import walk
     from biped_adrc.studies.cycle_stability import cycle_stability, find_cycle
     from biped_adrc.studies.gait_design import DesignedGait, design_gait
     from biped_adrc.studies.gait_library import GaitLibrary
-    from biped_adrc.studies.passive_walk import PassiveWalk, passive_walk
-    from biped_adrc.studies.runs import load_walk
-    from biped_adrc.studies.walk import Walk, walk
     from biped_adrc.timing import ContinuousTime, SampledTime
     from biped_adrc.walker import Mode, Walker
 
@@ -103,13 +107,14 @@ _HOMES = {
     "OutputNPDController": "control.output_npd",
     "Outputs": "gait.outputs",
     "Passive": "control.passive",
-    "PassiveWalk": "studies.passive_walk",
+    "Push": "scenario.push",
     "RK4": "hybrid.integrators",
     "Reference": "gait.reference",
     "ReferenceReset": "control.reference_reset",
     "ResetPolicy": "observers.base",
     "ReturnMap": "analysis.return_map",
     "SampledTime": "timing",
+    "Scenario": "scenario.scenario",
     "Sensors": "hardware.sensors",
     "Status": "hybrid.status",
     "StepDown": "ground",
@@ -127,7 +132,7 @@ _HOMES = {
     "TorqueStep": "disturbances.step",
     "Trajectory": "hybrid.trajectory",
     "VirtualConstraint": "gait.constraint",
-    "Walk": "studies.walk",
+    "Walk": "scenario.recording",
     "Walker": "walker",
     "ZeroDynamics": "gait.zero_dynamics",
     "ZeroOrbits": "gait.zero_orbits",
@@ -140,14 +145,16 @@ _HOMES = {
     "find_cycle": "studies.cycle_stability",
     "import_gait": "gait.exchange.importing",
     "load_gait": "gait.gait",
-    "load_walk": "studies.runs",
-    "passive_walk": "studies.passive_walk",
+    "load_walk": "scenario.stored",
+    "passive_walk": "scenario.run",
+    "register": "scenario.registry",
     "simulate": "hybrid.simulator",
     "simulate_many": "engine.batch",
     "stride_response": "analysis.stride_gain",
     "to_ss": "analysis.to_ss",
     "uneven_ground": "ground",
-    "walk": "studies.walk",
+    "walk": "scenario.walk",
+    "walk_scenario": "scenario.run",
     "zero_report": "analysis.zero_report",
 }
 
@@ -189,12 +196,13 @@ __all__ = [
     "OutputNPDController",
     "Outputs",
     "Passive",
-    "PassiveWalk",
+    "Push",
     "Reference",
     "ReferenceReset",
     "ResetPolicy",
     "ReturnMap",
     "SampledTime",
+    "Scenario",
     "Sensors",
     "Status",
     "StepDown",
@@ -225,12 +233,14 @@ __all__ = [
     "load_gait",
     "load_walk",
     "passive_walk",
+    "register",
     "simulate",
     "simulate_many",
     "stride_response",
     "to_ss",
     "uneven_ground",
     "walk",
+    "walk_scenario",
     "zero_report",
 ]
 

@@ -3,7 +3,7 @@
 <!-- modules of biped_adrc.gait -->      one section for every module of the package
 <!-- names of biped_adrc -->             a table of the names at the top of the package
 <!-- help of biped-adrc simulate -->     what the command prints for --help
-<!-- fields of biped_adrc.studies.bench.trial.Trial -->   a table of what a study may vary
+<!-- fields of biped_adrc.scenario.scenario.Scenario -->   a table of what a study may vary
 """
 
 import importlib

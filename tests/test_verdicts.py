@@ -17,6 +17,8 @@ from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.limits import KnownLimits
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies import reproduction, verdicts
 from biped_adrc.studies.checks import at_most
 from biped_adrc.studies.claims.words import Case, Claim, Figure, Tally, judged
@@ -26,7 +28,6 @@ from biped_adrc.studies.laws import walk_laws, work_identity
 from biped_adrc.studies.plan import Plan, RecipeResult
 from biped_adrc.studies.poincare import PoincareResult
 from biped_adrc.studies.pool import Timed
-from biped_adrc.studies.runs import Outcome, Run
 from biped_adrc.studies.tables import _runs
 
 CERTIFICATE = Certificate(
@@ -61,7 +62,7 @@ def needing(**odd):
 def outcome(controller, peak=1e-2, impacts=9, asked=9, **more):
     status = "COMPLETED" if impacts == asked else "FELL"
     made = Outcome(
-        Run(controller, impacts=asked),
+        Scenario(controller, impacts=asked),
         status,
         "",
         impacts,
@@ -332,7 +333,7 @@ def stubbed(monkeypatch):
             "gathered": lambda *_: SimpleNamespace(record=dict),
             "findings": lambda *_: [],
             "tables": lambda *_: {},
-            "save": lambda *_: None,
+            "_save": lambda *_: None,
             "draw_all": lambda *_: {},
             "_animate": lambda *_: "",
             "_stored": lambda *_: None,

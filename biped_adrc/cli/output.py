@@ -10,7 +10,7 @@ from biped_adrc.cli.app import console
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
-    from biped_adrc.studies.recording import Recording
+    from biped_adrc.scenario.recording import Walk
 
 FIGURES, GAITS = (".png", ".svg"), (".json",)
 
@@ -39,15 +39,14 @@ def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
     return path
 
 
-def write_run(walk: Recording, path: Path, settings: dict[str, Any]) -> None:
+def write_run(walk: Walk, path: Path, settings: dict[str, Any]) -> None:
     """The run with its settings and versions, or its signals."""
-    from biped_adrc.hybrid.storage import save
     from biped_adrc.studies.versions import versions
 
     if path.suffix.lower() == ".mat":
         walk.export(path)
     else:
-        save(walk.trajectory, path, {**settings, "versions": versions()})
+        walk.save(path, {**settings, "versions": versions()})
 
 
 def say_written(path: Path | None) -> None:

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.analysis.legality import OUTCOMES
+from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.studies.plan import BOTH, RISE, Plan
 from biped_adrc.studies.push_map import certain, counts
-from biped_adrc.studies.runs import Outcome
 from biped_adrc.studies.verdicts import Results, distance
 
 

@@ -17,9 +17,10 @@ import numpy as np
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.errors import OutputError
 from biped_adrc.files import write_text
-from biped_adrc.hybrid.storage import save
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import TABLE_I
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.stored import replay
 from biped_adrc.studies import verdicts
 from biped_adrc.studies.checks import Check
 from biped_adrc.studies.claims.gathered import gathered
@@ -35,10 +36,8 @@ from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.poincare import regression_of
 from biped_adrc.studies.pool import TaskProgress, run_tasks
 from biped_adrc.studies.push_map import Cell
-from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
 from biped_adrc.studies.versions import versions
-from biped_adrc.studies.walk import Walk
 from biped_adrc.viz.meshcat import animation_html
 from biped_adrc.viz.report import write_report
 
@@ -76,7 +75,7 @@ def reproduce(
     }
     for c in BOTH:
         head = verdicts.headline_of(results, c)
-        save(_stored(head), out / f"walk-{c.lower()}.npz", _run_settings(head))
+        _save(head, out / f"walk-{c.lower()}.npz")
     pictures = draw_all(plan, results, cells, out, workers)
     animation = _animate(plan, results)
     write_text(out / "walk.html", animation)
@@ -192,6 +191,10 @@ STORED_APART = 1e-3
 """[s] between the stored nodes of a headline run, but for the single supports with fine steps."""
 
 
+def _save(head: Headline, path: Path) -> None:
+    replay(head.outcome.run, _stored(head)).save(path, {"versions": versions()})
+
+
 def _stored(head: Headline) -> Trajectory:
     """The trajectory without nodes that no picture needs: where nothing switches the solution is smooth."""
     pushed = {push.step + k for push in head.outcome.run.pushes for k in (0, 1)}
@@ -200,10 +203,6 @@ def _stored(head: Headline) -> Trajectory:
         for arc in head.trajectory.arcs
     )
     return replace(head.trajectory, arcs=tuple(arcs))
-
-
-def _run_settings(head: Any) -> dict[str, Any]:
-    return {"run": head.outcome.run.record(), "versions": versions()}
 
 
 def _nominal(plan: Plan, results: dict[str, Any]) -> dict[str, Any]:

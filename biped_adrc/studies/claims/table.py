@@ -12,8 +12,8 @@ from biped_adrc.studies.claims.rows_control import control_claims
 from biped_adrc.studies.claims.rows_gait import gait_claims
 from biped_adrc.studies.claims.rows_push import long_walk, push_claims
 from biped_adrc.studies.claims.words import BY_CONSTRUCTION, NOT_TESTABLE, Claim
+from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.studies.push_map import Cell
-from biped_adrc.studies.runs import CONTROLLERS
 from biped_adrc.studies.verdicts import distance
 
 PREFACE = (
