@@ -58,15 +58,18 @@ def code_lines(text: str) -> set[int]:
 def deciding(tree: ast.Module, own: frozenset[str]) -> Iterator[int]:
     """Lines where what is done depends on which class of this package something is of."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.Is | ast.IsNot | ast.In | ast.NotIn):
+        if isinstance(node, ast.Compare) and isinstance(
+            node.ops[0], ast.Is | ast.IsNot | ast.In | ast.NotIn
+        ):
             called = [x for x in ast.walk(node.left) if isinstance(x, ast.Call)]
             if any(isinstance(x.func, ast.Name) and x.func.id == "type" for x in called):
                 yield node.lineno
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-            if node.func.id == "isinstance" and len(node.args) == 2:
-                named = {x.id for x in ast.walk(node.args[1]) if isinstance(x, ast.Name)}
-                if named & own:
-                    yield node.lineno
+        if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)):
+            continue
+        if node.func.id == "isinstance" and len(node.args) == 2:
+            named = {x.id for x in ast.walk(node.args[1]) if isinstance(x, ast.Name)}
+            if named & own:
+                yield node.lineno
 
 
 def counted(path: Path, own: frozenset[str]) -> Counted:
@@ -104,8 +107,10 @@ def main(folders: list[str]) -> None:
     every = list(found.values())
     lengths = [n for x in every for n in x.functions]
     modules = [x.code for x in every]
-    print(f"{'all':32} {len(every):7} {sum(modules):6} {sum(x.docstrings for x in every):6} "
-          f"{sum(len(x.deciding) for x in every):8}")
+    print(
+        f"{'all':32} {len(every):7} {sum(modules):6} {sum(x.docstrings for x in every):6} "
+        f"{sum(len(x.deciding) for x in every):8}"
+    )
     print(
         f"code lines of a module: median {statistics.median(modules):g}, most {max(modules)}; functions: "
         f"{len(lengths)}, lines median {statistics.median(lengths):g}, most {max(lengths)}"

@@ -28,11 +28,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.closed_loop.semantics import Instant, Loop, Mode, instant
+from biped_adrc.control.base import Controller
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, path
 from biped_adrc.gait.curves import CurveParameters, Polynomial, curve
@@ -252,49 +253,36 @@ def _refused(reason: str) -> InputError:
     )
 
 
-class Acting(Protocol):
-    """What acts at one state of a walker."""
-
-    @property
-    def measurement(self) -> Measurement: ...
-    @property
-    def s(self) -> Array: ...
-    @property
-    def u(self) -> Array: ...
-    @property
-    def a(self) -> Array: ...
+# -- of a closed loop ----------------------------------------------------------------------------
+def remainder(
+    loop: Loop, laws: SplitLaws, t: float, w: Array, E: Array, mode: Mode
+) -> tuple[Array, Array]:
+    """N_w, and N_E in its forced rows, of the closed loop at (t, w, E)."""
+    i = instant(loop, t, laws.back(laws.parameters, w, E), mode)
+    rest = len(i.s) > laws.parameters.order * laws.parameters.p
+    ds = loop.law.flow(i.s, i.measurement, i.u) if rest else i.s
+    return forcing(laws, w, E, i, ds)
 
 
-class Splittable(Protocol):
-    """A walker whose controller has laws to split it by."""
-
-    @property
-    def law(self) -> Controller: ...
-
-    def instant(self, t: float, x: Array, mode: Any) -> Acting:
-        """Measurement, torque and acceleration at (t, x)."""
-
-
-def split_of(walker: Splittable, laws: SplitLaws, mode: Any) -> Split:
-    """The walker in these coordinates."""
+def forcing(laws: SplitLaws, w: Array, E: Array, i: Instant, ds: Array) -> tuple[Array, Array]:
+    """As `remainder`, for what acts there and s'."""
     k = laws.parameters
-    observed = k.order * k.p
+    return laws.remainder(k, w, E, i.a, i.measurement.terms.kappa @ i.u, ds[k.order * k.p :])
 
-    def remainder(t: float, w: Array, E: Array) -> tuple[Array, Array]:
-        i = walker.instant(t, laws.back(k, w, E), mode)
-        rest = len(i.s) > observed
-        ds = walker.law.flow(i.s, i.measurement, i.u) if rest else i.s
-        return forcing(w, E, i, ds)
 
-    def forcing(w: Array, E: Array, i: Acting, ds: Array) -> tuple[Array, Array]:
-        kappa_u = i.measurement.terms.kappa @ i.u
-        N_w, forced = laws.remainder(k, w, E, i.a, kappa_u, ds[observed:])
+def split_of(loop: Loop, laws: SplitLaws, mode: Any) -> Split:
+    """The closed loop in these coordinates."""
+    k = laws.parameters
+
+    def on_all_rows(t: float, w: Array, E: Array) -> tuple[Array, Array]:
+        N_w, forced = remainder(loop, laws, t, w, E, mode)
         return N_w, laws.spread(forced)
 
     def node(t: float, w: Array, E: Array) -> tuple[tuple[Array, Array], Array, Array]:
         x = laws.back(k, w, E)
-        i = walker.instant(t, x, mode)
-        m, ds = i.measurement, walker.law.flow(i.s, i.measurement, i.u)
-        return forcing(w, E, i, ds), x, np.concatenate((m.v, i.a, ds))
+        i = instant(loop, t, x, mode)
+        ds = loop.law.flow(i.s, i.measurement, i.u)
+        N_w, forced = forcing(laws, w, E, i, ds)
+        return (N_w, laws.spread(forced)), x, np.concatenate((i.measurement.v, i.a, ds))
 
-    return Split(partial(laws.to, k), partial(laws.back, k), laws.A, remainder, node)
+    return Split(partial(laws.to, k), partial(laws.back, k), laws.A, on_all_rows, node)

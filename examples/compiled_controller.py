@@ -35,9 +35,6 @@ class GravityPD(ba.Controller):
         parameters = GravityPDParameters(self.constraint.parameters, self.K_p, self.K_d)
         return ba.ControllerLaws(parameters, gravity_pd)
 
-    def output(self, s, m):
-        return gravity_pd(self.laws.parameters, s, m)
-
 
 biped = ba.Biped.load("rabbit")
 gait = ba.load_gait("published", biped)
@@ -60,4 +57,5 @@ print(
     [f"{K:.0f}" for K, w in zip(gains, walked, strict=True) if w.status.ok],
 )
 
-# To try: give the law a branch on a number, such as `if u[0] > 50.0:`. It still compiles; how much slower?
+# To try: give the law a branch on a number, such as `if u[0] > 50.0:`. What does settings["why"] of the walk
+# say, and how much slower is it? `np.where` compiles.

@@ -16,7 +16,7 @@ from biped_adrc.studies.claims.admissible import Member, convergence, declared, 
 from biped_adrc.studies.claims.evidence import Cycle, Jumps, Needs, Pair, Start
 from biped_adrc.studies.claims.gathered import Evidence
 from biped_adrc.studies.claims.orders import Order, bandwidth_with
-from biped_adrc.studies.claims.table import map_cells, rows
+from biped_adrc.studies.claims.table import rows
 from biped_adrc.studies.claims.walks import (
     MemberOutcome,
     Prepared,
@@ -40,6 +40,7 @@ from biped_adrc.studies.claims.words import (
     span,
 )
 from biped_adrc.studies.push_map import Cell, Fate
+from biped_adrc.studies.results import Results
 from biped_adrc.viz.report import CLAIM_COLUMNS
 
 NUMERICS = {
@@ -364,8 +365,8 @@ def test_marginal_cells_of_the_map_carry_nothing():
     claim = rows_push.critical_phase([], cells)
     assert claim.word == "replicated"
     assert "half the step, 1, are left out" in claim.reason
-    found = map_cells({"map a": cells, "nominal": None, "map b": cells[:1]})
-    assert len(found) == 3
+    found = Results.of({"map a": cells, "nominal": None, "map b": cells[:1]})
+    assert len(found.cells) == 3
 
 
 def test_the_long_walks():

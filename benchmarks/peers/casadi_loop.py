@@ -10,9 +10,10 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from casadi_chain import solve_symmetric
+from casadi_chain import solve_symmetric, terms
 
-from biped_adrc.control.adrc import ADRCController, ADRCParameters
+from biped_adrc.control.adrc import ADRCController
+from biped_adrc.control.observing import ObservingParameters
 from biped_adrc.gait.constraint import ConstraintParameters
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlanarTree
@@ -21,13 +22,12 @@ from biped_adrc.observers.gpi import GPIParameters
 
 def closed_loop(biped: Biped, controller: ADRCController) -> Any:
     """CasADi function x -> x'."""
-    n, p, k = biped.n, biped.p, controller.parameters
+    n, p, k = biped.n, biped.p, controller.laws.parameters
     assert isinstance(k.observer, GPIParameters)
     x = ca.SX.sym("x", 2 * n + k.observer.order * p)
     q, v = x[:n], x[n : 2 * n]
     Z = ca.reshape(x[2 * n :], p, k.observer.order).T
-    tree = PlanarTree.of(biped)
-    D, Omega = tree.D(ca, q), tree.Omega(ca, q, v)
+    D, Omega = terms(PlanarTree.of(biped), q, v)
     A_N, a_N = -D[p, :p] / D[p, p], -Omega[p] / D[p, p]
     kappa_u = acceleration(k, q, v, Z, A_N, a_N) - Z[2, :].T * k.observer.scale**2
     u = (D[:p, :p] + D[:p, p] @ A_N) @ kappa_u
@@ -37,7 +37,7 @@ def closed_loop(biped: Biped, controller: ADRCController) -> Any:
     )
 
 
-def acceleration(k: ADRCParameters[Any], q: Any, v: Any, Z: Any, A_N: Any, a_N: Any) -> Any:
+def acceleration(k: ObservingParameters, q: Any, v: Any, Z: Any, A_N: Any, a_N: Any) -> Any:
     """a (p,), the acceleration asked for, solved through Theta''."""
     p = A_N.numel()
     h, dh, ddh, dtheta = constraint(k.h, q, v)

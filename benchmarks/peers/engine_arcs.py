@@ -33,7 +33,7 @@ METHODS: Mapping[str, OneStepMethod] = {
 
 def program_of(walker: Walker) -> Program:
     """The machine code of a walker in continuous time."""
-    return Program.of(walker, walker.controller.parameters.observer.order * walker.plant.p)
+    return Program.of(walker, walker.controller.laws.parameters.observer.order * walker.plant.p)
 
 
 def right_hand_side(walker: Walker, program: Program) -> Flow:

@@ -5,17 +5,19 @@ Controllers have no hidden state, so the signals are computed again from the sto
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
 
 from biped_adrc.analysis.quadrature import largest
+from biped_adrc.closed_loop.readings import Reading, reading
+from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
-from biped_adrc.gait.reference import Reference
-from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.reduction import disturbance_parts
+from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.types import Array
-from biped_adrc.walker import Mode, Walker
+from biped_adrc.walker import Walker
 
 LONG = 2000
 """Nodes from which on compiling pays off."""
@@ -101,60 +103,61 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     Where outer loops correct the reference, q_d is the corrected one. Of a compiled run, and of a long one,
     they are computed in compiled code where that can be had.
     """
-    seen = None
     nodes = sum(len(arc.t) for arc in trajectory.arcs)
     if trajectory.settings.get("engine") == "compiled" or nodes >= LONG:
-        from biped_adrc.engine.seeing import see
+        from biped_adrc.engine.compiled_signals import compiled_readings
 
-        seen = see(walker, trajectory, reference)
-    if seen is not None:
-        return Signals(*seen)
-    rows: list[tuple[object, ...]] = []
+        found = compiled_readings(walker, trajectory, reference)
+        if found is not None:
+            return signals_of(walker, trajectory, found)
+    return signals_of(walker, trajectory, readings(walker, trajectory, reference))
+
+
+def readings(walker: Walker, trajectory: Trajectory, reference: Reference) -> Reading:
+    """At all nodes of a walk, in NumPy."""
+
+    def tracked(s: Array, m: Measurement) -> ReferencePoint:
+        law = walker.law
+        r = reference_in_force(law, s) if isinstance(law, OuterLoop) else reference
+        return r(m.t, m.q, m.v)
+
+    rows = [
+        reading(walker, float(t), x, arc.mode, tracked)
+        for arc in trajectory.arcs
+        for t, x in zip(arc.seen, arc.x, strict=True)
+    ]
+    return Reading(*(np.array(column) for column in zip(*rows, strict=True)))
+
+
+def signals_of(walker: Walker, trajectory: Trajectory, r: Reading) -> Signals:
+    """The signals from what is read off at the nodes."""
+    arcs, n, p = trajectory.arcs, walker.plant.n, walker.plant.p
+    x = np.vstack([arc.x for arc in arcs])
+    q, v = x[:, :n], x[:, n : 2 * n]
+    foot = np.vstack([np.tile(at, (len(arc.t), 1)) for arc, at in _footholds(walker, arcs)])
+    outside = [walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen]
+    return Signals(
+        t=np.concatenate([arc.t for arc in arcs]),
+        step=np.concatenate([np.full(len(arc.t), arc.mode.step) for arc in arcs]),
+        q=q,
+        v=v,
+        theta=q @ walker.plant.phase,
+        dtheta=v @ walker.plant.phase,
+        error=q[:, :p] - r.q_d,
+        foothold=foot[:, 0],
+        foothold_height=foot[:, 1],
+        **{
+            **r._asdict(),
+            "ground_reaction": r.ground_reaction - np.array(outside),
+            "potential": r.potential + walker.plant.weight * foot[:, 1],
+        },
+    )
+
+
+def _footholds(walker: Walker, arcs: Sequence[Arc]) -> Iterator[tuple[Arc, Array]]:
+    """Arcs, and where the stance foot is in the world during each (2,) [m]."""
     foot = np.zeros(2)
-    for arc in trajectory.arcs:
-        for t, seen_at, x in zip(arc.t, arc.seen, arc.x, strict=True):
-            row = _row(walker, reference, float(seen_at), x, arc.mode, foot)
-            rows.append((float(t), *row[1:], *foot))
+    for arc in arcs:
+        yield arc, foot
         if arc.event is not None and arc.event.x_plus is not None:
             foot = foot + walker.plant.swing_foot(arc.event.x_minus[: walker.plant.n])
-    columns = (np.array(column) for column in zip(*rows, strict=True))
-    return Signals(*columns)
-
-
-def _row(
-    walker: Walker, reference: Reference, t: float, x: Array, mode: Mode, foot: Array
-) -> tuple[object, ...]:
-    i = walker.instant(t, x, mode)
-    m, b = i.measurement, walker.plant
-    q, v, a, p = m.q, m.v, i.a, walker.plant.p
-    if isinstance(walker.law, OuterLoop):
-        reference = reference_in_force(walker.law, i.s)
-    r = reference(t, q, v)
-    estimate = walker.law.estimate(i.s, m)
-    xi_estimate = np.full(p, np.nan) if estimate is None else estimate.disturbance
-    matched, unmatched = disturbance_parts(m.terms, walker.unknown(m.terms, a, i.u, i.zeta))
-    return (
-        t,
-        mode.step,
-        q,
-        v,
-        a,
-        float(b.phase @ q),
-        float(b.phase @ v),
-        r.q_d,
-        r.dq_d,
-        q[:p] - r.q_d,
-        i.u,
-        i.zeta,
-        a[:p] - m.terms.kappa @ i.u,
-        xi_estimate,
-        matched + unmatched,
-        matched,
-        m.terms.xi,
-        m.terms.kappa_inverse @ (xi_estimate - m.terms.xi),
-        walker.ground_reaction(i, mode),
-        b.kinetic_energy(q, v),
-        b.potential_energy(q) + b.weight * float(foot[1]),
-        b.swing_foot(q),
-        b.hip(q),
-    )

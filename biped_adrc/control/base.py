@@ -9,12 +9,12 @@ both time bases. `u` handed to `flow` and `predict` is the torque applied, after
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import ErrorSystem, Estimate
@@ -73,64 +73,126 @@ class ControllerLaws(NamedTuple):
     """correct(k, s, m) -> s at the tick."""
     predict: Callable[..., Array] | None = None
     """predict(k, s, m, u) -> s at the next tick."""
-    estimate: Callable[..., Estimate] | None = None
+    estimate: Callable[..., Estimate | None] | None = None
     """estimate(k, s, m) -> what an observer inside says."""
+    obstacle: str = ""
+    """The part that has no laws, so that these run in Python only; empty where all of them compile."""
+
+    @property
+    def functions(self) -> ControllerLaws:
+        """The laws alone, without their parameters."""
+        return self._replace(parameters=None, obstacle="")
 
 
-class Controller(ABC):
-    """Base of all controllers."""
+class Controller(Composed):
+    """Base of all controllers: write `output` and what else it needs, or give `laws`, which they all call."""
 
+    _kind: ClassVar[str] = "controller"
+    _methods: ClassVar[frozenset[str]] = frozenset(
+        (
+            "output",
+            "initial_state",
+            "flow",
+            "jump",
+            "correct",
+            "predict",
+            "estimate",
+        )
+    )
     needs_body: ClassVar[bool] = False
     """Whether `Measurement.body` has to be there."""
-
-    @abstractmethod
-    def output(self, s: Array, m: Measurement) -> Array:
-        """u (p,) [N m]."""
-
-    def initial_state(self, m: Measurement) -> Array:
-        """s at the start of a run; empty for a controller without state."""
-        return np.zeros(0)
-
-    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
-        """s' in continuous time, under the applied torque u."""
-        return np.zeros(0)
-
-    def correct(self, s: Array, m: Measurement) -> Array:
-        """Sampled: s with the measurement of this tick taken in."""
-        return s
-
-    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
-        """Sampled: s at the next tick, under the applied torque u."""
-        return s
-
-    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
-        """s after impact; `swap` (p,) relabels the joints, `after` is the state after it."""
-        return s
-
-    def sampled(self, period: float) -> Controller:
-        """The same law for ticks every `period` [s].
-
-        Raises InputError for a controller that has a state in continuous time and no discrete form.
-        """
-        if type(self).flow is not Controller.flow:
-            raise InputError(
-                f"{type(self).__name__} has no discrete form: give it a method sampled(period), "
-                "or use ContinuousTime()"
-            )
-        return self
 
     @property
     def laws(self) -> ControllerLaws | None:
         """The pure functions that the methods amount to; None for a controller written as methods alone."""
         return None
 
+    def output(self, s: Array, m: Measurement) -> Array:
+        """u (p,) [N m]."""
+        law = self._law("output")
+        if law is None:
+            raise InputError(
+                f"{type(self).__name__} has neither a method output(s, m) nor laws; write one of them: u (p,) "
+                "[N m] from its state s and the Measurement m"
+            )
+        u: Array = law(s, m)
+        return u
+
+    def initial_state(self, m: Measurement) -> Array:
+        """s at the start of a run; empty for a controller without state."""
+        law = self._law("initial_state")
+        return np.zeros(0) if law is None else law(m)
+
+    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
+        """s' in continuous time, under the applied torque u."""
+        law = self._law("flow")
+        if law is None and self._law("predict") is not None:
+            raise InputError(
+                f"{type(self).__name__} works in sampled time only; give a SampledTime"
+            )
+        return np.zeros(0) if law is None else law(s, m, u)
+
+    def correct(self, s: Array, m: Measurement) -> Array:
+        """Sampled: s with the measurement of this tick taken in."""
+        law = self._law("correct")
+        if law is None and self._law("flow") is not None:
+            raise InputError(
+                f"{type(self).__name__} works in continuous time; call sampled(period)"
+            )
+        return s if law is None else law(s, m)
+
+    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+        """Sampled: s at the next tick, under the applied torque u."""
+        law = self._law("predict")
+        if law is None and self._law("flow") is not None:
+            raise InputError(
+                f"{type(self).__name__} works in continuous time; call sampled(period)"
+            )
+        return s if law is None else law(s, m, u)
+
+    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+        """s after impact; `swap` (p,) relabels the joints, `after` is the state after it."""
+        law = self._law("jump")
+        return s if law is None else law(s, after, swap)
+
+    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
+        """What an observer inside says; None without one."""
+        law = self._law("estimate")
+        return None if law is None else law(s, m)
+
+    def sampled(self, period: float) -> Controller:
+        """The same law for ticks every `period` [s].
+
+        Raises InputError for a controller that has a state in continuous time and no discrete form.
+        """
+        if type(self).flow is not Controller.flow or self._law("flow") is not None:
+            raise InputError(
+                f"{type(self).__name__} has no discrete form: give it a method sampled(period), "
+                "or use ContinuousTime()"
+            )
+        return self
+
     def error_system(self) -> ErrorSystem | None:
         """Linear error dynamics of an observer that is the whole state s; None otherwise."""
         return None
 
-    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
-        """What an observer inside says; None without one."""
-        return None
+
+def controller_laws(controller: Controller) -> ControllerLaws:
+    """The laws of a controller, or its methods as laws, which run in Python only and say so."""
+    if not controller._obstacle:
+        laws: ControllerLaws = controller.laws  # type: ignore[assignment]
+        return laws
+    return ControllerLaws(
+        (),
+        lambda k, s, m: controller.output(s, m),
+        lambda k, m: controller.initial_state(m),
+        lambda k, s, m, u: controller.flow(s, m, u),
+        lambda k, s, after, swap: controller.jump(s, after, swap),
+        lambda k, s, m: controller.correct(s, m),
+        lambda k, s, m, u: controller.predict(s, m, u),
+        lambda k, s, m: controller.estimate(s, m),
+        controller._obstacle,
+    )
 
 
 def misshapen(controller: Controller, u: Array, p: int) -> str:

@@ -22,22 +22,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import factorial
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.adrc import (
-    ADRCController,
-    adrc_estimate,
-    adrc_flow,
-    adrc_initial_state,
-    adrc_jump,
-    adrc_output,
-)
-from biped_adrc.control.base import Controller, ControllerLaws, Measurement
-from biped_adrc.control.npd import NPDController, npd_output
+from biped_adrc.control.base import Controller, ControllerLaws, Measurement, controller_laws
 from biped_adrc.errors import InputError
 from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array
@@ -96,51 +87,36 @@ def parts(k: LineParameters, s: Array, p: int) -> tuple[Array, Array]:
     return s[:size], s[size:].reshape(k.order, p)
 
 
-def delayed_output(k: DelayedParameters, s: Array, m: Measurement) -> Array:
-    """u (p,) [N m], of a delay before."""
-    return line_output(k.line, parts(k.line, s, m.terms.kappa.shape[0])[1])
+@lru_cache(maxsize=64)
+def delayed_laws(inner: ControllerLaws) -> ControllerLaws:
+    """The laws of the line behind the laws of any controller, without parameters."""
 
+    def output(k: DelayedParameters, s: Array, m: Measurement) -> Array:
+        return line_output(k.line, parts(k.line, s, m.terms.kappa.shape[0])[1])
 
-def delayed_adrc_state(k: DelayedParameters, m: Measurement) -> Array:
-    """s of ADRC that agrees with measurement and model, and a line full of its torque."""
-    z = adrc_initial_state(k.inner, m)
-    u = held_back(k.line, adrc_output(k.inner, z, m))
-    return np.concatenate((z, line_state(k.line, u).ravel()))
+    def initial_state(k: DelayedParameters, m: Measurement) -> Array:
+        s = m.q[:0] if inner.initial_state is None else inner.initial_state(k.inner, m)
+        u = held_back(k.line, inner.output(k.inner, s, m))
+        return np.concatenate((s, line_state(k.line, u).ravel()))
 
+    def flow(k: DelayedParameters, s: Array, m: Measurement, u: Array) -> Array:
+        z, R = parts(k.line, s, len(u))
+        asked = held_back(k.line, inner.output(k.inner, z, m))
+        fed = u if k.line.known > 0 else asked
+        dz = z if inner.flow is None else inner.flow(k.inner, z, m, fed)
+        return np.concatenate((dz, line_flow(k.line, R, asked).ravel()))
 
-def delayed_adrc_flow(k: DelayedParameters, s: Array, m: Measurement, u: Array) -> Array:
-    """s' under the applied torque u (p,), with the observer (17)."""
-    z, R = parts(k.line, s, len(u))
-    asked = held_back(k.line, adrc_output(k.inner, z, m))
-    fed = u if k.line.known > 0 else asked
-    return np.concatenate((adrc_flow(k.inner, z, m, fed), line_flow(k.line, R, asked).ravel()))
+    def jump(k: DelayedParameters, s: Array, after: Measurement, swap: Array) -> Array:
+        z, R = parts(k.line, s, len(swap))
+        z = z if inner.jump is None else inner.jump(k.inner, z, after, swap)
+        return np.concatenate((z, R[:, swap].ravel()))
 
+    def estimate(k: DelayedParameters, s: Array, m: Measurement) -> Estimate | None:
+        assert inner.estimate is not None
+        return inner.estimate(k.inner, parts(k.line, s, m.terms.kappa.shape[0])[0], m)
 
-def delayed_adrc_jump(k: DelayedParameters, s: Array, after: Measurement, swap: Array) -> Array:
-    """s after impact: the observer by its policy, the line relabelled."""
-    z, R = parts(k.line, s, len(swap))
-    return np.concatenate((adrc_jump(k.inner, z, after, swap), R[:, swap].ravel()))
-
-
-def delayed_adrc_estimate(k: DelayedParameters, s: Array, m: Measurement) -> Estimate:
-    """What the observer inside says."""
-    return adrc_estimate(k.inner, parts(k.line, s, m.terms.kappa.shape[0])[0], m)
-
-
-def delayed_npd_state(k: DelayedParameters, m: Measurement) -> Array:
-    """A line full of the torque of NPD."""
-    return line_state(k.line, held_back(k.line, npd_output(k.inner, m.q[:0], m))).ravel()
-
-
-def delayed_npd_flow(k: DelayedParameters, s: Array, m: Measurement, u: Array) -> Array:
-    """s' of the line."""
-    asked = held_back(k.line, npd_output(k.inner, m.q[:0], m))
-    return line_flow(k.line, parts(k.line, s, len(u))[1], asked).ravel()
-
-
-def delayed_npd_jump(k: DelayedParameters, s: Array, after: Measurement, swap: Array) -> Array:
-    """The line relabelled."""
-    return parts(k.line, s, len(swap))[1][:, swap].ravel()
+    told = None if inner.estimate is None else estimate
+    return ControllerLaws(None, output, initial_state, flow, jump, estimate=told)
 
 
 @dataclass(frozen=True)
@@ -148,7 +124,7 @@ class Delayed(Controller):
     """The module's line behind `inner`. delay [s] > 0; order k of the approximant, 1 to 10.
 
     known: the observer inside is fed with the torque that acts. torque_limit [N m]: of what is asked for.
-    It compiles around ADRC with a GPI observer and around NPD. Raises InputError.
+    It compiles around whatever compiles in continuous time. Raises InputError.
     """
 
     inner: Controller
@@ -184,32 +160,6 @@ class Delayed(Controller):
         N, D = pade(self.order)
         return LineParameters(N, D, 1.0 / self.delay, limit, self.order, int(self.known))
 
-    def _asked(self, s: Array, m: Measurement) -> Array:
-        return held_back(self.line, self.inner.output(s, m))
-
-    def output(self, s: Array, m: Measurement) -> Array:
-        return line_output(self.line, self._parts(s, m)[1])
-
-    def initial_state(self, m: Measurement) -> Array:
-        s = self.inner.initial_state(m)
-        return np.concatenate((s, line_state(self.line, self._asked(s, m)).ravel()))
-
-    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
-        s, R = self._parts(s, m)
-        asked = self._asked(s, m)
-        ds = self.inner.flow(s, m, u if self.known else asked)
-        return np.concatenate((ds, line_flow(self.line, R, asked).ravel()))
-
-    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
-        s, R = self._parts(s, after)
-        return np.concatenate((self.inner.jump(s, after, swap), R[:, swap].ravel()))
-
-    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
-        return self.inner.estimate(self._parts(s, m)[0], m)
-
-    def _parts(self, s: Array, m: Measurement) -> tuple[Array, Array]:
-        return parts(self.line, s, m.terms.kappa.shape[0])
-
     def sampled(self, period: float) -> Controller:
         raise InputError(
             "Delayed works in continuous time; in sampled time the delay is the clock's: "
@@ -217,26 +167,10 @@ class Delayed(Controller):
         )
 
     @property
-    def laws(self) -> ControllerLaws | None:
-        """Of ADRC with a GPI observer and of NPD; None around another controller, which runs in Python."""
-        inner = self.inner.laws if type(self.inner) in (ADRCController, NPDController) else None
-        if inner is None:
-            return None
+    def laws(self) -> ControllerLaws:
+        inner = controller_laws(self.inner)
         k = DelayedParameters(inner.parameters, self.line)
-        if type(self.inner) is NPDController:
-            return ControllerLaws(
-                k, delayed_output, delayed_npd_state, delayed_npd_flow, delayed_npd_jump
-            )
-        if inner.flow is None:
-            return None
-        return ControllerLaws(
-            k,
-            delayed_output,
-            delayed_adrc_state,
-            delayed_adrc_flow,
-            delayed_adrc_jump,
-            estimate=delayed_adrc_estimate,
-        )
+        return delayed_laws(inner.functions)._replace(parameters=k, obstacle=inner.obstacle)
 
 
 def pade(k: int) -> tuple[Array, Array]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -11,11 +10,7 @@ from biped_adrc.control.base import Controller, ControllerLaws, Measurement
 from biped_adrc.types import Array
 
 
-class PassiveParameters(NamedTuple):
-    """None."""
-
-
-def passive_output(k: PassiveParameters, s: Array, m: Measurement) -> Array:
+def passive_output(k: tuple[()], s: Array, m: Measurement) -> Array:
     """u = 0 (p,) [N m]."""
     return np.zeros(m.terms.kappa.shape[0])
 
@@ -24,14 +19,6 @@ def passive_output(k: PassiveParameters, s: Array, m: Measurement) -> Array:
 class Passive(Controller):
     """u = 0 (p,) [N m]."""
 
-    def output(self, s: Array, m: Measurement) -> Array:
-        return passive_output(self.parameters, s, m)
-
-    @property
-    def parameters(self) -> PassiveParameters:
-        """What the law `passive_output` needs: nothing."""
-        return PassiveParameters()
-
     @property
     def laws(self) -> ControllerLaws:
-        return ControllerLaws(self.parameters, passive_output)
+        return ControllerLaws((), passive_output)

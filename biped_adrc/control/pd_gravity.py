@@ -11,17 +11,11 @@ nothing is asked of the inertia or of q_d'': the error of tracking stays finite,
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 from biped_adrc.control.base import Controller, ControllerLaws, Measurement
 from biped_adrc.control.body import body_of
-from biped_adrc.control.tracking import (
-    Gains,
-    TrackingParameters,
-    constraint_parameters,
-    feedback,
-)
-from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, virtual_constraint
+from biped_adrc.control.tracking import Gains, TrackingParameters, feedback, tracked_laws
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.types import Array
 
@@ -37,22 +31,10 @@ class JointGains(Gains):
     K_d: Array | float = 250.0
 
 
-class PDGravityParameters(NamedTuple):
-    """h, and the gains in N m."""
-
-    h: ConstraintParameters
-    tracking: TrackingParameters
-
-
 def pd_gravity_torque(k: TrackingParameters, r: ReferencePoint, m: Measurement) -> Array:
     """u (p,) [N m] about the point r of the reference."""
     p = m.terms.kappa.shape[0]
     return feedback(k, r, m.q[:p], m.v[:p]) + body_of(m).G[:p]
-
-
-def pd_gravity_output(k: PDGravityParameters, s: Array, m: Measurement) -> Array:
-    """u (p,) [N m] on a virtual constraint; s is empty."""
-    return pd_gravity_torque(k.tracking, virtual_constraint(k.h, m.q, m.v), m)
 
 
 @dataclass(frozen=True)
@@ -64,18 +46,7 @@ class PDGravityController(Controller):
     reference: Reference
     gains: JointGains = JointGains()
 
-    def output(self, s: Array, m: Measurement) -> Array:
+    @property
+    def laws(self) -> ControllerLaws:
         k = self.gains.parameters(solve_theta=False)
-        return pd_gravity_torque(k, self.reference(m.t, m.q, m.v), m)
-
-    @property
-    def parameters(self) -> PDGravityParameters:
-        """What the law `pd_gravity_output` needs. Raises InputError unless a virtual constraint is tracked."""
-        h = constraint_parameters(self.reference)
-        return PDGravityParameters(h, self.gains.parameters(solve_theta=False))
-
-    @property
-    def laws(self) -> ControllerLaws | None:
-        if type(self.reference) is not VirtualConstraint:
-            return None
-        return ControllerLaws(self.parameters, pd_gravity_output)
+        return tracked_laws(self.reference, k, pd_gravity_torque)

@@ -14,15 +14,16 @@ is solved for a. As printed, (20) and (28) drop H q''.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
-from typing import NamedTuple
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.errors import InputError
-from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint
-from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
 from biped_adrc.linear import solve
 from biped_adrc.model.reduction import Reduction
 from biped_adrc.observers.base import Estimate
@@ -100,11 +101,27 @@ def printed_acceleration(r: ReferencePoint, f: Array) -> Array:
     return r.drift + f
 
 
-def constraint_parameters(reference: Reference) -> ConstraintParameters:
-    """Those of a virtual constraint. Raises InputError for any other reference: it has no law."""
-    if type(reference) is not VirtualConstraint:
-        raise InputError(
-            f"the reference is a {type(reference).__name__}, which has no law of arrays; expected a "
-            "VirtualConstraint such as gait.constraint. Call the controller's methods instead"
-        )
-    return reference.parameters
+class TrackedParameters(NamedTuple):
+    """Of the reference's law, and the gains with the choice of loop."""
+
+    h: Any
+    tracking: TrackingParameters
+
+
+Torque = Callable[[TrackingParameters, ReferencePoint, Measurement], Array]
+"""torque(k, r, m) -> u (p,) [N m] about the point r of a reference."""
+
+
+def tracked_laws(reference: Reference, k: TrackingParameters, torque: Torque) -> ControllerLaws:
+    """The laws of a controller without a state that tracks any reference."""
+    r = reference_laws(reference)
+    laws = _tracked(r.point, torque)
+    return laws._replace(parameters=TrackedParameters(r.parameters, k), obstacle=r.obstacle)
+
+
+@lru_cache(maxsize=64)
+def _tracked(point: Callable[..., ReferencePoint], torque: Torque) -> ControllerLaws:
+    def output(k: TrackedParameters, s: Array, m: Measurement) -> Array:
+        return torque(k.tracking, point(k.h, m.t, m.q, m.v), m)
+
+    return ControllerLaws(None, output)

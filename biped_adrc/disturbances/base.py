@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.types import Array
 
@@ -29,23 +30,58 @@ class DisturbanceLaw(NamedTuple):
     """(step, s): not smooth s [s] after that single support began, or for step 0 at the time s of the run."""
     resultant: Callable[..., Array] | None = None
     """`Disturbance.resultant` as resultant(parameters, t, step, t_start, q, v), of time alone; None is zero."""
+    active: Callable[..., Any] | None = None
+    """active(parameters, t, step, t_start): above 0 where torque and resultant act, elsewhere they are zero and
+    not asked for. None: they always act."""
+    obstacle: str = ""
+    """Why it runs in Python only; empty where it compiles."""
+
+    def acts(self, t: float, step: int, t_start: float) -> bool:
+        """Whether torque and resultant act."""
+        return self.active is None or self.active(self.parameters, t, step, t_start) > 0
 
 
-class Disturbance(ABC):
-    """A pure function of time, step and state. `a + b` adds two of them up."""
+class Disturbance(Composed):
+    """A pure function of time, step and state: give `laws`, or write `torque`. `a + b` adds two of them up."""
 
-    @abstractmethod
+    _kind: ClassVar[str] = "disturbance"
+    _methods: ClassVar[frozenset[str]] = frozenset(
+        (
+            "torque",
+            "resultant",
+        )
+    )
+
+    @property
+    def laws(self) -> tuple[DisturbanceLaw, ...] | None:
+        """The torque is their sum; None for a disturbance written as a method alone."""
+        return None
+
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         """zeta (n,) [N m] at time t [s] in single support `step` (from 1), which began at t_start."""
-
-    def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
-        """Times [s] at which the torque is not smooth in this step."""
-        return ()
+        if self._laws is None:
+            raise InputError(
+                f"{type(self).__name__} has neither laws nor a method torque(t, step, t_start, q, v); write "
+                "one of them: zeta (n,) [N m]"
+            )
+        total = np.zeros(len(q))
+        for law in self._laws:
+            if law.acts(t, step, t_start):
+                total += law.torque(law.parameters, t, step, t_start, q, v)
+        return total
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:
         """Force (F_x, F_z) [N] from outside on the robot as a whole, zero for torques; what the ground does not
         carry."""
-        return np.zeros(2)
+        total, still = np.zeros(2), np.zeros(0)
+        for law in self._laws or ():
+            if law.resultant is not None and law.acts(t, step, t_start):
+                total += law.resultant(law.parameters, t, step, t_start, still, still)
+        return total
+
+    def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
+        """Times [s] at which the torque is not smooth in this step."""
+        return tuple(s if at == 0 else t_start + s for at, s in self.switches if at in (0, step))
 
     def impulse(self, t0: float, t1: float, step: int, t_start: float) -> Array:
         """The integral of `resultant` from t0 to t1 (2,) [N s], by two points of Gauss in each smooth piece."""
@@ -60,20 +96,40 @@ class Disturbance(ABC):
     @property
     def pulls(self) -> bool:
         """Whether it has a resultant at all."""
-        return type(self).resultant is not Disturbance.resultant
+        written = type(self).resultant is not Disturbance.resultant
+        return written or any(law.resultant is not None for law in self._laws or ())
 
     @property
-    def laws(self) -> tuple[DisturbanceLaw, ...] | None:
-        """The torque is their sum; None for a disturbance written as a method alone."""
-        return None
+    def _obstacle(self) -> str:
+        written = type(self).resultant is not Disturbance.resultant
+        if written and all(law.resultant is None for law in self._laws or ()):
+            return (
+                f"disturbance {type(self).__name__} has a resultant and no law of it; give "
+                "DisturbanceLaw(..., resultant=...)"
+            )
+        return super()._obstacle
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
         """(step, s) as `DisturbanceLaw.switches`; of a disturbance without laws, none that are known."""
-        return tuple(edge for law in self.laws or () for edge in law.switches)
+        return tuple(edge for law in self._laws or () for edge in law.switches)
 
     def __add__(self, other: Disturbance) -> Disturbance:
         return Sum((*terms(self), *terms(other)))
+
+
+def disturbance_laws(disturbance: Disturbance) -> tuple[DisturbanceLaw, ...]:
+    """The laws of a disturbance, or its methods as a law, which runs in Python only and says so."""
+    if not disturbance._obstacle:
+        return disturbance.laws or ()
+    made = DisturbanceLaw(
+        (),
+        lambda k, *at: disturbance.torque(*at),
+        disturbance.switches,
+        lambda k, *at: disturbance.resultant(*at[:3]),
+        obstacle=disturbance._obstacle,
+    )
+    return (made if disturbance.pulls else made._replace(resultant=None),)
 
 
 @dataclass(frozen=True)
@@ -82,33 +138,12 @@ class Sum(Disturbance):
 
     parts: tuple[Disturbance, ...] = ()
 
-    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        total = np.zeros(len(q))
-        for part in self.parts:
-            total += part.torque(t, step, t_start, q, v)
-        return total
-
-    def resultant(self, t: float, step: int, t_start: float) -> Array:
-        total = np.zeros(2)
-        for part in self.parts:
-            total += part.resultant(t, step, t_start)
-        return total
-
     @property
-    def pulls(self) -> bool:
-        return any(part.pulls for part in self.parts)
+    def laws(self) -> tuple[DisturbanceLaw, ...]:
+        return tuple(law for part in self.parts for law in disturbance_laws(part))
 
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
         return tuple(s for part in self.parts for s in part.switching_times(step, t_start))
-
-    @property
-    def laws(self) -> tuple[DisturbanceLaw, ...] | None:
-        found: tuple[DisturbanceLaw, ...] = ()
-        for part in self.parts:
-            if part.laws is None:
-                return None
-            found += part.laws
-        return found
 
 
 def terms(disturbance: Disturbance) -> tuple[Disturbance, ...]:
@@ -120,19 +155,21 @@ class WindowParameters(NamedTuple):
     """amplitude (n,) [N m]; step, 0 when the window counts from the start of the run; start, stop [s]."""
 
     amplitude: Array
-    step: int
+    step: float
     start: float
     stop: float
 
 
-def since_onset(k: WindowParameters, t: float, step: int, t_start: float) -> float:
-    """Time since onset [s], -1 outside the window."""
-    if k.step > 0 and step != k.step:
-        return -1.0
-    origin = t_start if k.step > 0 else 0.0
-    if origin + k.start <= t < origin + k.stop:
-        return t - (origin + k.start)
-    return -1.0
+def onset(k: WindowParameters, t_start: float) -> Any:
+    """When the window opens [s]."""
+    return np.where(k.step > 0, t_start, 0.0) + k.start
+
+
+def within(k: WindowParameters, t: float, step: int, t_start: float) -> Any:
+    """Above 0 in the window."""
+    stop = np.where(k.step > 0, t_start, 0.0) + k.stop
+    here = np.where(k.step > 0, 1.0 * (step == k.step), 1.0)
+    return here * (t >= onset(k, t_start)) * (t < stop)
 
 
 @dataclass(frozen=True)
@@ -166,8 +203,10 @@ class Windowed(Disturbance):
 
     @cached_property
     def window(self) -> WindowParameters:
-        """What the law `since_onset` needs."""
-        return WindowParameters(self.amplitude, self.step or 0, float(self.start), float(self.stop))
+        """What `onset` and `within` need."""
+        return WindowParameters(
+            self.amplitude, float(self.step or 0), float(self.start), float(self.stop)
+        )
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
@@ -175,8 +214,15 @@ class Windowed(Disturbance):
         ends = (self.start, self.stop)
         return tuple((self.step or 0, float(s)) for s in ends if math.isfinite(s))
 
-    def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
-        return tuple(s if at == 0 else t_start + s for at, s in self.switches if at in (0, step))
+    @property
+    def laws(self) -> tuple[DisturbanceLaw, ...] | None:
+        law = self.windowed
+        return None if law is None else (law._replace(switches=self.switches),)
+
+    @property
+    def windowed(self) -> DisturbanceLaw | None:
+        """The law of the torque in the window; None for one written as a method."""
+        return None
 
 
 @dataclass(frozen=True)
@@ -188,5 +234,6 @@ class WindowedTorque(Windowed):
         """Factor on the amplitude, s [s] after onset."""
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        s = since_onset(self.window, t, step, t_start)
-        return self.amplitude * self.profile(s) if s >= 0.0 else np.zeros(len(self.amplitude))
+        if not within(self.window, t, step, t_start) > 0:
+            return np.zeros(len(self.amplitude))
+        return self.amplitude * self.profile(float(t - onset(self.window, t_start)))

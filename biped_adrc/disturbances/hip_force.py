@@ -22,44 +22,32 @@ from biped_adrc.types import Array
 
 
 class HipForceParameters(NamedTuple):
-    """F (2,) [N], and the first and the last single support in which it acts; last = 0 for all of them."""
+    """F (2,) [N], the first and the last single support in which it acts, and the hip in closed form."""
 
     force: Array
-    first: int
-    last: int
-
-
-def hip_force(k: HipForceParameters, step: int) -> Array:
-    """F (2,) [N] in single support `step`."""
-    acts = k.last == 0 or k.first <= step <= k.last
-    return k.force.copy() if acts else np.zeros(2)
-
-
-def hip_torque(k: HipForceParameters, step: int, J: Array) -> Array:
-    """zeta (n,) [N m] for J = dp_hip/dq (2, n) of the plant."""
-    return J.T @ hip_force(k, step)
-
-
-class HipPushParameters(NamedTuple):
-    """F and its steps, and the hip in closed form."""
-
-    force: HipForceParameters
+    first: float
+    last: float
     hip: LinkPoint
 
 
-def hip_push(
-    k: HipPushParameters, t: float, step: int, t_start: float, q: Array, v: Array
+def hip_torque(
+    k: HipForceParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
     """zeta (n,) [N m]."""
-    F = hip_force(k.force, step)
-    return wrench_torque(k.hip, q, np.array([F[0], F[1], 0.0]))
+    return wrench_torque(k.hip, q, np.array([k.force[0], k.force[1], 0.0]))
 
 
 def hip_resultant(
-    k: HipPushParameters, t: float, step: int, t_start: float, q: Array, v: Array
+    k: HipForceParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
     """F (2,) [N]."""
-    return hip_force(k.force, step)
+    return 1.0 * k.force
+
+
+def hip_acts(k: HipForceParameters, t: float, step: int, t_start: float) -> float:
+    """Above 0 from the first to the last single support."""
+    acts: float = 1.0 * (step >= k.first) * (step <= k.last)
+    return acts
 
 
 @dataclass(frozen=True)
@@ -85,20 +73,13 @@ class HipForce(Disturbance):
                 "1 <= first <= last"
             )
 
-    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        pinned = self.biped.pinned
-        return hip_torque(self.parameters, step, pinned.jacobian(q, pinned.hip))
-
-    def resultant(self, t: float, step: int, t_start: float) -> Array:
-        return hip_force(self.parameters, step)
-
     @cached_property
     def parameters(self) -> HipForceParameters:
-        """What the laws `hip_force` and `hip_torque` need."""
-        first, last = self.steps or (0, 0)
-        return HipForceParameters(np.array(self.force, dtype=float), first, last)
+        """What the laws need."""
+        first, last = self.steps or (0, math.inf)
+        force = np.array(self.force, dtype=float)
+        return HipForceParameters(force, float(first), float(last), hip_point(self.biped))
 
-    @cached_property
+    @property
     def laws(self) -> tuple[DisturbanceLaw, ...]:
-        k = HipPushParameters(self.parameters, hip_point(self.biped))
-        return (DisturbanceLaw(k, hip_push, (), hip_resultant),)
+        return (DisturbanceLaw(self.parameters, hip_torque, (), hip_resultant, hip_acts),)

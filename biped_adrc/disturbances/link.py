@@ -8,96 +8,47 @@ carries m (p_com'' - g) - F.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Generic, NamedTuple, TypeVar
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, Windowed, WindowParameters
-from biped_adrc.disturbances.noise import NoiseParameters, noise_torque
-from biped_adrc.disturbances.pulse import PulseParameters, pulse_torque
-from biped_adrc.disturbances.sine import SineParameters, sine_torque
-from biped_adrc.disturbances.step import step_torque
+from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, Windowed, disturbance_laws
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.link_point import LinkPoint, link_point, wrench_torque
 from biped_adrc.types import Array
 
-_K = TypeVar("_K")
 
-
-class LinkParameters(NamedTuple, Generic[_K]):
+class LinkParameters(NamedTuple):
     """The point, and the wave's own parameters."""
 
     point: LinkPoint
-    wave: _K
+    wave: Any
 
 
-def link_pulse(
-    k: LinkParameters[PulseParameters], t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """zeta (n,) [N m]."""
-    return wrench_torque(k.point, q, pulse_torque(k.wave, t, step, t_start, q, v))
+AT_REST = np.zeros(3), np.zeros(3)
+"""What a wave is given for q and q': it is a function of time."""
 
 
-def link_step(
-    k: LinkParameters[WindowParameters], t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """zeta (n,) [N m]."""
-    return wrench_torque(k.point, q, step_torque(k.wave, t, step, t_start, q, v))
+@lru_cache(maxsize=64)
+def link_law(wave: DisturbanceLaw) -> DisturbanceLaw:
+    """The law of a force and a moment that go as a wave does, both without their parameters."""
+    torque, active = wave.torque, wave.active
 
+    def on_coordinates(
+        k: LinkParameters, t: float, step: int, t_start: float, q: Array, v: Array
+    ) -> Array:
+        return wrench_torque(k.point, q, torque(k.wave, t, step, t_start, *AT_REST))
 
-def link_sine(
-    k: LinkParameters[SineParameters], t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """zeta (n,) [N m]."""
-    return wrench_torque(k.point, q, sine_torque(k.wave, t, step, t_start, q, v))
+    def force(k: LinkParameters, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        return torque(k.wave, t, step, t_start, *AT_REST)[:2]
 
+    def acts(k: LinkParameters, t: float, step: int, t_start: float) -> Any:
+        return 1.0 if active is None else active(k.wave, t, step, t_start)
 
-def link_noise(
-    k: LinkParameters[NoiseParameters], t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """zeta (n,) [N m]."""
-    return wrench_torque(k.point, q, noise_torque(k.wave, t, step, t_start, q, v))
-
-
-def pulse_force(
-    k: LinkParameters[PulseParameters], t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """(F_x, F_z) [N]."""
-    return pulse_torque(k.wave, t, step, t_start, q, v)[:2]
-
-
-def step_force(
-    k: LinkParameters[WindowParameters], t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """(F_x, F_z) [N]."""
-    return step_torque(k.wave, t, step, t_start, q, v)[:2]
-
-
-def sine_force(
-    k: LinkParameters[SineParameters], t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """(F_x, F_z) [N]."""
-    return sine_torque(k.wave, t, step, t_start, q, v)[:2]
-
-
-def noise_force(
-    k: LinkParameters[NoiseParameters], t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """(F_x, F_z) [N]."""
-    return noise_torque(k.wave, t, step, t_start, q, v)[:2]
-
-
-_ON_LINK: dict[Callable[..., Array], tuple[Callable[..., Array], Callable[..., Array]]] = {
-    pulse_torque: (link_pulse, pulse_force),
-    step_torque: (link_step, step_force),
-    sine_torque: (link_sine, sine_force),
-    noise_torque: (link_noise, noise_force),
-}
-"""Torque and resultant, by the law of the wave."""
+    return DisturbanceLaw(None, on_coordinates, resultant=force, active=acts)
 
 
 @dataclass(frozen=True)
@@ -137,26 +88,16 @@ class OnLink(Disturbance):
         """Where it acts, in closed form."""
         return link_point(self.biped, self.link, self.at)
 
-    def wrench(self, t: float, step: int, t_start: float) -> Array:
-        """(F_x, F_z, M) [N, N, N m]."""
-        still = np.zeros(3)
-        return self.wave.torque(t, step, t_start, still, still)
-
-    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        return wrench_torque(self.point, q, self.wrench(t, step, t_start))
-
-    def resultant(self, t: float, step: int, t_start: float) -> Array:
-        return self.wrench(t, step, t_start)[:2]
-
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
         return self.wave.switching_times(step, t_start)
 
     @property
-    def laws(self) -> tuple[DisturbanceLaw, ...] | None:
-        waves = self.wave.laws
-        if waves is None or len(waves) != 1 or waves[0].torque not in _ON_LINK:
-            return None
-        law = waves[0]
-        k = LinkParameters(self.point, law.parameters)
-        torque, resultant = _ON_LINK[law.torque]
-        return (DisturbanceLaw(k, torque, law.switches, resultant),)
+    def laws(self) -> tuple[DisturbanceLaw, ...]:
+        return tuple(
+            link_law(law._replace(parameters=None, switches=(), obstacle=""))._replace(
+                parameters=LinkParameters(self.point, law.parameters),
+                switches=law.switches,
+                obstacle=law.obstacle,
+            )
+            for law in disturbance_laws(self.wave)
+        )

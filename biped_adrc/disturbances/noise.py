@@ -17,7 +17,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters, since_onset
+from biped_adrc.disturbances.base import (
+    DisturbanceLaw,
+    Windowed,
+    WindowParameters,
+    onset,
+    within,
+)
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
@@ -33,18 +39,15 @@ class NoiseParameters(NamedTuple):
 def noise_torque(
     k: NoiseParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
-    """zeta (n,) [N m]."""
-    s, rms = since_onset(k.window, t, step, t_start), k.window.amplitude
-    zeta = np.zeros(len(rms))
-    if s < 0.0:
-        return zeta
-    n, count = k.frequencies.shape
-    for i in range(n):
-        total = 0.0
-        for j in range(count):
-            total += math.sin(2.0 * math.pi * k.frequencies[i, j] * s + k.phases[i, j])
-        zeta[i] = rms[i] * math.sqrt(2.0 / count) * total
-    return zeta
+    """zeta (n,) [N m] in the window."""
+    s, count = t - onset(k.window, t_start), k.frequencies.shape[1]
+    total = np.sin(2.0 * math.pi * k.frequencies * s + k.phases).sum(axis=1)
+    return k.window.amplitude * math.sqrt(2.0 / count) * total
+
+
+def noise_acts(k: NoiseParameters, t: float, step: int, t_start: float) -> float:
+    """Above 0 in the window."""
+    return within(k.window, t, step, t_start)
 
 
 @dataclass(frozen=True)
@@ -68,9 +71,6 @@ class TorqueNoise(Windowed):
             if isinstance(value, bool) or not isinstance(value, int) or value < least:
                 raise InputError(f"noise {name} is {value}, expected a whole number >= {least}")
 
-    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        return noise_torque(self.parameters, t, step, t_start, q, v)
-
     @cached_property
     def parameters(self) -> NoiseParameters:
         """What the law `noise_torque` needs."""
@@ -80,5 +80,5 @@ class TorqueNoise(Windowed):
         return NoiseParameters(self.window, frequencies, random.uniform(0.0, 2.0 * math.pi, shape))
 
     @property
-    def laws(self) -> tuple[DisturbanceLaw, ...]:
-        return (DisturbanceLaw(self.parameters, noise_torque, self.switches),)
+    def windowed(self) -> DisturbanceLaw:
+        return DisturbanceLaw(self.parameters, noise_torque, active=noise_acts)

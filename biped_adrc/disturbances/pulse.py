@@ -14,7 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters, since_onset
+from biped_adrc.disturbances.base import (
+    DisturbanceLaw,
+    Windowed,
+    WindowParameters,
+    onset,
+    within,
+)
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
@@ -30,15 +36,17 @@ class PulseParameters(NamedTuple):
 def pulse_torque(
     k: PulseParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
-    """zeta (n,) [N m]."""
-    s = since_onset(k.window, t, step, t_start)
-    if s < 0.0:
-        return np.zeros(len(k.window.amplitude))
-    if k.rise == 0.0:
-        return k.window.amplitude.copy()
-    up = min(s / k.rise, 1.0)
-    down = min(max((s - k.width) / k.rise, 0.0), 1.0)
-    return (up - down) * k.window.amplitude
+    """zeta (n,) [N m] in the window."""
+    s = t - onset(k.window, t_start)
+    sloping = k.rise > 0.0
+    rise = np.where(sloping, k.rise, 1.0)
+    up, down = np.minimum(s / rise, 1.0), np.clip((s - k.width) / rise, 0.0, 1.0)
+    return np.where(sloping, up - down, 1.0) * k.window.amplitude
+
+
+def pulse_acts(k: PulseParameters, t: float, step: int, t_start: float) -> float:
+    """Above 0 in the window."""
+    return within(k.window, t, step, t_start)
 
 
 @dataclass(frozen=True)
@@ -56,9 +64,6 @@ class TorquePulse(Windowed):
         if not (math.isfinite(self.rise) and self.rise >= 0):
             raise InputError(f"pulse rise is {self.rise} s, expected a finite number >= 0")
 
-    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        return pulse_torque(self.parameters, t, step, t_start, q, v)
-
     @cached_property
     def parameters(self) -> PulseParameters:
         """What the law `pulse_torque` needs."""
@@ -74,5 +79,5 @@ class TorquePulse(Windowed):
         return tuple((step, s) for s in corners if math.isfinite(s))
 
     @property
-    def laws(self) -> tuple[DisturbanceLaw, ...]:
-        return (DisturbanceLaw(self.parameters, pulse_torque, self.switches),)
+    def windowed(self) -> DisturbanceLaw:
+        return DisturbanceLaw(self.parameters, pulse_torque, active=pulse_acts)

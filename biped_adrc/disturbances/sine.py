@@ -8,7 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters, since_onset
+from biped_adrc.disturbances.base import (
+    DisturbanceLaw,
+    Windowed,
+    WindowParameters,
+    onset,
+    within,
+)
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
@@ -23,11 +29,14 @@ class SineParameters(NamedTuple):
 def sine_torque(
     k: SineParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
-    """zeta (n,) [N m]."""
-    s, amplitude = since_onset(k.window, t, step, t_start), k.window.amplitude
-    if s < 0.0:
-        return np.zeros(len(amplitude))
-    return amplitude * math.sin(2.0 * math.pi * k.frequency * s)
+    """zeta (n,) [N m] in the window."""
+    s = t - onset(k.window, t_start)
+    return k.window.amplitude * np.sin(2.0 * math.pi * k.frequency * s)
+
+
+def sine_acts(k: SineParameters, t: float, step: int, t_start: float) -> float:
+    """Above 0 in the window."""
+    return within(k.window, t, step, t_start)
 
 
 @dataclass(frozen=True)
@@ -41,14 +50,11 @@ class TorqueSine(Windowed):
         if not (math.isfinite(self.frequency) and self.frequency > 0):
             raise InputError(f"sine frequency is {self.frequency} Hz, expected a positive number")
 
-    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        return sine_torque(self.parameters, t, step, t_start, q, v)
-
     @property
     def parameters(self) -> SineParameters:
         """What the law `sine_torque` needs."""
         return SineParameters(self.window, float(self.frequency))
 
     @property
-    def laws(self) -> tuple[DisturbanceLaw, ...]:
-        return (DisturbanceLaw(self.parameters, sine_torque, self.switches),)
+    def windowed(self) -> DisturbanceLaw:
+        return DisturbanceLaw(self.parameters, sine_torque, active=sine_acts)

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters, since_onset
+from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters, within
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
@@ -14,10 +12,14 @@ from biped_adrc.types import Array
 def step_torque(
     k: WindowParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
-    """zeta (n,) [N m]."""
-    if 0 < k.step < step or since_onset(k, t, step, t_start) >= 0.0:
-        return k.amplitude.copy()
-    return np.zeros(len(k.amplitude))
+    """zeta (n,) [N m] from onset on."""
+    return 1.0 * k.amplitude
+
+
+def step_acts(k: WindowParameters, t: float, step: int, t_start: float) -> float:
+    """Above 0 from onset on, in all later steps too."""
+    later: float = 1.0 * (k.step > 0) * (step > k.step)
+    return later + within(k, t, step, t_start)
 
 
 @dataclass(frozen=True)
@@ -29,14 +31,6 @@ class TorqueStep(Windowed):
         if self.stop != float("inf"):
             raise InputError("a torque step has no stop; use TorquePulse for a window")
 
-    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        return step_torque(self.parameters, t, step, t_start, q, v)
-
     @property
-    def parameters(self) -> WindowParameters:
-        """What the law `step_torque` needs."""
-        return self.window
-
-    @property
-    def laws(self) -> tuple[DisturbanceLaw, ...]:
-        return (DisturbanceLaw(self.parameters, step_torque, self.switches),)
+    def windowed(self) -> DisturbanceLaw:
+        return DisturbanceLaw(self.window, step_torque, active=step_acts)

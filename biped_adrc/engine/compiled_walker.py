@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from biped_adrc.control.passive import Passive
-from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, terms
-from biped_adrc.engine.fingerprint import skeleton
+from biped_adrc.disturbances.base import Disturbance, disturbance_laws
+from biped_adrc.engine.disturbance_code import disturbance_code
 from biped_adrc.engine.kernels import methods
 from biped_adrc.engine.kernels.plan import Plan, plan
 from biped_adrc.engine.kernels.tables import (
@@ -23,9 +22,8 @@ from biped_adrc.engine.kernels.tables import (
     continuous_time,
     no_push,
 )
-from biped_adrc.engine.native import NativeLaw, flatten, native_law
 from biped_adrc.engine.program import NotCompiled, Program
-from biped_adrc.errors import InputError
+from biped_adrc.engine.symbols import floats
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.split import SplitLaws
@@ -129,49 +127,19 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Me
     return split, _MATRICES[key]
 
 
-_NATIVE: dict[tuple[Any, ...], NativeLaw] = {}
-
-
 def _push(disturbance: Disturbance | None, n: int) -> Push:
     if disturbance is None:
         return no_push()
-    laws = disturbance.laws
-    if laws is None:
-        raise NotCompiled(
-            f"disturbance {type(disturbance).__name__} has no laws of arrays; the run goes on in Python on "
-            "the compiled plant"
-        )
-    for part in terms(disturbance):
-        forces = type(part).resultant is not Disturbance.resultant
-        if forces and all(law.resultant is None for law in part.laws or ()):
-            raise NotCompiled(
-                f"disturbance {type(part).__name__} has a resultant and no law of it; give "
-                "DisturbanceLaw(..., resultant=...), or the run goes on in Python on the compiled plant"
-            )
-    numbers = [flatten(law.parameters) for law in laws]
+    laws = disturbance_laws(disturbance)
+    for law in laws:
+        if law.obstacle:
+            raise NotCompiled(f"{law.obstacle}; the run goes on in Python on the compiled plant")
+    codes = [disturbance_code(law, n) for law in laws]
+    numbers = [np.array([*floats(law.parameters), 0.0]) for law in laws]
     return Push(
-        np.array([_address(law, n) for law in laws], dtype=np.int64),
+        np.array([code.addresses["torque"] for code in codes], dtype=np.int64),
         np.concatenate([np.zeros(0), *numbers]),
         np.cumsum([0, *(len(k) for k in numbers)]),
         np.array([switch for law in laws for switch in law.switches]).reshape(-1, 2),
-        tuple(_resultant(law, n) for law in laws),
+        tuple(code.addresses.get("resultant", 0) for code in codes),
     )
-
-
-def _address(law: DisturbanceLaw, n: int) -> int:
-    return _native(law.torque, law.parameters, n, n)
-
-
-def _resultant(law: DisturbanceLaw, n: int) -> int:
-    return 0 if law.resultant is None else _native(law.resultant, law.parameters, n, 2)
-
-
-def _native(law: Callable[..., Array], parameters: Any, n: int, size: int) -> int:
-    key = law, skeleton(parameters), n
-    if key not in _NATIVE:
-        q = np.zeros(n)
-        try:
-            _NATIVE[key] = native_law(law, (parameters, 0.0, 1, 0.0, q, q), size)
-        except InputError as reason:
-            raise NotCompiled(str(reason)) from reason
-    return _NATIVE[key].address

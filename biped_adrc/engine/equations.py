@@ -13,42 +13,29 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from biped_adrc import split
+from biped_adrc.closed_loop import semantics
+from biped_adrc.closed_loop.semantics import Mode
 from biped_adrc.control.base import ControllerLaws, Measurement
-from biped_adrc.engine import mechanics
-from biped_adrc.engine.called import Call, call, result_size
 from biped_adrc.engine.kernels.layout import OUTSIDE
-from biped_adrc.engine.mechanics import Structure
-from biped_adrc.engine.plant import PlantArrays
+from biped_adrc.engine.mechanics import PlanarRobot, Structure
 from biped_adrc.engine.symbols import (
     Tracer,
-    Untraceable,
     Vector,
     column,
     floats,
     maximum,
     minimum,
-    solve_positive,
-    tanh,
+    run,
 )
-from biped_adrc.hardware.held import (
-    Held,
-    HeldParameters,
-    HeldSizes,
-    after_impact,
-    motor_torque,
-    read,
-    written,
-)
-from biped_adrc.hardware.meter import Hit, metered
-from biped_adrc.hardware.motors import acting, limited, mean_torque, sent
-from biped_adrc.hardware.sensors import sense
-from biped_adrc.model.biped import STICTION_SPEED
-from biped_adrc.model.reduction import Reduction, reduce, unknown_force
-from biped_adrc.observers.base import Estimate
+from biped_adrc.hardware.held import HeldParameters, HeldSizes
+from biped_adrc.hardware.meter import Outside
+from biped_adrc.model.planar import PlantArrays
 from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
 
@@ -87,8 +74,6 @@ class Make(NamedTuple):
     """Coordinates of the exponential method."""
     gained: bool = False
     """With an error of the impact map."""
-    called: dict[str, str] = {}  # noqa: RUF012
-    """Laws that are called because they branch on numbers, and the names of their functions."""
 
     @property
     def sampled(self) -> bool:
@@ -102,46 +87,115 @@ class Make(NamedTuple):
 
 
 class Function(NamedTuple):
-    """`void f(double* K, double* inp, double* out)` as CasADi's columns, and the laws that it calls."""
+    """`void f(double* K, double* inp, double* out)` as CasADi's columns."""
 
     K: Any
     inp: Any
     out: Any
-    calls: tuple[Call, ...] = ()
+
+
+@dataclass(frozen=True)
+class Laws:
+    """A controller's laws on symbols, as its methods; what it has not leaves its state as it is."""
+
+    make: Make
+    k: Any
+    trace: Tracer
+
+    def output(self, s: Any, m: Measurement) -> Any:
+        return self.said("output", s, m)
+
+    def flow(self, s: Any, m: Measurement, u: Any) -> Any:
+        return self.said("flow", s, m, u)
+
+    def correct(self, s: Any, m: Measurement) -> Any:
+        return self.said("correct", s, m)
+
+    def predict(self, s: Any, m: Measurement, u: Any) -> Any:
+        return self.said("predict", s, m, u)
+
+    def jump(self, s: Any, after: Measurement, swap: Any) -> Any:
+        return self.said("jump", s, after, swap)
+
+    def estimate(self, s: Any, m: Measurement) -> Any:
+        return None if self.make.laws.estimate is None else self.said("estimate", s, m)
+
+    def said(self, name: str, s: Any, *rest: Any) -> Any:
+        """The law on symbols. Raises Untraceable, with the law's name."""
+        law = getattr(self.make.laws, name)
+        return s if law is None else run(self.trace, law, self.k, s, *rest)
+
+
+@dataclass(frozen=True)
+class SymbolicLoop:
+    """A `semantics.Loop` of one make; zeta (n,) and `given` (OUTSIDE,) are symbols too."""
+
+    make: Make
+    numbers: Numbers
+    trace: Tracer
+    zeta: Any = None
+    given: Any = None
+
+    @cached_property
+    def plant(self) -> PlanarRobot:
+        return PlanarRobot.of(self.make.robot, self.numbers.plant, self.numbers.friction)
+
+    @cached_property
+    def nominal(self) -> PlanarRobot:
+        model = self.numbers.model
+        return PlanarRobot.of(self.make.robot, self.numbers.plant if model is None else model)
+
+    @property
+    def exact(self) -> bool:
+        return self.numbers.model is None and not self.numbers.friction
+
+    @property
+    def law(self) -> Laws:
+        return Laws(self.make, self.numbers.k, self.trace)
+
+    @property
+    def held(self) -> HeldParameters | None:
+        return self.numbers.held or None
+
+    @property
+    def swap(self) -> Any:
+        return self.make.robot.swap
+
+    @property
+    def gain(self) -> Any:
+        return self.numbers.impact_gain
+
+    def measure(self, t: Any, q: Any, v: Any, mode: Mode) -> Measurement:
+        return semantics.measurement(self, t, q, v, mode, body=True)
+
+    def saturate(self, u: Any) -> Any:
+        limit = self.numbers.torque_limit
+        return np.array([minimum(maximum(x, -limit), limit) for x in u], dtype=object)
+
+    def external(self, t: Any, q: Any, v: Any, mode: Mode) -> Any:
+        return self.zeta
+
+    def outside(self, t: Any, mode: Mode) -> Outside:
+        return Outside(self.given[:2], self.given[2:4], self.given[4])
 
 
 class At(NamedTuple):
-    """What a function is given at one instant."""
+    """The symbols of one instant, and the loop that they are given to."""
 
     inp: Vector
-    trace: Tracer
-    m: Measurement
-    s: Any
-    held: Held | None
-    """In sampled time."""
-    zeta: Any
-    outside: Any
-    """For the meter, in `tick` alone."""
+    loop: SymbolicLoop
+    t: Any
+    x: Any
+    mode: Mode
 
-    @property
-    def u(self) -> Any:
-        """The torque on the joints, in sampled time."""
-        assert self.held is not None
-        return motor_torque(self.held.line)
+    def does(self, function: Callable[..., Any], *more: Any) -> Any:
+        """A function of `semantics` here."""
+        return self.loop.trace(function)(self.loop, self.t, self.x, self.mode, *more)
 
 
 def count(example: Any) -> int:
     """Length of the vector of numbers: one more than there are, so that it is never empty."""
     return 1 + sum(1 for _ in floats(example))
-
-
-def masked(make: Make, numbers: Numbers) -> Numbers:
-    """The numbers without those that are zero by make."""
-    model = numbers.model
-    return numbers._replace(
-        plant=mechanics.without_zeros(make.robot, numbers.plant),
-        model=None if model is None else mechanics.without_zeros(make.robot, model),
-    )
 
 
 @dataclass(frozen=True)
@@ -156,7 +210,7 @@ class Equations:
     def of(cls, make: Make, example: Numbers) -> Equations:
         """With symbols for the floats of an example."""
         K = Vector("K", count(example))
-        return cls(make, K.symbol, masked(make, K.like(example)))
+        return cls(make, K.symbol, K.like(example))
 
     @property
     def nx(self) -> int:
@@ -172,229 +226,78 @@ class Equations:
             found |= {"to": self.to, "back": self.back, "remainder": self.remainder}
         return found
 
-    def terms(self, trace: Tracer, q: Any, v: Any) -> Reduction:
-        """The nominal model's."""
-        robot, numbers = self.make.robot, self.numbers
-        K = numbers.plant if numbers.model is None else numbers.model
-        terms: Reduction = trace(reduce)(*mechanics.inertia_and_bias(robot, K, q, v), robot.p)
-        return terms
+    def at(self) -> At:
+        """The symbols (t, step, t_start, x, zeta, outside)."""
+        n = self.make.robot.n
+        inp = Vector("inp", 3 + self.nx + n + OUTSIDE)
+        t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.nx)
+        zeta, outside = inp.take(n), inp.take(OUTSIDE)
+        return At(inp, SymbolicLoop(self.make, self.numbers, Tracer(), zeta, outside), t, x, mode)
 
-    def measured(
-        self, trace: Tracer, t: Any, step: Any, t_step: Any, q: Any, v: Any
-    ) -> Measurement:
-        """What the controller is given at (q, v)."""
-        robot, numbers = self.make.robot, self.numbers
-        K = numbers.plant if numbers.model is None else numbers.model
-        body = mechanics.body_terms(robot, K, q, v)
-        return Measurement(t, step, t_step, q, v, self.terms(trace, q, v), body)
-
-    def acceleration(self, terms: Reduction | None, q: Any, v: Any, force: Any) -> Any:
-        """q'' of the plant, with the nominal model's D and Omega where they are its own."""
-        robot, numbers = self.make.robot, self.numbers
-        if numbers.model is None and terms is not None:
-            D, Omega = terms.D, terms.Omega
-        else:
-            D, Omega = mechanics.inertia_and_bias(robot, numbers.plant, q, v)
-        return solve_positive(D, self.with_friction(force, v) - Omega, "D_s")
-
-    def with_friction(self, force: Any, v: Any) -> Any:
-        """A generalised force with that of the joints' friction."""
-        if not self.numbers.friction:
-            return force
-        viscous, static = self.numbers.friction
-        return force - viscous * v - static * tanh(v / STICTION_SPEED)
-
-    def at(self, back: Callable[[Any], Any] = lambda x: x) -> At:
-        """The symbols of an instant; `back` makes x of what is given in its place."""
-        robot, size = self.make.robot, self.make.size
-        inp = Vector("inp", 3 + self.nx + robot.n + OUTSIDE)
-        t, step, start = inp.take(), inp.take(), inp.take()
-        x, n = back(inp.take(self.nx)), robot.n
-        q, v, s = x[:n], x[n : 2 * n], x[2 * n : 2 * n + size]
-        held = None if self.make.held is None else read(self.make.held, x[2 * n + size :])
-        trace = Tracer()
-        m = self.measured(trace, t, step, t - start, q, v)
-        return At(inp, trace, m, s, held, inp.take(n), inp.take(OUTSIDE))
-
-    def saturated(self, u: Any) -> Any:
-        """u within the torque limit."""
-        limit = self.numbers.torque_limit
-        return np.array([minimum(maximum(x, -limit), limit) for x in u], dtype=object)
-
-    def force(self, u: Any, zeta: Any) -> Any:
-        """B_s u + zeta."""
-        force = zeta.copy()
-        force[: self.make.robot.p] = force[: self.make.robot.p] + u
-        return force
-
-    def law(self, at: At, name: str, s: Any, *rest: Any) -> Any:
-        """What a law of the controller says at an instant, for a state s."""
-        return self.said(at.trace, name, self.numbers.k, s, at.m, *rest)
-
-    def said(self, trace: Tracer, name: str, *arguments: Any) -> Any:
-        """The law on symbols, or a call of it. Raises Untraceable, with the law's name."""
-        make = self.make
-        if name in make.called:
-            size = result_size(name, make.robot.p, make.size)
-            made, result = call(make.called[name], arguments, size)
-            trace.calls.append(made)
-            return Estimate(*result.reshape(3, -1)) if name == "estimate" else result
-        try:
-            return trace(getattr(make.laws, name))(*arguments)
-        except Exception as error:  # whatever NumPy says of an object that is no float
-            raise Untraceable(f"{type(error).__name__}: {error}", name) from error
+    def made(self, inp: Vector, trace: Tracer, *parts: Any) -> Function:
+        """The function of these inputs."""
+        return Function(self.K, inp.symbol, column(*parts))
 
     def flow(self) -> Function:
         """x' between events."""
         at = self.at()
-        m, make = at.m, self.make
-        if make.sampled:
-            a = self.acceleration(m.terms, m.q, m.v, self.force(at.u, at.zeta))
-            still = np.full(self.nx - 2 * len(m.v), 0.0, dtype=object)
-            return self.given(at, m.v, a, self.lagged(at, still))
-        u = self.saturated(self.law(at, "output", at.s))
-        a = self.acceleration(m.terms, m.q, m.v, self.force(u, at.zeta))
-        ds = self.law(at, "flow", at.s, u) if make.size else at.s
-        return self.given(at, m.v, a, ds)
-
-    def lagged(self, at: At, still: Any) -> Any:
-        """The slope of what is held, in which the motors' torque flows."""
-        sizes, held = self.make.held, at.held
-        if sizes is not None and held is not None and sizes.lag:
-            begin = len(still) - sizes.p * (sizes.waiting + 2)
-            speed = self.numbers.held.motors.speed  # type: ignore[union-attr]
-            still[begin : begin + sizes.p] = speed * (held.line.u - held.line.u_m)
-        return still
+        trace = at.loop.trace
+        return self.made(at.inp, trace, at.does(semantics.flow), trace.solver.least)
 
     def tick(self) -> Function:
-        """x after the controller has acted, and q''; without a discrete law its state stays."""
-        at, laws, k = self.at(), self.make.laws, self.numbers.held
-        true, held = at.m, at.held
-        assert held is not None
-        assert isinstance(k, HeldParameters)
-        w = at.trace(sense)(k.sensors, held.w, true.q, true.v) if k.sizes.sensors else held.w
-        if k.sizes.sensors:
-            n = k.sizes.n
-            seen = self.measured(at.trace, true.t, true.step, true.t_step, w[:n], w[n : 2 * n])
-            at = at._replace(m=seen)
-        s = self.law(at, "correct", at.s) if laws.correct is not None else at.s
-        u = self.saturated(self.law(at, "output", s))
-        if k.sizes.rate:
-            u = at.trace(limited)(k.motors, held.line, u)
-        line = sent(k.motors, held.line, u)
-        fed = acting(k.motors, line) if k.sizes.known else u
-        s = self.law(at, "predict", s, fed) if laws.predict is not None else s
-        u, g = motor_torque(line), held.g
-        a = self.acceleration(true.terms, true.q, true.v, self.force(u, at.zeta))
-        if k.sizes.meter:
-            g = self.metered(at, true, u, mean_torque(k.motors, line), a)
-        out = column(true.q, true.v, s, written(Held(w, g, line)), at.trace.solver.least, a)
-        return Function(self.K, at.inp.symbol, out, tuple(at.trace.calls))
-
-    def metered(self, at: At, true: Measurement, u: Any, mean: Any, a: Any) -> Any:
-        """The meter's state after a tick."""
-        k, q, v = self.numbers.held, true.q, true.v
-        assert isinstance(k, HeldParameters)
-        assert at.held is not None
-        loads = mechanics.loads(self.make.robot, self.numbers.plant, q, v, a, at.outside)
-        given = (q, v, u, mean, self.unknown(true.terms, a, u, at.zeta), true.terms)
-        return at.trace(metered)(k.meter, at.held.g, *given, true.t, true.step, true.t_step, loads)
-
-    def unknown(self, terms: Reduction, a: Any, u: Any, zeta: Any) -> Any:
-        """xi~ of (11), as `Walker.unknown`."""
-        known = self.numbers.model is None and not self.numbers.friction
-        return zeta if known else unknown_force(terms, a, u)
+        """x after the controller has acted, and q'' there."""
+        at = self.at()
+        trace, n = at.loop.trace, self.make.robot.n
+        x = at.does(semantics.tick)
+        a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
+        return self.made(at.inp, trace, x, trace.solver.least, a)
 
     def strike(self) -> Function:
-        """x after impact, relabelling and the controller's jump."""
-        robot, make = self.make.robot, self.make
-        inp = Vector("inp", 2 + self.nx)
-        t, step = inp.take(), inp.take()
-        q, v, s = inp.take(robot.n), inp.take(robot.n), inp.take(make.size)
-        tail = inp.take(self.nx - 2 * robot.n - make.size)
-        plant, q_minus = self.numbers.plant, q
-        momentum = mechanics.momentum(robot, plant, q, v)
-        q, v, impulse = mechanics.impact(robot, plant, q, v)
-        if self.make.gained:
-            v = v * (1.0 + self.numbers.impact_gain)
-        trace, seen = Tracer(), (q, v)
-        if make.held is not None:
-            hit = Hit(t, step - 1.0, momentum, impulse)
-            tail, seen = self.held_after(trace, tail, q_minus, q, v, hit)
-        if make.laws.jump is not None:
-            after = self.measured(trace, t, step, 0.0 * t, *seen)
-            s = self.said(trace, "jump", self.numbers.k, s, after, robot.swap)
-        out = column(q, v, s, tail, trace.solver.least)
-        return Function(self.K, inp.symbol, out, tuple(trace.calls))
-
-    def held_after(
-        self, trace: Tracer, tail: Any, q_minus: Any, q: Any, v: Any, hit: Hit
-    ) -> tuple[Any, tuple[Any, Any]]:
-        """What is held after an impact to (q, v), and what the controller sees of (q, v) there."""
-        k, robot = self.numbers.held, self.make.robot
-        assert isinstance(k, HeldParameters)
-        held, n, expected = read(k.sizes, tail), k.sizes.n, v
-        if k.sizes.sensors:
-            K = self.numbers.plant if self.numbers.model is None else self.numbers.model
-            _, expected, _ = mechanics.impact(robot, K, held.w[:n], held.w[n : 2 * n])
-        held = trace(after_impact)(k, held, robot.swap, q_minus, q, v, expected, hit)
-        seen = (held.w[:n], held.w[n : 2 * n]) if k.sizes.sensors else (q, v)
-        return written(held), seen
-
-    def _coordinates(self, y: Any) -> tuple[Any, Any]:
-        """w and E of y."""
-        split, p = self.make.split, self.make.robot.p
-        assert split is not None
-        stiff = len(split.A) * p
-        return y[: len(y) - stiff], y[len(y) - stiff :].reshape(-1, p)
-
-    def _x(self, y: Any) -> Any:
-        """x of y."""
-        assert self.make.split is not None
-        return Tracer()(self.make.split.back)(self.numbers.split, *self._coordinates(y))
-
-    def to(self) -> Function:
-        """y = (w, E) of x."""
-        assert self.make.split is not None
-        inp = Vector("inp", self.nx)
-        y = Tracer()(self.make.split.to)(self.numbers.split, inp.take(self.nx))
-        return Function(self.K, inp.symbol, column(*y))
-
-    def back(self) -> Function:
-        """x of y = (w, E)."""
-        inp = Vector("inp", self.nx)
-        return Function(self.K, inp.symbol, column(self._x(inp.take(self.nx))))
-
-    def remainder(self) -> Function:
-        """N_w, and N_E in its forced rows."""
-        split, k, given = self.make.split, self.numbers.split, []
-        assert split is not None
-
-        def back(y: Any) -> Any:
-            given.append(y)
-            return self._x(y)
-
-        at = self.at(back)
-        m, observed = at.m, k.order * k.p
-        u = self.saturated(self.law(at, "output", at.s))
-        a = self.acceleration(m.terms, m.q, m.v, self.force(u, at.zeta))
-        ds = at.s[observed:]
-        if len(ds):
-            ds = self.law(at, "flow", at.s, u)[observed:]
-        w, E = self._coordinates(given[0])
-        N = at.trace(split.remainder)(k, w, E, a, m.terms.kappa @ u, ds)
-        return self.given(at, *N)
+        """x after impact, relabelling and the controller's jump; `step` is the one that begins."""
+        inp, trace = Vector("inp", 2 + self.nx), Tracer()
+        t, step, x = inp.take(), inp.take(), inp.take(self.nx)
+        loop = SymbolicLoop(self.make, self.numbers, trace)
+        x = trace(semantics.struck)(loop, t, x, Mode(step, t))
+        return self.made(inp, trace, x, trace.solver.least)
 
     def watch(self) -> Function:
         """What the guards look at."""
-        robot, plant = self.make.robot, self.numbers.plant
-        inp = Vector("inp", robot.n)
-        t = mechanics.turned(robot, inp.take(robot.n))
-        x, z = mechanics.point(t, plant.foot_re, plant.foot_im)
-        _, hip = mechanics.point(t, plant.hip_re, plant.hip_im)
-        return Function(self.K, inp.symbol, column(z + self.numbers.tan_slope * x, x, hip))
+        inp, trace = Vector("inp", self.make.robot.n), Tracer()
+        q, plant = inp.take(self.make.robot.n), SymbolicLoop(self.make, self.numbers, trace).plant
+        foot, hip = plant.swing_foot(q), plant.hip(q)
+        clearance = semantics.clearance(self.numbers.tan_slope, foot)
+        return self.made(inp, trace, clearance, foot[0], hip[1])
 
-    def given(self, at: At, *parts: Any) -> Function:
-        """The parts, and the least pivot."""
-        out = column(*parts, at.trace.solver.least)
-        return Function(self.K, at.inp.symbol, out, tuple(at.trace.calls))
+    def _split(self, trace: Tracer) -> SplitLaws:
+        """The split's laws, for symbols."""
+        laws = self.make.split
+        assert laws is not None
+        traced = {name: trace(getattr(laws, name)) for name in ("to", "back", "remainder")}
+        return laws._replace(parameters=self.numbers.split, **traced)
+
+    def _coordinates(self, y: Any) -> tuple[Any, Any]:
+        """w and E of y."""
+        assert self.make.split is not None
+        p = self.make.robot.p
+        stiff = len(self.make.split.A) * p
+        return y[: len(y) - stiff], y[len(y) - stiff :].reshape(-1, p)
+
+    def to(self) -> Function:
+        """y = (w, E) of x."""
+        inp, trace = Vector("inp", self.nx), Tracer()
+        return self.made(inp, trace, *self._split(trace).to(self.numbers.split, inp.take(self.nx)))
+
+    def back(self) -> Function:
+        """x of y = (w, E)."""
+        inp, trace = Vector("inp", self.nx), Tracer()
+        w, E = self._coordinates(inp.take(self.nx))
+        return self.made(inp, trace, self._split(trace).back(self.numbers.split, w, E))
+
+    def remainder(self) -> Function:
+        """N_w, and N_E in its forced rows, at y = (w, E) in place of x."""
+        at = self.at()
+        trace = at.loop.trace
+        w, E = self._coordinates(at.x)
+        laws = self._split(trace)
+        N = trace(split.remainder)(at.loop, laws, at.t, w, E, at.mode)
+        return self.made(at.inp, trace, *N, trace.solver.least)

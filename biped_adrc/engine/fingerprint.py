@@ -26,6 +26,8 @@ def law_text(law: Any, seen: set[Any] | None = None) -> str:
     seen = set() if seen is None else seen
     if isinstance(law, type):
         return _class_text(law)
+    if isinstance(law, tuple):
+        return "\n".join(law_text(part, seen) for part in law)
     if not isinstance(law, types.FunctionType):
         return constant_text(law)
     if law in seen:
@@ -100,21 +102,20 @@ def skeleton(tree: Any) -> str:
 
 @lru_cache(maxsize=1)
 def versions_text() -> str:
-    """The versions of what makes code, this package's own generator, and the processor."""
-
+    """The versions of what makes code, the processor, and the package's own source."""
     from biped_adrc.engine.machine import processor
-    from biped_adrc.model.biped import STICTION_SPEED
 
-    root = Path(__file__).parents[1]
-    own = [
-        *sorted((root / "engine").glob("*.py")),
-        root / "model" / "reduction.py",
-        root / "linear.py",
-    ]
-    return "\n".join(
-        [
-            repr(STICTION_SPEED),
-            *(platform.python_version(), np.__version__, version("casadi"), version("llvmlite")),
-            *(processor(), *(path.read_text(encoding="utf-8") for path in own)),
-        ]
-    )
+    versions = (platform.python_version(), np.__version__, version("casadi"), version("llvmlite"))
+    return "\n".join([*versions, processor(), source_text(Path(__file__).parents[1])])
+
+
+NEVER_TRACED = ("analysis", "cli", "studies", "viz")
+"""Rooms that depend on the engine: it can reach nothing in them but laws that it is given."""
+
+
+def source_text(root: Path) -> str:
+    """A hash of every module of the package at `root` that code may be traced from."""
+    rooms = (path for path in sorted(root.iterdir()) if path.name not in NEVER_TRACED)
+    paths = [path for room in rooms for path in (sorted(room.rglob("*.py")) or [room])]
+    texts = (path.read_bytes() for path in paths if path.suffix == ".py")
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()

@@ -12,7 +12,6 @@ from typing import Any
 
 import casadi as ca
 
-from biped_adrc.engine.called import Call
 from biped_adrc.engine.equations import Function
 from biped_adrc.errors import InputError
 
@@ -80,20 +79,13 @@ DECLARATIONS = "\n".join(
 
 def module_text(functions: dict[str, Function]) -> str:
     """A module of functions. Raises InputError for an operation that has no line here."""
-    called = sorted({call.name for f in functions.values() for call in f.calls})
-    declared = [f"declare void @{name}(ptr, ptr, ptr)" for name in called]
-    return "\n".join(
-        [DECLARATIONS, *declared, *(function_text(name, f) for name, f in functions.items())]
-    )
+    return "\n".join([DECLARATIONS, *(function_text(name, f) for name, f in functions.items())])
 
 
 def function_text(name: str, function: Function) -> str:
     """One function."""
-    calls = function.calls
-    results = ca.vertcat(*(call.out for call in calls)) if calls else ca.SX(0, 1)
-    given = [x for call in calls for x in (call.K, call.inp)]
-    f = ca.Function("f", [function.K, function.inp, results], ca.cse([*given, function.out]))
-    writer = _Writer(calls)
+    f = ca.Function("f", [function.K, function.inp], ca.cse([function.out]))
+    writer = _Writer()
     for i in range(f.n_instructions()):
         writer.instruction(f, i)
     head = f"define void @{name}(ptr noalias %K, ptr noalias %inp, ptr noalias %out) nounwind {{"
@@ -101,36 +93,24 @@ def function_text(name: str, function: Function) -> str:
 
 
 class _Writer:
-    """The lines of one function; `work` is what CasADi's registers hold.
+    """The lines of one function; `work` is what CasADi's registers hold."""
 
-    CasADi's outputs are the arguments of the calls, in their order, and then the function's own; a call is
-    written when its first result is used, after all that it needs.
-    """
-
-    def __init__(self, calls: tuple[Call, ...]) -> None:
+    def __init__(self) -> None:
         self.lines: list[str] = []
         self.stores: list[str] = []
         self.work: dict[int, str] = {}
         self.loaded: dict[tuple[str, int], str] = {}
         self.count = 0
-        self.calls = calls
         self.negated: dict[str, str] = {}
         """By the name of a NOT, what it is of."""
         self.chosen: dict[str, tuple[str, str]] = {}
         """By the name of a choice against zero, its condition and its value."""
-        self.blocks: list[list[str]] = [self.block(call) for call in calls]
-        self.made = 0
 
     def new(self, text: str, to: list[str] | None = None) -> str:
         self.count += 1
         lines = self.lines if to is None else to
         lines.append(f"%v{self.count} = {text}")
         return f"%v{self.count}"
-
-    def block(self, call: Call) -> list[str]:
-        """Memory for K, inp and out of a call."""
-        sizes = (call.K.numel(), call.inp.numel(), call.out.numel())
-        return [self.new(f"alloca double, i64 {max(1, size)}") for size in sizes]
 
     def at(self, block: str, index: int, to: list[str] | None = None) -> str:
         return self.new(f"getelementptr double, ptr {block}, i64 {index}", to)
@@ -140,38 +120,17 @@ class _Writer:
             self.loaded[block, index] = self.new(f"load double, ptr {self.at(block, index)}")
         return self.loaded[block, index]
 
-    def result(self, index: int) -> str:
-        """The result of a call, which is made now unless it was before."""
-        for k, call in enumerate(self.calls):
-            if index < call.out.numel():
-                if self.made <= k:
-                    K, inp, out = self.blocks[k]
-                    self.lines.append(f"call void @{call.name}(ptr {K}, ptr {inp}, ptr {out})")
-                    self.made = k + 1
-                return self.load(self.blocks[k][2], index)
-            index -= call.out.numel()
-        raise IndexError(index)
-
     def instruction(self, f: Any, i: int) -> None:
         code, a, o = f.instruction_id(i), f.instruction_input(i), f.instruction_output(i)
         if code == ca.OP_CONST:
             self.work[o[0]] = literal(f.instruction_constant(i))
         elif code == ca.OP_INPUT:
-            self.work[o[0]] = (
-                self.result(a[1]) if a[0] == 2 else self.load(("%K", "%inp")[a[0]], a[1])
-            )
+            self.work[o[0]] = self.load(("%K", "%inp")[a[0]], a[1])
         elif code == ca.OP_OUTPUT:
-            self.output(o[0], o[1], self.work[a[0]])
+            at = self.at("%out", o[1], self.stores)
+            self.stores.append(f"store double {self.work[a[0]]}, ptr {at}")
         else:
             self.work[o[0]] = self.value(code, [self.work[k] for k in a], f)
-
-    def output(self, which: int, index: int, value: str) -> None:
-        if which < 2 * len(self.calls):
-            at = self.at(self.blocks[which // 2][which % 2], index)
-            self.lines.append(f"store double {value}, ptr {at}")
-        else:
-            at = self.at("%out", index, self.stores)
-            self.stores.append(f"store double {value}, ptr {at}")
 
     def value(self, code: int, a: list[str], f: Any) -> str:
         if code in COMPARISONS:

@@ -32,30 +32,20 @@ class Machine:
 
 
 class Text(NamedTuple):
-    """A module in LLVM's language, and what has to be linked before it is loaded."""
+    """A module in LLVM's language."""
 
     text: str
-    needs: tuple[str, ...] = ()
     vectors: bool = False
     """Whether to look for operations that go together in vectors, which takes its time."""
 
 
-def machine(
-    key: str,
-    names: Sequence[str],
-    text: Callable[[], Text],
-    link: Callable[[str], Any] = lambda need: None,
-) -> Machine:
-    """The functions `names` stored under `key`, or compiled from `text()`; `link` is called for its needs."""
+def machine(key: str, names: Sequence[str], text: Callable[[], Text]) -> Machine:
+    """The functions `names` stored under `key`, or compiled from `text()`."""
     with _LOCK:
-        found = stored(key)
-        if found is None:
-            made = text()
-            found = made.needs, compiled(made.text, made.vectors)
-            keep(key, *found)
-        needs, code = found
-        for need in needs:
-            link(need)
+        code = stored(key)
+        if code is None:
+            code = compiled(*text())
+            keep(key, code)
         return loaded(code, names)
 
 
@@ -120,23 +110,19 @@ def _path(key: str) -> Path:
     return cache_folder() / "code" / f"{key}.bin"
 
 
-def stored(key: str) -> tuple[tuple[str, ...], bytes] | None:
-    """What object code needs, and itself, from the disk; None when it is not there or damaged."""
+def stored(key: str) -> bytes | None:
+    """Object code from the disk; None when it is not there or damaged."""
     try:
         data = _path(key).read_bytes()
     except OSError:
         return None
-    check, content = data[:CHECK], data[CHECK:]
-    if hashlib.sha256(key.encode() + content).digest() != check:
-        return None
-    needs, _, code = content.partition(b"\n")
-    return tuple(needs.decode().split()), code
+    check, code = data[:CHECK], data[CHECK:]
+    return code if hashlib.sha256(key.encode() + code).digest() == check else None
 
 
-def keep(key: str, needs: tuple[str, ...], code: bytes) -> None:
+def keep(key: str, code: bytes) -> None:
     """Write object code where that is possible."""
-    content = " ".join(needs).encode() + b"\n" + code
     try:
-        write_bytes(_path(key), hashlib.sha256(key.encode() + content).digest() + content)
+        write_bytes(_path(key), hashlib.sha256(key.encode() + code).digest() + code)
     except (OSError, OutputError):
         return

@@ -8,72 +8,50 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from biped_adrc.engine import mechanics
 from biped_adrc.engine.equations import Function, count
-from biped_adrc.engine.mechanics import Structure
-from biped_adrc.engine.plant import PlantArrays
-from biped_adrc.engine.symbols import Tracer, Vector, column, solve_positive
-from biped_adrc.model.reduction import reduce
+from biped_adrc.engine.mechanics import PlanarRobot, Structure
+from biped_adrc.engine.symbols import Vector, column
+from biped_adrc.model.planar import PlantArrays
 
 
 @dataclass(frozen=True)
 class PlantEquations:
-    """The functions of a robot by itself, for controllers in plain Python."""
+    """The functions of a robot by itself; K is CasADi's column of the symbols in it."""
 
-    robot: Structure
+    robot: PlanarRobot
     K: Any
-    numbers: PlantArrays
 
     @classmethod
-    def of(cls, robot: Structure, example: PlantArrays) -> PlantEquations:
+    def of(cls, structure: Structure, example: PlantArrays) -> PlantEquations:
         """With symbols for the floats of an example."""
         K = Vector("K", count(example))
-        return cls(robot, K.symbol, mechanics.without_zeros(robot, K.like(example)))
+        return cls(PlanarRobot.of(structure, K.like(example)), K.symbol)
 
     def functions(self) -> dict[str, Callable[[], Function]]:
-        """By name."""
-        names = ("terms", "body", "accelerate", "ground")
-        return {name: getattr(self, name) for name in names}
+        """By name; `terms` gives a `Reduction`, one part below the other in rows of n numbers."""
+        robot, n = self.robot, self.robot.n
 
-    def terms(self) -> Function:
-        """A `Reduction`, one part below the other in rows of n numbers."""
-        K = self.numbers
-        n, p = self.robot.n, self.robot.p
-        inp = Vector("inp", 2 * n)
-        q, v = inp.take(n), inp.take(n)
-        D, Omega = mechanics.inertia_and_bias(self.robot, K, q, v)
-        rows = [_rows(part, n) for part in Tracer()(reduce)(D, Omega, p)]
-        return Function(self.K, inp.symbol, column(*rows))
+        def terms(q: Any, v: Any) -> Any:
+            return [_rows(part, n) for part in robot.reduction(q, v)]
 
-    def body(self) -> Function:
-        """A `BodyTerms`, one part after the other."""
-        n = self.robot.n
-        inp = Vector("inp", 2 * n)
-        body = mechanics.body_terms(self.robot, self.numbers, inp.take(n), inp.take(n))
-        return Function(self.K, inp.symbol, column(*body))
+        found: dict[str, tuple[Callable[..., Any], int]] = {
+            "terms": (terms, 2),
+            "body": (robot.body_terms, 2),
+            "accelerate": (lambda *given: (robot.acceleration(*given),), 3),
+            "ground": (lambda *given: (robot.ground_reaction(*given),), 3),
+        }
+        return {name: partial(self._made, *how) for name, how in found.items()}
 
-    def accelerate(self) -> Function:
-        """q''."""
-        K = self.numbers
-        n = self.robot.n
-        inp = Vector("inp", 3 * n)
-        q, v, force = inp.take(n), inp.take(n), inp.take(n)
-        D, Omega = mechanics.inertia_and_bias(self.robot, K, q, v)
-        return Function(self.K, inp.symbol, column(solve_positive(D, force - Omega, "D_s")))
-
-    def ground(self) -> Function:
-        """(F_T, F_N) and the end of the swing foot."""
-        K = self.numbers
-        n = self.robot.n
-        inp = Vector("inp", 3 * n)
-        q, v, a = inp.take(n), inp.take(n), inp.take(n)
-        return Function(
-            self.K, inp.symbol, column(mechanics.ground_reaction(self.robot, K, q, v, a))
-        )
+    def _made(self, law: Callable[..., Any], count: int) -> Function:
+        """The function of `count` vectors (n,)."""
+        inp = Vector("inp", count * self.robot.n)
+        given = (inp.take(self.robot.n) for _ in range(count))
+        return Function(self.K, inp.symbol, column(*law(*given)))
 
 
 def _rows(part: Any, n: int) -> Any:

@@ -7,26 +7,20 @@ functions are in memory, in milliseconds where they are on disk.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, ControllerLaws
-from biped_adrc.engine.called import link
+from biped_adrc.control.base import Controller, ControllerLaws, controller_laws
 from biped_adrc.engine.equations import Equations, Make, Numbers
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import Machine, Text, machine
 from biped_adrc.engine.product import product
 from biped_adrc.engine.robot import Robot, robot_of
-from biped_adrc.engine.symbols import Untraceable, floats
+from biped_adrc.engine.symbols import floats
 from biped_adrc.errors import InputError
-from biped_adrc.hardware.held import after_impact, motor_torque, read, written
-from biped_adrc.hardware.meter import metered
-from biped_adrc.hardware.motors import acting, limited, mean_torque, sent
-from biped_adrc.hardware.sensors import sense
 from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
 from biped_adrc.walker import Walker
@@ -77,13 +71,10 @@ class Program:
 
 
 def laws_of(controller: Controller) -> ControllerLaws:
-    """The laws of a controller. Raises NotCompiled when it is written as methods alone."""
-    laws = controller.laws
-    if laws is None:
-        raise NotCompiled(
-            f"controller {type(controller).__name__} has no laws of arrays; it runs in Python on the "
-            "compiled plant"
-        )
+    """The laws of a controller. Raises NotCompiled where a part of it has none."""
+    laws = controller_laws(controller)
+    if laws.obstacle:
+        raise NotCompiled(f"{laws.obstacle}; it runs in Python on the compiled plant")
     return laws
 
 
@@ -125,25 +116,12 @@ def _numbers(
     )
 
 
-HARDWARE = (
-    sense,
-    limited,
-    sent,
-    acting,
-    mean_torque,
-    metered,
-    after_impact,
-    read,
-    written,
-    motor_torque,
-)
-"""Laws of what is between controller and plant."""
 _MACHINES: dict[str, Machine] = {}
 
 
 def _machine(make: Make, numbers: Numbers) -> Machine:
     split = () if make.split is None else make.split[3:]
-    laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split, *HARDWARE))
+    laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split))
     key = hash_of(
         "walker",
         skeleton(make.robot),
@@ -158,25 +136,14 @@ def _machine(make: Make, numbers: Numbers) -> Machine:
     if key not in _MACHINES:
         names = list(Equations.of(make, numbers).functions())
 
-        def linked(law: str) -> str:
-            of_walker = make.laws._replace(parameters=numbers.k)
-            return link(of_walker, law, make.robot.n, make.robot.p, make.size)
-
         try:
-            _MACHINES[key] = machine(key, names, lambda: traced(make, numbers, linked), linked)
+            _MACHINES[key] = machine(key, names, lambda: traced(make, numbers))
         except InputError as reason:
-            raise NotCompiled(str(reason)) from reason
+            raise NotCompiled(f"{reason}; it runs in Python on the compiled plant") from reason
     return _MACHINES[key]
 
 
-def traced(make: Make, numbers: Numbers, link: Callable[[str], str]) -> Text:
-    """Every function run on symbols; laws that branch on numbers are linked and called."""
-    while True:
-        functions = Equations.of(make, numbers).functions()
-        try:
-            text = module_text({name: function() for name, function in functions.items()})
-            return Text(text, tuple(make.called))
-        except Untraceable as error:
-            if error.law in make.called or not error.law:
-                raise
-            make = make._replace(called={**make.called, error.law: link(error.law)})
+def traced(make: Make, numbers: Numbers) -> Text:
+    """Every function run on symbols."""
+    functions = Equations.of(make, numbers).functions()
+    return Text(module_text({name: function() for name, function in functions.items()}))

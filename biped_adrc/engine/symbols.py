@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import math
 import operator
+import traceback
 import types
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import casadi as ca
@@ -22,10 +24,6 @@ from biped_adrc.errors import InputError
 
 class Untraceable(InputError):
     """The law looks at a number to decide what to do, or does what has no symbol."""
-
-    def __init__(self, reason: str, law: str = ""):
-        super().__init__(reason)
-        self.law = law
 
 
 class Scalar:
@@ -58,6 +56,13 @@ class Scalar:
     def __pos__(self) -> Scalar:
         return self
 
+    def cos(self) -> Scalar:
+        """Asked for by NumPy, as `sin`."""
+        return Scalar(ca.cos(self.e))
+
+    def sin(self) -> Scalar:
+        return Scalar(ca.sin(self.e))
+
 
 def expression(x: Any) -> Any:
     """The expression of a Scalar or a number."""
@@ -83,6 +88,24 @@ for _name in ("lt", "le", "gt", "ge", "eq", "ne"):
     setattr(Scalar, f"__{_name}__", _binary(_name, False))
 Scalar.__hash__ = object.__hash__  # type: ignore[method-assign]
 
+
+def _compare(name: str) -> Callable[[Any, Any], Any]:
+    compare = getattr(np, name)
+    return lambda self, other: compare(self, other, dtype=object)
+
+
+class Symbols(np.ndarray):
+    """An array of Scalars; comparisons give Scalars too, for `np.where`."""
+
+    __lt__, __le__ = _compare("less"), _compare("less_equal")
+    __gt__, __ge__ = _compare("greater"), _compare("greater_equal")
+    __hash__ = None
+
+    def __array_wrap__(self, array: Any, *_: Any) -> Any:
+        """What an operation gives: one number as itself, as NumPy does for its own arrays."""
+        return array.item() if array.ndim == 0 else array.view(Symbols)
+
+
 FUNCTIONS = {
     **{name: name for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "sinh", "cosh", "tanh")},
     **{f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan")},
@@ -106,7 +129,7 @@ def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
     return lambda *arguments: vectorised(*arguments)
 
 
-cos, sin, tanh = (elementwise(_function(name)) for name in ("cos", "sin", "tanh"))
+tanh = elementwise(_function("tanh"))
 
 
 class _Substitute:
@@ -217,12 +240,20 @@ def _larger_first(one: list[Any], other: list[Any], j: int) -> tuple[list[Any], 
     return first, second
 
 
+BUILTINS: dict[str, Any] = {
+    "float": lambda x: x,
+    "abs": np.abs,
+    "min": lambda a, b: minimum(a, b),
+    "max": lambda a, b: maximum(a, b),
+}
+"""What laws find under these names."""
+
+
 class Tracer:
-    """Copies of laws that run on symbols, with one solver for all, and the calls of laws that do not."""
+    """Copies of laws that run on symbols, with one solver for all."""
 
     def __init__(self) -> None:
         self.solver = Solver()
-        self.calls: list[Any] = []
         functions = {name: elementwise(_function(theirs)) for name, theirs in FUNCTIONS.items()}
         numpy = {
             **functions,
@@ -256,23 +287,45 @@ class Tracer:
         if not isinstance(law, types.FunctionType):
             return law
         if law not in self._copies:
-            scope = dict(law.__globals__)
-            scope["float"] = lambda x: x
+            scope = {**BUILTINS, **law.__globals__}
+            cells = [types.CellType(c.cell_contents) for c in law.__closure__ or ()]
             copy = types.FunctionType(
-                law.__code__, scope, law.__name__, law.__defaults__, law.__closure__
+                law.__code__, scope, law.__name__, law.__defaults__, tuple(cells) or None
             )
             copy.__kwdefaults__ = law.__kwdefaults__
             self._copies[law] = copy
             for name in names_of(law.__code__):
                 if name in scope:
                     scope[name] = self._substitute(scope[name])
+            for cell in cells:
+                cell.cell_contents = self._substitute(cell.cell_contents)
         return self._copies[law]
 
     def _substitute(self, value: Any) -> Any:
         for old, new in self._substitutes:
             if value is old:
                 return new
+        if isinstance(value, tuple):
+            parts = [self._substitute(part) for part in value]
+            return value._make(parts) if hasattr(value, "_make") else tuple(parts)
         return self(value)
+
+
+def run(trace: Tracer, law: Any, *arguments: Any) -> Any:
+    """A law on symbols. Raises Untraceable that names the function which cannot be run so."""
+    try:
+        return trace(law)(*arguments)
+    except Exception as error:  # whatever NumPy says of an object that is no float
+        frames = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
+        own = [code for code in frames if not code.co_filename.startswith(LIBRARIES)]
+        where = own[-1] if own else law.__code__
+        place = f"{Path(where.co_filename).stem}.{where.co_qualname}".replace(".<locals>", "")
+        reason = f"law '{place}' cannot be compiled: {error}"
+        raise Untraceable(reason) from error
+
+
+LIBRARIES = (__file__, str(Path(np.__file__).parent), str(Path(ca.__file__).parent))
+"""Where the functions are that laws call, and that are no laws themselves."""
 
 
 def names_of(code: types.CodeType) -> set[str]:
@@ -296,7 +349,7 @@ class Vector:
         if not shape:
             self._taken += 1
             return Scalar(self.symbol[self._taken - 1])
-        out = np.empty(shape, dtype=object)
+        out = np.empty(shape, dtype=object).view(Symbols)
         for index in np.ndindex(*shape):
             out[index] = self.take()
         return out

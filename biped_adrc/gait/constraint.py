@@ -24,7 +24,7 @@ import numpy as np
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.curves import Curve, CurveParameters, curve
-from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint
 from biped_adrc.types import Array
 
 
@@ -57,6 +57,11 @@ def virtual_constraint(k: ConstraintParameters, q: Array, v: Array) -> Reference
     theta, dtheta = float(k.c @ q), float(k.c @ v)
     h, dh, ddh = path(k, theta)
     return ReferencePoint(h, dh * dtheta, dtheta**2 * ddh, dh[:, np.newaxis] * k.c)
+
+
+def constraint_point(k: ConstraintParameters, t: float, q: Array, v: Array) -> ReferencePoint:
+    """`virtual_constraint` as a law of references; t is not used."""
+    return virtual_constraint(k, q, v)
 
 
 FADE = 0.01
@@ -109,8 +114,9 @@ class VirtualConstraint(Reference):
         k: ConstraintParameters = self._parameters  # type: ignore[attr-defined]
         return k
 
-    def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
-        return virtual_constraint(self.parameters, q, v)
+    @property
+    def laws(self) -> ReferenceLaws:
+        return ReferenceLaws(self.parameters, constraint_point)
 
     def h(self, theta: float) -> tuple[Array, Array, Array]:
         """h, dh/dTheta, d2h/dTheta2 at theta [rad], each (p,)."""

@@ -8,13 +8,14 @@ to cause:
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from biped_adrc.composed import Composed
+from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
 
@@ -31,12 +32,45 @@ class ReferencePoint(NamedTuple):
     """(p, n), q_d'' = drift + H q''."""
 
 
-class Reference(ABC):
-    """A pure function of (t, q, q')."""
+class ReferenceLaws(NamedTuple):
+    """The pure function behind a reference."""
 
-    @abstractmethod
+    parameters: Any
+    """k, a NamedTuple of numbers and float64 arrays."""
+    point: Callable[..., ReferencePoint]
+    """point(k, t, q, v) -> q_d, q_d' and q_d''."""
+    obstacle: str = ""
+    """Why it runs in Python only; empty where it compiles."""
+
+
+class Reference(Composed):
+    """A pure function of (t, q, q'): give `laws`, or write `__call__`."""
+
+    _kind: ClassVar[str] = "reference"
+    _methods: ClassVar[frozenset[str]] = frozenset(("__call__",))
+
+    @property
+    def laws(self) -> ReferenceLaws | None:
+        """The pure function that `__call__` calls; None for a reference written as a method."""
+        return None
+
     def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
         """The reference at time t [s] and state (q, v), each (n,)."""
+        laws: ReferenceLaws | None = self._laws
+        if laws is None:
+            raise InputError(
+                f"{type(self).__name__} has neither laws nor a method __call__(t, q, v); write one of them: a "
+                "ReferencePoint from time and state"
+            )
+        return laws.point(laws.parameters, t, q, v)
+
+
+def reference_laws(reference: Reference) -> ReferenceLaws:
+    """The laws of a reference, or its method as a law, which runs in Python only and says so."""
+    if not reference._obstacle:
+        laws: ReferenceLaws = reference.laws  # type: ignore[assignment]
+        return laws
+    return ReferenceLaws((), lambda k, t, q, v: reference(t, q, v), reference._obstacle)
 
 
 @dataclass(frozen=True)

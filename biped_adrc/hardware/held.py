@@ -86,16 +86,14 @@ def check_parts(
 def held_parameters(
     n: int,
     p: int,
-    period: float,
-    delay: float,
-    known: bool,
-    sensors: Sensors | None,
-    motors: Motors | None,
-    metered: MeterParameters | None,
+    timing: SampledTime,
+    sensors: Sensors | None = None,
+    motors: Motors | None = None,
+    metered: MeterParameters | None = None,
 ) -> HeldParameters:
-    """For ticks every `period` [s] and torques that act `delay` [s] after them."""
-    motors = IDEAL if motors is None else motors
-    queue, fraction = whole_and_part(delay, period)
+    """For n coordinates, p motors and the ticks of `timing`."""
+    motors, period = IDEAL if motors is None else motors, timing.period
+    queue, fraction = whole_and_part(timing.delay, period)
     sizes = HeldSizes(
         n,
         p,
@@ -105,7 +103,7 @@ def held_parameters(
         int(motors.lag > 0.0),
         int(fraction > 0.0),
         int(motors.rate_limit is not None),
-        int(known and delay > 0.0),
+        int(timing.delay_known and timing.delay > 0.0),
     )
     return HeldParameters(
         () if sensors is None else sensors.parameters(n, p, period),
@@ -134,6 +132,15 @@ def motor_torque(line: Line) -> Array:
     return line.u_m if len(line.u_m) > 0 else line.u
 
 
+def lagged(k: HeldParameters, tail: Array) -> Array:
+    """The slope of the tail: tau u_m' = u - u_m, and zero for all else."""
+    line, rate = read(k.sizes, tail).line, np.zeros(len(tail))
+    if k.sizes.lag > 0:
+        at = len(tail) - k.sizes.p * (k.sizes.waiting + 2)
+        rate[at : at + k.sizes.p] = k.motors.speed * (line.u - line.u_m)
+    return rate
+
+
 def at_start(k: HeldParameters, q: Array, v: Array, sensors: Sensors | None) -> Array:
     """What is held at the start of a run in (q, v): no torque, and a first look."""
     sizes = k.sizes
@@ -149,12 +156,15 @@ def after_impact(
     q: Array,
     v: Array,
     v_model: Array,
-    hit: Hit,
+    hit: Hit | None,
 ) -> Held:
-    """What is held after an impact from q_minus to (q, v); v_model is the rate that the controller expects."""
+    """What is held after an impact from q_minus to (q, v); v_model is the rate that the controller expects.
+
+    hit: for the meter; None without one.
+    """
     w, g, p = held.w, held.g, k.sizes.p
     if k.sizes.sensors > 0:
         w = sensed_impact(k.sensors, w, q, v, v_model)
-    if k.sizes.meter > 0:
+    if hit is not None:
         g = metered_impact(k.meter, g, q_minus[:p], q[:p], swap, hit)
     return Held(w, g, relabelled(held.line, swap))

@@ -25,7 +25,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, virtual_constraint
 from biped_adrc.ground import ground_axes
@@ -141,25 +140,22 @@ class Loads(NamedTuple):
     """How far this single support ends below its stance foot [m]."""
 
 
-def loads(
-    plant: Biped,
-    push: Disturbance | None,
-    since: tuple[float, float],
-    mode: tuple[int, float],
-    q: Array,
-    v: Array,
-    a: Array,
-    drop: float,
-) -> Loads:
-    """What the plant asks of the ground at (q, v, q'').
+class Outside(NamedTuple):
+    """What comes from outside at a tick, forces as (x, z)."""
 
-    since: the last tick and this one [s]; mode: number of the single support and its start [s].
-    """
-    force, impulse = np.zeros(2), np.zeros(2)
-    if push is not None:
-        force, impulse = push.resultant(since[1], *mode), push.impulse(*since, *mode)
-    ground = plant.ground_reaction(q, v, a) - force
-    return Loads(plant.momentum(q, v), ground, impulse, force, plant.swing_foot(q), drop)
+    force: Array
+    """(2,) [N]."""
+    impulse: Array
+    """Since the last tick (2,) [N s]."""
+    drop: float
+    """How far this single support ends below its stance foot [m]."""
+
+
+def loads(plant: Any, given: Outside, q: Array, v: Array, a: Array) -> Loads:
+    """What the plant, a `closed_loop.semantics.WalkingPlant`, asks of the ground at (q, v, q'')."""
+    ground = plant.ground_reaction(q, v, a) - given.force
+    foot = plant.swing_foot(q)
+    return Loads(plant.momentum(q, v), ground, given.impulse, given.force, foot, given.drop)
 
 
 def metered(

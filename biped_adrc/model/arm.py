@@ -124,6 +124,11 @@ class Arm:
         """Number of joints; all have motors."""
         return int(self.model.nv)
 
+    @property
+    def p(self) -> int:
+        """Number of motors, n."""
+        return self.n
+
     # -- dynamics ----------------------------------------------------------------------------------
     def inertia(self, q: Array) -> Array:
         """D(q) (n, n)."""

@@ -7,11 +7,13 @@ States are vectors passed in and handed back; an observer holds only parameters.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
+import numpy as np
+
+from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
@@ -98,51 +100,129 @@ class ObserverLaws(NamedTuple):
     """correct(k, Z, y) -> Z at the tick."""
     predict: Callable[..., Array] | None = None
     """predict(k, Z, input) -> Z one period later."""
-
-
-class Observer(ABC):
-    """Base of all observers, in continuous time unless made by `sampled`."""
+    obstacle: str = ""
+    """Why these run in Python only; empty where they compile."""
 
     @property
-    @abstractmethod
-    def order(self) -> int:
-        """States per joint."""
+    def functions(self) -> ObserverLaws:
+        """The laws alone, without their parameters."""
+        return self._replace(parameters=None, obstacle="")
 
-    @abstractmethod
-    def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
-        """z that agrees with position y, velocity dy and disturbance xi, each (p,); z is flat."""
 
-    @abstractmethod
-    def estimate(self, z: Array) -> Estimate:
-        """The estimates in z."""
+def rows(k: Any, z: Array) -> Array:
+    """Z (order, p), the flat state z by rows, for parameters k with `order`; no copy."""
+    return z.reshape(k.order, -1)
 
-    @abstractmethod
-    def reset(
-        self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
-    ) -> Array:
-        """z after impact; `swap` (p,) is the relabelling of joints, y, dy, xi are taken after it."""
 
-    def flow(self, z: Array, y: Array, input: Array) -> Array:
-        """z' in continuous time."""
-        raise InputError(f"{type(self).__name__} works in sampled time only; give a SampledTime")
+class Observer(Composed):
+    """Base of all observers, in continuous time unless made by `sampled`.
 
-    def correct(self, z: Array, y: Array) -> Array:
-        """Sampled: z at a tick with the measurement y taken in."""
-        raise InputError(f"{type(self).__name__} works in continuous time; call sampled(period)")
+    Give `laws`, whose parameters have `order`, the states per joint; or write the methods.
+    """
 
-    def predict(self, z: Array, input: Array) -> Array:
-        """Sampled: z one period later under a constant input."""
-        raise InputError(f"{type(self).__name__} works in continuous time; call sampled(period)")
-
-    def sampled(self, period: float) -> Observer:
-        """The discrete form for ticks every `period` [s]."""
-        raise InputError(f"{type(self).__name__} has no discrete form; use ContinuousTime()")
+    _kind: ClassVar[str] = "observer"
+    _methods: ClassVar[frozenset[str]] = frozenset(
+        (
+            "initial_state",
+            "estimate",
+            "reset",
+            "flow",
+            "correct",
+            "predict",
+        )
+    )
 
     @property
     def laws(self) -> ObserverLaws | None:
         """The pure functions that the methods call; None for an observer written as methods alone."""
         return None
 
+    @property
+    def order(self) -> int:
+        """States per joint."""
+        return int(self._given.parameters.order)
+
+    def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
+        """z that agrees with position y, velocity dy and disturbance xi, each (p,); z is flat."""
+        k = self._given
+        return k.state(k.parameters, Estimate(y, dy, xi)).ravel()
+
+    def estimate(self, z: Array) -> Estimate:
+        """The estimates in z."""
+        k = self._given
+        return k.estimate(k.parameters, rows(k.parameters, z))
+
+    def reset(
+        self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
+    ) -> Array:
+        """z after impact; `swap` (p,) is the relabelling of joints, y, dy, xi are taken after it."""
+        k, x = self._given, Estimate(y, dy, xi)
+        return k.reset(k.parameters, policy.code, rows(k.parameters, z), swap, x).ravel()
+
+    def flow(self, z: Array, y: Array, input: Array) -> Array:
+        """z' in continuous time."""
+        return self._next("flow", "sampled time only; give a SampledTime", z, y, input)
+
+    def correct(self, z: Array, y: Array) -> Array:
+        """Sampled: z at a tick with the measurement y taken in."""
+        return self._next("correct", "continuous time; call sampled(period)", z, y)
+
+    def predict(self, z: Array, input: Array) -> Array:
+        """Sampled: z one period later under a constant input."""
+        return self._next("predict", "continuous time; call sampled(period)", z, input)
+
+    def sampled(self, period: float) -> Observer:
+        """The discrete form for ticks every `period` [s]."""
+        raise InputError(f"{type(self).__name__} has no discrete form; use ContinuousTime()")
+
     def error_system(self) -> ErrorSystem | None:
         """The linear error dynamics, for the exponential method; None when there are none."""
         return None
+
+    @property
+    def _given(self) -> ObserverLaws:
+        laws: ObserverLaws | None = self._laws
+        if laws is None:
+            raise InputError(
+                f"{type(self).__name__} has no laws, and does not write all of the methods order, "
+                "initial_state, estimate and reset; write what is missing"
+            )
+        return laws
+
+    def _next(self, name: str, works_in: str, z: Array, *given: Array) -> Array:
+        """z by the law of this name."""
+        law = self._law(name)
+        if law is None:
+            raise InputError(f"{type(self).__name__} works in {works_in}")
+        made: Array = law(rows(self._laws.parameters, z), *given).ravel()
+        return made
+
+
+class MethodParameters(NamedTuple):
+    """Of an observer that is written as methods: its state is one row."""
+
+    order: int = 1
+
+
+def observer_laws(observer: Observer) -> ObserverLaws:
+    """The laws of an observer, or its methods as laws, which run in Python only and say so."""
+    if not observer._obstacle:
+        laws: ObserverLaws = observer.laws  # type: ignore[assignment]
+        return laws
+    policies = list(ResetPolicy)
+    made = ObserverLaws(
+        MethodParameters(),
+        lambda k, x: observer.initial_state(*x)[np.newaxis],
+        lambda k, Z: observer.estimate(Z[0]),
+        lambda k, code, Z, swap, x: observer.reset(Z[0], policies[code], swap, *x)[np.newaxis],
+        obstacle=observer._obstacle,
+    )
+    discrete = (
+        type(observer).predict is not Observer.predict or observer._law("predict") is not None
+    )
+    if not discrete:
+        return made._replace(flow=lambda k, Z, y, input: observer.flow(Z[0], y, input)[np.newaxis])
+    return made._replace(
+        correct=lambda k, Z, y: observer.correct(Z[0], y)[np.newaxis],
+        predict=lambda k, Z, input: observer.predict(Z[0], input)[np.newaxis],
+    )

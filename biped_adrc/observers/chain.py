@@ -6,14 +6,14 @@ itself the observer matrix of Table I has condition number 3e29; scaled it has 5
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
+from biped_adrc.observers.base import Estimate, Observer, ObserverLaws, ResetPolicy
 from biped_adrc.types import Array
 
 NONE, RELABEL, MEASURED, MODEL = (policy.code for policy in ResetPolicy)
@@ -29,11 +29,6 @@ class Chain(Protocol):
     @property
     def scale(self) -> float:
         """[rad/s]."""
-
-
-def rows(k: Chain, z: Array) -> Array:
-    """Z (m + 2, p), the flat state z by rows; no copy."""
-    return z.reshape(k.order, -1)
 
 
 def chain_state(k: Chain, x: Estimate) -> Array:
@@ -61,6 +56,16 @@ def chain_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) -> Ar
     if policy == MEASURED:
         swapped[0], swapped[1] = x.position, x.velocity / k.scale
     return swapped
+
+
+def chain_laws(
+    k: Any,
+    flow: Callable[..., Array] | None = None,
+    correct: Callable[..., Array] | None = None,
+    predict: Callable[..., Array] | None = None,
+) -> ObserverLaws:
+    """The laws of an observer whose state is a chain; its flow, or correct and predict, are its own."""
+    return ObserverLaws(k, chain_state, chain_estimate, chain_reset, flow, correct, predict)
 
 
 # -- what is asked of poles ----------------------------------------------------------------------
@@ -108,25 +113,24 @@ def _show(pole: complex) -> str:
     return f"{pole.real:g}" if pole.imag == 0 else f"{pole:g}"
 
 
+class ChainParameters(NamedTuple):
+    """m + 2, and w [rad/s] by which states are scaled."""
+
+    order: int
+    scale: float
+
+
 @dataclass(frozen=True)
 class ChainObserver(Observer):
-    """m extended states; z is (m + 2, p) flattened."""
+    """m extended states; z is (m + 2, p) flattened. Leaves add their own flow, as a law or a method."""
 
     m: int
     scale: float
 
     @property
+    def laws(self) -> ObserverLaws:
+        return chain_laws(ChainParameters(self.order, self.scale))
+
+    @property
     def order(self) -> int:
         return self.m + 2
-
-    def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
-        return chain_state(self, Estimate(y, dy, xi)).ravel()
-
-    def estimate(self, z: Array) -> Estimate:
-        return chain_estimate(self, rows(self, z))
-
-    def reset(
-        self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
-    ) -> Array:
-        x = Estimate(y, dy, xi)
-        return chain_reset(self, policy.code, rows(self, z), swap, x).ravel()

@@ -24,11 +24,8 @@ from biped_adrc.errors import InputError
 from biped_adrc.observers.base import ErrorSystem, ObserverLaws
 from biped_adrc.observers.chain import (
     ChainObserver,
-    chain_estimate,
-    chain_reset,
-    chain_state,
+    chain_laws,
     equal_poles,
-    rows,
     stable_poles,
     whole,
 )
@@ -96,12 +93,7 @@ class GPIObserver(ChainObserver):
 
     @property
     def laws(self) -> ObserverLaws:
-        return ObserverLaws(
-            self.parameters, chain_state, chain_estimate, chain_reset, flow=gpi_flow
-        )
-
-    def flow(self, z: Array, y: Array, input: Array) -> Array:
-        return gpi_flow(self.parameters, rows(self, z), y, input).ravel()
+        return chain_laws(self.parameters, gpi_flow)
 
     def sampled(self, period: float) -> SampledGPIObserver:
         """The current (filtered) discrete observer with poles exp(s T)."""

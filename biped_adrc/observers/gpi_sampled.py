@@ -22,10 +22,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.observers.base import ObserverLaws
 from biped_adrc.observers.chain import (
     ChainObserver,
-    chain_estimate,
-    chain_reset,
-    chain_state,
-    rows,
+    chain_laws,
     stable_poles,
 )
 from biped_adrc.types import Array
@@ -95,17 +92,4 @@ class SampledGPIObserver(ChainObserver):
 
     @property
     def laws(self) -> ObserverLaws:
-        return ObserverLaws(
-            self.parameters,
-            chain_state,
-            chain_estimate,
-            chain_reset,
-            correct=gpi_correct,
-            predict=gpi_predict,
-        )
-
-    def correct(self, z: Array, y: Array) -> Array:
-        return gpi_correct(self.parameters, rows(self, z), y).ravel()
-
-    def predict(self, z: Array, input: Array) -> Array:
-        return gpi_predict(self.parameters, rows(self, z), input).ravel()
+        return chain_laws(self.parameters, correct=gpi_correct, predict=gpi_predict)

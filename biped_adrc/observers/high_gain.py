@@ -25,10 +25,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.observers.base import ErrorSystem, ObserverLaws
 from biped_adrc.observers.chain import (
     ChainObserver,
-    chain_estimate,
-    chain_reset,
-    chain_state,
-    rows,
+    chain_laws,
     whole,
 )
 from biped_adrc.observers.gpi import GPIParameters, gpi_flow
@@ -77,12 +74,7 @@ class HighGainObserver(ChainObserver):
 
     @property
     def laws(self) -> ObserverLaws:
-        return ObserverLaws(
-            self.parameters, chain_state, chain_estimate, chain_reset, flow=gpi_flow
-        )
-
-    def flow(self, z: Array, y: Array, input: Array) -> Array:
-        return gpi_flow(self.parameters, rows(self, z), y, input).ravel()
+        return chain_laws(self.parameters, gpi_flow)
 
     def sampled(self, period: float) -> SampledGPIObserver:
         """The current (filtered) discrete observer with poles exp(s T)."""

@@ -28,14 +28,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.observers.base import Estimate, Observer, ObserverLaws, ResetPolicy
+from biped_adrc.observers.base import Estimate, Observer, ObserverLaws
 from biped_adrc.observers.chain import (
     MODEL,
     NONE,
     RELABEL,
     Chain,
     equal_poles,
-    rows,
     stable_poles,
     whole,
 )
@@ -110,21 +109,6 @@ class MomentumChain(Observer):
     def order(self) -> int:
         return len(self.poles)
 
-    def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
-        """z for momentum y [kg m^2/s] and force xi [N m], each (n,); dy is not used."""
-        return momentum_state(self, Estimate(y, dy, xi)).ravel()
-
-    def estimate(self, z: Array) -> Estimate:
-        """position: pi^ [kg m^2/s], velocity: zeros, disturbance: r [N m], each (n,)."""
-        return momentum_estimate(self, rows(self, z))
-
-    def reset(
-        self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
-    ) -> Array:
-        """z after impact for the momentum y after it; r is kept, so xi is not used."""
-        x = Estimate(y, dy, xi)
-        return momentum_reset(self, policy.code, rows(self, z), swap, x).ravel()
-
 
 @dataclass(frozen=True)
 class MomentumObserver(MomentumChain):
@@ -153,9 +137,6 @@ class MomentumObserver(MomentumChain):
         return ObserverLaws(
             self.parameters, momentum_state, momentum_estimate, momentum_reset, flow=momentum_flow
         )
-
-    def flow(self, z: Array, y: Array, input: Array) -> Array:
-        return momentum_flow(self.parameters, rows(self, z), y, input).ravel()
 
     def sampled(self, period: float) -> SampledMomentumObserver:
         """The current (filtered) discrete observer with poles exp(s T)."""
@@ -196,12 +177,6 @@ class SampledMomentumObserver(MomentumChain):
             correct=gpi_correct,
             predict=gpi_predict,
         )
-
-    def correct(self, z: Array, y: Array) -> Array:
-        return gpi_correct(self.parameters, rows(self, z), y).ravel()
-
-    def predict(self, z: Array, input: Array) -> Array:
-        return gpi_predict(self.parameters, rows(self, z), input).ravel()
 
 
 def _stable(poles: Sequence[complex]) -> tuple[complex, ...]:

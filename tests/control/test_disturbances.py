@@ -165,13 +165,11 @@ def test_a_wave_of_ones_own_has_no_law_and_acts_all_the_same(biped):
     class Ramp(ba.TorquePulse):
         """A torque that grows."""
 
-        laws = None
-
         def torque(self, t, step, t_start, q, v):
             return t * super().torque(t, step, t_start, q, v)
 
     push, q = OnLink(biped, "torso", Ramp(F)), np.full(5, 0.2)
-    assert push.laws is None
+    assert push.laws[0].obstacle == "disturbance Ramp writes torque over the laws that it inherits"
     one, two = (push.torque(t, 1, 0.0, q, q) for t in (1.0, 2.0))
     assert np.array_equal(2.0 * one, two)
     assert np.any(one)

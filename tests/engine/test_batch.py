@@ -11,15 +11,21 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.base import Controller, ControllerLaws
-from biped_adrc.control.npd import npd_output
+from biped_adrc.control.npd import npd_torque
 from biped_adrc.engine.batch import AHEAD, Case, simulate_many
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.simulate import simulate
 from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.gait.constraint import virtual_constraint
 from biped_adrc.gait.passive_cycle import passive_cycle
 from biped_adrc.walker import FOOT_STRIKE, Mode
 
 FALL = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
+
+
+def npd_output(k, s, m):
+    """NPD on a virtual constraint; k is `NPDController(...).laws.parameters`."""
+    return npd_torque(k.tracking, virtual_constraint(k.h, m.q, m.v), m)
 
 
 @dataclass(frozen=True)
@@ -46,11 +52,11 @@ class Rooted(Controller):
     npd: ba.NPDController
 
     def output(self, s, m):
-        return rooted(self.npd.parameters, s, m)
+        return rooted(self.npd.laws.parameters, s, m)
 
     @property
     def laws(self):
-        return ControllerLaws(self.npd.parameters, rooted)
+        return ControllerLaws(self.npd.laws.parameters, rooted)
 
 
 @pytest.fixture(scope="module")

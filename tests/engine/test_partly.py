@@ -7,16 +7,22 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.base import Controller, ControllerLaws
-from biped_adrc.control.npd import npd_output
+from biped_adrc.control.npd import npd_torque
 from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw
-from biped_adrc.disturbances.pulse import pulse_torque
+from biped_adrc.disturbances.pulse import pulse_acts, pulse_torque
 from biped_adrc.engine.choice import simulate_by
 from biped_adrc.engine.simulate import simulate
 from biped_adrc.errors import NotFiniteError, SingularError
+from biped_adrc.gait.constraint import virtual_constraint
 from biped_adrc.walker import FOOT_STRIKE, Mode
 
 SHARP, TICKS = 1e-11, 1e-10
 PLANT = "compiled plant"
+
+
+def npd_output(k, s, m):
+    """NPD on a virtual constraint; k is `NPDController(...).laws.parameters`."""
+    return npd_torque(k.tracking, virtual_constraint(k.h, m.q, m.v), m)
 
 
 @dataclass(frozen=True)
@@ -160,9 +166,9 @@ def test_disturbances_without_laws(biped, gait, sampled):
     tolerance = TICKS if sampled else SHARP
     npd = ba.NPDController(gait.constraint)
     hip = ba.HipForce(biped, (-2.0, 0.0))
-    for push, name in ((Falling(), "Falling"), (Falling() + hip, "Sum")):
+    for push in (Falling(), Falling() + hip):
         walker = ba.Walker(biped, npd, push, time)
-        why = f"disturbance {name} has no laws"
+        why = "disturbance Falling has no laws"
         same(*runs(walker, gait, ba.RK4(2e-3), impacts=1), tolerance, why)
 
 
@@ -256,38 +262,42 @@ def test_an_exception_of_the_controller_s_own_comes_out(gait, ticked):
 
 # -- laws that cannot be compiled ------------------------------------------------------------------
 branching = lambda k, s, m: npd_output(k, s, m) * (1.0 if m.t < 0.1 else 0.9)  # noqa: E731
-pulsing = lambda k, t, step, t_start, q, v: pulse_torque(k, t, step, t_start, q, v)  # noqa: E731
+
+
+def pulsing(k, t, step, t_start, q, v):
+    """A pulse that is weaker later on."""
+    return pulse_torque(k, t, step, t_start, q, v) * (1.0 if t < 0.15 else 0.9)
 
 
 @dataclass(frozen=True)
-class Sourceless(WithoutState):
-    """Its law branches, so that it is no expression, and has no source that numba could take."""
+class Branching(WithoutState):
+    """Its law branches, so that it is no expression."""
 
     def output(self, s, m):
-        return branching(self.npd.parameters, s, m)
+        return branching(self.npd.laws.parameters, s, m)
 
     @property
     def laws(self):
-        return ControllerLaws(self.npd.parameters, branching)
+        return ControllerLaws(self.npd.laws.parameters, branching)
 
 
 @dataclass(frozen=True)
-class SourcelessPulse(ba.TorquePulse):
+class BranchingPulse(ba.TorquePulse):
     @property
     def laws(self):
-        return (DisturbanceLaw(self.parameters, pulsing, self.switches),)
+        return (DisturbanceLaw(self.parameters, pulsing, self.switches, active=pulse_acts),)
 
 
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
 def test_laws_that_cannot_be_compiled_run_in_python(biped, gait, sampled):
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
     npd = ba.NPDController(gait.constraint)
-    pulse = SourcelessPulse((3.0, 0.0, 0.0, 1.0, 0.0), 1, 0.1003, 0.2)
+    pulse = BranchingPulse((3.0, 0.0, 0.0, 1.0, 0.0), 1, 0.1003, 0.2)
     for walker in (
-        ba.Walker(biped, Sourceless(npd), timing=time),
+        ba.Walker(biped, Branching(npd), timing=time),
         ba.Walker(biped, npd, pulse, timing=time),
     ):
-        why = "cannot be compiled: a lambda has no source"
+        why = "cannot be compiled: the law branches on the value of a number"
         same(*runs(walker, gait, ba.RK4(2e-3), impacts=1), TICKS, why)
 
 

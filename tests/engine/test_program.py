@@ -7,13 +7,13 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.base import Controller, ControllerLaws
-from biped_adrc.control.npd import npd_output
+from biped_adrc.control.npd import npd_torque
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.compiled_biped import CompiledBiped
-from biped_adrc.engine.plant import plant_arrays
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.robot import robot_of
 from biped_adrc.errors import ModelError
+from biped_adrc.gait.constraint import virtual_constraint
 from biped_adrc.model.planar import PlanarTree
 from biped_adrc.model.robots import robot_names
 from biped_adrc.timing import SampledTime
@@ -21,6 +21,11 @@ from biped_adrc.walker import Mode, Walker
 
 EXACT = 1e-11
 COUNT = 10_000
+
+
+def npd_output(k, s, m):
+    """NPD on a virtual constraint; k is `NPDController(...).laws.parameters`."""
+    return npd_torque(k.tracking, virtual_constraint(k.h, m.q, m.v), m)
 
 
 def evaluator(program, name, inputs, outputs):
@@ -159,10 +164,13 @@ def test_one_compilation_serves_every_number(biped, gait):
     assert third.make.robot.n == 5
 
 
-def test_a_law_that_branches_is_called(gait, biped):
-    walker = Walker(biped, Creeping(gait.constraint))
-    check_walker(walker, gait, 50)
-    check_walker(replace(walker, timing=SampledTime(1e-3)), gait, 50)
+@pytest.mark.parametrize("time", [ba.ContinuousTime(), SampledTime(1e-3)], ids=type)
+def test_a_law_that_branches_is_refused_by_its_name(gait, biped, time):
+    """It runs at the ticks, in Python."""
+    walker = Walker(biped, Creeping(gait.constraint), timing=time)
+    name = "law 'test_program.creeping_output' cannot be compiled: the law branches on the value"
+    with pytest.raises(NotCompiled, match=name):
+        Program.of(walker, 0)
 
 
 def creeping_output(k, s, m):
@@ -181,11 +189,11 @@ class Creeping(Controller):
     constraint: ba.VirtualConstraint
 
     def output(self, s, m):
-        return creeping_output(ba.NPDController(self.constraint).parameters, s, m)
+        return creeping_output(ba.NPDController(self.constraint).laws.parameters, s, m)
 
     @property
     def laws(self):
-        return ControllerLaws(ba.NPDController(self.constraint).parameters, creeping_output)
+        return ControllerLaws(ba.NPDController(self.constraint).laws.parameters, creeping_output)
 
 
 @dataclass(frozen=True)
@@ -211,6 +219,6 @@ def test_another_robot_s_numbers_are_refused(biped):
 
 def test_numbers_that_are_zero_by_make_are_no_part_of_the_code(biped):
     """RABBIT's links are straight: no imaginary part is there to be multiplied."""
-    arrays = plant_arrays(biped, PlanarTree.of(biped))
+    arrays = PlanarTree.of(biped).K
     assert not np.any(arrays.W_im)
     assert not any(mask.any() for mask in robot_of(biped).structure.present[1:2])

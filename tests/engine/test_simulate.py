@@ -1,21 +1,26 @@
 """Compiled runs against the Python engine's: the same arcs, nodes, events and statuses."""
 
+import shutil
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 import pytest
 
+import biped_adrc
 import biped_adrc as ba
 from biped_adrc.control.base import Controller, ControllerLaws
-from biped_adrc.control.npd import NPDParameters, npd_output
+from biped_adrc.control.npd import npd_torque
+from biped_adrc.control.tracking import TrackedParameters
 from biped_adrc.engine import program
 from biped_adrc.engine.choice import simulate_by
-from biped_adrc.engine.fingerprint import law_text, skeleton
+from biped_adrc.engine.fingerprint import NEVER_TRACED, law_text, skeleton, source_text
 from biped_adrc.engine.robot import robot_of
 from biped_adrc.engine.simulate import simulate
 from biped_adrc.engine.symbols import Untraceable, Vector
 from biped_adrc.errors import InputError
+from biped_adrc.gait.constraint import virtual_constraint
 from biped_adrc.gait.passive_cycle import passive_cycle
 from biped_adrc.hybrid import simulator
 from biped_adrc.linear import solve
@@ -28,6 +33,11 @@ TICKS = 1e-10
 LANDED = 1e-6
 """Methods that land on an event, or choose their steps, in ways of their own."""
 PULSE = (30.0, 0.0, -10.0, 5.0, 3.0)
+
+
+def npd_output(k, s, m):
+    """NPD on a virtual constraint; k is `NPDController(...).laws.parameters`."""
+    return npd_torque(k.tracking, virtual_constraint(k.h, m.q, m.v), m)
 
 
 def npd(gait, **more):
@@ -292,7 +302,7 @@ class Written(Controller):
 
 
 def written(gait, law, k=None):
-    return Written(law, npd(gait).parameters if k is None else k)
+    return Written(law, npd(gait).laws.parameters if k is None else k)
 
 
 def rooted(k, s, m):
@@ -356,7 +366,7 @@ def jump_through_zero(k, s, after, swap):
 @pytest.mark.filterwarnings("ignore:invalid value")
 def test_jumps_without_numbers(biped, gait):
     """Python's run goes on from a NaN and stops at the next flow; a singular jump ends it at the impact."""
-    k = npd(gait).parameters
+    k = npd(gait).laws.parameters
     for jump, status in (
         (jump_to_nan, ba.Status.NOT_FINITE),
         (jump_through_zero, ba.Status.SINGULAR),
@@ -376,9 +386,15 @@ def at_step_two(k, s, m):
 
 
 def test_a_law_that_asks_whether_numbers_are_equal(biped, gait):
-    """It is no expression: taken for one it would never be equal."""
-    walker = ba.Walker(biped, written(gait, at_step_two))
-    same(*runs(walker, gait, ba.RK4(2e-3)), SHARP)
+    """It is no expression: taken for one it would never be equal. It runs at the ticks, and is named."""
+    time = ba.SampledTime(1e-3)
+    walker = ba.Walker(biped, written(gait, at_step_two), timing=time)
+    python, compiled = runs(walker, gait, ba.RK4(2e-3))
+    assert compiled.settings["engine"] == "compiled plant"
+    assert compiled.settings["why"].startswith(
+        "law 'test_simulate.at_step_two' cannot be compiled: the law branches on the value of a number; it runs"
+    )
+    same(python, compiled, TICKS, "compiled plant")
 
 
 def test_a_symbol_is_neither_equal_nor_unequal():
@@ -403,7 +419,7 @@ def scaled(factor):
 class Counted(NamedTuple):
     """NPD's, and an int, which decides."""
 
-    npd: NPDParameters
+    npd: TrackedParameters
     count: int
 
 
@@ -421,7 +437,7 @@ def test_what_a_law_has_around_it_is_part_of_it(biped, gait):
         ends.append(compiled.final_state)
     assert np.max(np.abs(ends[0] - ends[1])) > 1e-3
     for count in (0, 2):
-        k = Counted(npd(gait).parameters, count)
+        k = Counted(npd(gait).laws.parameters, count)
         walker = ba.Walker(biped, written(gait, by_count, k))
         same(*runs(walker, gait, ba.RK4(2e-3), impacts=1), SHARP)
 
@@ -455,6 +471,31 @@ def test_the_fingerprint_sees_what_a_law_reaches(monkeypatch):
     assert all(one != other for one, other in zip(before, after, strict=True))
     assert skeleton(made(2)) == skeleton(made(2))
     assert skeleton(made(2)) != skeleton(made(3))
+
+
+ROOMS = sorted(
+    path.name
+    for path in Path(biped_adrc.__file__).parent.iterdir()
+    if path.is_dir() and path.name not in (*NEVER_TRACED, "__pycache__")
+)
+
+
+@pytest.mark.parametrize("room", [*ROOMS, "linear.py"])
+def test_the_key_of_code_covers_the_package(room, tmp_path):
+    """One number in one function of a room is another key, and back again the same."""
+    package = Path(biped_adrc.__file__).parent
+    copied = shutil.ignore_patterns("__pycache__", *NEVER_TRACED)
+    shutil.copytree(package, tmp_path / "package", ignore=copied)
+    root = tmp_path / "package"
+    before = source_text(root)
+    assert before == source_text(package)
+    path = root / room
+    paths = [path] if path.is_file() else sorted(path.rglob("*.py"))
+    path, text = next((x, x.read_text()) for x in paths if "\n    return " in x.read_text())
+    path.write_text(text.replace("\n    return ", "\n    return 0.0 * ", 1))
+    assert source_text(root) != before
+    path.write_text(text)
+    assert source_text(root) == before
 
 
 def halved(u):

@@ -71,13 +71,11 @@ def test_a_damaged_module_is_written_again(cache):
 def test_a_flipped_bit_in_numba_s_machine_code_is_noticed(cache):
     """numba itself would run it."""
     lines = (
-        "from biped_adrc.engine.native import native_law\n"
-        "from biped_adrc.disturbances.pulse import pulse_torque\n"
-        "from biped_adrc import TorquePulse\n"
-        "import numpy as np\n"
-        "k, q = TorquePulse([1.0, 2.0]).parameters, np.zeros(2)\n"
-        "law = native_law(pulse_torque, (k, 0.0, 1, 0.0, q, q), 2)\n"
-        "print(law.keep.cache_hits)\n"
+        "from biped_adrc.engine.store import load_source, seal\n"
+        "source = 'import numba\\n@numba.njit(\"f8(f8)\", cache=True)\\ndef f(x):\\n    return 2.0 * x\\n'\n"
+        "module = load_source(source)\n"
+        "seal(module)\n"
+        "print(module.f(2.0), sum(module.f.stats.cache_hits.values()))\n"
     )
     folder = cache / "flipped"
     environment = {**os.environ, VARIABLE: str(folder)}

@@ -20,7 +20,7 @@ from biped_adrc.files import write_bytes, write_text
 from biped_adrc.model.limits import Limits
 from biped_adrc.scenario.registry import find, is_own, source_hash, words
 from biped_adrc.studies.bench.build import scene_of
-from biped_adrc.studies.bench.cell import IMPULSE, NEEDS, REASONS, Row, is_legal, number
+from biped_adrc.studies.bench.cell import IMPULSE, Row, is_legal, number
 from biped_adrc.studies.bench.comparison import NOMINAL, Comparison, check, compare
 from biped_adrc.studies.bench.conditions import BASE, COMPARED, CONDITIONS
 from biped_adrc.studies.bench.equal_bandwidth import NOT_ALIKE, OWN
@@ -34,7 +34,9 @@ from biped_adrc.studies.bench.store_open import open_store
 from biped_adrc.studies.bench.sweep import check_folder
 from biped_adrc.studies.bench.workers import Workers, workers_of
 from biped_adrc.viz.comparison_figure import legal_figure, measure_figure, push_figure
-from biped_adrc.viz.comparison_page import CAPTIONS, comparison_html
+from biped_adrc.viz.comparison_page import comparison_html
+from biped_adrc.viz.comparison_text import NEEDS, REASONS
+from biped_adrc.viz.pages import captions
 from biped_adrc.viz.style import render
 
 RESULTS = "comparison.sqlite"
@@ -179,4 +181,4 @@ def figures(summary: Mapping[str, Any]) -> dict[str, Figure]:
     drawn |= {name: measure_figure(cells, name, title) for name, title in TITLES.items()}
     if pushes:
         drawn["pushes"] = push_figure([p for p in pushes if p["bandwidth"] is None])
-    return {name: drawn[name] for name in CAPTIONS if name in drawn}
+    return {name: drawn[name] for name in captions("comparison") if name in drawn}

@@ -21,7 +21,9 @@ from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, version
 from json import JSONDecodeError, loads
 from pathlib import Path
-from typing import IO, Any, NamedTuple
+from typing import Any, NamedTuple
+
+from filelock import FileLock
 
 from biped_adrc.errors import InputError, OutputError
 from biped_adrc.studies.bench.chunk import CRASHED, NO_WALK
@@ -107,7 +109,7 @@ class Store:
     path: Path
     connection: sqlite3.Connection
     about: About
-    lock: IO[str] | None = None
+    lock: FileLock | None = None
 
     def place(self, points: Iterable[Placed]) -> None:
         """Keep where points lie. Raises OutputError."""
@@ -199,8 +201,8 @@ class Store:
         finally:
             self.connection.close()
             if self.lock is not None:
-                Path(self.lock.name).unlink(missing_ok=True)
-                self.lock.close()
+                Path(self.lock.lock_file).unlink(missing_ok=True)
+                self.lock.release()
 
     def __enter__(self) -> Store:
         return self

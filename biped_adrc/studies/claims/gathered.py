@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Any
 
@@ -66,9 +67,9 @@ def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task]:
     return out
 
 
-def gathered(presets: tuple[str, ...], results: dict[str, Any]) -> Evidence:
-    """The evidence in the results of `claim_tasks`."""
-    rest = [results[f"claims rest {preset}"] for preset in presets]
+def gathered(presets: tuple[str, ...], found: Mapping[str, Any]) -> Evidence:
+    """The evidence in the results of `claim_tasks`, by their names behind "claims"."""
+    rest = [found[f"rest {preset}"] for preset in presets]
     parts = {part: tuple(x for one in rest for x in one[part]) for part in PRESET_PARTS}
-    tried = tuple(o for preset in presets for o in results[f"claims members {preset}"])
-    return Evidence(members=tried, orders=results["claims orders"], **parts)
+    tried = tuple(o for preset in presets for o in found[f"members {preset}"])
+    return Evidence(members=tried, orders=found["orders"], **parts)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.signals import signals
-from biped_adrc.engine.seeing import see
+from biped_adrc.analysis.signals import signals, signals_of
+from biped_adrc.engine.compiled_signals import compiled_readings
 from biped_adrc.engine.simulate import simulate
 from biped_adrc.gait.passive_cycle import passive_cycle
 from biped_adrc.walker import Mode
@@ -23,6 +23,15 @@ def walked(walker, gait, impacts=2, every=1):
     x0 = walker.initial_state(*gait.start(walker.nominal))
     method = ba.RK4(2e-3) if walker.sampled or not x0[10:].size else ba.Exponential(2e-3)
     return simulate(walker, x0, Mode(), method, t_end=4.0, impacts=impacts, store_every=every)
+
+
+def see(walker, trajectory, reference):
+    """All columns, from compiled code; None where a part has no compiled form."""
+    found = compiled_readings(walker, trajectory, reference)
+    if found is None:
+        return None
+    s = signals_of(walker, trajectory, found)
+    return [getattr(s, field.name) for field in fields(s)]
 
 
 def in_python(walker, trajectory, reference):
@@ -96,7 +105,7 @@ def test_signals_of_a_compiled_run_are_those_seen(biped, gait, monkeypatch):
     walker = ba.Walker(biped, controllers(gait)["NPD"])
     run = walked(walker, gait, impacts=1)
     columns = see(walker, run, gait.constraint)
-    monkeypatch.setattr("biped_adrc.analysis.signals._row", None)
+    monkeypatch.setattr("biped_adrc.analysis.signals.readings", None)
     s = signals(walker, run, gait.constraint)
     for field, column in zip(fields(s), columns, strict=True):
         assert np.array_equal(getattr(s, field.name), column, equal_nan=True)

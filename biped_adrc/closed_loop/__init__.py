@@ -1,0 +1,1 @@
+"""The closed loop of plant, controller, disturbance and hardware, written once for every kind of plant."""

@@ -1,0 +1,156 @@
+"""Tracking with an observer that is the controller's whole state: what ADRC, its output form and DOB share.
+
+    u = torque(r, x^, m),   z' = flow(z, y, input)          in continuous time
+    z <- correct(z, y),     z <- predict(z, input)          at a tick
+
+r is the point of the reference, x^ what the observer says. A controller of this kind says what its observer
+looks at, y and what it starts from, what its input is, and the torque; observer and reference may be any.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import replace
+from functools import lru_cache
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+
+from biped_adrc.control.base import Controller, ControllerLaws, Measurement
+from biped_adrc.control.tracking import Gains, TrackingParameters
+from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
+from biped_adrc.observers.base import (
+    Estimate,
+    Observer,
+    ObserverLaws,
+    ResetPolicy,
+    observer_laws,
+    rows,
+)
+from biped_adrc.types import Array
+
+
+class ObservingParameters(NamedTuple):
+    """Of the reference's law, the gains with the choice of loop, of the observer, and `ResetPolicy.code`."""
+
+    h: Any
+    tracking: TrackingParameters
+    observer: Any
+    policy: int
+
+
+class Sight(NamedTuple):
+    """What a controller makes of its observer; r is None where `of_reference` is False."""
+
+    seen: Callable[[ReferencePoint, Measurement], Estimate]
+    """seen(r, m) -> y and y', and the disturbance that the nominal model expects."""
+    fed: Callable[[ReferencePoint, Measurement, Array], Array]
+    """fed(r, m, u) -> the observer's input under the torque u (p,)."""
+    torque: Callable[[TrackingParameters, ReferencePoint, Estimate, Measurement], Array]
+    """torque(k, r, x, m) -> u (p,) [N m] for the estimates x."""
+    told: Callable[[ReferencePoint, Estimate, Measurement], Estimate]
+    """told(r, x, m) -> the estimates in words of the joints."""
+    of_reference: bool
+    """Whether the observer looks at the error of the reference."""
+
+
+@lru_cache(maxsize=128)
+def observing_laws(
+    sight: Sight, point: Callable[..., ReferencePoint], o: ObserverLaws
+) -> ControllerLaws:
+    """The laws around the laws o of any observer and the law of any reference, all without parameters."""
+    seen, torque, told, of_reference = sight.seen, sight.torque, sight.told, sight.of_reference
+
+    def at(k: ObservingParameters, m: Measurement) -> Any:
+        return point(k.h, m.t, m.q, m.v) if of_reference else None
+
+    def output(k: ObservingParameters, s: Array, m: Measurement) -> Array:
+        x = o.estimate(k.observer, rows(k.observer, s))
+        return torque(k.tracking, point(k.h, m.t, m.q, m.v), x, m)
+
+    def initial_state(k: ObservingParameters, m: Measurement) -> Array:
+        return o.state(k.observer, seen(at(k, m), m)).ravel()
+
+    def jump(k: ObservingParameters, s: Array, after: Measurement, swap: Array) -> Array:
+        x = seen(at(k, after), after)
+        every = np.concatenate((swap, np.arange(len(swap), len(x.position))))
+        return o.reset(k.observer, k.policy, rows(k.observer, s), every, x).ravel()
+
+    def estimate(k: ObservingParameters, s: Array, m: Measurement) -> Estimate:
+        return told(at(k, m), o.estimate(k.observer, rows(k.observer, s)), m)
+
+    laws = ControllerLaws(None, output, initial_state, jump=jump, estimate=estimate)
+    if o.flow is not None:
+        laws = laws._replace(flow=_flow(sight, at, o.flow))
+    if o.correct is not None and o.predict is not None:
+        laws = laws._replace(
+            correct=_correct(sight, at, o.correct), predict=_predict(sight, at, o.predict)
+        )
+    return laws
+
+
+Law = Callable[..., Any]
+
+
+def _flow(sight: Sight, at: Law, law: Law) -> Law:
+    seen, fed = sight.seen, sight.fed
+
+    def flow(k: ObservingParameters, s: Array, m: Measurement, u: Array) -> Array:
+        r = at(k, m)
+        Z: Array = law(k.observer, rows(k.observer, s), seen(r, m).position, fed(r, m, u))
+        return Z.ravel()
+
+    return flow
+
+
+def _correct(sight: Sight, at: Law, law: Law) -> Law:
+    seen = sight.seen
+
+    def correct(k: ObservingParameters, s: Array, m: Measurement) -> Array:
+        Z: Array = law(k.observer, rows(k.observer, s), seen(at(k, m), m).position)
+        return Z.ravel()
+
+    return correct
+
+
+def _predict(sight: Sight, at: Law, law: Law) -> Law:
+    fed = sight.fed
+
+    def predict(k: ObservingParameters, s: Array, m: Measurement, u: Array) -> Array:
+        Z: Array = law(k.observer, rows(k.observer, s), fed(at(k, m), m, u))
+        return Z.ravel()
+
+    return predict
+
+
+class ObservingController(Controller):
+    """Base of the controllers whose state is an observer's; `sight` says what they make of it."""
+
+    reference: Reference
+    observer: Observer
+    gains: Gains
+    reset: ResetPolicy
+
+    @property
+    @abstractmethod
+    def sight(self) -> Sight:
+        """What is seen, fed, and made of the estimates."""
+
+    @property
+    def loop(self) -> bool:
+        """Whether the loop through Theta'' is solved."""
+        return True
+
+    @property
+    def laws(self) -> ControllerLaws:
+        r, o = reference_laws(self.reference), observer_laws(self.observer)
+        k = ObservingParameters(
+            r.parameters, self.gains.parameters(self.loop), o.parameters, self.reset.code
+        )
+        laws = observing_laws(self.sight, r.point, o.functions)
+        return laws._replace(parameters=k, obstacle=r.obstacle or o.obstacle)
+
+    def sampled(self, period: float) -> Self:
+        sampled: Self = replace(self, observer=self.observer.sampled(period))  # type: ignore[type-var]
+        return sampled

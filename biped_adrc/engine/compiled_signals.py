@@ -1,0 +1,108 @@
+"""`closed_loop.readings` in compiled code, at every node of a run.
+
+observe (t, step, t_start, x, zeta) -> the parts of a `Reading`, in its order
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import prod
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from biped_adrc.closed_loop.readings import Reading, reading, shapes
+from biped_adrc.control.base import Measurement
+from biped_adrc.engine.compiled_biped import pointer_call
+from biped_adrc.engine.equations import Equations, Function, Make, Numbers, count
+from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
+from biped_adrc.engine.ir import module_text
+from biped_adrc.engine.kernels.layout import OUTSIDE
+from biped_adrc.engine.machine import Machine, Text, machine
+from biped_adrc.engine.program import NotCompiled, Program
+from biped_adrc.engine.symbols import Untraceable, Vector, floats, run
+from biped_adrc.errors import ModelError
+from biped_adrc.gait.reference import Reference, ReferenceLaws, reference_laws
+from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.types import Array
+from biped_adrc.walker import Walker
+
+
+class Watched(NamedTuple):
+    """The walker's numbers, and those of the reference that is looked at."""
+
+    walker: Numbers
+    h: Any
+
+
+@dataclass(frozen=True)
+class Observation:
+    """`observe` for one make of walker and reference, whose parameters are symbols."""
+
+    equations: Equations
+    h: ReferenceLaws
+
+    @classmethod
+    def of(cls, make: Make, example: Watched, h: ReferenceLaws) -> Observation:
+        """With symbols for the floats of an example."""
+        K = Vector("K", count(example))
+        watched = K.like(example)
+        return cls(Equations(make, K.symbol, watched.walker), h._replace(parameters=watched.h))
+
+    def observe(self) -> Function:
+        """The function."""
+        at, h = self.equations.at(), self.h
+
+        def tracked(s: Any, m: Measurement) -> Any:
+            return run(at.loop.trace, h.point, h.parameters, m.t, m.q, m.v)
+
+        parts = at.does(reading, tracked)
+        return self.equations.made(at.inp, at.loop.trace, *parts)
+
+
+def compiled_readings(
+    walker: Walker, trajectory: Trajectory, reference: Reference
+) -> Reading | None:
+    """At all nodes of a run; None where a part has no compiled form."""
+    h = reference_laws(reference)
+    if h.obstacle:
+        return None
+    nx = trajectory.arcs[0].x.shape[1]
+    try:
+        program = Program.of(walker, walker.controller_size(nx))
+        watched = Watched(program.numbers, h.parameters)
+        code = _code(program.make, watched, h)
+    except (NotCompiled, Untraceable, ModelError):
+        return None
+    K = np.array([*floats(watched), 0.0])
+    sizes = shapes(walker.plant.n, walker.plant.p)
+    ends = np.cumsum([prod(shape) for shape in sizes])
+    inp = np.vstack([_inputs(walker, arc) for arc in trajectory.arcs])
+    out = np.empty((len(inp), ends[-1]))
+    pointer_call(code, "observe", K, inp, out)
+    parts = zip(np.split(out, ends[:-1], axis=1), sizes, strict=True)
+    return Reading(*(part.reshape(len(inp), *shape) for part, shape in parts))
+
+
+def _inputs(walker: Walker, arc: Arc) -> Array:
+    """Rows of what `observe` is given at the nodes of an arc."""
+    n, mode, ones = walker.plant.n, arc.mode, np.ones((len(arc.t), 1))
+    rows = zip(arc.seen, arc.x, strict=True)
+    zeta = [walker.external(float(t), x[:n], x[n : 2 * n], mode) for t, x in rows]
+    head = (arc.seen[:, np.newaxis], mode.step * ones, mode.start * ones)
+    return np.hstack((*head, arc.x, np.array(zeta), np.zeros((len(arc.t), OUTSIDE))))
+
+
+_CODES: dict[str, Machine] = {}
+
+
+def _code(make: Make, watched: Watched, h: ReferenceLaws) -> Machine:
+    laws = "\n".join(law_text(law) for law in (*make.laws[1:], h.point))
+    key = hash_of(
+        *("observe", skeleton(make.robot), laws, make.size, make.held),
+        *(skeleton(watched), versions_text()),
+    )
+    if key not in _CODES:
+        observe = Observation.of(make, watched, h).observe
+        _CODES[key] = machine(key, ["observe"], lambda: Text(module_text({"observe": observe()})))
+    return _CODES[key]
