@@ -156,6 +156,10 @@ def controller(
     """
     maker = Maker(s, gait, biped)
     made = maker.made(s.controller)
+    if type(made).output is Controller.output and made.laws is None:
+        raise InputError(
+            f"controller '{s.controller}' has neither a method output(s, m) nor laws; write one of them"
+        )
     known = maker.known - {"reference", "gait", "biped", "outputs", "gains", "m"}
     for name in s.own:
         if name not in maker.used and name not in (others or ()):

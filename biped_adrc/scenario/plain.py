@@ -159,6 +159,6 @@ def _class(home: str) -> Any:
     """Of the package. Raises InputError."""
     module, _, name = home.partition(":")
     found = getattr(import_module(module), name, None) if is_ours(home) else None
-    if not isinstance(found, type):
+    if not isinstance(found, type) or found.__module__ != module:
         raise InputError(f"there is no class '{home}' in this version of the package")
     return found
