@@ -36,6 +36,10 @@ AsPrinted = Annotated[
 Out = Annotated[
     Path | None, typer.Option("--out", "-o", help="Write the run (.npz), or its signals (.mat).")
 ]
+WHY = {
+    "compiled": "generated from Pinocchio's model and checked against it",
+    "pinocchio": "as asked for",
+}
 COMMON = ("controller", "gait", "robot", "preset", "impacts", "seed", "hardware", "period")
 LAW = ("torque_limit", "K_p", "K_d", "observer", "poles", "bandwidth", "order", "reset")
 NUMERICS = ("friction", "slope", "method", "engine", "friction_limit", "force_window")
@@ -92,8 +96,10 @@ def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> N
         _print_passive(full, limits)
     else:
         _print_steps(replace(full.outcome, half=half.outcome), full.legal_within(limits))
-    if "why" in full.trajectory.settings:
-        console.print(full.trajectory.settings["why"])
+    settings = full.trajectory.settings
+    console.print(
+        f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}"
+    )
     for remark in full.remarks:
         console.print(f"note: {remark}", markup=False, highlight=False, soft_wrap=True)
     say_written(out)
@@ -125,7 +131,7 @@ def _print_steps(o: Outcome, legality: Legality) -> None:
         f"F_N and friction: least and largest mean over {1e3 * legality.limits.window:g} ms; "
         f"{_instants(legality)}\n"
         f"{o.status}: {o.message}\n{o.impacts} impacts, largest tracking error {error_text(o)}, "
-        f"peak torque {o.peak_torque:.1f} N m, {o.method}, engine {o.engine}\n{legality.text()}"
+        f"peak torque {o.peak_torque:.1f} N m, {o.method}\n{legality.text()}"
     )
     stays = [c.step for c in o.certificates if not c.old_foot_velocity > 0.0]
     if stays:

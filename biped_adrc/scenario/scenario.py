@@ -187,7 +187,9 @@ class Scenario:
         le=0.1,
     )
     tolerance: float = value(1e-9, "Of adaptive and stiff.", gt=0, le=1)
-    engine: str = value("pinocchio", "pinocchio, or compiled: the same walk, much faster.")
+    engine: str = value(
+        "compiled", "compiled where it can run, or pinocchio, which it is checked against."
+    )
     max_step_time: float = value(2.0, "A longer single support ends as stalled.", "s", gt=0, le=100)
 
     @field_validator("pushes", mode="before")

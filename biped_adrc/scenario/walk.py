@@ -9,7 +9,7 @@ from functools import partial
 from itertools import groupby
 from typing import NamedTuple
 
-from biped_adrc.engine.choice import COMPILED, PINOCCHIO, simulate_by
+from biped_adrc.engine.choice import COMPILED, simulate_by
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.exponential import Exponential
@@ -80,15 +80,16 @@ def walk(
     start: tuple[Array, Array] | None = None,
     first_step: int = 1,
     progress: Progress | None = None,
-    engine: str = PINOCCHIO,
+    engine: str = COMPILED,
     legal: Limits | None = None,
 ) -> Walk:
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
 
-    method: by default `default_parts`. engine: "pinocchio" or "compiled"; the trajectory's settings say what
-    ran. Under ADRC and a push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an
-    edge (ten times too large under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every
-    step of the method is kept, so that peaks and certificates miss none. A fall is a status of the trajectory.
+    method: by default `default_parts`. engine: "compiled", whose place Pinocchio takes where it cannot run, or
+    "pinocchio"; the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under
+    ADRC and a push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten
+    times too large under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every step of the
+    method is kept, so that peaks and certificates miss none. A fall is a status of the trajectory.
     legal: the walk ends, with the status ILLEGAL, where it would leave these limits; without, they are looked
     up in `Walk.legality` alone. Raises InputError for parts that do not fit together.
     """
@@ -113,7 +114,7 @@ def walk_in_parts(
     start: tuple[Array, Array] | None = None,
     first_step: int = 1,
     progress: Progress | None = None,
-    engine: str = PINOCCHIO,
+    engine: str = COMPILED,
 ) -> Walk:
     """As `walk`, by several methods one after the other; each begins after the last impact of the one before.
 

@@ -6,6 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from biped_adrc.engine.batch import Case
+from biped_adrc.engine.choice import COMPILED
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.build import Scene, build, start
 from biped_adrc.scenario.run import method_of
@@ -44,6 +45,10 @@ def case(s: Scenario) -> Case:
         raise InputError(
             f"the scenario {what}; a study counts what it reports at ticks, with one step: expected a period "
             "[s], such as 1 ms, and no fine step"
+        )
+    if s.engine != COMPILED:
+        raise InputError(
+            f"a study walks on the engine '{COMPILED}'; leave out engine = '{s.engine}'"
         )
     scene = scene_of(s)
     q, v = start(s, scene)
