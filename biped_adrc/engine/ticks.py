@@ -42,8 +42,10 @@ from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """The guards that end a run, by status."""
-BLOCK = 64
+BLOCK = 256
 """Ticks of which the measurements lie in one array."""
+ROOM = 1024
+"""Nodes of an arc to make room for at first."""
 NONE = np.zeros(0)
 
 
@@ -100,7 +102,7 @@ class Moving:
         self.s = self.plan.start(x, t, mode.step, mode.start, end)
         self.s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
         self.rows = np.empty((0, 1 + 2 * self.plan.nx))
-        self.grow(64)
+        self.grow(ROOM)
 
     def grow(self, rows: int) -> None:
         """Room for so many nodes; those that there are stay."""
@@ -184,6 +186,7 @@ class Between:
 
 
 # -- without hardware ------------------------------------------------------------------------------
+_TERMS, _POINT = partial(tuple.__new__, Reduction), partial(tuple.__new__, ReferencePoint)
 _HOLD = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)
 
 
@@ -308,10 +311,8 @@ class Seen:
             block[0], self.next = last[0], block.ctypes.data
             block.flags.writeable = False
             _, q, v, *rest = parts_of(block[:-1], self.shapes)
-            terms = map(Reduction._make, zip(*rest[:7], strict=True))
-            points = (
-                map(ReferencePoint._make, zip(*rest[7:], strict=True)) if rest[7:] else repeat(None)
-            )
+            terms = map(_TERMS, zip(*rest[:7], strict=True))
+            points = map(_POINT, zip(*rest[7:], strict=True)) if rest[7:] else repeat(None)
             yield from zip(q, v, terms, points, strict=False)
             last = block[-1:]
 

@@ -14,7 +14,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.base import Controller
 from biped_adrc.engine.compiled_biped import Call, CompiledBiped, parts_of
 from biped_adrc.engine.equations import Function, count
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
@@ -66,7 +65,7 @@ def compiled_references(part: Any, n: int, points: list[Point]) -> Any:
     """A controller, or a part of one, with the references in its fields compiled; `points` gets their laws."""
     if isinstance(part, Reference):
         return _compiled(part, n, points)
-    if not (is_dataclass(part) and isinstance(part, Controller)):
+    if not is_dataclass(part) or isinstance(part, type | Biped):
         return part
     given = {f.name: getattr(part, f.name) for f in fields(part) if f.init}
     made = {name: compiled_references(value, n, points) for name, value in given.items()}
