@@ -6,9 +6,7 @@ on x*), "reproduced" (what could have failed).
 
 from __future__ import annotations
 
-import math
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 KINDS = ("law", "consistency", "reproduced")
 
@@ -25,13 +23,6 @@ class Check:
 
     def __str__(self) -> str:
         return f"{self.name}: {self.value:.1e} {'' if self.holds else 'is not '}{self.limit}"
-
-    def record(self) -> dict[str, Any]:
-        """As plain values; a value that is not finite becomes a text."""
-        values = asdict(self)
-        if not math.isfinite(self.value):
-            values["value"] = str(self.value)
-        return values
 
 
 def at_most(name: str, kind: str, value: float, limit: float) -> Check:

@@ -329,7 +329,7 @@ def stubbed(monkeypatch):
             "run_tasks": lambda *_: [Timed(value, 0.0) for value in values.values()],
             "_checks": lambda *_: checks,
             "claims": lambda *_: claims,
-            "gathered": lambda *_: SimpleNamespace(record=dict),
+            "gathered": lambda *_: {},
             "findings": lambda *_: [],
             "tables": lambda *_: {},
             "save": lambda *_: None,
