@@ -13,6 +13,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 from xml.sax.saxutils import quoteattr
 
 from biped_adrc.errors import ModelError
@@ -34,6 +35,12 @@ class Inertial:
     mass: float
     com: Vector
     inertia: tuple[float, float, float, float, float, float]
+
+    def scaled(self, kind: str, factor: float) -> Inertial:
+        """With "mass", "com" or "inertia" multiplied."""
+        old: Any = getattr(self, kind)
+        new: Any = factor * old if kind == "mass" else tuple(factor * x for x in old)
+        return replace(self, **{kind: new})
 
 
 @dataclass(frozen=True)
