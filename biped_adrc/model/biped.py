@@ -18,10 +18,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.errors import ModelError
 from biped_adrc.model.contact import FloatingDynamics, Impact
 from biped_adrc.model.physical import check_numbers, check_planar
-from biped_adrc.model.pinned import PinnedDynamics
+from biped_adrc.model.pinned import PinnedDynamics, finite_angles
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
 from biped_adrc.model.relabelling import absolute_angles, relabelling
 from biped_adrc.model.reroot import reroot
@@ -334,13 +334,4 @@ class Biped:
         raise ModelError(f"robot '{self.description.name}' has no body '{body}'; it has {known}")
 
     def _angles(self, q: Array) -> Array:
-        """q itself, once it is known to be n finite numbers."""
-        if q.shape != self._shape:
-            raise InputError(f"expected an array of shape {self._shape}, found {q.shape}")
-        if not math.isfinite(q.dot(q)):
-            raise NotFiniteError(f"expected finite angles or rates, found {q}")
-        return q
-
-    @cached_property
-    def _shape(self) -> tuple[int]:
-        return (self.n,)
+        return finite_angles(q, (self.n,))
