@@ -12,8 +12,8 @@ import biped_adrc as ba
 from biped_adrc.control.base import ControllerLaws
 from biped_adrc.disturbances.base import DisturbanceLaw, Windowed
 from biped_adrc.gait.constraint import ConstraintParameters, virtual_constraint
-from biped_adrc.observers.base import Estimate, ObserverLaws
-from biped_adrc.observers.chain import ChainObserver, chain_estimate, chain_reset, chain_state, rows
+from biped_adrc.observers.base import Estimate, ObserverLaws, rows
+from biped_adrc.observers.chain import ChainObserver, chain_estimate, chain_reset, chain_state
 
 
 # -- controllers -----------------------------------------------------------------------------------
