@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,11 +15,13 @@ sys.path[:0] = [str(BENCHMARKS), str(BENCHMARKS / "peers")]
 
 import biped_adrc as ba  # noqa: E402
 from biped_adrc.engine.batch import Case, Walked, run_case  # noqa: E402
-from biped_adrc.engine.simulate import simulate  # noqa: E402
+from biped_adrc.engine.choice import simulate_by  # noqa: E402
 from biped_adrc.hybrid.integrators import OneStepMethod  # noqa: E402
 from biped_adrc.scenario.build import Scene, build  # noqa: E402
 from biped_adrc.scenario.scenario import Scenario  # noqa: E402
 from biped_adrc.studies.plan import PAPER_PUSH  # noqa: E402
+
+simulate = partial(simulate_by, "compiled")
 
 IMPACTS = 25
 TICK = 1e-3  # [s], of sampled control

@@ -12,7 +12,7 @@ from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console
 from biped_adrc.cli.options import Pushes, Sets, of_scenario, values_of
-from biped_adrc.cli.output import inputs, run_path, say_written, write_run
+from biped_adrc.cli.output import inputs, run_path, say_written
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
@@ -91,15 +91,15 @@ def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> N
     if end_illegal:
         full, half = full.until_illegal(limits), half and half.until_illegal(limits)
     if out is not None:
-        write_run(full, out, {})  # first, as printing may fail
+        (full.export if out.suffix.lower() == ".mat" else full.save)(
+            out
+        )  # first, as printing may fail
     if half is None:
         _print_passive(full, limits)
     else:
         _print_steps(replace(full.outcome, half=half.outcome), full.legal_within(limits))
     settings = full.trajectory.settings
-    console.print(
-        f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}"
-    )
+    console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
     for remark in full.remarks:
         console.print(f"note: {remark}", markup=False, highlight=False, soft_wrap=True)
     say_written(out)

@@ -208,17 +208,23 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     w = sense(k.sensors, h.w, q, v) if k.sizes.sensors > 0 else h.w
     seen = (w[:n], w[n : 2 * n]) if k.sizes.sensors > 0 else (q, v)
     m = loop.measure(t, *seen, mode)
-    s = loop.law.correct(s, m)
-    u = loop.saturate(loop.law.output(s, m))
-    if k.sizes.rate > 0:
-        u = limited(k.motors, h.line, u)
-    line = sent(k.motors, h.line, u)
-    s = loop.law.predict(s, m, acting(k.motors, line) if k.sizes.known > 0 else u)
-    g = h.g
+    (s, line), g = decided(loop, k, s, m, h.line), h.g
     if k.sizes.meter > 0:
         terms = loop.nominal.reduction(q, v) if k.sizes.sensors > 0 else m.terms
         g = measured_by_meter(loop, t, g, q, v, line, terms, mode)
-    return np.concatenate((q, v, s, written(Held(w, g, line))))
+    return np.concatenate((q, v, s, written(Held(w, g, line, h.own))))
+
+
+def decided(
+    loop: Loop, k: HeldParameters, s: Array, m: Measurement, line: Line
+) -> tuple[Array, Line]:
+    """The controller's state and the line of torques after it has acted on a measurement."""
+    s = loop.law.correct(s, m)
+    u = loop.saturate(loop.law.output(s, m))
+    if k.sizes.rate > 0:
+        u = limited(k.motors, line, u)
+    line = sent(k.motors, line, u)
+    return loop.law.predict(s, m, acting(k.motors, line) if k.sizes.known > 0 else u), line
 
 
 def measured_by_meter(
@@ -249,22 +255,33 @@ def unknown(loop: Loop, terms: Reduction, a: Array, u: Array, zeta: Array) -> Ar
 
 def struck(loop: Loop, t: float, x: Array, after: Mode) -> Array:
     """x+ after impact, relabelling and the controller's jump; `after` is the single support that begins."""
-    (q, v, s, tail), k = parts(loop, x), loop.held
+    q, v = parts(loop, x)[:2]
     impact = loop.plant.impact(q, v)
     v_plus = impact.v * (1.0 + loop.gain) if len(loop.gain) > 0 else impact.v
-    seen = impact.q, v_plus
+    return landed(loop, t, x, impact.q, v_plus, impact.impulse, after)
+
+
+def landed(
+    loop: Loop, t: float, x: Array, q_plus: Array, v_plus: Array, impulse: Array, after: Mode
+) -> Array:
+    """x+ after an impact at x that left the plant in (q+, q'+): what is held, and the controller's jump.
+
+    impulse: of the ground (2,) [N s], for the meter.
+    """
+    (q, v, s, tail), k = parts(loop, x), loop.held
+    seen = q_plus, v_plus
     if k is not None:
         h, n, expected, hit = read(k.sizes, tail), k.sizes.n, v_plus, None
         if k.sizes.sensors > 0:
             expected = loop.nominal.impact(h.w[:n], h.w[n : 2 * n]).v
         if k.sizes.meter > 0:
-            hit = Hit(t, after.step - 1.0, loop.plant.momentum(q, v), impact.impulse)
-        h = after_impact(k, h, loop.swap, q, impact.q, v_plus, expected, hit)
+            hit = Hit(t, after.step - 1.0, loop.plant.momentum(q, v), impulse)
+        h = after_impact(k, h, loop.swap, q, q_plus, v_plus, expected, hit)
         if k.sizes.sensors > 0:
             seen = h.w[:n], h.w[n : 2 * n]
         tail = written(h)
     s = loop.law.jump(s, loop.measure(t, *seen, after), loop.swap)
-    return np.concatenate((impact.q, v_plus, s, tail))
+    return np.concatenate((q_plus, v_plus, s, tail))
 
 
 def clearance(tan_slope: float, foot: Array) -> Any:

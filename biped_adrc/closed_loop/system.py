@@ -71,7 +71,13 @@ class ClosedLoop(HybridSystem, Generic[P]):
         time, n, p = self.timing, self.plant.n, self.plant.p
         if not isinstance(time, SampledTime):
             return None
-        return held.held_parameters(n, p, time, self.sensors, self.motors, self.metering(time))
+        given = (self.sensors, self.motors, self.metering(time), self.own)
+        return held.held_parameters(n, p, time, *given)
+
+    @property
+    def own(self) -> int:
+        """How many numbers a plant that moves by itself keeps."""
+        return 0
 
     def metering(self, timing: SampledTime) -> MeterParameters | None:
         """Of the meter; None without one."""

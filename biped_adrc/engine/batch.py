@@ -20,12 +20,12 @@ from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.plan import Plan
 from biped_adrc.engine.kernels.tables import STATUS
-from biped_adrc.engine.partly import partly
 from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.simulate import COMPILED_PLANT, on_compiled_plant
 from biped_adrc.errors import BipedError, InputError, ModelError, NotFiniteError, SingularError
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.hybrid.simulator import check_start
+from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
@@ -51,6 +51,12 @@ class Case:
     def t_end(self) -> float:
         """When it ends at the latest [s]."""
         return self.mode.start + self.impacts * self.walker.max_step_time
+
+    @property
+    def options(self) -> RunOptions:
+        """Of its run in Python: the ends of the arcs are kept."""
+        strikes = FOOT_STRIKE, self.impacts
+        return RunOptions(self.t_end, self.mode.start, strikes, store_every=STORE)
 
 
 @dataclass(frozen=True)
@@ -145,7 +151,7 @@ def _prepared(case: Case) -> Callable[[], Walked]:
     x = case.walker.initial_state(case.q, case.v, case.mode)
     if case.impacts < 1:
         raise InputError(f"the case asks for {case.impacts} impacts, expected at least 1")
-    check_start(x, case.mode.start, case.t_end, (FOOT_STRIKE, case.impacts), 1)
+    case.options.check(x)
     size = case.walker.controller_size(x)
     try:
         compiled = CompiledWalker.of(case.walker, case.method, size, case.mode.start)
@@ -172,40 +178,17 @@ def _compiled(compiled: CompiledWalker, case: Case, x: Array) -> Walked:
 
 def _in_python(case: Case, x: Array, reason: BipedError) -> Walked:
     """On the compiled plant, or on Pinocchio's where there is none."""
-    stop = (FOOT_STRIKE, case.impacts)
-    if isinstance(reason, NotCompiled):
-        run = partly(
-            case.walker,
-            x,
-            case.mode,
-            case.method,
-            str(reason),
-            t_end=case.t_end,
-            t0=case.mode.start,
-            impacts=case.impacts,
-            store_every=STORE,
-            progress=None,
-        )
-    else:
-        run = simulator.simulate(
-            case.walker,
-            x,
-            case.mode,
-            case.method,
-            t_end=case.t_end,
-            t0=case.mode.start,
-            stop_after=stop,
-            store_every=STORE,
-        )
-    events = run.events(FOOT_STRIKE)
+    run = on_compiled_plant if isinstance(reason, NotCompiled) else simulator.run
+    made = run(case.walker, x, case.mode, case.method, case.options)
+    events = made.events(FOOT_STRIKE)
     return Walked(
-        run.status,
-        run.detail,
+        made.status,
+        made.detail,
         np.array([event.t for event in events]),
-        run.before(FOOT_STRIKE).reshape(-1, len(x)),
-        run.final_state,
-        run.t_end,
-        str(run.settings.get("engine", PINOCCHIO)),
+        made.before(FOOT_STRIKE).reshape(-1, len(x)),
+        made.final_state,
+        made.t_end,
+        COMPILED_PLANT if isinstance(reason, NotCompiled) else PINOCCHIO,
         case.mode.start,
     )
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.hybrid.simulator import Progress
+from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
@@ -29,42 +30,24 @@ def simulate_by(
     mode: Mode,
     method: OneStepMethod,
     *,
-    t_end: float,
-    t0: float = 0.0,
     impacts: int | None = None,
-    progress: Progress | None = None,
+    **options: Any,
 ) -> Trajectory:
-    """`hybrid.simulate` with Pinocchio's dynamics, or the compiled run.
+    """`hybrid.simulate` with Pinocchio's dynamics, or the compiled run; options as of `RunOptions`.
 
-    A robot that is no planar tree is simulated with Pinocchio whatever was asked for. settings["engine"] says
-    what ran, settings["why"] why it is not what was asked for. Raises InputError.
+    impacts: end after that many foot strikes. A robot that is no planar tree is simulated with Pinocchio
+    whatever was asked for. settings["engine"] says what ran, settings["why"] why it is not what was asked for.
+    Raises InputError.
     """
     check_engine(engine)
-    why = {}
+    stop_after = None if impacts is None else (FOOT_STRIKE, impacts)
+    given, why = RunOptions(stop_after=stop_after, **options), {}
     if engine == COMPILED:
-        from biped_adrc.engine.simulate import simulate
+        from biped_adrc.engine.simulate import run_compiled
 
         try:
-            return simulate(
-                walker,
-                x0,
-                mode,
-                method,
-                t_end=t_end,
-                t0=t0,
-                impacts=impacts,
-                progress=progress,
-            )
+            return run_compiled(walker, x0, mode, method, given)
         except ModelError as error:
             why = {"why": f"{error}; Pinocchio was used instead"}
-    run = simulator.simulate(
-        walker,
-        x0,
-        mode,
-        method,
-        t_end=t_end,
-        t0=t0,
-        stop_after=None if impacts is None else (FOOT_STRIKE, impacts),
-        progress=progress,
-    )
+    run = simulator.run(walker, x0, mode, method, given)
     return replace(run, settings={**run.settings, "engine": PINOCCHIO, **why})

@@ -6,6 +6,8 @@ Kinematics, contact and everything that is not asked for at every instant stay P
 from __future__ import annotations
 
 import ctypes
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
@@ -38,7 +40,16 @@ def pointer_call(machine: Machine, name: str, K: Array, inp: Array, out: Array) 
         given, result = given + inp.strides[0], result + out.strides[0]
 
 
-class _Call:
+def parts_of(rows: Array, shapes: Any) -> Iterator[Array]:
+    """Arrays of these shapes that lie one after the other in `rows` (size,) or (N, size)."""
+    at = 0
+    for shape in shapes:
+        part = rows[..., at : at + math.prod(shape)]
+        yield part.reshape(*rows.shape[:-1], *shape)
+        at += math.prod(shape)
+
+
+class Call:
     """One function with its own input and output arrays."""
 
     def __init__(self, machine: Machine, name: str, K: Array, inputs: int, outputs: int):
@@ -101,7 +112,7 @@ class CompiledBiped(Biped):
         return self
 
     @cached_property
-    def _calls(self) -> dict[str, _Call]:
+    def _calls(self) -> dict[str, Call]:
         robot = self.robot
         assert robot is not None
         key = hash_of("plant", skeleton(robot.structure), skeleton(robot.arrays), versions_text())
@@ -111,41 +122,28 @@ class CompiledBiped(Biped):
         )
         K, n = np.array([*floats(robot.arrays), 0.0]), self.n
         sizes = {
-            "terms": (2 * n, self._parts[0] * n),
+            "terms": (2 * n, self.size),
             "body": (2 * n, 4 * n + 2),
             "accelerate": (3 * n, n),
             "ground": (3 * n, 2),
         }
-        return {name: _Call(code, name, K, *size) for name, size in sizes.items()}
+        return {name: Call(code, name, K, *size) for name, size in sizes.items()}
 
     @cached_property
-    def _parts(self) -> tuple[Any, ...]:
-        """Where the parts of a `Reduction` are among the rows of n numbers that `terms` gives."""
+    def shapes(self) -> Reduction:
+        """Of the parts of a `Reduction`, which `terms` gives one after the other."""
         n, p = self.n, self.p
-        shapes = [(n, n), (n,), (p, p), (p,), (p, p), (n - p, p), (n - p,)]
-        if p == 0:
-            shapes = [(n, n), (n,), (0, 0), (0,), (0, 0), (n, 0), (n,)]
-        parts: list[Any] = []
-        row = 0
-        for shape in shapes:
-            if len(shape) == 1:
-                parts.append((row, slice(0, shape[0])))
-                row += 1
-            else:
-                parts.append((slice(row, row + shape[0]), slice(0, shape[1])))
-                row += max(shape[0], 1 if shape == (0, 0) else 0)
-        return (row, *parts)
+        return Reduction(*((n, n), (n,), (p, p), (p,), (p, p), (n - p, p), (n - p,)))  # type: ignore[arg-type]
+
+    @property
+    def size(self) -> int:
+        """Numbers in a `Reduction`."""
+        return sum(map(math.prod, self.shapes))
 
     def reduction(self, q: Array, v: Array) -> Reduction:
-        return self.reduction_at(self._angles(q), self._angles(v))
-
-    def reduction_at(self, q: Array, v: Array) -> Reduction:
-        """`reduction` of angles and rates that are known to be n finite numbers."""
         call, n = self._calls["terms"], self.n
-        call.inp[:n], call.inp[n:] = q, v
-        out = call().reshape(-1, n)
-        _, D, Omega, kappa, xi, inverse, A_N, a_N = self._parts
-        return Reduction(out[D], out[Omega], out[kappa], out[xi], out[inverse], out[A_N], out[a_N])
+        call.inp[:n], call.inp[n:] = self._angles(q), self._angles(v)
+        return Reduction(*parts_of(call(), self.shapes))
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
         call, n = self._calls["body"], self.n

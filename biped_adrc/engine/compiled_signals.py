@@ -57,7 +57,7 @@ class Observation:
             return run(at.loop.trace, h.point, h.parameters, m.t, m.q, m.v)
 
         parts = at.does(reading, tracked)
-        return self.equations.made(at.inp, at.loop.trace, *parts)
+        return self.equations.made(at.inp, *parts)
 
 
 def compiled_readings(

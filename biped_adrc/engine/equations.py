@@ -234,7 +234,7 @@ class Equations:
         zeta, outside = inp.take(n), inp.take(OUTSIDE)
         return At(inp, SymbolicLoop(self.make, self.numbers, Tracer(), zeta, outside), t, x, mode)
 
-    def made(self, inp: Vector, trace: Tracer, *parts: Any) -> Function:
+    def made(self, inp: Vector, *parts: Any) -> Function:
         """The function of these inputs."""
         return Function(self.K, inp.symbol, column(*parts))
 
@@ -242,7 +242,7 @@ class Equations:
         """x' between events."""
         at = self.at()
         trace = at.loop.trace
-        return self.made(at.inp, trace, at.does(semantics.flow), trace.solver.least)
+        return self.made(at.inp, at.does(semantics.flow), trace.solver.least)
 
     def tick(self) -> Function:
         """x after the controller has acted, and q'' there."""
@@ -250,7 +250,7 @@ class Equations:
         trace, n = at.loop.trace, self.make.robot.n
         x = at.does(semantics.tick)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
-        return self.made(at.inp, trace, x, trace.solver.least, a)
+        return self.made(at.inp, x, trace.solver.least, a)
 
     def strike(self) -> Function:
         """x after impact, relabelling and the controller's jump; `step` is the one that begins."""
@@ -258,7 +258,7 @@ class Equations:
         t, step, x = inp.take(), inp.take(), inp.take(self.nx)
         loop = SymbolicLoop(self.make, self.numbers, trace)
         x = trace(semantics.struck)(loop, t, x, Mode(step, t))
-        return self.made(inp, trace, x, trace.solver.least)
+        return self.made(inp, x, trace.solver.least)
 
     def watch(self) -> Function:
         """What the guards look at."""
@@ -266,7 +266,7 @@ class Equations:
         q, plant = inp.take(self.make.robot.n), SymbolicLoop(self.make, self.numbers, trace).plant
         foot, hip = plant.swing_foot(q), plant.hip(q)
         clearance = semantics.clearance(self.numbers.tan_slope, foot)
-        return self.made(inp, trace, clearance, foot[0], hip[1])
+        return self.made(inp, clearance, foot[0], hip[1])
 
     def _split(self, trace: Tracer) -> SplitLaws:
         """The split's laws, for symbols."""
@@ -285,13 +285,13 @@ class Equations:
     def to(self) -> Function:
         """y = (w, E) of x."""
         inp, trace = Vector("inp", self.nx), Tracer()
-        return self.made(inp, trace, *self._split(trace).to(self.numbers.split, inp.take(self.nx)))
+        return self.made(inp, *self._split(trace).to(self.numbers.split, inp.take(self.nx)))
 
     def back(self) -> Function:
         """x of y = (w, E)."""
         inp, trace = Vector("inp", self.nx), Tracer()
         w, E = self._coordinates(inp.take(self.nx))
-        return self.made(inp, trace, self._split(trace).back(self.numbers.split, w, E))
+        return self.made(inp, self._split(trace).back(self.numbers.split, w, E))
 
     def remainder(self) -> Function:
         """N_w, and N_E in its forced rows, at y = (w, E) in place of x."""
@@ -300,4 +300,4 @@ class Equations:
         w, E = self._coordinates(at.x)
         laws = self._split(trace)
         N = trace(split.remainder)(at.loop, laws, at.t, w, E, at.mode)
-        return self.made(at.inp, trace, *N, trace.solver.least)
+        return self.made(at.inp, *N, trace.solver.least)

@@ -11,8 +11,6 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-import numpy as np
-
 from biped_adrc.engine.equations import Function, count
 from biped_adrc.engine.mechanics import PlanarRobot, Structure
 from biped_adrc.engine.symbols import Vector, column
@@ -33,17 +31,13 @@ class PlantEquations:
         return cls(PlanarRobot.of(structure, K.like(example)), K.symbol)
 
     def functions(self) -> dict[str, Callable[[], Function]]:
-        """By name; `terms` gives a `Reduction`, one part below the other in rows of n numbers."""
-        robot, n = self.robot, self.robot.n
-
-        def terms(q: Any, v: Any) -> Any:
-            return [_rows(part, n) for part in robot.reduction(q, v)]
-
+        """By name; `terms` and `body` give the parts of their tuples one after the other."""
+        robot = self.robot
         found: dict[str, tuple[Callable[..., Any], int]] = {
-            "terms": (terms, 2),
+            "terms": (robot.reduction, 2),
             "body": (robot.body_terms, 2),
-            "accelerate": (lambda *given: (robot.acceleration(*given),), 3),
-            "ground": (lambda *given: (robot.ground_reaction(*given),), 3),
+            "accelerate": (robot.acceleration, 3),
+            "ground": (robot.ground_reaction, 3),
         }
         return {name: partial(self._made, *how) for name, how in found.items()}
 
@@ -51,12 +45,5 @@ class PlantEquations:
         """The function of `count` vectors (n,)."""
         inp = Vector("inp", count * self.robot.n)
         given = (inp.take(self.robot.n) for _ in range(count))
-        return Function(self.K, inp.symbol, column(*law(*given)))
-
-
-def _rows(part: Any, n: int) -> Any:
-    """A vector or matrix in rows of n numbers, filled up with zeros."""
-    part = np.atleast_2d(part)
-    rows = np.full((len(part), n), 0.0, dtype=object)
-    rows[:, : part.shape[1]] = part
-    return rows
+        parts = law(*given)
+        return Function(self.K, inp.symbol, column(*parts))

@@ -1,60 +1,128 @@
 """Sampled control in plain Python on the compiled plant: the controller is called once per tick.
 
-Between ticks the plant is (q, q', u) with the torque held, or (q, q', u_m, u) where the motors lag; the rest
-of x, the controller's own state first, is kept here and goes back into the states of the trajectory.
+Between ticks the plant is (q, q', u) with the torque held, or (q, q', u_m, u) where the motors lag; it moves by
+itself in compiled code, disturbance and events included.
 """
 
 from __future__ import annotations
 
+import ctypes
 import math
-from collections.abc import Callable
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
+from itertools import repeat
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from biped_adrc.closed_loop.semantics import decided
 from biped_adrc.control.base import Measurement
-from biped_adrc.engine.compiled_biped import CompiledBiped
+from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.tables import STATUS
+from biped_adrc.engine.told import Point, Told
 from biped_adrc.errors import NotFiniteError, SingularError
-from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.hybrid.simulator import Progress
+from biped_adrc.gait.reference import ReferencePoint
+from biped_adrc.hardware.held import HeldSizes
+from biped_adrc.hardware.motors import Line
+from biped_adrc.hybrid import simulator
+from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
+from biped_adrc.hybrid.simulator import Record, RunOptions
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
+from biped_adrc.hybrid.system import Clock, Found, HybridSystem, Mover
+from biped_adrc.hybrid.trajectory import Event, Trajectory
+from biped_adrc.model.reduction import Reduction
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
-Update = Callable[[float, Array, Mode], Array]
-"""Of a clock: x+ at (t, x, mode)."""
-Act = Callable[[Update, float, Array, Array, Mode], tuple[Array, Array]]
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """The guards that end a run, by status."""
+BLOCK = 256
+"""Ticks of which the measurements lie in one array."""
+ROOM = 1024
+"""Nodes of an arc to make room for at first."""
+NONE = np.zeros(0)
 
 
-class _Nodes:
-    """Of one arc, tick by tick: rows (t, x, x') of the plant, and the rest of the state, which is held."""
+def run_ticks(
+    walker: Walker,
+    x0: Array,
+    mode: Mode,
+    method: OneStepMethod,
+    options: RunOptions,
+    points: Sequence[Point] = (),
+) -> Trajectory:
+    """A run of a walker with compiled dynamics, whose controller has references with the laws `points`.
 
-    def __init__(self) -> None:
-        self.rows: list[Array] = []
-        self.states: list[Array] = []
+    Raises NotCompiled for a disturbance or method without laws.
+    """
+    plant = CompiledWalker.held(walker, method)
+    assert walker.held is not None
+    sizes = walker.held.sizes
+    system: HybridSystem = Ticked(walker, plant, Places.of(sizes, len(x0)))
+    if sizes.total == sizes.p and not sizes.rate:
+        told = Told(walker.nominal, points[0] if points else None)
+        system = Bare(walker, plant, told, options.t0)
+    return simulator.run(system, x0, mode, method, options)
 
-    def add(self, rows: Array, kept: Array) -> None:
-        """Nodes between two ticks."""
-        self.rows.append(rows)
-        self.states.append(kept)
 
-    def arc(self, mode: Mode, event: Event | None, places: Places) -> Arc:
-        """All of them, with whole states."""
-        rows = np.vstack(self.rows)
-        kept = np.repeat(np.array(self.states), [len(part) for part in self.rows], axis=0)
-        nx = (rows.shape[1] - 1) // 2
-        x = places.whole(rows[:, 1 : 1 + nx], kept)
-        dx = places.whole(rows[:, 1 + nx :], np.zeros_like(kept))
-        return Arc(mode, rows[:, 0].copy(), x, dx, event)
+LOST = {
+    Status.NOT_FINITE: NotFiniteError,
+    Status.SINGULAR: SingularError,
+    Status.STEP_FAILED: StepFailed,
+}
+"""What is raised for these statuses."""
+
+
+def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> Found | None:
+    """The event behind a code of the kernels, None for none. Raises one of LOST, or what the jump raises."""
+    if code == layout.COMPLETED:
+        return None
+    if code == layout.STRUCK:
+        outcome = walker.struck(t, x, mode)
+        return Found(Event(FOOT_STRIKE, t, x, outcome[0]), outcome)
+    status = STATUS[code]
+    if status in LOST:
+        raise LOST[status](f"the plant's motion ends after t = {t:.6g} s: {status.name}")
+    return Found(Event(TERMINAL[status], t, x, None), None, status)
+
+
+class Moving:
+    """The run of a held plant over one arc: its vector s, and rows (t, x, x') of nodes, which grow."""
+
+    def __init__(
+        self, plant: CompiledWalker, x: Array, t: float, mode: Mode, end: float, fired: str | None
+    ):
+        self.plan, self.K, self.work = plant.plan, plant.K, plant.plan.work()
+        self.s = self.plan.start(x, t, mode.step, mode.start, end)
+        self.s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
+        self.rows = np.empty((0, 1 + 2 * self.plan.nx))
+        self.grow(ROOM)
+
+    def grow(self, rows: int) -> None:
+        """Room for so many nodes; those that there are stay."""
+        more = np.empty((rows, self.rows.shape[1]))
+        more[: len(self.rows)] = self.rows
+        self.rows, self.s[layout.ROOM] = more, rows
+
+    @property
+    def kept(self) -> Array:
+        """The nodes so far."""
+        return self.rows[: int(self.s[layout.COUNT])]
+
+    def on(self) -> int:
+        """Go on to the end asked for, or to an event; a code."""
+        plan = self.plan
+        while True:
+            code: int = kernels().arc(plan.P, plan.F, self.K, self.work, self.s, self.rows)
+            if code != layout.FULL:
+                return code
+            self.grow(2 * len(self.rows))
 
 
 @dataclass(frozen=True)
@@ -65,161 +133,195 @@ class Places:
     kept: NDArray[np.int_]
 
     @classmethod
-    def of(cls, walker: Walker, length: int) -> Places:
+    def of(cls, sizes: HeldSizes, length: int) -> Places:
         """For states of `length` numbers."""
-        assert walker.held is not None
-        sizes, n = walker.held.sizes, walker.plant.n
         motors = length - sizes.p * (sizes.waiting + 2) if sizes.lag else length
-        parts = (range(2 * n), range(motors, min(motors + sizes.p, length)))
+        parts = (range(2 * sizes.n), range(motors, min(motors + sizes.p, length)))
         flowing = np.array([*parts[0], *parts[1], *range(length - sizes.p, length)])
         return cls(flowing, np.setdiff1d(np.arange(length), flowing))
 
-    def whole(self, flowing: Array, kept: Array) -> Array:
-        """x, or rows of them."""
-        x = np.empty((*kept.shape[:-1], len(self.flowing) + len(self.kept)))
+    def whole(self, flowing: Array, kept: Any) -> Array:
+        """x, or rows of them, from rows of what flows and the rest, which may be one for all."""
+        x = np.empty((*flowing.shape[:-1], len(self.flowing) + len(self.kept)))
         x[..., self.flowing], x[..., self.kept] = flowing, kept
         return x
 
 
 @dataclass(frozen=True)
-class TickByTick:
-    """`walker` has compiled dynamics, `plant` is what flows between its ticks."""
+class Ticked(HybridSystem):
+    """The walker's own ticks, hardware and meter included, on the held plant."""
 
     walker: Walker
     plant: CompiledWalker
-    every: int
+    places: Places
 
-    @classmethod
-    def of(cls, walker: Walker, method: OneStepMethod, every: int) -> TickByTick:
-        """Raises NotCompiled for a disturbance or method without a compiled form."""
-        return cls(walker, CompiledWalker.held(walker, method), every)
+    def clocks(self) -> tuple[Clock, ...]:
+        return self.walker.clocks()
 
-    def run(
+    def mover(self, fired: str | None) -> Mover:
+        return Between(self, fired)
+
+
+class Between:
+    """Moves `Ticked` from one of its ticks to the next."""
+
+    def __init__(self, system: Ticked, fired: str | None):
+        self.system, self.fired = system, fired
+        self.moving: Moving | None = None
+
+    def __call__(
+        self, t: float, x: Array, mode: Mode, until: float, record: Record
+    ) -> tuple[float, Array, Found | None]:
+        plant, places = self.system.plant, self.system.places
+        if self.moving is None:
+            self.moving = Moving(plant, x[places.flowing], t, mode, until, self.fired)
+        s, kept, nx = self.moving.s, x[places.kept], plant.plan.nx
+        s[layout.HEAD :], s[layout.END] = x[places.flowing], until
+        s[layout.EVERY], s[layout.COUNT] = record.every, 0.0
+        code, nodes = self.moving.on(), self.moving.kept
+        at, slopes = nodes[:, 1 : 1 + nx], nodes[:, 1 + nx :]
+        record.add(nodes[:, 0].copy(), places.whole(at, kept), places.whole(slopes, 0.0))
+        t, x = float(s[layout.TIME]), places.whole(s[layout.HEAD :], kept)
+        return t, x, ended(self.system.walker, code, t, x, mode)
+
+
+# -- without hardware ------------------------------------------------------------------------------
+_TERMS, _POINT = partial(tuple.__new__, Reduction), partial(tuple.__new__, ReferencePoint)
+_HOLD = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)
+
+
+@dataclass(frozen=True)
+class Bare(HybridSystem):
+    """x = (q, q', s, u): ticks and motion in one, since a tick costs little more than the controller itself.
+
+    The call that moves the plant to a tick leaves what the controller is given there in a block of memory.
+    """
+
+    walker: Walker
+    plant: CompiledWalker
+    told: Told
+    t_first: float
+
+    def mover(self, fired: str | None) -> Mover:
+        return partial(self.move, fired)
+
+    def move(
+        self, fired: str | None, t: float, x: Array, mode: Mode, until: float, record: Record
+    ) -> tuple[float, Array, Found | None]:
+        """Over all ticks of an arc, as `system.Mover`."""
+        n, end = self.walker.plant.n, len(x) - self.walker.plant.p
+        flowing = np.concatenate((x[: 2 * n], x[end:]))
+        moving = Moving(self.plant, flowing, t, mode, until, fired)
+        moving.s[layout.EVERY] = record.every
+        states, ends = [x[2 * n : end]], [0]
+        try:
+            code = self.ticks(moving, t, mode, until, states, ends)
+        finally:
+            self.keep(moving, states, ends, record)
+        x = moving.s[layout.HEAD :]
+        t, x = float(moving.s[layout.TIME]), np.concatenate((x[: 2 * n], states[-1], x[2 * n :]))
+        return t, x, ended(self.walker, code, t, x, mode)
+
+    def ticks(
         self,
-        x0: Array,
+        moving: Moving,
+        t: float,
         mode: Mode,
-        t0: float,
-        t_end: float,
-        impacts: int | None,
-        label: str,
-        progress: Progress | None,
-    ) -> Trajectory:
-        """Arcs until enough impacts, the end or a terminal status."""
-        places = Places.of(self.walker, len(x0))
-        s = x0[places.kept]
-        vector = self.plant.plan.start(x0[places.flowing], t0, mode.step, mode.start, t_end)
-        arcs: list[Arc] = []
-        status, detail = Status.COMPLETED, ""
-        while True:
-            nodes = _Nodes()
-            try:
-                with np.errstate(over="ignore", invalid="ignore"):  # ends as the status NOT_FINITE
-                    code, vector, s = self._arc(vector, s, places, mode, t0, t_end, nodes)
-                    t, x = float(vector[layout.TIME]), places.whole(vector[layout.HEAD :], s)
-                    struck = self.walker.struck(t, x, mode) if code == layout.STRUCK else None
-                status = Status.COMPLETED if struck is not None else STATUS[code]
-            except (NotFiniteError, SingularError) as error:
-                struck, detail = None, str(error)
-                singular = isinstance(error, SingularError)
-                status = Status.SINGULAR if singular else Status.NOT_FINITE
-                if not nodes.rows:
-                    nodes.add(_single(vector), s)
-            if struck is None:
-                guard = TERMINAL.get(status)
-                arcs.append(
-                    nodes.arc(mode, None if guard is None else Event(guard, t, x, None), places)
-                )
-                break
-            after, next_mode = struck
-            arcs.append(nodes.arc(mode, Event(FOOT_STRIKE, t, x, after), places))
-            mode, s = next_mode, after[places.kept]
-            vector = self._after(vector, after[places.flowing], mode)
-            if progress is not None:
-                progress(t, len(arcs))
-            if impacts is not None and len(arcs) >= impacts:
-                return Trajectory(tuple(arcs), Status.COMPLETED, "", {"method": label})
-            if t >= t_end:
-                break
-        if status is Status.COMPLETED and impacts is not None:
-            status = Status.TIME_OUT
-        return Trajectory(tuple(arcs), status, detail, {"method": label})
+        until: float,
+        states: list[Array],
+        ends: list[int],
+    ) -> int:
+        """Tick, move, tick, to an event or to `until`; a code. After every tick s goes into `states`.
 
-    def _arc(
-        self,
-        vector: Array,
-        s: Array,
-        places: Places,
-        mode: Mode,
-        t_first: float,
-        t_end: float,
-        nodes: _Nodes,
-    ) -> tuple[int, Array, Array]:
-        """Tick, flow, tick, to the first event or the end."""
-        time = self.walker.timing
+        ends: how many nodes there were at each tick.
+        """
+        walker, law, k, time = self.walker, self.walker.law, self.walker.held, self.walker.timing
+        assert k is not None
         assert isinstance(time, SampledTime)
-        plan, K = self.plant.plan, self.plant.K
-        origin = float(vector[layout.TIME]) if time.restart else t_first
-        head, arc, act = layout.HEAD, kernels().arc, self._actor(places)
-        clocks = [(origin + clock.offset, clock.update) for clock in self.walker.clocks()]
-        period, every = time.period, float(self.every)
-        W, R = plan.work(), np.empty((8, 1 + 2 * plan.nx))
+        origin, period, s = t if time.restart else self.t_first, time.period, states[0]
+        body = walker.nominal.body_terms if law.needs_body else None
+        run, u_at, size = moving.s, layout.HEAD + 2 * k.sizes.n, len(s)
+        line = Line(NONE, NONE, NONE, run[u_at:].copy())
+        count = max(0, math.floor((t - origin) / period))
+        while origin + count * period < t:
+            count += 1
+        seen, told = Seen(moving, self.told), self.told.point or Unasked()
+        for q, v, terms, point in seen:
+            told.now = q, v, point
+            if t == origin + count * period:
+                B = None if body is None else body(q, v)
+                m = Measurement(t, mode.step, t - mode.start, q, v, terms, B)
+                s, line = decided(walker, k, s, m, line)
+                run[u_at:] = line.u
+                count += 1
+                if size:
+                    states.append(s)
+                    ends.append(int(run[layout.COUNT]))
+            t = min(origin + count * period, until)
+            run[layout.END] = t
+            code = seen.move()
+            if code != layout.COMPLETED or t >= until:
+                return code
+        raise AssertionError
+
+    def keep(self, moving: Moving, states: list[Array], ends: list[int], record: Record) -> None:
+        """The nodes, with the state of the controller at each of them."""
+        n, nx, nodes = self.walker.plant.n, self.plant.plan.nx, moving.kept
+        s = np.zeros((len(nodes), 0))
+        if len(states[0]):
+            s = np.repeat(np.array(states), np.diff([*ends, len(nodes)]), axis=0)
+        x, dx = nodes[:, 1 : 1 + nx], nodes[:, 1 + nx :]
+        parts = (x[:, : 2 * n], s, x[:, 2 * n :]), (dx[:, : 2 * n], 0.0 * s, dx[:, 2 * n :])
+        if len(nodes):
+            record.add(nodes[:, 0].copy(), *(np.hstack(part) for part in parts))
+
+
+@dataclass
+class Unasked:
+    """In place of a reference that there is none of."""
+
+    now: Any = None
+
+
+class Seen:
+    """(q, v, terms, point) at one tick after the other, as `move` takes the plant on; all read only."""
+
+    def __init__(self, moving: Moving, told: Told):
+        self.moving, self.told, self.n = moving, told, told.robot.structure.n
+        self.shapes = [(), (self.n,), (self.n,), *told.shapes]
+        self.hold = _HOLD(kernels().ADDRESSES["hold"])
+        self.given = np.zeros(8, dtype=np.int64)
+        self.at, self.next, self.width = self.given.ctypes.data, 0, sum(map(math.prod, self.shapes))
+
+    def point(self) -> None:
+        """At the arrays of the run, which may have grown."""
+        m, plan = self.moving, self.moving.plan
+        arrays = (plan.P, plan.F, m.K, m.work, m.s, m.rows)
+        addresses = [array.ctypes.data for array in arrays]
+        self.given[:] = *addresses, self.told.address, self.told.K.ctypes.data
+
+    def __iter__(self) -> Iterator[Any]:
+        self.point()
+        last = np.empty((1, self.width))
+        last[0, 0] = self.moving.s[layout.TIME]
+        last[0, 1 : 1 + 2 * self.n] = self.moving.s[layout.HEAD : layout.HEAD + 2 * self.n]
+        pointer_call(self.told.machine, "told", self.told.K, last, last[:, 1 + 2 * self.n :])
         while True:
-            t, end = float(vector[layout.TIME]), t_end
-            for first, update in clocks:
-                k = max(0, round((t - first) / period))
-                if t == first + k * period:
-                    vector[head:], s = act(update, t, vector[head:], s, mode)
-                k = max(0, math.floor((t - first) / period))
-                while first + k * period <= t:
-                    k += 1
-                end = min(end, first + k * period)
-            vector[layout.END] = end
-            vector[layout.EVERY], vector[layout.COUNT] = every, 0.0
-            code = arc(plan.P, plan.F, K, W, vector, R)
-            while code == layout.FULL:
-                R = np.empty((2 * len(R), R.shape[1]))
-                vector[layout.COUNT] = 0.0
-                code = arc(plan.P, plan.F, K, W, vector, R)
-            nodes.add(R[: int(vector[layout.COUNT])].copy(), s)
-            if code != layout.COMPLETED or vector[layout.TIME] >= t_end:
-                return code, vector, s
+            block = np.empty((BLOCK + 1, self.width))
+            block[0], self.next = last[0], block.ctypes.data
+            block.flags.writeable = False
+            _, q, v, *rest = parts_of(block[:-1], self.shapes)
+            terms = map(_TERMS, zip(*rest[:7], strict=True))
+            points = map(_POINT, zip(*rest[7:], strict=True)) if rest[7:] else repeat(None)
+            yield from zip(q, v, terms, points, strict=False)
+            last = block[-1:]
 
-    def _actor(self, places: Places) -> Act:
-        """A clock's update on the two parts of x; without hardware a tick takes a shorter way."""
-        walker, n, p = self.walker, self.walker.plant.n, self.walker.plant.p
-
-        def act(
-            update: Update, t: float, flowing: Array, kept: Array, mode: Mode
-        ) -> tuple[Array, Array]:
-            x = update(t, places.whole(flowing, kept), mode)
-            return x[places.flowing], x[places.kept]
-
-        law, terms = walker.law, walker.nominal
-        assert isinstance(terms, CompiledBiped)
-        assert walker.held is not None
-
-        def plain(
-            update: Update, t: float, flowing: Array, s: Array, mode: Mode
-        ) -> tuple[Array, Array]:
-            q, v = flowing[:n].copy(), flowing[n : 2 * n].copy()
-            body = terms.body_terms(q, v) if law.needs_body else None
-            m = Measurement(t, mode.step, t - mode.start, q, v, terms.reduction_at(q, v), body)
-            s = law.correct(s, m)
-            u = walker.saturate(law.output(s, m))
-            flowing[2 * n :] = u
-            return flowing, law.predict(s, m, u)
-
-        return plain if walker.held.sizes.total == p and not walker.held.sizes.rate else act
-
-    def _after(self, vector: Array, x: Array, mode: Mode) -> Array:
-        """The run goes on from x+."""
-        vector = vector.copy()
-        vector[layout.STEP], vector[layout.START] = mode.step, mode.start
-        vector[layout.FIRED], vector[layout.ARMED] = layout.FOOT_STRIKE, 0.0
-        vector[layout.HEAD :] = x
-        return vector
-
-
-def _single(vector: Array) -> Array:
-    x = vector[layout.HEAD :]
-    return np.concatenate((vector[[layout.TIME]], x, np.zeros_like(x)))[np.newaxis]
+    def move(self) -> int:
+        """Take the plant on; a code."""
+        self.next += 8 * self.width
+        code: int = self.hold(self.at, self.next)
+        while code == layout.FULL:
+            self.moving.grow(2 * len(self.moving.rows))
+            self.point()
+            code = self.hold(self.at, self.next)
+        return code

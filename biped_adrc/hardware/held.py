@@ -1,9 +1,9 @@
 """What a walker holds between ticks, behind its controller's state.
 
-    x = (q, q', s, w, g, queue, u_m, waiting, u)
+    x = (q, q', s, own, w, g, queue, u_m, waiting, u)
 
-w is the sensors' state, g the meter's, the rest the line of torques on their way to the motors; each is empty
-where the walker has no such part. u_m alone flows.
+own is what a plant that moves by itself keeps, w the sensors' state, g the meter's, the rest the line of
+torques on their way to the motors; each is empty where the walker has no such part. u_m alone flows.
 """
 
 from __future__ import annotations
@@ -36,11 +36,14 @@ class HeldSizes(NamedTuple):
     """1 with a rate limit."""
     known: int = 0
     """1 when the controller knows the delay."""
+    own: int = 0
+    """Numbers that the plant keeps for itself."""
 
     @property
     def total(self) -> int:
         """Numbers held."""
-        return self.sensors + self.meter + self.p * (self.queue + self.lag + self.waiting + 1)
+        torques = self.queue + self.lag + self.waiting + 1
+        return self.own + self.sensors + self.meter + self.p * torques
 
 
 class HeldParameters(NamedTuple):
@@ -58,6 +61,7 @@ class Held(NamedTuple):
     w: Array
     g: Array
     line: Line
+    own: Array
 
 
 def check_parts(
@@ -90,8 +94,9 @@ def held_parameters(
     sensors: Sensors | None = None,
     motors: Motors | None = None,
     metered: MeterParameters | None = None,
+    own: int = 0,
 ) -> HeldParameters:
-    """For n coordinates, p motors and the ticks of `timing`."""
+    """For n coordinates, p motors and the ticks of `timing`; own: numbers that the plant keeps for itself."""
     motors, period = IDEAL if motors is None else motors, timing.period
     queue, fraction = whole_and_part(timing.delay, period)
     sizes = HeldSizes(
@@ -104,6 +109,7 @@ def held_parameters(
         int(fraction > 0.0),
         int(motors.rate_limit is not None),
         int(timing.delay_known and timing.delay > 0.0),
+        own,
     )
     return HeldParameters(
         () if sensors is None else sensors.parameters(n, p, period),
@@ -116,15 +122,16 @@ def held_parameters(
 def read(k: HeldSizes, tail: Array) -> Held:
     """The parts of what follows the controller's state."""
     at, parts = 0, []
-    for size in (k.sensors, k.meter, k.queue * k.p, k.lag * k.p, k.waiting * k.p, k.p):
+    of_line = (k.queue * k.p, k.lag * k.p, k.waiting * k.p, k.p)
+    for size in (k.own, k.sensors, k.meter, *of_line):
         parts.append(tail[at : at + size])
         at += size
-    return Held(parts[0], parts[1], Line(parts[2], parts[3], parts[4], parts[5]))
+    return Held(parts[1], parts[2], Line(parts[3], parts[4], parts[5], parts[6]), parts[0])
 
 
 def written(held: Held) -> Array:
     """The parts in one vector."""
-    return np.concatenate((held.w, held.g, *held.line))
+    return np.concatenate((held.own, held.w, held.g, *held.line))
 
 
 def motor_torque(line: Line) -> Array:
@@ -145,7 +152,8 @@ def at_start(k: HeldParameters, q: Array, v: Array, sensors: Sensors | None) -> 
     """What is held at the start of a run in (q, v): no torque, and a first look."""
     sizes = k.sizes
     w = np.zeros(0) if sensors is None else sensor_state(k.sensors, q, v, sensors.start)
-    return np.concatenate((w, np.zeros(sizes.total - sizes.sensors)))
+    rest = np.zeros(sizes.total - sizes.own - sizes.sensors)
+    return np.concatenate((np.zeros(sizes.own), w, rest))
 
 
 def after_impact(
@@ -167,4 +175,4 @@ def after_impact(
         w = sensed_impact(k.sensors, w, q, v, v_model)
     if hit is not None:
         g = metered_impact(k.meter, g, q_minus[:p], q[:p], swap, hit)
-    return Held(w, g, relabelled(held.line, swap))
+    return Held(w, g, relabelled(held.line, swap), held.own)

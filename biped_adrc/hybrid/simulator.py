@@ -8,17 +8,19 @@ so that x- has the accuracy of the method.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
-from typing import Any
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
 
 from biped_adrc.errors import InputError, NotFiniteError, SingularError, check_count
-from biped_adrc.hybrid.integrators import Flow, OneStepMethod, Step, StepFailed
+from biped_adrc.hybrid.integrators import OneStepMethod, Step, StepFailed
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.system import Clock, Guard, HybridSystem, Mode, Split
+from biped_adrc.hybrid.system import Clock, Found, Guard, HybridSystem, Mode, Outcome, Split
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.types import Array
 
@@ -31,19 +33,23 @@ _T_XTOL = 1e-15  # [s], tolerance of the event time
 
 
 @dataclass
-class _Recorder:
-    """Nodes of the arc being built."""
+class Record:
+    """Nodes of the arc being built: one by one, or many in rows."""
 
     every: int
-    t: list[float] = field(default_factory=list)
+    t: list[Any] = field(default_factory=list)
     x: list[Array] = field(default_factory=list)
     dx: list[Array] = field(default_factory=list)
+    read: dict[str, list[Array]] = field(default_factory=dict)
     skipped: int = 0
 
-    def add(self, t: float, x: Array, dx: Array) -> None:
+    def add(self, t: float | Array, x: Array, dx: Array, **read: Array) -> None:
+        """One node, or K of them in K rows of each; and what was read there."""
         self.t.append(t)
         self.x.append(x)
         self.dx.append(dx)
+        for name, rows in read.items():
+            self.read.setdefault(name, []).append(rows)
         self.skipped = 0
 
     def step(self, step: Step, last: bool) -> None:
@@ -55,7 +61,9 @@ class _Recorder:
             self.add(step.t1, step.x1, step.dx1)
 
     def arc(self, mode: Mode, event: Event | None) -> Arc:
-        return Arc(mode, np.array(self.t), np.array(self.x), np.array(self.dx), event)
+        """All of them."""
+        read = {name: np.vstack(rows) for name, rows in self.read.items()}
+        return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event, read)
 
 
 def interior(t0: float, t1: float) -> list[float]:
@@ -68,6 +76,56 @@ def slope_of(step: Step, t: float) -> Array:
     """x'(t) inside a step, by central difference of its own states."""
     d = 1e-4 * (step.t1 - step.t0)
     return (step.at(t + d) - step.at(t - d)) / (2.0 * d)
+
+
+@dataclass(frozen=True)
+class RunOptions:
+    """How long a run goes on and what is kept of it.
+
+    t0, t_end [s]: start and latest end. stop_after (guard, count): end after that many events of that guard;
+    then reaching t_end first is a TIME_OUT. store_every: keep each k-th step for dense output.
+    """
+
+    t_end: float
+    t0: float = 0.0
+    stop_after: tuple[str, int] | None = None
+    max_events: int = 100_000
+    store_every: int = 1
+    progress: Progress | None = None
+
+    def check(self, x: Array) -> None:
+        """Raise InputError for a run from x that cannot begin."""
+        if x.ndim != 1 or not np.all(np.isfinite(x)):
+            raise InputError(f"the initial state is {x}, expected a vector of finite numbers")
+        if not (math.isfinite(self.t_end) and math.isfinite(self.t0) and self.t_end > self.t0):
+            raise InputError(
+                f"the run would go from {self.t0} s to {self.t_end} s; expected a positive duration"
+            )
+        if self.stop_after is not None:
+            check_count(self.stop_after[1], f"stop_after asks for {self.stop_after[1]} events")
+        check_count(self.store_every, f"store_every is {self.store_every}")
+
+    def ended(self, t: float, events: Counter[str]) -> Status | None:
+        """How the run ends after these events, the last of them at t [s]; None where it goes on."""
+        if self.stop_after is not None and events[self.stop_after[0]] >= self.stop_after[1]:
+            return Status.COMPLETED
+        if events.total() >= self.max_events:
+            return Status.EVENT_LIMIT
+        return self.timed_out if t >= self.t_end else None
+
+    @property
+    def timed_out(self) -> Status:
+        """The status of a run that has come to t_end."""
+        return Status.COMPLETED if self.stop_after is None else Status.TIME_OUT
+
+
+class Flown(NamedTuple):
+    """One arc, how it ended, and (x+, mode+) after an event that is not the run's end."""
+
+    arc: Arc
+    status: Status
+    detail: str = ""
+    outcome: Outcome = None
 
 
 def simulate(
@@ -83,131 +141,140 @@ def simulate(
     store_every: int = 1,
     progress: Progress | None = None,
 ) -> Trajectory:
-    """Run `system` from (t0, x0, mode).
+    """Run `system` from (t0, x0, mode); the keywords are those of `RunOptions`.
 
-    t_end [s]: latest end. stop_after (guard, count): end after that many events of that guard; then
-    reaching t_end first is a TIME_OUT. store_every: keep each k-th step for dense output.
     Raises InputError for a start that is not finite or a duration that is not positive. Whatever happens
     during the run is in the trajectory's status.
     """
-    x = np.array(x0, dtype=float)
-    check_start(x, t0, t_end, stop_after, store_every)
-    arcs: list[Arc] = []
-    counts: dict[str, int] = {}
-    t, status, detail = t0, Status.COMPLETED, ""
+    options = RunOptions(t_end, t0, stop_after, max_events, store_every, progress)
+    return run(system, x0, mode, method, options)
+
+
+def run(
+    system: HybridSystem, x0: Array, mode: Mode, method: OneStepMethod | None, options: RunOptions
+) -> Trajectory:
+    """As `simulate`; a system with a mover needs no method."""
+    label = "steps of the plant's own" if method is None else method.label
+    return run_arcs(partial(_flow_arc, system, method, options), x0, mode, label, options)
+
+
+def run_arcs(
+    fly: Callable[[float, Array, Mode, str | None], Flown],
+    x0: Array,
+    mode: Mode,
+    label: str,
+    options: RunOptions,
+) -> Trajectory:
+    """As `simulate`, arc after arc made by fly(t, x, mode, name of the guard that has just fired)."""
+    x, t = np.array(x0, dtype=float), options.t0
+    options.check(x)
+    arcs, events = list[Arc](), Counter[str]()
     fired: str | None = None
     while True:
         with np.errstate(over="ignore", invalid="ignore"):  # ends as the status NOT_FINITE
-            arc, status, detail, outcome = _flow_arc(
-                system, method, t, t0, x, mode, t_end, store_every, fired
-            )
-        arcs.append(arc)
-        if outcome is None:
+            flown = fly(t, x, mode, fired)
+        arcs.append(flown.arc)
+        event, status = flown.arc.event, flown.status
+        if flown.outcome is None or event is None:
+            status = options.timed_out if status is Status.COMPLETED else status
             break
-        event = arc.event
-        assert event is not None
-        t, (x, mode), fired = event.t, outcome, event.guard
-        counts[event.guard] = counts.get(event.guard, 0) + 1
-        if progress is not None:
-            progress(t, sum(counts.values()))
-        if stop_after is not None and counts.get(stop_after[0], 0) >= stop_after[1]:
+        t, (x, mode), fired = event.t, flown.outcome, event.guard
+        events[fired] += 1
+        if options.progress is not None:
+            options.progress(t, len(arcs))
+        ended = options.ended(t, events)
+        if ended is not None:
+            status = ended
             break
-        if len(arcs) >= max_events:
-            status = Status.EVENT_LIMIT
-            break
-        if t >= t_end:
-            status = Status.COMPLETED if stop_after is None else Status.TIME_OUT
-            break
-    if outcome is None and status is Status.COMPLETED and stop_after is not None:
-        status = Status.TIME_OUT
-    return Trajectory(tuple(arcs), status, detail, {"method": method.label})
+    return Trajectory(tuple(arcs), status, flown.detail, {"method": label})
 
 
-def check_start(
-    x: Array, t0: float, t_end: float, stop_after: tuple[str, int] | None, store_every: int
-) -> None:
-    """Raise InputError for a run that cannot begin."""
-    if x.ndim != 1 or not np.all(np.isfinite(x)):
-        raise InputError(f"the initial state is {x}, expected a vector of finite numbers")
-    if not (math.isfinite(t_end) and math.isfinite(t0) and t_end > t0):
-        raise InputError(f"the run would go from {t0} s to {t_end} s; expected a positive duration")
-    if stop_after is not None:
-        check_count(stop_after[1], f"stop_after asks for {stop_after[1]} events")
-    check_count(store_every, f"store_every is {store_every}")
+FAILURES = (NotFiniteError, SingularError, StepFailed)
+"""What ends a run with a status."""
 
 
-Outcome = tuple[Array, Mode] | None
+def failed(error: Exception) -> Status:
+    """The status of a run that one of `FAILURES` has ended."""
+    if isinstance(error, NotFiniteError):
+        return Status.NOT_FINITE
+    return Status.SINGULAR if isinstance(error, SingularError) else Status.STEP_FAILED
 
 
 def _flow_arc(
     system: HybridSystem,
-    method: OneStepMethod,
+    method: OneStepMethod | None,
+    options: RunOptions,
     t: float,
-    t_first: float,
     x: Array,
     mode: Mode,
-    t_end: float,
-    store_every: int,
     fired: str | None,
-) -> tuple[Arc, Status, str, Outcome]:
-    """One arc from (t, x): returns it, the status so far, its detail, and (x+, mode+) after an event."""
-    record = _Recorder(store_every)
-    split = method.split(system, mode)
-    t_arc, status, detail = t, Status.COMPLETED, ""
-    watch = _Watch(system.guards(mode), t, x, fired)
-    event: Event | None = None
-    outcome: Outcome = None
+) -> Flown:
+    """One arc from (t, x)."""
+    record, t_arc, found = Record(options.store_every), t, None
+    status, detail = Status.COMPLETED, ""
+    move = system.mover(fired)
+    if move is None:
+        assert method is not None
+        move = _Steps(system, method, mode, t, x, fired)
     try:
-        while t < t_end and event is None:
-            x = _tick(system.clocks(), t, t_arc, t_first, x, mode)
-            t_next = _next_break(system, mode, t, t_arc, t_first, t_end)
-            for step in _segment(system, method, split, t, x, t_next, mode, record):
-                found = watch.first(step)
-                t, x = step.t1, step.x1
-                if found is not None:
-                    event, outcome, status = found
-                    t, x = event.t, event.x_minus
-                    record.add(t, x, system.flow(math.nextafter(t, -math.inf), x, mode))
-                    break
-                record.step(step, last=step.t1 >= t_next)
-    except NotFiniteError as error:
-        status, detail = Status.NOT_FINITE, str(error)
-    except SingularError as error:
-        status, detail = Status.SINGULAR, str(error)
-    except StepFailed as error:
-        status, detail = Status.STEP_FAILED, str(error)
+        while t < options.t_end and found is None:
+            x = _tick(system.clocks(), t, t_arc, options.t0, x, mode)
+            t_next = _next_break(system, mode, t, t_arc, options.t0, options.t_end)
+            t, x, found = move(t, x, mode, t_next, record)
+    except FAILURES as error:
+        status, detail = failed(error), str(error)
     if not record.t:
         record.add(t, x, np.zeros_like(x))
-    return record.arc(mode, event), status, detail, outcome
+    if found is None:
+        return Flown(record.arc(mode, None), status, detail)
+    return Flown(record.arc(mode, found.event), found.status, "", found.outcome)
 
 
-def _segment(
-    system: HybridSystem,
-    method: OneStepMethod,
-    split: Split | None,
-    t: float,
-    x: Array,
-    t_next: float,
-    mode: Mode,
-    record: _Recorder,
-) -> Any:
-    """Steps from (t, x) to t_next; the flow is asked for its limit from the left at t_next."""
-    just_before = math.nextafter(t_next, -math.inf)
+class _Steps:
+    """Moves a system over one arc by the steps of a method, and watches its guards."""
 
-    def f(s: float, y: Array) -> Array:
-        return system.flow(min(s, just_before), y, mode)
+    def __init__(
+        self,
+        system: HybridSystem,
+        method: OneStepMethod,
+        mode: Mode,
+        t: float,
+        x: Array,
+        fired: str | None,
+    ):
+        self.system, self.method, self.split = system, method, method.split(system, mode)
+        self.watch = _Watch(system.guards(mode), t, x, fired)
 
-    clamped: Flow = f
-    if split is not None:
-        split = _until(split, just_before)
-    first = True
-    for step in method.steps(clamped, split, t, x, t_next):
-        if first:
-            record.add(step.t0, step.x0, step.dx0)
-            first = False
-        if not math.isfinite(step.x1.dot(step.x1)):
-            raise NotFiniteError(f"the state is not finite after t = {step.t0:.6g} s")
-        yield step
+    def __call__(
+        self, t: float, x: Array, mode: Mode, until: float, record: Record
+    ) -> tuple[float, Array, Found | None]:
+        """As `system.Mover`."""
+        for step in self.steps(t, x, mode, until, record):
+            found = self.watch.first(step)
+            if found is not None:
+                te, xe = found.event.t, found.event.x_minus
+                record.add(te, xe, self.system.flow(math.nextafter(te, -math.inf), xe, mode))
+                return te, xe, found
+            record.step(step, last=step.t1 >= until)
+            t, x = step.t1, step.x1
+        return t, x, None
+
+    def steps(self, t: float, x: Array, mode: Mode, until: float, record: Record) -> Iterator[Step]:
+        """From (t, x); the flow is asked for its limit from the left at `until`."""
+        just_before = math.nextafter(until, -math.inf)
+        split = None if self.split is None else _until(self.split, just_before)
+        first = True
+
+        def f(s: float, y: Array) -> Array:
+            return self.system.flow(min(s, just_before), y, mode)
+
+        for step in self.method.steps(f, split, t, x, until):
+            if first:
+                record.add(step.t0, step.x0, step.dx0)
+                first = False
+            if not math.isfinite(step.x1.dot(step.x1)):
+                raise NotFiniteError(f"the state is not finite after t = {step.t0:.6g} s")
+            yield step
 
 
 def _until(split: Split, last: float) -> Split:
@@ -256,7 +323,7 @@ class _Watch:
         self.guards = guards
         self.values = [0.0 if g.name == fired else g.witness(t, x) for g in guards]
 
-    def first(self, step: Step) -> tuple[Event, Outcome, Status] | None:
+    def first(self, step: Step) -> Found | None:
         """The earliest crossing in `step` that is an event."""
         before_t = step.t0
         for t in interior(step.t0, step.t1):
@@ -270,10 +337,10 @@ class _Watch:
             self.values, before_t = after, t
             for te, xe, guard in sorted(crossed, key=lambda c: c[0]):
                 if guard.terminal is not None:
-                    return Event(guard.name, te, xe, None), None, guard.terminal
+                    return Found(Event(guard.name, te, xe, None), None, guard.terminal)
                 outcome = guard.reset(te, xe) if guard.reset is not None else None
                 if outcome is not None:
-                    return Event(guard.name, te, xe, outcome[0]), outcome, Status.COMPLETED
+                    return Found(Event(guard.name, te, xe, outcome[0]), outcome)
         return None
 
     @staticmethod

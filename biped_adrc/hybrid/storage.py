@@ -77,6 +77,7 @@ def save(
     arrays |= {f"{BESIDE}{name}": np.asarray(x) for name, x in (beside_it or {}).items()}
     for i, arc in enumerate(trajectory.arcs):
         arrays |= {f"t{i}": arc.t, f"x{i}": arc.x, f"dx{i}": arc.dx}
+        arrays |= {f"read{i}_{name}": rows for name, rows in arc.read.items()}
         arrays[f"mode{i}"] = np.array(arc.mode, dtype=float)
         if arc.event is not None:
             arrays[f"x_minus{i}"] = arc.event.x_minus
@@ -123,4 +124,6 @@ def _arc(data: Any, i: int, event: dict[str, Any] | None, mode: Callable[..., An
         plus = data.get(f"x_plus{i}")
         found = Event(event["guard"], float(event["t"]), data[f"x_minus{i}"], plus)
     numbers = np.atleast_1d(data[f"mode{i}"]).tolist()
-    return Arc(mode(*numbers), data[f"t{i}"], data[f"x{i}"], data[f"dx{i}"], found)
+    mark = f"read{i}_"
+    read = {name.removeprefix(mark): data[name] for name in data if name.startswith(mark)}
+    return Arc(mode(*numbers), data[f"t{i}"], data[f"x{i}"], data[f"dx{i}"], found, read)

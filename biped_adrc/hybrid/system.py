@@ -10,16 +10,33 @@ a step counter; the loop only carries it.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any
+from typing import Any, NamedTuple
 
 from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.types import Array
 
 Mode = Any
+Outcome = tuple[Array, Mode] | None
+"""(x+, mode+) after an event; None where the run ends with it."""
+
+
+class Found(NamedTuple):
+    """The event that ended an arc."""
+
+    event: Event
+    outcome: Outcome = None
+    status: Status = Status.COMPLETED
+
+
+Mover = Callable[[float, Array, Mode, float, Any], tuple[float, Array, Found | None]]
+"""move(t, x, mode, until, record) -> t, x, and the event that ended the arc there, if one did.
+
+Nodes go into `record`, a `simulator.Record`, as they are made, so that they are kept where it raises.
+"""
 
 
 class Direction(Enum):
@@ -82,12 +99,19 @@ class Split:
     node: Callable[[float, Array, Array], tuple[tuple[Array, Array], Array, Array]] | None = None
 
 
-class HybridSystem(ABC):
+class HybridSystem:
     """A hybrid system; see the module for the equations."""
 
-    @abstractmethod
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
         """x' at (t, x) in `mode`."""
+        raise NotImplementedError(f"{type(self).__name__} has neither a flow nor a mover")
+
+    def mover(self, fired: str | None) -> Mover | None:
+        """What moves the system over one arc where it has no flow and no guards; None where it has.
+
+        fired: the event that ended the arc before.
+        """
+        return None
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
         """The guards watched in `mode`."""

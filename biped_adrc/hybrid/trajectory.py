@@ -26,13 +26,17 @@ class Event:
 
 @dataclass(frozen=True)
 class Arc:
-    """One flow between events: t (K,), x (K, n), dx (K, n); ticks and switches repeat their time."""
+    """One flow between events: t (K,), x (K, n), dx (K, n); ticks and switches repeat their time.
+
+    read: what was recorded at the nodes because it cannot be computed again from the states, K rows of each.
+    """
 
     mode: Any
     t: Array
     x: Array
     dx: Array
     event: Event | None = None
+    read: dict[str, Array] = field(default_factory=dict)
 
     @property
     def seen(self) -> Array:
@@ -48,7 +52,8 @@ class Arc:
         for k in np.flatnonzero(~keep):
             if self.t[k] - last >= apart * (1.0 - 1e-9):
                 keep[k], last = True, self.t[k]
-        return replace(self, t=self.t[keep], x=self.x[keep], dx=self.dx[keep])
+        read = {name: rows[keep] for name, rows in self.read.items()}
+        return replace(self, t=self.t[keep], x=self.x[keep], dx=self.dx[keep], read=read)
 
     def __call__(self, t: float, side: str = "right") -> Array:
         """x(t) by cubic Hermite interpolation, the limit from `side` where x or x' jumps."""

@@ -26,6 +26,7 @@ from biped_adrc.scenario.plain import Absent, Reader, Writer
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.scenario import FREE, Scenario
 from biped_adrc.types import Array
+from biped_adrc.versions import versions
 from biped_adrc.walker import Mode, Walker
 
 
@@ -58,7 +59,9 @@ def save_walk(walk: Walk, path: Path | str, settings: Mapping[str, Any] | None =
     walker, gait = writer.plain(walk.walker), writer.plain(walk.gait)
     record = {"parts": writer.records, "walker": walker["part"], "gait": gait}
     seen = vars(walk.signals) if writer.own else {"u": walk.signals.u}
-    about: dict[str, Any] = {} if walk.scenario is None else {"scenario": walk.scenario.record()}
+    about: dict[str, Any] = {"versions": versions()}
+    if walk.scenario is not None:
+        about["scenario"] = walk.scenario.record()
     if writer.own:
         about["own"] = sorted(set(writer.own))
     beside = {"walker": json.dumps(record), **{f"signal.{name}": x for name, x in seen.items()}}
@@ -146,7 +149,7 @@ def _of_0_1(path: Path | str, trajectory: Trajectory) -> Walk:
             slope = float(record["slope"]) - known.slope
             return replay(Scenario("passive", slope=slope, **beside), trajectory)
         if "run" in settings:
-            return replay(Scenario(**_values_of_0_1(settings["run"])), trajectory)
+            return replay(Scenario(**values_of_0_1(settings["run"])), trajectory)
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(
             f"run '{path}' is of version 0.1 and cannot be read: {error}; walk it again with "
@@ -158,7 +161,7 @@ def _of_0_1(path: Path | str, trajectory: Trajectory) -> Walk:
     )
 
 
-def _values_of_0_1(record: Mapping[str, Any]) -> dict[str, Any]:
+def values_of_0_1(record: Mapping[str, Any]) -> dict[str, Any]:
     """Without what had no effect then, and is refused now."""
     idle = {"store_every", "poles" if record.get("bandwidth") else "order"}
     idle |= {*OF_OBSERVER, "reset"} if record.get("controller") == "NPD" else set()

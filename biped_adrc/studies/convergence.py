@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 
+from biped_adrc.checks import Check, at_most
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.studies.checks import Check, at_most
 
 AGREE = 0.01
 """Largest relative difference of two values that agree."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from biped_adrc.analysis.linear_loop import tracking_error
 from biped_adrc.analysis.quadrature import integrate
+from biped_adrc.checks import Check, at_most, between
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.tracking import TABLE_II
@@ -28,7 +29,6 @@ from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.checks import Check, at_most, between
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE
 from biped_adrc.walker import Mode as StepMode

@@ -3,6 +3,7 @@
 import gc
 import threading
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import count, islice
 
 import numpy as np
@@ -13,12 +14,14 @@ import biped_adrc as ba
 from biped_adrc.control.base import Controller, ControllerLaws
 from biped_adrc.control.npd import npd_torque
 from biped_adrc.engine.batch import AHEAD, Case, simulate_many
+from biped_adrc.engine.choice import simulate_by
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.simulate import simulate
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.gait.constraint import virtual_constraint
 from biped_adrc.gait.passive_cycle import passive_cycle
 from biped_adrc.walker import FOOT_STRIKE, Mode
+
+simulate = partial(simulate_by, "compiled")
 
 FALL = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
 

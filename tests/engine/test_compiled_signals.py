@@ -1,16 +1,19 @@
 """Signals of compiled runs: the compiled columns against those that Python computes from the same states."""
 
 from dataclasses import fields, replace
+from functools import partial
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.signals import signals, signals_of
+from biped_adrc.engine.choice import simulate_by
 from biped_adrc.engine.compiled_signals import compiled_readings
-from biped_adrc.engine.simulate import simulate
 from biped_adrc.gait.passive_cycle import passive_cycle
 from biped_adrc.walker import Mode
+
+simulate = partial(simulate_by, "compiled")
 
 EXACT = 1e-10
 """Of each column's largest number."""

@@ -1,6 +1,7 @@
 """Controllers in plain Python on the compiled plant, against the Python engine."""
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -11,10 +12,11 @@ from biped_adrc.control.npd import npd_torque
 from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw
 from biped_adrc.disturbances.pulse import pulse_acts, pulse_torque
 from biped_adrc.engine.choice import simulate_by
-from biped_adrc.engine.simulate import simulate
 from biped_adrc.errors import NotFiniteError, SingularError
 from biped_adrc.gait.constraint import virtual_constraint
 from biped_adrc.walker import FOOT_STRIKE, Mode
+
+simulate = partial(simulate_by, "compiled")
 
 SHARP, TICKS = 1e-11, 1e-10
 PLANT = "compiled plant"

@@ -10,7 +10,18 @@ import math
 
 import numpy as np
 
-from biped_adrc.engine.kernels.call import Ints, Rows, data, inner, kernel, shift
+from biped_adrc.engine.kernels.call import (
+    Ints,
+    Rows,
+    call,
+    data,
+    floats_at,
+    inner,
+    ints_at,
+    kernel,
+    shift,
+    unit,
+)
 from biped_adrc.engine.kernels.laws import (
     act,
     copy,
@@ -19,32 +30,7 @@ from biped_adrc.engine.kernels.laws import (
     row,
     watch,
 )
-from biped_adrc.engine.kernels.layout import (
-    AFTER,
-    ARC,
-    ARMED,
-    COMPLETED,
-    COUNT,
-    DX0,
-    END,
-    EVERY,
-    FIRED,
-    FULL,
-    GUARDS,
-    HEAD,
-    JOINTS,
-    LIMIT,
-    PERIOD,
-    PERIOD_PART,
-    RESTART,
-    ROOM,
-    STATES,
-    T_FIRST,
-    TIME,
-    VALUES,
-    X0,
-    ZERO_PIVOT,
-)
+from biped_adrc.engine.kernels.layout import *
 from biped_adrc.engine.kernels.segment import node, through
 from biped_adrc.types import Array
 
@@ -130,16 +116,13 @@ def save(P: Ints, W: Array, s: Array) -> None:
     copy(row(P, W, X0), shift(s, HEAD), P[STATES])
 
 
-@kernel
-def arc(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array, kept: Rows) -> int:
-    """Go on from `run` to the first event or its END; a code. `run` is as it was where `kept` is FULL."""
-    P, F, K, W, s = data(ints), data(floats), data(numbers), data(work), data(run)
-    R = data(kept)
+@inner
+def go_on(P: Ints, F: Array, K: Array, W: Array, s: Array, R: Array) -> int:
+    """From the run's vector s, whose ROOM is the rows of R, to the first event or its END; a code."""
     load(P, W, s)
     lower(P, F, W)
     if W[ARMED] == 0.0:
         arm(P, F, K, W)
-    W[ROOM] = kept.shape[0]
     code = travel(P, F, K, W, R)
     if W[EVERY] > 0.0 and W[COUNT] == 0.0 and code != FULL:
         dx = row(P, W, DX0)
@@ -149,4 +132,27 @@ def arc(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array, kept:
             code = FULL
     if code != FULL:
         save(P, W, s)
+    return code
+
+
+@kernel
+def arc(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array, kept: Rows) -> int:
+    """Go on from `run` to the first event or its END; a code. `run` is as it was where `kept` is FULL."""
+    run[ROOM] = kept.shape[0]
+    return go_on(data(ints), data(floats), data(numbers), data(work), data(run), data(kept))
+
+
+@unit
+def hold(given: Ints, seen: Array) -> int:
+    """As `arc`, and in `seen` (t, q, q') there, with what a law says of them.
+
+    given: addresses of P, F, K, W, s and R, of the law, and of its numbers.
+    """
+    P, F, K, W = ints_at(given[0]), floats_at(given[1]), floats_at(given[2]), floats_at(given[3])
+    s = floats_at(given[4])
+    code, size = go_on(P, F, K, W, s, floats_at(given[5])), 2 * P[COORDINATES]
+    if code != FULL:
+        seen[0] = s[TIME]
+        copy(shift(s, HEAD), shift(seen, 1), size)
+        call(given[6], floats_at(given[7]), seen, shift(seen, 1 + size))
     return code

@@ -28,6 +28,8 @@ types: Any = numba.types
 KERNELS: list[Any] = []
 UNITS: dict[str, tuple[Any, Any]] = {}
 """By symbol: the signature and the function, in the order in which they need each other."""
+ADDRESSES: dict[str, int] = {}
+"""Of the units in memory, by name."""
 _NUMBERS = {"int": types.int64, "float": types.float64, "None": types.void}
 _POINTERS = {"Ints": types.CPointer(types.int64), "Array": types.CPointer(types.float64)}
 _ARRAYS = {"Ints": types.int64[::1], "Array": types.float64[::1], "Rows": types.float64[:, ::1]}
@@ -81,6 +83,7 @@ def compile_all() -> None:
     for symbol, (signature, function) in UNITS.items():
         compiled = cfunc(signature, cache=True, error_model="numpy")(function)
         _KEEP.append(compiled)
+        ADDRESSES[symbol.rpartition(".")[2]] = compiled.address
         binding.add_symbol(symbol, compiled.address)
     for made in KERNELS:
         made.compile(tuple(_signature(made.py_func, _ARRAYS)[0]))
@@ -126,3 +129,23 @@ def shift(typingctx: Any, pointer: Any, i: Any) -> Any:
         return builder.gep(arguments[0], [arguments[1]])
 
     return pointer(pointer, types.int64), codegen
+
+
+@intrinsic
+def floats_at(typingctx: Any, address: Any) -> Any:
+    """Pointer to the float64 at an address."""
+
+    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.inttoptr(arguments[0], ir.DoubleType().as_pointer())
+
+    return types.CPointer(types.float64)(types.int64), codegen
+
+
+@intrinsic
+def ints_at(typingctx: Any, address: Any) -> Any:
+    """Pointer to the int64 at an address."""
+
+    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.inttoptr(arguments[0], ir.IntType(64).as_pointer())
+
+    return types.CPointer(types.int64)(types.int64), codegen

@@ -1,0 +1,201 @@
+"""A plant that moves by itself: a ball on a rail with a wall at q = 0, in Euler's steps of its own.
+
+m q'' = u + zeta - m g,   q'+ = -e q'- at the wall
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.closed_loop.stepping import Advanced, Contact, PlantState, SteppingLoop
+from biped_adrc.errors import InputError
+from biped_adrc.hardware.motors import Motors
+from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.hybrid import storage
+from biped_adrc.hybrid.simulator import RunOptions
+from biped_adrc.model.reduction import reduce
+
+MASS, GRAVITY, DT = 2.0, 9.81, 1e-4
+TICK = ba.SampledTime(5e-3)
+
+
+@dataclass(frozen=True)
+class Ball:
+    """own = (number of bounces,)."""
+
+    restitution: float = 0.5
+    sticks_at: float = np.inf
+    n = p = 1
+    swap = np.zeros(1, dtype=int)
+
+    def start(self, t, q, v):
+        return PlantState(t, q, v, np.zeros(1))
+
+    def advance(self, state, u, zeta, until):
+        first, state_nodes = state.t, []
+        steps = max(1, round((until - first) / DT))
+        for k in range(1, steps + 1):
+            t = first + (until - first) * k / steps
+            a = (u + zeta(state.t, state.q, state.v)) / MASS - GRAVITY
+            v = state.v + a * (t - state.t)
+            state = PlantState(t, state.q + v * (t - state.t), v, state.own)
+            state_nodes.append(state)
+            if state.q[0] <= 0.0 and v[0] < 0.0:
+                if t > self.sticks_at:
+                    stuck = (Contact("stuck", ends=ba.Status.FELL),)
+                    return Advanced(state, stuck, tuple(state_nodes))
+                after = state._replace(v=-self.restitution * v, own=state.own + 1.0)
+                impulse = np.array([0.0, -MASS * (1.0 + self.restitution) * v[0]])
+                return Advanced(after, (Contact("wall", impulse),), tuple(state_nodes))
+        return Advanced(state, (), tuple(state_nodes))
+
+
+@dataclass(frozen=True)
+class Model:
+    """What the controller knows: half the mass too much, no wall."""
+
+    n = p = 1
+
+    def reduction(self, q, v):
+        return reduce(np.array([[1.5 * MASS]]), np.array([1.5 * MASS * GRAVITY]), 1)
+
+    def acceleration(self, q, v, force):
+        return force / (1.5 * MASS) - GRAVITY
+
+
+@dataclass(frozen=True)
+class Told(ba.Controller):
+    """PD to q = 0.3, with a state (ticks, jumps, time of the last tick)."""
+
+    def initial_state(self, m):
+        return np.array([0.0, 0.0, -1.0])
+
+    def output(self, s, m):
+        return -40.0 * (m.q - 0.3) - 4.0 * m.v
+
+    def predict(self, s, m, u):
+        return np.array([s[0] + 1.0, s[1], m.t])
+
+    def jump(self, s, after, swap):
+        assert after.t_step == 0.0
+        return np.array([s[0], s[1] + 1.0, s[2]])
+
+
+def loop(controller=None, plant=None, **more):
+    return SteppingLoop(
+        plant or Ball(), controller or Told(), Model(), more.pop("timing", TICK), **more
+    )
+
+
+def run(system, t_end=0.5, q=0.4, **more):
+    x0 = system.initial_state(np.array([q]), np.zeros(1))
+    return system.run(x0, RunOptions(t_end, **more))
+
+
+def test_ticks_come_at_exact_times_and_the_torque_is_held():
+    walked = run(loop())
+    assert walked.status is ba.Status.COMPLETED
+    (arc,) = walked.arcs if len(walked.arcs) == 1 else walked.arcs[:1]
+    jumps = arc.t[1:][np.diff(arc.t) == 0.0]
+    assert np.array_equal(jumps, np.arange(1, len(jumps) + 1) * TICK.period)
+    u = arc.read["u"][:, 0]
+    between = np.diff(arc.t) > 0.0
+    assert np.array_equal(u[1:][between], u[:-1][between])
+    asked = -40.0 * (arc.x[:, 0] - 0.3) - 4.0 * arc.x[:, 1]
+    starts = np.concatenate(([True], ~between))
+    assert np.array_equal(u[starts], asked[starts])
+    assert np.array_equal(arc.x[:, -1], u)
+
+
+def test_a_contact_is_reported_and_passed_on():
+    walked = run(loop(), t_end=2.0, stop_after=("wall", 3))
+    assert walked.status is ba.Status.COMPLETED
+    assert [arc.mode.step for arc in walked.arcs] == [1, 2, 3]
+    for k, event in enumerate(walked.events("wall"), start=1):
+        assert event.x_minus[0] <= 0.0
+        assert event.x_plus[1] == -0.5 * event.x_minus[1]
+        jumps, bounces = event.x_plus[3], event.x_plus[5]
+        assert (jumps, bounces) == (k, k)
+        assert event.x_minus[5] == k - 1
+    for before, after in zip(walked.arcs, walked.arcs[1:], strict=False):
+        assert after.t[0] == before.event.t == after.mode.start
+        assert np.array_equal(after.x[0][:2], before.event.x_plus[:2])
+
+
+def test_the_clock_may_run_on_over_contacts():
+    walked = run(loop(timing=replace(TICK, restart=False)), t_end=1.0, stop_after=("wall", 2))
+    for arc in walked.arcs:
+        ticks = arc.x[:, 4][arc.x[:, 4] >= 0.0] / TICK.period
+        assert np.max(np.abs(ticks - np.round(ticks))) < 1e-9
+
+
+def test_the_plant_may_end_the_run():
+    walked = run(loop(plant=Ball(sticks_at=0.0)), t_end=2.0)
+    assert walked.status is ba.Status.FELL
+    assert walked.arcs[-1].event.guard == "stuck"
+    assert walked.arcs[-1].event.x_plus is None
+
+
+def test_what_acted_is_recorded_and_stored(tmp_path):
+    push = ba.TorqueSine((3.0,), frequency=2.0)
+    reference = ba.TimeReference(lambda t: (np.full(1, 0.5), np.zeros(1), np.zeros(1)))
+    adrc = ba.ADRCController(reference, ba.GPIObserver.from_bandwidth(60.0), ba.Gains(80.0, 15.0))
+    walked = run(loop(adrc, disturbance=push, torque_limit=60.0), t_end=1.5)
+    (arc,) = walked.arcs
+    zeta = [push.torque(t, 1, 0.0, np.zeros(1), np.zeros(1)) for t in arc.t]
+    assert np.array_equal(arc.read["zeta"], np.array(zeta))
+    late = arc.t > 1.0
+    a = (arc.read["u"] + arc.read["zeta"]) / MASS - GRAVITY
+    xi = a - arc.read["u"] / (1.5 * MASS)
+    assert np.max(np.abs(arc.read["xi_estimate"] - xi)[late]) < 0.1 * np.max(np.abs(xi))
+    assert abs(arc.x[-1, 0] - 0.5) < 0.02
+    storage.save(walked, tmp_path / "run.npz")
+    again = storage.load(tmp_path / "run.npz", ba.Mode).arcs[0]
+    assert {name: rows.shape for name, rows in again.read.items()} == {
+        name: rows.shape for name, rows in arc.read.items()
+    }
+    assert np.array_equal(again.read["xi_estimate"], arc.read["xi_estimate"])
+
+
+def test_sensors_and_motors_lie_in_between():
+    hardware = {"sensors": Sensors(counts=2000), "motors": Motors(rate_limit=400.0)}
+    system = loop(timing=replace(TICK, delay=0.4 * TICK.period), **hardware)
+    walked = run(system, t_end=0.3)
+    arc = walked.arcs[0]
+    changes = np.abs(np.diff(arc.read["u"][:, 0]))
+    assert 0.0 < np.max(changes) <= 400.0 * TICK.period + 1e-12
+    moments = arc.t[1:][changes > 0.0] / TICK.period
+    assert np.max(np.abs(moments - np.floor(moments) - 0.4)) < 1e-6
+
+
+def test_a_run_goes_on_where_another_ended():
+    system = loop()
+    whole = run(system, t_end=0.2)
+    half = run(system, t_end=0.1)
+    rest = system.run(half.final_state, RunOptions(0.2, t0=0.1), half.arcs[-1].mode)
+    assert np.allclose(rest.final_state, whole.final_state, rtol=1e-12, atol=1e-12)
+
+
+def test_what_does_not_fit():
+    with pytest.raises(InputError, match="controlled at ticks, found ContinuousTime"):
+        loop(timing=ba.ContinuousTime())
+    with pytest.raises(InputError, match="put the lag into the plant"):
+        loop(motors=Motors(lag=1e-3))
+
+    class Lazy(Ball):
+        def advance(self, state, u, zeta, until):
+            return super().advance(state, u, zeta, 0.5 * (state.t + until))
+
+    with pytest.raises(InputError, match=r"Lazy\.advance came to 0.0025 s without a contact"):
+        run(loop(plant=Lazy()))
+
+
+def test_a_plant_without_numbers_ends_the_run():
+    class Broken(Ball):
+        def advance(self, state, u, zeta, until):
+            return super().advance(state, np.nan * u, zeta, until)
+
+    walked = run(loop(plant=Broken()))
+    assert walked.status is ba.Status.NOT_FINITE
