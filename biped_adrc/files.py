@@ -1,14 +1,21 @@
-"""Files that are written: their names, and writing them whole or not at all."""
+"""Files: their names, JSON that is read, plain values for JSON, and writing whole or not at all."""
 
 from __future__ import annotations
 
+import json
+import math
 import os
 import re
 import tempfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import fields, is_dataclass
 from pathlib import Path
+from typing import Any
 
-from biped_adrc.errors import InputError, OutputError
+import numpy as np
+
+from biped_adrc.errors import BipedError, InputError, OutputError
 
 _KIND = re.compile(r"\.[A-Za-z]\w*")
 """The end of a name that says what is in a file; '.1' of 'push_0.1' does not."""
@@ -51,6 +58,33 @@ def _same(a: Path, b: Path) -> bool:
         return os.path.realpath(a) == os.path.realpath(b)
 
 
+def read_json(path: Path, what: str, error: type[BipedError] = InputError) -> Any:
+    """What a file holds. Raises `error`, which says `what` the file should be, where it cannot be read."""
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise error(f"{what} '{path}' not found") from None
+    except OSError as reason:
+        raise error(f"{what} '{path}' cannot be read: {reason.strerror}") from reason
+    except (json.JSONDecodeError, UnicodeDecodeError) as reason:
+        raise error(f"{what} '{path}' is not valid JSON: {reason}") from reason
+
+
+def plain(value: Any) -> Any:
+    """As JSON has it: records by their fields, arrays as lists, a number that is not finite as text."""
+    if is_dataclass(value):
+        value = {field.name: getattr(value, field.name) for field in fields(value)}
+    elif hasattr(value, "_asdict"):
+        value = value._asdict()
+    if isinstance(value, Mapping):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        return [plain(v) for v in value]
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
+
+
 def write_text(path: Path, text: str) -> None:
     """Write a file whole or not at all: temporary file, fsync, rename. Raises OutputError."""
     write_bytes(path, text.encode("utf-8"))
@@ -58,13 +92,21 @@ def write_text(path: Path, text: str) -> None:
 
 def write_bytes(path: Path, data: bytes) -> None:
     """As `write_text`, for bytes."""
+    with replacing(path) as temporary:
+        temporary.write_bytes(data)
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """A temporary file beside `path`, which takes its place when all is in it. Raises OutputError."""
     temporary = None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-            file.flush()
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        os.close(handle)
+        temporary = Path(name)
+        yield temporary
+        with open(temporary, "rb") as file:
             os.fsync(file.fileno())
         umask = os.umask(0)
         os.umask(umask)
@@ -75,5 +117,5 @@ def write_bytes(path: Path, data: bytes) -> None:
             f"cannot write '{path}': {error.strerror or error}; choose a folder you may write to"
         ) from error
     finally:
-        if temporary is not None and os.path.exists(temporary):
-            os.unlink(temporary)
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)

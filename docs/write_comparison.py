@@ -20,7 +20,7 @@ from write_results import bullets, table
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.studies.bench.compare_study import figures
-from biped_adrc.viz.comparison_page import CAPTIONS, TITLE
+from biped_adrc.viz.comparison_page import TITLE
 from biped_adrc.viz.comparison_text import (
     EQUAL,
     MEDIANS,
@@ -37,6 +37,7 @@ from biped_adrc.viz.comparison_text import (
     share_texts,
 )
 from biped_adrc.viz.numbers import as_text, numbers_of
+from biped_adrc.viz.pages import captions
 from biped_adrc.viz.style import render
 
 DOCS = Path(__file__).resolve().parent
@@ -104,7 +105,7 @@ def page(summary: dict[str, Any]) -> str:
         WORDS,
         findings(summary, equal=False),
         *equal_part(summary),
-        *(figure(name) for name in CAPTIONS if name != "pushes" or pushes),
+        *(figure(name) for name in captions("comparison") if name != "pushes" or pushes),
         "## The table",
         nominal_text(summary["nominal"]),
         "Shares of walks with Wilson's intervals; what walks need, over those that make all steps:",
@@ -145,7 +146,7 @@ def _pushes(pushes: list[dict[str, Any]]) -> list[list[str]]:
 
 def figure(name: str) -> str:
     """A figure with its caption."""
-    title, caption = CAPTIONS[name]
+    title, caption = captions("comparison")[name]
     return f"## {title}\n\n![{title}](comparison/{name}.svg)\n\n{caption}"
 
 

@@ -15,8 +15,8 @@ from typing import Any
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
-from biped_adrc.viz.report import CLAIM_COLUMNS, FIGURES, KINDS
-from biped_adrc.viz.report_parts import plain
+from biped_adrc.viz.pages import captions, plain
+from biped_adrc.viz.report import CLAIM_COLUMNS, KINDS
 
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- results: begin -->", "<!-- results: end -->"
@@ -81,7 +81,7 @@ def bullets(items: list[str]) -> str:
 
 def figure(name: str) -> str:
     """A figure with what to look for in it."""
-    title, caption = FIGURES[name]
+    title, caption = captions("report")[name]
     return f"### {title}\n\n![{title}](results/{name}.svg)\n\n{caption}"
 
 

@@ -10,13 +10,14 @@ import numpy as np
 import pytest
 
 from biped_adrc.analysis.observer_loop import observer_loop
+from biped_adrc.files import plain
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.studies.claims import evidence, rows_control, rows_gait, rows_push
 from biped_adrc.studies.claims.admissible import Member, convergence, declared, members
 from biped_adrc.studies.claims.evidence import Cycle, Jumps, Needs, Pair, Start
 from biped_adrc.studies.claims.gathered import Evidence
 from biped_adrc.studies.claims.orders import Order, bandwidth_with
-from biped_adrc.studies.claims.table import map_cells, rows
+from biped_adrc.studies.claims.table import rows
 from biped_adrc.studies.claims.walks import (
     MemberOutcome,
     Prepared,
@@ -40,6 +41,7 @@ from biped_adrc.studies.claims.words import (
     span,
 )
 from biped_adrc.studies.push_map import Cell, Fate
+from biped_adrc.studies.results import Results
 from biped_adrc.viz.report import CLAIM_COLUMNS
 
 NUMERICS = {
@@ -364,8 +366,8 @@ def test_marginal_cells_of_the_map_carry_nothing():
     claim = rows_push.critical_phase([], cells)
     assert claim.word == "replicated"
     assert "half the step, 1, are left out" in claim.reason
-    found = map_cells({"map a": cells, "nominal": None, "map b": cells[:1]})
-    assert len(found) == 3
+    found = Results.of({"map a": cells, "nominal": None, "map b": cells[:1]})
+    assert len(found.cells) == 3
 
 
 def test_the_long_walks():
@@ -614,7 +616,7 @@ def test_every_claim_has_a_row_with_every_column():
 
 
 def test_every_number_is_recorded_at_both_steps():
-    record = json.loads(json.dumps(EVIDENCE.record()))
+    record = json.loads(json.dumps(plain(EVIDENCE)))
     peak = record["members"][0]["walked"]["ADRC"]["peak"]
     assert peak == pytest.approx({"value": 1e-6 * 1.001, "at_half": 1e-6})
     assert record["members"][0]["member"]["preset"] == "identified"

@@ -15,6 +15,7 @@ from biped_adrc.analysis.window import window_means
 from biped_adrc.model.limits import KnownLimits
 from biped_adrc.studies.findings import _push
 from biped_adrc.studies.plan import Plan
+from biped_adrc.studies.results import Results
 from biped_adrc.studies.runs import Run, execute
 
 KNOWN = KnownLimits(0.6, 150.0, 5e-3)
@@ -318,8 +319,9 @@ def test_the_finding_of_the_push_says_of_both_walks_whether_they_were_legal():
             known = o.legality.limits._replace(friction=friction if c == "NPD" else 0.6)
             supports = tuple(replace(s, friction_limit=known.friction) for s in o.legality.supports)
             walks[c] = replace(o, legality=replace(o.legality, supports=supports, limits=known))
-        full = {f"headline {c}": SimpleNamespace(outcome=o) for c, o in walks.items()}
-        return _push(plan, {**full, **{f"rising push {c}": o for c, o in walks.items()}})
+        full = {f"headline {c}": (SimpleNamespace(outcome=o), []) for c, o in walks.items()}
+        rising = {f"rising push {c}": o for c, o in walks.items()}
+        return _push(plan, Results.of({**full, **rising}))
 
     assert "of either walk: it made all steps legally" in found(0.6)
     assert (

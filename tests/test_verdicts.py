@@ -12,13 +12,13 @@ from typer.testing import CliRunner
 from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.return_map import PeriodicOrbit
+from biped_adrc.checks import at_most
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.limits import KnownLimits
 from biped_adrc.studies import reproduction, verdicts
-from biped_adrc.studies.checks import at_most
 from biped_adrc.studies.claims.words import Case, Claim, Figure, Tally, judged
 from biped_adrc.studies.convergence import convergence_check
 from biped_adrc.studies.findings import _torso
@@ -26,6 +26,7 @@ from biped_adrc.studies.laws import walk_laws, work_identity
 from biped_adrc.studies.plan import Plan, RecipeResult
 from biped_adrc.studies.poincare import PoincareResult
 from biped_adrc.studies.pool import Timed
+from biped_adrc.studies.results import Results
 from biped_adrc.studies.runs import Outcome, Run
 from biped_adrc.studies.tables import _runs
 
@@ -82,7 +83,7 @@ def results(**odd):
     """Outcomes with which every check holds, but for those given by name, with _ for a space."""
     found = {}
     for c, peak in (("NPD", 1e-2), ("ADRC", 1e-5)):
-        found[f"headline {c}"] = SimpleNamespace(outcome=outcome(c, peak))
+        found[f"headline {c}"] = head(c, peak), []
         for name in ("sine", "torso", "1 kHz"):
             found[f"{name} {c}"] = outcome(c, peak)
         found[f"engines {c}"] = outcome(c, peak, half=outcome(c, peak))
@@ -96,7 +97,7 @@ def results(**odd):
     found["multipliers ADRC"] = SimpleNamespace(orbit=orbit)
     for name, value in odd.items():
         found[name.replace("_", " ")] = value
-    return found
+    return Results.of(found)
 
 
 PLAN = Plan(quick=True)
@@ -141,7 +142,7 @@ def test_all_hold_on_good_outcomes():
 
 @pytest.mark.parametrize(("ratio", "count"), [(0.0099, 0), (0.011, 1), (math.nan, 1)])
 def test_a_ratio_just_over_the_limit(ratio, count):
-    found = broken(headline_ADRC=head("ADRC", 1e-2 * ratio))
+    found = broken(headline_ADRC=(head("ADRC", 1e-2 * ratio), []))
     assert len(found) == count
     assert all("the push" in name for name in found)
     found = broken(sine_ADRC=outcome("ADRC", 1e-2 * ratio))
@@ -151,7 +152,7 @@ def test_a_ratio_just_over_the_limit(ratio, count):
 
 @pytest.mark.parametrize("controller", ["NPD", "ADRC"])
 def test_a_fall(controller):
-    assert broken(**{f"headline_{controller}": head(controller, 1e-5, 8)})
+    assert broken(**{f"headline_{controller}": (head(controller, 1e-5, 8), [])})
     assert broken(**{f"1_kHz_{controller}": outcome(controller, 1e-5, 8)})
     fallen = outcome(controller, impacts=8, x_minus=np.tile(X_STAR, (8, 1)))
     found = broken(**{f"nominal_identified_{controller}": fallen})
@@ -227,12 +228,12 @@ def test_a_multiplier_that_the_step_decides(gap, holds):
     recipe = RecipeResult("identified", "NPD", True, "", record)
     head = outcome("ADRC", 1e-5, half=outcome("ADRC", 1.001e-5, half=outcome("ADRC", 1.0015e-5)))
     r = {
-        "headline NPD": SimpleNamespace(outcome=outcome("NPD")),
-        "headline ADRC": SimpleNamespace(outcome=head),
+        "headline NPD": (SimpleNamespace(outcome=outcome("NPD")), []),
+        "headline ADRC": (SimpleNamespace(outcome=head), []),
         "multipliers NPD": found,
         "recipe identified NPD": recipe,
     }
-    checks = [c for c in verdicts.convergence_checks(r) if "multiplier" in c.name]
+    checks = [c for c in verdicts.convergence_checks(Results.of(r)) if "multiplier" in c.name]
     assert [c.holds for c in checks] == [holds, holds]
     assert "not told from zero" in checks[0].name
 
@@ -326,10 +327,9 @@ def stubbed(monkeypatch):
         replaced = {
             "planned_tasks": lambda plan: dict.fromkeys(values),
             "run_tasks": lambda *_: [Timed(value, 0.0) for value in values.values()],
-            "regression_of": lambda _: SimpleNamespace(record=dict),
             "_checks": lambda *_: checks,
             "claims": lambda *_: claims,
-            "gathered": lambda *_: SimpleNamespace(record=dict),
+            "gathered": lambda *_: {},
             "findings": lambda *_: [],
             "tables": lambda *_: {},
             "save": lambda *_: None,
@@ -340,8 +340,7 @@ def stubbed(monkeypatch):
         }
         for name, value in replaced.items():
             monkeypatch.setattr(reproduction, name, value)
-        found = SimpleNamespace(outcome=outcome("NPD"), trajectory=None)
-        monkeypatch.setattr(verdicts, "headline_of", lambda *_: found)
+        monkeypatch.setattr(Results, "regressions", {})
         monkeypatch.setattr(verdicts, "recipe_notes", lambda *_: [])
 
     return stub

@@ -9,8 +9,9 @@ import casadi as ca
 import numpy as np
 from chain import Chain, Simulate
 
+from biped_adrc.gait.design.step import each, together
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import PlanarTree
+from biped_adrc.model.planar import PlanarTree, inertia_and_bias
 from biped_adrc.types import Array
 
 H, RTOL, ATOL = 1e-3, 1e-6, 1e-9  # [s], relative, absolute
@@ -21,6 +22,12 @@ def solve_symmetric(D: Any, right: Any) -> Any:
     return ca.ldl_solve(right, *ca.ldl(D))
 
 
+def terms(tree: PlanarTree, q: Any, v: Any) -> tuple[Any, Any]:
+    """D (n, n) and Omega (n,) as CasADi's matrices."""
+    D, Omega = inertia_and_bias(tree, tree.K, each(q), each(v))
+    return together(D), together(Omega)
+
+
 class CasADiChain(Chain):
     """Symbols of q'' = D^-1 (f - Omega)."""
 
@@ -28,7 +35,8 @@ class CasADiChain(Chain):
         super().__init__(biped)
         n, tree = biped.n, PlanarTree.of(biped)
         self.q, self.v, f = (ca.SX.sym(name, n) for name in ("q", "v", "f"))
-        a = solve_symmetric(tree.D(ca, self.q), f - tree.Omega(ca, self.q, self.v))
+        D, Omega = terms(tree, self.q, self.v)
+        a = solve_symmetric(D, f - Omega)
         self.free = ca.substitute(a, f, np.zeros(n))
         self.function = ca.Function("acceleration", [self.q, self.v, f], [a])
 

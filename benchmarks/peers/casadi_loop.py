@@ -10,7 +10,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from casadi_chain import solve_symmetric
+from casadi_chain import solve_symmetric, terms
 
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.observing import ObservingParameters
@@ -27,8 +27,7 @@ def closed_loop(biped: Biped, controller: ADRCController) -> Any:
     x = ca.SX.sym("x", 2 * n + k.observer.order * p)
     q, v = x[:n], x[n : 2 * n]
     Z = ca.reshape(x[2 * n :], p, k.observer.order).T
-    tree = PlanarTree.of(biped)
-    D, Omega = tree.D(ca, q), tree.Omega(ca, q, v)
+    D, Omega = terms(PlanarTree.of(biped), q, v)
     A_N, a_N = -D[p, :p] / D[p, p], -Omega[p] / D[p, p]
     kappa_u = acceleration(k, q, v, Z, A_N, a_N) - Z[2, :].T * k.observer.scale**2
     u = (D[:p, :p] + D[:p, p] @ A_N) @ kappa_u

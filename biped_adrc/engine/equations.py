@@ -24,7 +24,6 @@ from biped_adrc.closed_loop.semantics import Mode
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.mechanics import PlanarRobot, Structure
-from biped_adrc.engine.plant import PlantArrays
 from biped_adrc.engine.symbols import (
     Tracer,
     Vector,
@@ -36,6 +35,7 @@ from biped_adrc.engine.symbols import (
 )
 from biped_adrc.hardware.held import HeldParameters, HeldSizes
 from biped_adrc.hardware.meter import Outside
+from biped_adrc.model.planar import PlantArrays
 from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
 

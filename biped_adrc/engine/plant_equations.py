@@ -13,8 +13,8 @@ from typing import Any
 
 from biped_adrc.engine.equations import Function, count
 from biped_adrc.engine.mechanics import PlanarRobot, Structure
-from biped_adrc.engine.plant import PlantArrays
 from biped_adrc.engine.symbols import Vector, column
+from biped_adrc.model.planar import PlantArrays
 
 
 @dataclass(frozen=True)

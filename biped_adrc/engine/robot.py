@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.engine.mechanics import Structure
-from biped_adrc.engine.plant import PlantArrays, plant_arrays
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import PlanarTree
+from biped_adrc.model.planar import PlanarTree, PlantArrays
 
 REMEMBERED = 64
 """Robots kept in memory."""
@@ -40,12 +39,12 @@ def robot_of(biped: Biped) -> Robot:
 
 def _read(biped: Biped) -> Robot:
     tree = PlanarTree.of(biped)
-    arrays = plant_arrays(biped, tree)
+    arrays = tree.K
     swap: Any = biped.relabelling[: biped.p] if biped.p else np.zeros(0, dtype=int)
     structure = Structure(
         biped.n,
         biped.p,
-        tree.A.astype(int),
+        tree.A,
         biped.R.astype(int),
         biped.relabel(np.zeros(biped.n)),
         swap,

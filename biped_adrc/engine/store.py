@@ -20,6 +20,8 @@ from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
 
+from platformdirs import user_cache_path
+
 from biped_adrc.errors import OutputError
 from biped_adrc.files import write_text
 
@@ -31,10 +33,8 @@ MARK = ".sha256"
 
 
 def cache_folder() -> Path:
-    """Where generated modules are kept."""
-    if VARIABLE in os.environ:
-        return Path(os.environ[VARIABLE])
-    return Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "biped_adrc"
+    """Where generated modules are kept; an empty variable counts as none."""
+    return Path(os.environ.get(VARIABLE) or user_cache_path("biped_adrc", appauthor=False))
 
 
 def key_of(source: str) -> str:

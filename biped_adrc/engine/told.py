@@ -20,10 +20,10 @@ from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import Machine, Text, remembered
 from biped_adrc.engine.mechanics import PlanarRobot
-from biped_adrc.engine.plant import PlantArrays
 from biped_adrc.engine.symbols import Tracer, Untraceable, Vector, column, floats, run
 from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.planar import PlantArrays
 from biped_adrc.types import Array
 
 

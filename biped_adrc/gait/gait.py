@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import GaitError
-from biped_adrc.files import output_path, write_text
+from biped_adrc.files import output_path, read_json, write_text
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import CURVES
 from biped_adrc.model.biped import Biped
@@ -172,20 +172,12 @@ def load_gait(gait: str | Path, biped: Biped) -> Gait:
                 f"there is no gait '{gait}' for robot '{robot}', preset '{preset}'; {choose}, or give the path "
                 "of a .json file"
             )
+    record = read_json(path, "gait file", GaitError)
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
         return _from_record(record).check(biped)
-    except FileNotFoundError:
-        raise GaitError(f"gait file '{path}' not found") from None
-    except OSError as error:
-        raise GaitError(f"gait file '{path}' cannot be read: {error.strerror}") from error
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise GaitError(f"gait file '{path}' is not valid JSON: {error}") from error
     except KeyError as error:
         raise GaitError(f"gait file '{path}': the key {error} is missing") from error
-    except GaitError as error:
-        raise GaitError(f"gait file '{path}': {error}") from error
-    except (TypeError, ValueError) as error:
+    except (GaitError, TypeError, ValueError) as error:
         raise GaitError(f"gait file '{path}': {error}") from error
 
 

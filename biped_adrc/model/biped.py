@@ -18,12 +18,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.errors import ModelError
 from biped_adrc.model.contact import FloatingDynamics, Impact
 from biped_adrc.model.physical import check_numbers, check_planar
-from biped_adrc.model.pinned import PinnedDynamics
+from biped_adrc.model.pinned import PinnedDynamics, finite_angles
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
-from biped_adrc.model.relabelling import relabelling
+from biped_adrc.model.relabelling import absolute_angles, relabelling
 from biped_adrc.model.reroot import reroot
 from biped_adrc.model.robots import RobotDescription, load_description
 from biped_adrc.model.urdf import Inertial, Tree
@@ -163,18 +163,14 @@ class Biped:
 
     def _stance_chain(self) -> Array:
         """Row (n,): absolute angle of the stance foot's link as a sum of coordinates."""
-        row = np.zeros(self.n)
         pitch = self.tree.joint_above(self.description.trunk)
         if pitch is None or pitch.name != self.description.unactuated:
             raise ModelError(
                 f"URDF '{self.tree.source}': link '{self.description.trunk}' hangs on "
                 f"'{pitch.name if pitch else 'nothing'}', expected '{self.description.unactuated}'"
             )
-        for joint in self.tree.path_to_root(self.description.stance_foot):
-            if joint.name in self.description.joints:
-                sign = sum(a * b for a, b in zip(joint.axis, pitch.axis, strict=True))
-                row[self.description.joints.index(joint.name)] = sign
-        return row
+        foot = self.description.stance_foot
+        return absolute_angles(self.tree, self.description.joints, [foot])[0]
 
     # -- single support (1), (11)-(15) -----------------------------------------------------------
     def inertia(self, q: Array) -> Array:
@@ -306,26 +302,28 @@ class Biped:
         `mass` alone leaves the inertias about the COM as they are. Raises ModelError for an unknown
         body or a factor that is not positive.
         """
-        inertials: dict[str, Inertial] = {}
-        for factors, key in ((mass or {}, "mass"), (inertia or {}, "inertia")):
-            for body, factor in factors.items():
+        factors = {"mass": mass or {}, "inertia": inertia or {}}
+        for kind, by_body in factors.items():
+            for body, factor in by_body.items():
                 if not (math.isfinite(factor) and factor > 0):
-                    raise ModelError(f"{key} factor of '{body}' is {factor}, expected > 0")
+                    raise ModelError(f"{kind} factor of '{body}' is {factor}, expected > 0")
+        friction = self.friction if friction is None else friction
+        return replace(self, tree=self.scaled(factors), friction=friction)
+
+    def scaled(self, factors: Mapping[str, Mapping[str, float]]) -> Tree:
+        """The tree with "mass", "com" or "inertia" multiplied: by kind, then by class or link name.
+
+        Raises ModelError for an unknown body, or one without mass.
+        """
+        inertials: dict[str, Inertial] = {}
+        for kind, by_body in factors.items():
+            for body, factor in by_body.items():
                 for link in self._links(body):
                     old = inertials.get(link) or self.tree.links[link].inertial
                     if old is None:
-                        raise ModelError(f"link '{link}' has no mass to scale")
-                    if key == "mass":
-                        new = replace(old, mass=old.mass * factor)
-                    else:
-                        moments = tuple(m * factor for m in old.inertia)
-                        new = replace(old, inertia=moments)  # type: ignore[arg-type]
-                    inertials[link] = new
-        return replace(
-            self,
-            tree=self.tree.with_inertials(inertials),
-            friction=self.friction if friction is None else friction,
-        )
+                        raise ModelError(f"link '{link}' has no mass, so its {kind} has no error")
+                    inertials[link] = old.scaled(kind, factor)
+        return self.tree.with_inertials(inertials)
 
     def _links(self, body: str) -> tuple[str, ...]:
         if body in self.description.links:
@@ -336,13 +334,4 @@ class Biped:
         raise ModelError(f"robot '{self.description.name}' has no body '{body}'; it has {known}")
 
     def _angles(self, q: Array) -> Array:
-        """q itself, once it is known to be n finite numbers."""
-        if q.shape != self._shape:
-            raise InputError(f"expected an array of shape {self._shape}, found {q.shape}")
-        if not math.isfinite(q.dot(q)):
-            raise NotFiniteError(f"expected finite angles or rates, found {q}")
-        return q
-
-    @cached_property
-    def _shape(self) -> tuple[int]:
-        return (self.n,)
+        return finite_angles(q, (self.n,))

@@ -90,11 +90,7 @@ def friction_derivative(biped: Biped, v: Array) -> Array:
     """d/dv of `Biped.friction_torque` (n, n) [N m s/rad]."""
     if not biped.friction:
         return np.zeros((biped.n, biped.n))
-    record, names = biped.description, biped.description.joints
-    viscous, static = (
-        np.array([torque.get(name, 0.0) for name in names])
-        for torque in (record.viscous, record.static)
-    )
+    viscous, static = biped.friction_coefficients
     smooth = 1.0 - np.tanh(v / STICTION_SPEED) ** 2
     return np.diag(-viscous - static * smooth / STICTION_SPEED)
 

@@ -18,7 +18,6 @@ import numpy as np
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.relabelling import twins
-from biped_adrc.model.urdf import Inertial
 from biped_adrc.types import Array
 
 KINDS = ("mass", "com", "inertia", "friction")
@@ -82,15 +81,8 @@ class ModelErrors:
 
     def apply(self, biped: Biped) -> Biped:
         """`biped` with these errors. Raises ModelError for a body or joint it has not, or unequal legs."""
-        inertials: dict[str, Inertial] = {}
-        for kind in KINDS[:3]:
-            for body, e in getattr(self, kind).items():
-                for link in biped._links(body):
-                    old = inertials.get(link) or biped.tree.links[link].inertial
-                    if old is None:
-                        raise ModelError(f"link '{link}' has no mass, so its {kind} has no error")
-                    inertials[link] = _scaled(old, kind, 1.0 + e)
-        made = replace(biped, tree=biped.tree.with_inertials(inertials))
+        factors = {k: {x: 1.0 + e for x, e in getattr(self, k).items()} for k in KINDS[:3]}
+        made = replace(biped, tree=biped.scaled(factors))
         if self.friction:
             made = self._rubbed(made)
         made.check()
@@ -141,17 +133,6 @@ def _seed(seed: int) -> int:
 
 def _even(random: np.random.Generator, width: float, count: int) -> list[float]:
     return [float(e) for e in random.uniform(-width, width, count)]
-
-
-def _scaled(old: Inertial, kind: str, factor: float) -> Inertial:
-    """A body with one of its parameters multiplied."""
-    if kind == "mass":
-        return replace(old, mass=old.mass * factor)
-    if kind == "com":
-        x, y, z = (factor * c for c in old.com)
-        return replace(old, com=(x, y, z))
-    xx, xy, xz, yy, yz, zz = (factor * m for m in old.inertia)
-    return replace(old, inertia=(xx, xy, xz, yy, yz, zz))
 
 
 def _rubbing(biped: Biped) -> Iterator[tuple[str, ...]]:

@@ -7,10 +7,12 @@ stance shin. The paper's coordinates count from the torso. Both are angles of th
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pinocchio as pin
 
-from biped_adrc.errors import ModelError
+from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.model.reroot import PIN_JOINT
 from biped_adrc.model.urdf import Tree, to_xml
 from biped_adrc.types import Array
@@ -47,6 +49,15 @@ def frame_index(model: pin.Model, frame: str) -> int:
     return int(model.getBodyId(frame))
 
 
+def finite_angles(q: Array, shape: tuple[int]) -> Array:
+    """q itself, once it is known to be finite numbers of this shape. Raises InputError, NotFiniteError."""
+    if q.shape != shape:
+        raise InputError(f"expected an array of shape {shape}, found {q.shape}")
+    if not math.isfinite(q.dot(q)):
+        raise NotFiniteError(f"expected finite angles or rates, found {q}")
+    return q
+
+
 class PinnedDynamics:
     """D_s, Omega, forward dynamics and kinematics at (q_s, q_s'); arrays are (n,) or (n, n)."""
 
@@ -69,14 +80,13 @@ class PinnedDynamics:
                 f"URDF '{tree.source}': pinned model has {self.model.nv} coordinates, "
                 f"the robot record names {n} ({list(joints)})"
             )
-        T = np.zeros((n, n))
+        self.T = np.zeros((n, n))  # q_tree = T q_s
         for j, name in enumerate(joints[:-1]):
-            T[velocity_index(self.model, name), j] = 1.0
-        T[velocity_index(self.model, PIN_JOINT)] = stance_chain
-        self.T = T
+            self.T[velocity_index(self.model, name), j] = 1.0
+        self.T[velocity_index(self.model, PIN_JOINT)] = stance_chain
+        self._inverse = np.linalg.inv(self.T)
         self.swing = frame_index(self.model, feet[1])
         self.hip = frame_index(self.model, hip)
-        self.torso_joint = int(self.model.frames[self.hip].parentJoint)
 
     def inertia(self, q: Array) -> Array:
         """D_s(q) (n, n) [kg m^2] from CRBA."""
@@ -89,10 +99,10 @@ class PinnedDynamics:
 
     def inertia_and_bias(self, q: Array, v: Array) -> tuple[Array, Array]:
         """D_s and Omega at once."""
-        T, x = self._T, self._T @ q
+        T, x = self.T, self.T @ q
         M = pin.crba(self.model, self.data, x)
         nle = pin.nonLinearEffects(self.model, self.data, x, T @ v)
-        return self._Tt @ M @ T, self._Tt @ nle
+        return T.T @ M @ T, T.T @ nle
 
     def gravity(self, q: Array) -> Array:
         """G_s(q) = dV/dq (n,) [N m]."""
@@ -108,21 +118,8 @@ class PinnedDynamics:
 
         T is square with determinant +-1: tau_tree = T^-T force and q'' = T^-1 a_tree.
         """
-        T = self._T
-        a = pin.aba(self.model, self.data, T @ q, T @ v, self._inverse_t @ force)
-        return self._inverse @ a
-
-    @property
-    def T(self) -> Array:
-        """(n, n), q_tree = T q_s."""
-        return self._T
-
-    @T.setter
-    def T(self, value: Array) -> None:
-        self._T = value
-        self._Tt = value.T
-        self._inverse = np.linalg.inv(value)
-        self._inverse_t = self._inverse.T
+        T, inverse = self.T, self._inverse
+        return inverse @ pin.aba(self.model, self.data, T @ q, T @ v, inverse.T @ force)
 
     def potential_energy(self, q: Array) -> float:
         """V(q) [J], zero at the height of the stance foot."""

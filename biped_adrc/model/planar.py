@@ -6,23 +6,24 @@ written as complex numbers x + i z from the stance foot:
     c = sum_i d_i exp(i a_i)
 
 so that, with d_k the COM of link k, m_k its mass, J_k its inertia about the COM, W = sum_k m_k d_k* d_k',
-and w = sum_k m_k d_k,
+and w = sum_k m_k d_k, and with c = cos a, s = sin a,
 
-    D = Re W o cos(a_j - a_i) - Im W o sin(a_j - a_i) + diag J       row i, column j
-    C a' = -(Re W o sin(a_j - a_i) + Im W o cos(a_j - a_i)) a'^2
-    G = g Re(w exp(i a))
+    C_ij = cos(a_j - a_i) = c_i c_j + s_i s_j,   S_ij = sin(a_j - a_i) = c_i s_j - s_i c_j
 
-and D_s = A' D A + rotors, Omega = A' (C a' + G). The vectors d are fitted to Pinocchio's own positions, where
-the fit is exact, and the terms are compared to Pinocchio's before anything uses them. The
-formulas are written once, for NumPy and for CasADi's symbols alike.
+    D = Re W o C - Im W o S + diag J,   Omega = -(Re W o S + Im W o C) a'^2 + g Re(w exp(i a))
+
+taken to the coordinates by A, with the rotors added. The vectors d are fitted to Pinocchio's own positions,
+where the fit is exact, and the terms are compared to Pinocchio's before anything uses them. The functions take
+numbers and object arrays of symbols alike: NumPy asks each symbol for its `cos` and `sin`.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
@@ -32,26 +33,48 @@ EXACT = 1e-11
 """Largest relative difference to Pinocchio's D_s, Omega, swing foot and hip."""
 
 
-@dataclass(frozen=True)
-class PlanarTree:
-    """n links; the arrays are all a generated model needs."""
+class PlantArrays(NamedTuple):
+    """The numbers of n links as run-time arrays, float64: one compilation serves all of them."""
 
-    A: Array
-    """(n, n), a = A q."""
-    mass: Array
-    """(n,) [kg]."""
+    W_re: Array
+    """Re W (n, n) [kg m^2]."""
+    W_im: Array
+    """Im W (n, n) [kg m^2]."""
     inertia: Array
-    """(n,) about the COM [kg m^2]."""
+    """Re W_ii + J_i (n,) [kg m^2]."""
     rotor: Array
-    """(n,) reflected inertia of the coordinates [kg m^2]."""
-    com: ComplexArray
-    """(n, n) rows d_k [m]."""
-    foot: ComplexArray
-    """(n,) of the swing foot [m]."""
-    hip: ComplexArray
-    """(n,) of the hip [m]."""
+    """Reflected inertia of the coordinates (n,) [kg m^2]."""
+    w_re: Array
+    """Re w (n,) [kg m]."""
+    w_im: Array
+    """Im w (n,) [kg m]."""
+    foot_re: Array
+    """Re d of the swing foot (n,) [m]."""
+    foot_im: Array
+    hip_re: Array
+    """Re d of the hip (n,) [m]."""
+    hip_im: Array
+    mass: float
+    """Of the robot [kg]."""
     gravity: float
     """[m/s^2]."""
+
+
+class Joined(Protocol):
+    """How links are joined."""
+
+    @property
+    def A(self) -> NDArray[np.int_]:
+        """a = A q (n, n)."""
+
+
+@dataclass(frozen=True)
+class PlanarTree:
+    """A robot of n links: how they are joined, and their numbers."""
+
+    A: NDArray[np.int_]
+    """(n, n), a = A q."""
+    K: PlantArrays
 
     @classmethod
     def of(cls, biped: Biped) -> PlanarTree:
@@ -65,20 +88,24 @@ class PlanarTree:
         rotor = np.zeros(n)
         rotor[: biped.p] = biped.armature
         d = np.asarray((_clean(fitted.real) + 1j * _clean(fitted.imag)).T, dtype=np.complex128)
-        gravity = biped.description.gravity
-        tree = cls(A, mass, inertia, rotor, d[:n], d[n], d[n + 1], gravity)
-        return tree.check(biped)
+        com = d[:n]
+        W = com.conj().T @ (mass[:, np.newaxis] * com)
+        w, foot, hip = (_parts(z) for z in (mass @ com, d[n], d[n + 1]))
+        total, gravity = float(np.sum(mass)), biped.description.gravity
+        inertia = np.diag(W.real) + inertia
+        K = PlantArrays(*_parts(W), inertia, rotor, *w, *foot, *hip, total, gravity)
+        return cls(A.astype(int), K).check(biped)
 
     def check(self, biped: Biped, samples: int = 20) -> PlanarTree:
         """The tree itself, when D_s, Omega and the swing foot are Pinocchio's. Raises ModelError."""
-        random = np.random.default_rng(2)
+        random, K = np.random.default_rng(2), self.K
+        names = ("D_s", "Omega", "the swing foot")
         for _ in range(samples):
             q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(size=biped.n)
-            ours = [self.D(np, q), self.Omega(np, q, v), np.array(self.point(np, self.foot, q))]
-            theirs = [biped.inertia(q), biped.bias(q, v), biped.swing_foot(q)]
-            for name, one, other in zip(
-                ("D_s", "Omega", "the swing foot"), ours, theirs, strict=True
-            ):
+            foot = point(turned(self, q), K.foot_re, K.foot_im)
+            ours = (*inertia_and_bias(self, K, q, v), np.array(foot))
+            theirs = (biped.inertia(q), biped.bias(q, v), biped.swing_foot(q))
+            for name, one, other in zip(names, ours, theirs, strict=True):
                 gap = np.max(np.abs(one - other)) / max(1e-3, float(np.max(np.abs(other))))
                 if not gap <= EXACT:
                     raise ModelError(
@@ -89,71 +116,89 @@ class PlanarTree:
         return self
 
     @property
-    def W(self) -> ComplexArray:
-        """(n, n) [kg m^2]."""
-        w: ComplexArray = self.com.conj().T @ (self.mass[:, np.newaxis] * self.com)
-        return w
+    def foot(self) -> ComplexArray:
+        """d of the swing foot (n,) [m]."""
+        return self.K.foot_re + 1j * self.K.foot_im
 
     @property
-    def w(self) -> ComplexArray:
-        """(n,) [kg m], m times the COM of all."""
-        return np.asarray(self.mass @ self.com)
+    def hip(self) -> ComplexArray:
+        """d of the hip (n,) [m]."""
+        return self.K.hip_re + 1j * self.K.hip_im
 
     @property
     def leg(self) -> float:
         """Length of the stretched stance leg [m]."""
         return float(np.sum(np.abs(self.hip)))
 
-    @property
-    def total_mass(self) -> float:
-        """[kg]."""
-        return float(np.sum(self.mass))
 
-    # -- laws, for xp = numpy or casadi ------------------------------------------------------------
-    def D(self, xp: Any, q: Any) -> Any:
-        """D_s(q) (n, n)."""
-        a, one, W = self.A @ q, np.ones((1, len(self.mass))), self.W
-        turn = (xp.reshape(a, (-1, 1)) @ one).T - xp.reshape(a, (-1, 1)) @ one
-        D = W.real * xp.cos(turn) - W.imag * xp.sin(turn) + np.diag(self.inertia)
-        return self.A.T @ D @ self.A + np.diag(self.rotor)
-
-    def Omega(self, xp: Any, q: Any, v: Any) -> Any:
-        """Omega(q, q') (n,)."""
-        a, da, one, W = self.A @ q, self.A @ v, np.ones((1, len(self.mass))), self.W
-        turn = (xp.reshape(a, (-1, 1)) @ one).T - xp.reshape(a, (-1, 1)) @ one
-        C = -(W.real * xp.sin(turn) + W.imag * xp.cos(turn))
-        return self.A.T @ (C @ da**2) + self.G(xp, q)
-
-    def G(self, xp: Any, q: Any) -> Any:
-        """G_s(q) (n,)."""
-        a, w = self.A @ q, self.w
-        return self.A.T @ (self.gravity * (w.real * xp.cos(a) - w.imag * xp.sin(a)))
-
-    def point(self, xp: Any, d: ComplexArray, q: Any) -> tuple[Any, Any]:
-        """(x, z) of a point d from the stance foot [m]."""
-        a = self.A @ q
-        cos, sin = xp.cos(a), xp.sin(a)
-        return xp.dot(d.real, cos) - xp.dot(d.imag, sin), xp.dot(d.imag, cos) + xp.dot(d.real, sin)
-
-    def jacobian(self, xp: Any, d: ComplexArray, q: Any) -> tuple[Any, Any]:
-        """Rows d(x, z)/dq, each (n,) [m]."""
-        a = self.A @ q
-        cos, sin = xp.cos(a), xp.sin(a)
-        return (
-            self.A.T @ (-d.real * sin - d.imag * cos),
-            self.A.T @ (d.real * cos - d.imag * sin),
-        )
-
-    def acceleration(self, xp: Any, d: ComplexArray, q: Any, v: Any, acc: Any) -> tuple[Any, Any]:
-        """(x'', z'') of a point d [m/s^2]."""
-        a, rate = self.A @ q, self.A @ v
-        cos, sin, r2 = xp.cos(a), xp.sin(a), rate**2
-        j_x, j_z = self.jacobian(xp, d, q)
-        centre_x = xp.dot(d.real, cos * r2) - xp.dot(d.imag, sin * r2)
-        centre_z = xp.dot(d.imag, cos * r2) + xp.dot(d.real, sin * r2)
-        return xp.dot(j_x, acc) - centre_x, xp.dot(j_z, acc) - centre_z
+def _parts(z: ComplexArray) -> tuple[Array, Array]:
+    return np.ascontiguousarray(z.real), np.ascontiguousarray(z.imag)
 
 
 def _clean(x: Any) -> Any:
     """Round-off of the fit taken off."""
     return np.where(np.abs(x) < EXACT, 0.0, x)
+
+
+# -- laws, for numbers and symbols -----------------------------------------------------------------
+class Turned(NamedTuple):
+    """Cosines and sines of the absolute angles, (n,)."""
+
+    c: Any
+    s: Any
+
+
+def turned(robot: Joined, q: Any) -> Turned:
+    """At the angles q (n,)."""
+    a = robot.A @ q
+    return Turned(np.cos(a), np.sin(a))
+
+
+def inertia_and_bias(robot: Joined, K: PlantArrays, q: Any, v: Any) -> tuple[Any, Any]:
+    """D_s (n, n) and Omega (n,)."""
+    t, A = turned(robot, q), robot.A
+    C, S = _differences(t)
+    D = K.W_re * C - K.W_im * S
+    np.fill_diagonal(D, K.inertia)
+    D_s = A.T @ D @ A
+    for i in range(len(A)):
+        D_s[i, i] = D_s[i, i] + K.rotor[i]
+        D_s[i, :i] = D_s[:i, i]
+    return D_s, A.T @ (_weight(K, t) - (K.W_re * S + K.W_im * C) @ (A @ v) ** 2)
+
+
+def gravity_and_turning(robot: Joined, K: PlantArrays, t: Turned, v: Any) -> tuple[Any, Any]:
+    """G_s (n,), and C' q' = dT/dq (n,)."""
+    A, rate = robot.A, robot.A @ v
+    C, S = _differences(t)
+    turning = rate * ((K.W_re * S + K.W_im * C) @ rate)
+    return A.T @ _weight(K, t), A.T @ turning
+
+
+def _differences(t: Turned) -> tuple[Any, Any]:
+    """cos and sin of a_j - a_i off the diagonal, 0 on it."""
+    off = 1.0 - np.eye(len(t.c))
+    C = (np.outer(t.c, t.c) + np.outer(t.s, t.s)) * off
+    return C, (np.outer(t.c, t.s) - np.outer(t.s, t.c)) * off
+
+
+def _weight(K: PlantArrays, t: Turned) -> Any:
+    return K.gravity * (K.w_re * t.c - K.w_im * t.s)
+
+
+def point(t: Turned, re: Any, im: Any) -> tuple[Any, Any]:
+    """(x, z) [m] of a point from the stance foot, from its vectors d = re + i im (n,)."""
+    return re @ t.c - im @ t.s, im @ t.c + re @ t.s
+
+
+def jacobian(robot: Joined, t: Turned, re: Any, im: Any) -> Any:
+    """d(x, z)/dq (2, n) [m] of a point."""
+    return np.array([robot.A.T @ (-(re * t.s) - im * t.c), robot.A.T @ (re * t.c - im * t.s)])
+
+
+def ground_reaction(robot: Joined, K: PlantArrays, q: Any, v: Any, a: Any) -> Any:
+    """(F_T, F_N) [N] of the ground on the stance foot, for q'' = a: m (p_com'' - g)."""
+    t, rate2 = turned(robot, q), (robot.A @ v) ** 2
+    F_x, F_z = jacobian(robot, t, K.w_re, K.w_im) @ a
+    x, z = point(Turned(t.c * rate2, t.s * rate2), K.w_re, K.w_im)
+    return np.array([F_x - x, F_z - z + K.mass * K.gravity])

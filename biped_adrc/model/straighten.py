@@ -13,12 +13,12 @@ meshes or stand oblique after the turn are not kept: the strict tree has upright
 from __future__ import annotations
 
 import copy
-import math
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
+import pinocchio as pin
 
 from biped_adrc.errors import ModelError
 from biped_adrc.model.urdf import GEOMETRY_SIZES, JOINT_TYPES, numbers
@@ -53,13 +53,7 @@ def straightened(robot: ET.Element, source: str) -> Straightened:
 
 def _rotation(element: ET.Element | None, where: str) -> Array:
     """R (3, 3) of the rpy of an <origin>: about the fixed axes x, y, z in this order."""
-    roll, pitch, yaw = numbers(element, "rpy", "0 0 0", 3, f"{where} <origin>")
-    cx, sx, cy, sy = math.cos(roll), math.sin(roll), math.cos(pitch), math.sin(pitch)
-    cz, sz = math.cos(yaw), math.sin(yaw)
-    x = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]])
-    y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
-    z = np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]])
-    R: Array = z @ y @ x
+    R: Array = pin.rpy.rpyToMatrix(*numbers(element, "rpy", "0 0 0", 3, f"{where} <origin>"))
     return np.where(np.abs(R) < _ROUND_OFF, 0.0, R)
 
 

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from biped_adrc.analysis.legality import OUTCOMES
 from biped_adrc.studies.plan import BOTH, RISE, Plan
-from biped_adrc.studies.push_map import certain, counts
+from biped_adrc.studies.push_map import Cell, certain, counts
+from biped_adrc.studies.results import Results
 from biped_adrc.studies.runs import Outcome
-from biped_adrc.studies.verdicts import Results, distance
+from biped_adrc.studies.verdicts import distance
 
 
-def findings(plan: Plan, r: Results, cells: list[Any]) -> list[str]:
+def findings(plan: Plan, r: Results) -> list[str]:
     """The main findings, one sentence or two each."""
     return [
         _push(plan, r),
@@ -21,14 +20,14 @@ def findings(plan: Plan, r: Results, cells: list[Any]) -> list[str]:
         _fixed_point(plan, r),
         _recipe(plan, r),
         _stability(r),
-        *(_map(cells) if cells else []),
+        *(_map(r.cells) if r.cells else []),
         _torso(r),
     ]
 
 
 def _push(plan: Plan, r: Results) -> str:
-    npd, adrc = (r[f"headline {c}"].outcome for c in BOTH)
-    slow = [r[f"rising push {c}"] for c in BOTH]
+    npd, adrc = (r.heads[c].outcome for c in BOTH)
+    slow = r.pair("rising push")
     pushes = "; ".join(push.in_words() for push in plan.pushes)
     return (
         f"Under the push ({pushes}) NPD makes {npd.impacts} and ADRC {adrc.impacts} of "
@@ -48,10 +47,8 @@ def _carried(npd: Outcome, adrc: Outcome) -> str:
 
 
 def _heavier(r: Results) -> str:
-    masses, both = (
-        r[f"heavier, {kind} ADRC"].peak_error / r[f"heavier, {kind} NPD"].peak_error
-        for kind in ("masses", "masses and inertias")
-    )
+    pairs = (r.pair(f"heavier, {kind}") for kind in ("masses", "masses and inertias"))
+    masses, both = (adrc.peak_error / npd.peak_error for npd, adrc in pairs)
     return (
         f"With a plant heavier than the model ADRC's largest error is {masses:.2f} (masses) and "
         f"{both:.2f} (masses and inertias) of NPD's; the unmatched part of the change enters the "
@@ -60,7 +57,7 @@ def _heavier(r: Results) -> str:
 
 
 def _fixed_point(plan: Plan, r: Results) -> str:
-    walks = [r[f"nominal {p} {c}"] for p in plan.presets for c in BOTH]
+    walks = [o for _, o in r.nominal(plan)]
     gap = float(np.max([distance(o) for o in walks]))
     return (
         f"After {walks[0].run.impacts} undisturbed impacts the gait designed through the published x* "
@@ -69,7 +66,7 @@ def _fixed_point(plan: Plan, r: Results) -> str:
 
 
 def _recipe(plan: Plan, r: Results) -> str:
-    found = [r[f"recipe {p} {c}"] for p in plan.presets for c in BOTH]
+    found = list(r.recipes(plan))
     stable = [f for f in found if f.closes and f.record.get("stable")]
     text = (
         f"The recipe of section IV walks in a stable cycle in {len(stable)} of {len(found)} cases"
@@ -85,18 +82,18 @@ def _recipe(plan: Plan, r: Results) -> str:
 
 
 def _stability(r: Results) -> str:
-    npd = r["multipliers NPD"]
+    npd = r.multipliers["NPD"]
     text = (
         f"The largest multiplier is {abs(npd.orbit.multipliers[0]):.6f}; the closed form of the zero "
         f"dynamics says {npd.delta_squared:.6f}."
     )
-    if "multipliers ADRC" in r:
-        z = np.abs(r["multipliers ADRC"].orbit.multipliers)
+    if "ADRC" in r.multipliers:
+        z = np.abs(r.multipliers["ADRC"].orbit.multipliers)
         text += f" Under ADRC the largest of {len(z)}, observer states included, is {z[0]:.4f}."
     return f"{text} The printed ones come from a regression that such data do not determine."
 
 
-def _map(cells: list[Any]) -> list[str]:
+def _map(cells: list[Cell]) -> list[str]:
     parts = []
     for name, found in counts(certain(cells)).items():
         total = sum(found["NPD"].values())
@@ -110,7 +107,7 @@ def _map(cells: list[Any]) -> list[str]:
 
 
 def _torso(r: Results) -> str:
-    npd, adrc = (r[f"torso {c}"] for c in BOTH)
+    npd, adrc = r.pair("torso")
     short = [f"{o.run.controller} makes no step" for o in (npd, adrc) if len(o.durations) == 0]
     if short:
         return f"Under a push on the unactuated torso {' and '.join(short)}."

@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, Any
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies import verdicts
 from biped_adrc.studies.figures import push_window
 from biped_adrc.studies.plan import BOTH, Plan
 from biped_adrc.studies.pool import Task, run_tasks
-from biped_adrc.studies.verdicts import Results
+from biped_adrc.studies.results import Results
 from biped_adrc.viz import figures
 from biped_adrc.viz.numbers import as_text, numbers_of
 from biped_adrc.viz.robot_figure import robot_figure
@@ -23,11 +22,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def draw_all(
-    plan: Plan, r: Results, cells: list[Any], out: Path, workers: int | None = None
-) -> dict[str, str]:
+def draw_all(plan: Plan, r: Results, out: Path, workers: int | None = None) -> dict[str, str]:
     """Write every figure as .png and .svg to `out`, and its numbers as .json; returns name -> SVG text."""
-    named = pictures(plan, r, cells)
+    named = pictures(plan, r)
     drawn = run_tasks(list(named.values()), workers)
     found = {}
     for name, picture in zip(named, drawn, strict=True):
@@ -39,12 +36,11 @@ def draw_all(
     return found
 
 
-def pictures(plan: Plan, r: Results, cells: list[Any]) -> dict[str, Task]:
+def pictures(plan: Plan, r: Results) -> dict[str, Task]:
     """What is drawn, by name."""
-    signals = {c: verdicts.headline_of(r, c).signals for c in BOTH}
+    signals, cells = {c: head.signals for c, head in r.heads.items()}, r.cells
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
-    found = [c for c in BOTH if f"multipliers {c}" in r]
-    magnitudes = {c: r[f"multipliers {c}"].orbit.multipliers for c in found}
+    magnitudes = {c: r.multipliers[c].orbit.multipliers for c in BOTH if c in r.multipliers}
     mu = Biped.load("rabbit", plan.preset).description.friction_coefficient
     maps = {
         f"push_map_{preset}": (
@@ -63,7 +59,7 @@ def pictures(plan: Plan, r: Results, cells: list[Any]) -> dict[str, Task]:
         "ground": (figures.ground_figure, adrc, "ADRC", mu),
         "energy": (figures.energy_figure, adrc, "ADRC", window),
         "multipliers": (figures.multiplier_figure, magnitudes, PUBLISHED_MULTIPLIERS),
-        "return_map": (figures.return_map_figure, *r["return map"]),
+        "return_map": (figures.return_map_figure, *r.returns["map"]),
         **maps,
     }
     return {name: Task(name, rendered, arguments) for name, arguments in made.items()}

@@ -12,19 +12,17 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
+from biped_adrc.checks import Check
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.errors import OutputError
-from biped_adrc.files import write_text
+from biped_adrc.files import plain, write_text
 from biped_adrc.hybrid.storage import save
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
-from biped_adrc.studies.checks import Check
 from biped_adrc.studies.claims.gathered import gathered
-from biped_adrc.studies.claims.table import PREFACE, claims, map_cells
-from biped_adrc.studies.claims.words import MEANINGS, Claim, claim_checks
+from biped_adrc.studies.claims.table import claims
+from biped_adrc.studies.claims.words import MEANINGS, PREFACE, Claim, claim_checks
 from biped_adrc.studies.convergence import observed_order, records
 from biped_adrc.studies.figures import push_window
 from biped_adrc.studies.findings import findings
@@ -32,13 +30,11 @@ from biped_adrc.studies.laws import work_identity
 from biped_adrc.studies.pictures import draw_all
 from biped_adrc.studies.plan import BOTH, Headline, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
-from biped_adrc.studies.poincare import regression_of
 from biped_adrc.studies.pool import TaskProgress, run_tasks
-from biped_adrc.studies.push_map import Cell
+from biped_adrc.studies.results import Results
 from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
-from biped_adrc.studies.versions import versions
-from biped_adrc.studies.walk import Walk
+from biped_adrc.versions import versions
 from biped_adrc.viz.meshcat import animation_html
 from biped_adrc.viz.report import write_report
 
@@ -58,90 +54,80 @@ def reproduce(
     probe(out)
     named = planned_tasks(plan)
     done = run_tasks(list(named.values()), workers, progress)
-    results = {name: found.value for name, found in zip(named, done, strict=True)}
-    cells = map_cells(results)
-    laws, figures = _laws(plan, results)
-    found = claims(plan.presets, results)
-    checks = _checks(plan, results) + claim_checks(found) + laws
+    r = Results.of({name: found.value for name, found in zip(named, done, strict=True)})
+    found = claims(plan, r)
+    checks = _checks(plan, r) + claim_checks(found) + _laws(plan, r)
     simulated = time.perf_counter()
-    summary = {
+    made = {
         "command": command,
-        **_said(plan, results, cells, found),
+        **_said(plan, r, found),
         "holds": all(check.holds for check in checks),
-        "checks": [check.record() for check in checks],
-        "tables": tables(plan, results, cells, figures),
-        **_numbers(plan, results),
-        "push_map": [cell.row() for cell in cells],
+        "checks": checks,
+        "tables": tables(plan, r),
+        **_numbers(plan, r),
+        "push_map": [cell.row() for cell in r.cells],
         "seconds": {name: one.seconds for name, one in zip(named, done, strict=True)},
     }
-    for c in BOTH:
-        head = verdicts.headline_of(results, c)
+    summary: dict[str, Any] = plain(made)
+    for c, head in r.heads.items():
         save(_stored(head), out / f"walk-{c.lower()}.npz", _run_settings(head))
-    pictures = draw_all(plan, results, cells, out, workers)
-    animation = _animate(plan, results)
+    pictures = draw_all(plan, r, out, workers)
+    animation = _animate(r)
     write_text(out / "walk.html", animation)
     summary["wall_time_s"] = time.perf_counter() - started
-    write_report(out / "report.html", clean(summary), pictures, animation)
+    write_report(out / "report.html", summary, pictures, animation)
     summary["seconds_writing"] = time.perf_counter() - simulated
-    write_text(out / "summary.json", json.dumps(clean(summary), indent=1) + "\n")
+    write_text(out / "summary.json", json.dumps(summary, indent=1) + "\n")
     return summary
 
 
-def _laws(plan: Plan, results: dict[str, Any]) -> tuple[list[Check], dict[str, float]]:
-    """The laws of all runs, and the figures of the numerical ones; leaves the headline runs and their
-    regressions in `results`."""
-    laws, figures = results["numerics"]
-    for c in BOTH:
-        results[f"headline {c}"], more = results[f"headline {c}"]
-        laws = laws + more
-        results[f"regression {c}"] = regression_of(results[f"headline {c}"].outcome)
+def _laws(plan: Plan, r: Results) -> list[Check]:
+    """The laws that the runs were held against."""
+    parts = [laws for laws, _ in r.numerics.values()] + [r.headline[c][1] for c in BOTH]
+    nominal = dict(r.nominal(plan))
     for preset in plan.presets:
-        laws = laws + results[f"model {preset}"]
-        laws = laws + [work_identity(results[f"nominal {preset} {c}"]) for c in BOTH]
-    return laws, figures
+        works = [work_identity(nominal[f"{preset} {c}"]) for c in BOTH]
+        parts += [r.model[preset], works]
+    return [law for part in parts for law in part]
 
 
-def _said(
-    plan: Plan, results: dict[str, Any], cells: list[Cell], found: list[Claim]
-) -> dict[str, Any]:
+def _said(plan: Plan, r: Results, found: list[Claim]) -> dict[str, Any]:
     """What the summary says in words: settings, findings, claims, notes."""
     return {
         "preset": plan.preset,
         "left_out": list(plan.left_out),
-        "findings": findings(plan, results, cells),
+        "findings": findings(plan, r),
         "settings": _settings(plan),
         "versions": versions(),
         "claims_preface": PREFACE,
         "claims_words": MEANINGS,
         "claims": [claim.record() for claim in found],
-        "notes": _notes() + verdicts.recipe_notes(results, plan),
+        "notes": _notes() + verdicts.recipe_notes(r, plan),
     }
 
 
-def _numbers(plan: Plan, results: dict[str, Any]) -> dict[str, Any]:
+def _numbers(plan: Plan, r: Results) -> dict[str, Any]:
     """The numbers of the runs, at the steps at which they were made."""
     return {
-        "claims_evidence": gathered(plan.presets, results).record(),
-        "nominal": _nominal(plan, results),
-        "multipliers": {
-            c: results[f"multipliers {c}"].record() for c in BOTH if f"multipliers {c}" in results
-        },
-        "headline": {c: _three_steps(verdicts.headline_of(results, c)) for c in BOTH},
-        "convergence": list(records(verdicts.run_twice(results))),
-        "regression": {c: results[f"regression {c}"].record() for c in BOTH},
+        "claims_evidence": gathered(plan.presets, r.claims),
+        "nominal": {name: [s.record() for s in o.certificates] for name, o in r.nominal(plan)},
+        "multipliers": {c: r.multipliers[c].record() for c in BOTH if c in r.multipliers},
+        "headline": {c: _three_steps(head) for c, head in r.heads.items()},
+        "convergence": list(records(r.run_twice)),
+        "regression": {c: found.record() for c, found in r.regressions.items()},
     }
 
 
-def _checks(plan: Plan, results: dict[str, Any]) -> list[Check]:
+def _checks(plan: Plan, r: Results) -> list[Check]:
     """What the runs have to show, besides the laws each of them was held against."""
     return (
-        verdicts.consistency_checks(plan, results)
-        + verdicts.push_checks(results)
-        + verdicts.engine_checks(results)
-        + verdicts.convergence_checks(results)
-        + verdicts.multiplier_checks(results)
-        + verdicts.recipe_checks(plan, results)
-        + verdicts.certificate_checks(plan, results)
+        verdicts.consistency_checks(plan, r)
+        + verdicts.push_checks(r)
+        + verdicts.engine_checks(r)
+        + verdicts.convergence_checks(r)
+        + verdicts.multiplier_checks(r)
+        + verdicts.recipe_checks(plan, r)
+        + verdicts.certificate_checks(plan, r)
     )
 
 
@@ -152,19 +138,6 @@ def probe(out: Path) -> None:
     marker.unlink()
     if not out.is_dir():
         raise OutputError(f"'{out}' is not a folder; choose another with --out")
-
-
-def clean(value: Any) -> Any:
-    """Plain JSON values: numpy numbers as numbers, what is not finite as text."""
-    if isinstance(value, dict):
-        return {str(k): clean(v) for k, v in value.items()}
-    if isinstance(value, list | tuple):
-        return [clean(v) for v in value]
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, float) and not np.isfinite(value):
-        return str(value)
-    return value
 
 
 def _settings(plan: Plan) -> dict[str, Any]:
@@ -202,17 +175,8 @@ def _stored(head: Headline) -> Trajectory:
     return replace(head.trajectory, arcs=tuple(arcs))
 
 
-def _run_settings(head: Any) -> dict[str, Any]:
+def _run_settings(head: Headline) -> dict[str, Any]:
     return {"run": head.outcome.run.record(), "versions": versions()}
-
-
-def _nominal(plan: Plan, results: dict[str, Any]) -> dict[str, Any]:
-    """Every step's certificate in nominal walking."""
-    return {
-        f"{preset} {c}": [s.record() for s in results[f"nominal {preset} {c}"].certificates]
-        for preset in plan.presets
-        for c in BOTH
-    }
 
 
 def _notes() -> list[str]:
@@ -226,15 +190,9 @@ def _notes() -> list[str]:
     ]
 
 
-def headline_walks(results: dict[str, Any]) -> dict[str, Walk]:
-    """The pushed walks by controller."""
-    heads = {c: verdicts.headline_of(results, c) for c in BOTH}
-    return {c: replay(head.outcome.run, head.trajectory) for c, head in heads.items()}
-
-
-def _animate(plan: Plan, results: dict[str, Any]) -> str:
-    walks = headline_walks(results)
-    window = push_window(verdicts.headline_of(results, "NPD").signals)
+def _animate(r: Results) -> str:
+    walks = {c: replay(head.outcome.run, head.trajectory) for c, head in r.heads.items()}
+    window = push_window(r.heads["NPD"].signals)
     return animation_html(walks, "ADRC", [] if window is None else [(*window, "push")])
 
 

@@ -9,16 +9,17 @@ import numpy as np
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.studies.plan import BOTH, POLICIES, Plan, RecipeResult
+from biped_adrc.studies.plan import BOTH, POLICIES, Plan
 from biped_adrc.studies.push_map import WORDS, counts
+from biped_adrc.studies.results import Results
 from biped_adrc.studies.runs import CONTROLLERS, Outcome
-from biped_adrc.studies.verdicts import Results, distance
+from biped_adrc.studies.verdicts import distance
 
 PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)
 """As the paper prints them, with its thousands separators ("-11.020", "-19.836") read as such."""
 
 
-def tables(plan: Plan, r: Results, cells: list[Any], figures: dict[str, float]) -> dict[str, Any]:
+def tables(plan: Plan, r: Results) -> dict[str, Any]:
     """What is reported beside the checks."""
     found = {
         "Table I: observer eigenvalues [rad/s]": {
@@ -34,11 +35,14 @@ def tables(plan: Plan, r: Results, cells: list[Any], figures: dict[str, float]) 
         "Runs": _runs(r),
         "Stability: multipliers": _multipliers(r),
         "Gait (b), the paper's recipe": _recipe(plan, r),
-        "Numerics": {"columns": ["figure", "value"], "rows": [[k, v] for k, v in figures.items()]},
+        "Numerics": {
+            "columns": ["figure", "value"],
+            "rows": [[k, v] for k, v in r.figures.items()],
+        },
     }
     if not plan.quick:
         found["Literal equation and resets at impact"] = _literal(r)
-        found["Map of pushes"] = _map(cells)
+        found["Map of pushes"] = _map(r.cells)
     return found
 
 
@@ -67,38 +71,26 @@ def _runs(r: Results) -> dict[str, Any]:
     columns = ["run", "controller", "preset", "status", "outcome", "impacts", "peak error [rad]"]
     columns += ["at half the step [rad]", "rms error [rad]", "peak torque [N m]", "median step [s]"]
     columns += ["mean friction", "mean F_N [N]", "impulse ratio", "method", "engine"]
-    named = {
-        k: v
-        for k, v in r.items()
-        if isinstance(v, Outcome) and not k.startswith(("reset", "engines"))
-    }
-    heads = {f"push {c}": r[f"headline {c}"].outcome for c in BOTH}
+    named = {k: o for k, o in r.runs.items() if not k.startswith("reset")}
+    heads = {f"push {c}": r.heads[c].outcome for c in BOTH}
     rows = [[name, *_row(o)] for name, o in {**heads, **named}.items()]
     return {"columns": columns, "rows": rows}
 
 
 def _multipliers(r: Results) -> dict[str, Any]:
-    rows: list[list[Any]] = [
-        [
-            f"central differences, {c}, {len(r[f'multipliers {c}'].orbit.multipliers)} coordinates",
-            np.abs(r[f"multipliers {c}"].orbit.multipliers)[:10].tolist(),
-            "",
-        ]
-        for c in BOTH
-        if f"multipliers {c}" in r
-    ]
-    if "multipliers ADRC measured" in r:
-        measured = r["multipliers ADRC measured"].orbit.multipliers
-        rows.append(
-            [
-                f"central differences, ADRC, reset 'measured', {len(measured)} coordinates",
-                np.abs(measured)[:10].tolist(),
-                "the observer's xi^ and its derivatives live on through the impact",
-            ]
-        )
-    rows.append(["delta^2 of the zero dynamics", [r["multipliers NPD"].delta_squared], ""])
-    for c in BOTH:
-        test = r[f"regression {c}"].regression
+    rows: list[list[Any]] = []
+    for name in ("NPD", "ADRC", "ADRC measured"):
+        if name in r.multipliers:
+            multipliers = r.multipliers[name].orbit.multipliers
+            measured = name.endswith("measured")
+            of = name.replace(" measured", ", reset 'measured'")
+            remark = "the observer's xi^ and its derivatives live on through the impact"
+            shown = np.abs(multipliers)[:10].tolist()
+            said = f"central differences, {of}, {len(multipliers)} coordinates"
+            rows.append([said, shown, remark if measured else ""])
+    rows.append(["delta^2 of the zero dynamics", [r.multipliers["NPD"].delta_squared], ""])
+    for c, found in r.regressions.items():
+        test = found.regression
         rows.append(
             [f"regression (27) on the pushed walk, {c}", test.magnitudes.tolist(), test.warning]
         )
@@ -112,30 +104,25 @@ def _recipe(plan: Plan, r: Results) -> dict[str, Any]:
     columns = ["preset", "controller", "closes", "stable", "largest multipliers", "impacts"]
     columns += ["peak error [rad]", "peak torque [N m]", "friction needed", "impulse ratio"]
     columns += ["violations", "rate jump at impact [rad/s]", "x- minus x*", "remark"]
-    rows = []
-    for preset in plan.presets:
-        for c in BOTH:
-            found: RecipeResult = r[f"recipe {preset} {c}"]
-            record = found.record
-            certificate = record.get("certificate", {})
-            rows.append(
-                [
-                    preset,
-                    c,
-                    found.closes,
-                    record.get("stable"),
-                    record.get("multipliers", [])[:3],
-                    record.get("impacts"),
-                    record.get("peak_error"),
-                    record.get("peak_torque"),
-                    certificate.get("friction"),
-                    certificate.get("impulse_ratio"),
-                    "; ".join(record.get("violations", [])),
-                    record.get("impact_rate_jump"),
-                    record.get("distance_to_x_star"),
-                    found.reason,
-                ]
-            )
+    rows = [
+        [
+            x.preset,
+            x.controller,
+            x.closes,
+            x.record.get("stable"),
+            x.record.get("multipliers", [])[:3],
+            x.record.get("impacts"),
+            x.record.get("peak_error"),
+            x.record.get("peak_torque"),
+            x.record.get("certificate", {}).get("friction"),
+            x.record.get("certificate", {}).get("impulse_ratio"),
+            "; ".join(x.record.get("violations", [])),
+            x.record.get("impact_rate_jump"),
+            x.record.get("distance_to_x_star"),
+            x.reason,
+        ]
+        for x in r.recipes(plan)
+    ]
     return {"columns": columns, "rows": rows}
 
 
@@ -146,7 +133,7 @@ def _literal(r: Results) -> dict[str, Any]:
     names += [f"reset {p}, {limit}" for p in POLICIES for limit in ("unlimited", "150 N m")]
     rows = []
     for name in names:
-        o: Outcome = r[name]
+        o = r.runs[name]
         period = float(np.median(o.durations)) if len(o.durations) else None
         half = None if o.half is None else o.half.peak_error
         figures = [o.peak_error, half] if o.walked else [None, None]

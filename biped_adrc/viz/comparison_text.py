@@ -17,18 +17,22 @@ MEASURES = {
     "peak_matched": "matched [rad/s^2]",
     "peak_unmatched": "unmatched [rad/s^2]",
 }
+"""Columns of a walk's row of which the median over legal walks is shown; matched and unmatched are the parts of
+what the model does not know."""
 NEEDS = {
     "mean_friction": "friction",
     "mean_normal_force": "least normal force [N]",
     "peak_torque": "peak torque [N m]",
     "impulse_ratio": "impulse ratio",
 }
+"""What a walk needs of the ground and the motors: medians over the walks that make all steps."""
 REASONS = {
     "bad_normal_force": "normal force",
     "bad_friction": "friction",
     "bad_torque": "torque",
     "bad_scuffing": "scuffing",
 }
+"""Why a walk that makes all steps is not legal; a walk may have several."""
 WHAT_COUNTS = (
     "A walk is legal when it makes all steps and, in every step, the ground force averaged over 5 ms stays "
     "inside the friction cone, no torque is beyond the motors' limit and the swing foot does not scuff. The "

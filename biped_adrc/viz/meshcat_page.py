@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import html
 import json
 import random
 import uuid
@@ -12,12 +11,9 @@ from importlib.resources import files
 from typing import Any, Protocol
 
 import umsgpack  # type: ignore[import-untyped]
+from markupsafe import Markup
 
-POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; "
-    "img-src data: blob:; worker-src blob:"
-)
-"""Content security policy of the page: the browser itself refuses every load from a network."""
+from biped_adrc.viz.pages import POLICY, rendered
 
 
 class Command(Protocol):
@@ -78,41 +74,14 @@ def page(settings: dict[str, Any], title: str, captions: Sequence[tuple[str, str
     captions: (colour, text) of the legend. Texts are plain and are escaped here.
     """
     viewer = files("meshcat").joinpath("viewer", "dist", "main.min.js").read_text(encoding="utf-8")
-    own = files("biped_adrc.viz")
-    style, script = (
-        own.joinpath(f"player.{kind}").read_text(encoding="utf-8") for kind in ("css", "js")
-    )
     data = json.dumps(settings).replace("<", "\\u003c")
-    policy = POLICY + ("; connect-src 'self'" if settings["live"] else "")
-    return (
-        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
-        f"<title>{html.escape(title)}</title>\n<style>{style}</style>\n</head>\n<body>\n"
-        f'<div id="meshcat-pane" role="img" aria-label="{html.escape(title)}, walking"></div>\n'
-        '<p id="message" role="alert" hidden></p>\n'
-        f'<div id="panel">{_bar(settings)}<p id="caption">{_legend(captions)}</p></div>\n'
-        f"<script>{viewer}</script>\n"
-        f'<script type="application/json" id="scene">{data}</script>\n'
-        f"<script>{script}</script>\n</body>\n</html>\n"
+    return rendered(
+        "player",
+        s=settings,
+        title=title,
+        captions=captions,
+        style="player.css",
+        policy=POLICY + ("; connect-src 'self'" if settings["live"] else ""),
+        viewer=Markup(viewer),
+        data=Markup(data),
     )
-
-
-def _bar(settings: dict[str, Any]) -> str:
-    speeds = {"1": "1 x", "0.5": "1/2 x", "0.25": "1/4 x", "0.1": "1/10 x", "2": "2 x"}
-    options = "".join(f'<option value="{v}">{text}</option>' for v, text in speeds.items())
-    return (
-        '<div id="bar"><button id="play" title="space">pause</button>'
-        f'<input id="seek" type="range" min="{settings["start"]}" max="{settings["end"]}" '
-        f'step="{1.0 / settings["fps"]}" aria-label="time [s]">'
-        f'<output id="clock"></output><select id="speed" aria-label="speed">{options}</select>'
-        '<button id="view" title="v">perspective</button></div>'
-    )
-
-
-def _legend(captions: Sequence[tuple[str, str]]) -> str:
-    entries = []
-    for colour, text in captions:
-        swatch = f'<i class="swatch" style="background:{colour}"></i>' if colour else ""
-        entries.append(f"<span>{swatch}{html.escape(text)}</span>")
-    return " &nbsp; ".join(entries)

@@ -239,12 +239,6 @@ def test_the_table_is_that_of_the_rows():
     json.dumps(plain, allow_nan=False)
 
 
-def test_names_of_columns_are_those_of_the_rows():
-    assert tuple(comparison_text.MEASURES) == tuple(MEASURES)
-    assert tuple(comparison_text.NEEDS) == tuple(NEEDS)
-    assert comparison_text.REASONS == REASONS
-
-
 @pytest.mark.parametrize(
     ("rows", "made", "legal"),
     [

@@ -10,7 +10,6 @@ from biped_adrc.control.base import Controller, ControllerLaws
 from biped_adrc.control.npd import npd_torque
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.compiled_biped import CompiledBiped
-from biped_adrc.engine.plant import plant_arrays
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.robot import robot_of
 from biped_adrc.errors import ModelError
@@ -220,6 +219,6 @@ def test_another_robot_s_numbers_are_refused(biped):
 
 def test_numbers_that_are_zero_by_make_are_no_part_of_the_code(biped):
     """RABBIT's links are straight: no imaginary part is there to be multiplied."""
-    arrays = plant_arrays(biped, PlanarTree.of(biped))
+    arrays = PlanarTree.of(biped).K
     assert not np.any(arrays.W_im)
     assert not any(mask.any() for mask in robot_of(biped).structure.present[1:2])

@@ -30,33 +30,7 @@ from biped_adrc.engine.kernels.laws import (
     row,
     watch,
 )
-from biped_adrc.engine.kernels.layout import (
-    AFTER,
-    ARC,
-    ARMED,
-    COMPLETED,
-    COORDINATES,
-    COUNT,
-    DX0,
-    END,
-    EVERY,
-    FIRED,
-    FULL,
-    GUARDS,
-    HEAD,
-    JOINTS,
-    LIMIT,
-    PERIOD,
-    PERIOD_PART,
-    RESTART,
-    ROOM,
-    STATES,
-    T_FIRST,
-    TIME,
-    VALUES,
-    X0,
-    ZERO_PIVOT,
-)
+from biped_adrc.engine.kernels.layout import *
 from biped_adrc.engine.kernels.segment import node, through
 from biped_adrc.types import Array
 

@@ -94,16 +94,14 @@ def _equalities(k: Step) -> tuple[Row, ...]:
 def _limits(k: Step) -> tuple[Row, ...]:
     x, limits, infinite = k.x, k.limits, np.inf
     weight, kept = k.biped.weight, 1.0 - limits.reserve
-    speed = np.sqrt(k.tree.gravity * k.leg)
+    speed = np.sqrt(k.gravity * k.leg)
     node, s = k.everywhere, k.places
     F_T, F_N = k.along @ node.force / weight, k.out @ node.force / weight
     # the impulse at Theta'- = 1 has the sign of Theta'
     P_T, P_N = (
-        k.direction * x.rate * (row @ x.impulse) / (k.tree.total_mass * speed)
-        for row in (k.along, k.out)
+        k.direction * x.rate * (row @ x.impulse) / (k.mass * speed) for row in (k.along, k.out)
     )
-    J_x, J_z = k.tree.jacobian(ca, k.tree.foot, x.q)
-    before = k.direction * x.rate * (k.out @ ca.vertcat(J_x.T @ k.dq, J_z.T @ k.dq))
+    before = k.direction * x.rate * (k.out @ k.J_2 @ k.dq)
     after = k.direction * x.rate * (k.out @ x.after[k.n :])
     torque = node.u / limits.torque
     lift = limits.lift_off / speed
@@ -146,7 +144,7 @@ def _limits(k: Step) -> tuple[Row, ...]:
 
 def _objective(k: Step) -> Any:
     u = k.node.u / k.limits.torque
-    calm = ca.sum2(ca.sum1(u**2) * k.dt) / k.length * np.sqrt(k.leg * k.tree.gravity)
+    calm = ca.sum2(ca.sum1(u**2) * k.dt) / k.length * np.sqrt(k.leg * k.gravity)
     match k.request.objective:
         case Objective.TORQUE:
             return calm

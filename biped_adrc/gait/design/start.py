@@ -18,7 +18,7 @@ from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.through_state import onto_section
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import PlanarTree
+from biped_adrc.model.planar import PlanarTree, point, turned
 from biped_adrc.types import Array
 
 LONGEST = 1.2  # step, share of the leg
@@ -30,8 +30,8 @@ BEND = 0.2  # share of its range, or at most this angle [rad], by which a joint 
 
 def standing(tree: PlanarTree) -> Array:
     """q (n,) with legs stretched downwards, the rest upwards [rad]."""
-    leg = tree.foot - tree.hip
-    vector = np.where(np.abs(tree.hip) > 0, tree.hip, np.where(np.abs(leg) > 0, -leg, tree.w))
+    leg, w = tree.foot - tree.hip, tree.K.w_re + 1j * tree.K.w_im
+    vector = np.where(np.abs(tree.hip) > 0, tree.hip, np.where(np.abs(leg) > 0, -leg, w))
     a = np.pi / 2 - np.angle(vector)
     a = np.pi - np.mod(np.pi - a, 2.0 * np.pi)
     a = np.where(np.abs(a + np.pi) < 1e-9, np.pi, a)
@@ -53,14 +53,15 @@ def apart(
 ) -> Array:
     """Pre-impact configuration (n,) with the swing foot `step` [m] ahead on the ground and the hip between."""
     tree = PlanarTree.of(biped)
-    near = inside(standing(tree), biped, ranges)
+    near, K = inside(standing(tree), biped, ranges), tree.K
     target = step * ground_axes(slope)[0]
     bounds = np.full((2, biped.n), np.inf) * [[-1.0], [1.0]]
     for joint, ends in ranges.items():
         bounds[:, biped.description.joint_index(joint)] = ends
 
     def miss(q: Array) -> Array:
-        foot, hip = np.array(tree.point(np, tree.foot, q)), tree.point(np, tree.hip, q)
+        t = turned(tree, q)
+        foot, hip = np.array(point(t, K.foot_re, K.foot_im)), point(t, K.hip_re, K.hip_im)
         return np.concatenate(
             (10.0 * (foot - target), [3.0 * (hip[0] - 0.5 * step)], 0.1 * (q - near))
         )

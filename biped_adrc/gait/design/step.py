@@ -17,7 +17,15 @@ from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.zero_dynamics import gauss_nodes
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import PlanarTree
+from biped_adrc.model.planar import (
+    PlanarTree,
+    gravity_and_turning,
+    ground_reaction,
+    inertia_and_bias,
+    jacobian,
+    point,
+    turned,
+)
 from biped_adrc.types import Array
 
 
@@ -74,9 +82,23 @@ def bernstein(degree: int, s: Array) -> tuple[Array, Array, Array]:
     return values, first, second
 
 
+def each(x: Any) -> Any:
+    """The numbers of a column of symbols, as NumPy takes them."""
+    out = np.empty(x.numel(), dtype=object)
+    for i in range(len(out)):
+        out[i] = x[i]
+    return out
+
+
+def together(values: Any) -> Any:
+    """A column or matrix of symbols, from NumPy."""
+    rows = [ca.horzcat(*row) for row in np.reshape(values, (len(values), -1))]
+    return ca.vertcat(*rows)
+
+
 def node_function(tree: PlanarTree, phase: Array, degree: int, direction: float) -> Any:
     """CasADi function (alpha, Theta+-, s, b, b', b'', |Theta'|) -> the rows of Node, stacked."""
-    n = len(tree.mass)
+    n, K = len(tree.A), tree.K
     p, M = n - 1, degree
     alpha, theta, s, r = (ca.SX.sym(*a) for a in (("a", p * (M + 1)), ("t", 2), ("s"), ("r")))
     basis = [ca.SX.sym(f"b{k}", M + 1) for k in range(3)]
@@ -87,17 +109,27 @@ def node_function(tree: PlanarTree, phase: Array, degree: int, direction: float)
     dq = ca.vertcat(dh, (1.0 - ca.dot(c_b, dh)) / c_N)
     ddq = ca.vertcat(ddh, -ca.dot(c_b, ddh) / c_N)
     rate = direction * r
-    v, D = dq * rate, tree.D(ca, q)
-    Omega, inertia = tree.Omega(ca, q, v), D[p, :] @ dq
+    x, v = each(q), each(dq * rate)
+    D, Omega = map(together, inertia_and_bias(tree, K, x, v))
+    inertia = D[p, :] @ dq
     rate2 = -(Omega[p] + D[p, :] @ ddq * rate**2) / inertia
     a = dq * rate2 + ddq * rate**2
     u = (D @ a + Omega)[:p]
-    m = tree.total_mass
-    com_x, com_z = tree.acceleration(ca, tree.w / m, q, v, a)
-    force = m * ca.vertcat(com_x, com_z + tree.gravity)
-    foot = ca.vertcat(*tree.point(ca, tree.foot, q))
-    rows = Node(inertia, tree.G(ca, q)[p], u, v[:p], force, foot, q)
+    t, force = turned(tree, x), ground_reaction(tree, K, x, v, each(a))
+    foot, (G, _) = point(t, K.foot_re, K.foot_im), gravity_and_turning(tree, K, t, v)
+    rows = Node(inertia, G[p], u, together(v[:p]), together(force), ca.vertcat(*foot), q)
     return ca.Function("node", [alpha, theta, s, *basis, r], [ca.vertcat(*rows)])
+
+
+def pose_function(tree: PlanarTree) -> Any:
+    """CasADi function q -> D_s (n, n), d(m p_com)/dq (2, n), J_2 (2, n) and the swing foot (2,)."""
+    n, K = len(tree.A), tree.K
+    q = ca.SX.sym("q", n)
+    x, rest = each(q), np.zeros(n)
+    t, (D, _) = turned(tree, x), inertia_and_bias(tree, K, x, rest)
+    J_m, J_2 = jacobian(tree, t, K.w_re, K.w_im), jacobian(tree, t, K.foot_re, K.foot_im)
+    foot = ca.vertcat(*point(t, K.foot_re, K.foot_im))
+    return ca.Function("pose", [q], [*map(together, (D, J_m, J_2)), foot])
 
 
 def unknowns(n: int, degree: int, nodes: int) -> Unknowns:
@@ -129,7 +161,8 @@ class Step:
         self.tree, self.direction = PlanarTree.of(biped), direction
         self.n, self.p = biped.n, biped.p
         self.leg = self.tree.leg
-        self.sigma_scale = biped.weight * self.leg * np.sqrt(self.leg / self.tree.gravity)
+        self.mass, self.gravity = self.tree.K.mass, self.tree.K.gravity
+        self.sigma_scale = biped.weight * self.leg * np.sqrt(self.leg / self.gravity)
         x = self.x = unknowns(self.n, request.degree, request.nodes)
         s, w, C = gauss_nodes(request.nodes)
         self.function = node_function(self.tree, biped.phase, request.degree, direction)
@@ -149,7 +182,8 @@ class Step:
         self.dq = ca.vertcat(x.slope, (1.0 - ca.dot(c_b, x.slope)) / c_N)
         along, out = ground_axes(request.slope)
         self.along, self.out = along[np.newaxis], out[np.newaxis]
-        self.foot = ca.vertcat(*self.tree.point(ca, self.tree.foot, x.q))
+        self.pose = pose_function(self.tree)
+        self.D, self.J_m, self.J_2, self.foot = self.pose(x.q)
         self.length = self.along @ self.foot
 
     def at(self, s: Array, rates: Any) -> Node:
@@ -163,15 +197,14 @@ class Step:
 
     def sigma(self, q: Any, v: Any) -> Any:
         """sigma over its scale."""
-        return self.tree.D(ca, q)[self.n - 1, :] @ v / self.sigma_scale
+        return self.pose(q)[0][self.n - 1, :] @ v / self.sigma_scale
 
     def impact(self) -> Any:
         """D_e (q_e'+ - q_e'-) - E_2' F and E_2 q_e'+ at Theta'- = 1, (7), scaled (n + 4,)."""
-        x, tree, m = self.x, self.tree, self.tree.total_mass
-        J_c, J_2 = (ca.horzcat(*tree.jacobian(ca, d, x.q)).T for d in (tree.w / m, tree.foot))
+        x, m, J_m, J_2 = self.x, self.mass, self.J_m, self.J_2
         change = x.after - ca.vertcat(self.dq, 0.0, 0.0)
         turn, move = change[: self.n], change[self.n :]
-        upper = tree.D(ca, x.q) @ turn + m * J_c.T @ move - J_2.T @ x.impulse
-        lower = m * (J_c @ turn + move) - x.impulse
+        upper = self.D @ turn + J_m.T @ move - J_2.T @ x.impulse
+        lower = J_m @ turn + m * move - x.impulse
         foot = J_2 @ x.after[: self.n] + x.after[self.n :]
         return ca.vertcat(upper / (m * self.leg**2), lower / (m * self.leg), foot / self.leg)

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import output_path, write_text
+from biped_adrc.files import output_path, read_json, write_text
 from biped_adrc.gait.exchange.matfile import read_mat, write_mat
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import FORMAT as STORED
@@ -81,14 +81,7 @@ def read_record(
 
 
 def _read_json(path: Path) -> dict[str, Any]:
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise InputError(f"gait file '{path}' not found") from None
-    except OSError as error:
-        raise InputError(f"gait file '{path}' cannot be read: {error.strerror}") from error
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"gait file '{path}' is not valid JSON: {error}") from error
+    found = read_json(path, "gait file")
     if not isinstance(found, dict):
         raise InputError(f"gait file '{path}' holds a {type(found).__name__}, expected an object")
     return found

@@ -13,32 +13,10 @@ from typing import Any
 
 from biped_adrc.errors import InputError
 from biped_adrc.studies.bench.statistics import Interval, median, share
+from biped_adrc.viz.comparison_text import MEASURES, NEEDS, REASONS
 
 Row = Mapping[str, Any]
 """Of a trial, by the names of `run.COLUMNS`."""
-MEASURES = {
-    "peak_error": "largest tracking error [rad]",
-    "rms_torque": "torque, root mean square [N m]",
-    "cost_of_transport": "cost of transport",
-    "speed_change": "change of speed",
-    "peak_matched": "matched part of what the model does not know [rad/s^2]",
-    "peak_unmatched": "unmatched part [rad/s^2]",
-}
-"""Columns of a row of which the median over legal walks is shown."""
-NEEDS = {
-    "mean_friction": "friction, mean over 5 ms",
-    "mean_normal_force": "least normal force, mean over 5 ms [N]",
-    "peak_torque": "peak torque [N m]",
-    "impulse_ratio": "impulse ratio",
-}
-"""What a walk needs of the ground and the motors: medians over the walks that make all steps."""
-REASONS = {
-    "bad_normal_force": "normal force",
-    "bad_friction": "friction",
-    "bad_torque": "torque",
-    "bad_scuffing": "scuffing",
-}
-"""Why a walk that makes all steps is not legal; a walk may have several."""
 IMPULSE = "bad_impulse"
 """Judged in a column of its own: it does not make a walk illegal."""
 

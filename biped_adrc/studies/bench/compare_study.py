@@ -20,7 +20,7 @@ from biped_adrc.files import write_bytes, write_text
 from biped_adrc.model.limits import Limits
 from biped_adrc.studies.bench.build import scene_of
 from biped_adrc.studies.bench.catalogue import CONTROLLERS
-from biped_adrc.studies.bench.cell import IMPULSE, NEEDS, REASONS, Row, is_legal, number
+from biped_adrc.studies.bench.cell import IMPULSE, Row, is_legal, number
 from biped_adrc.studies.bench.comparison import NOMINAL, Comparison, check, compare
 from biped_adrc.studies.bench.conditions import BASE, CONDITIONS
 from biped_adrc.studies.bench.equal_bandwidth import NOT_ALIKE, OWN
@@ -28,13 +28,16 @@ from biped_adrc.studies.bench.execute import LARGEST_CHUNK, Progress, run_study
 from biped_adrc.studies.bench.findings import answers, sentences
 from biped_adrc.studies.bench.points import Point, key_of, text_of
 from biped_adrc.studies.bench.run import run_trials
-from biped_adrc.studies.bench.store import About, Store, numerical_versions
+from biped_adrc.studies.bench.store import About, Store
 from biped_adrc.studies.bench.store_open import open_store
 from biped_adrc.studies.bench.sweep import check_folder
 from biped_adrc.studies.bench.trial import Trial
 from biped_adrc.studies.bench.workers import Workers, workers_of
+from biped_adrc.versions import numerical_versions
 from biped_adrc.viz.comparison_figure import legal_figure, measure_figure, push_figure
-from biped_adrc.viz.comparison_page import CAPTIONS, comparison_html
+from biped_adrc.viz.comparison_page import comparison_html
+from biped_adrc.viz.comparison_text import NEEDS, REASONS
+from biped_adrc.viz.pages import captions
 from biped_adrc.viz.style import render
 
 RESULTS = "comparison.sqlite"
@@ -176,4 +179,4 @@ def figures(summary: Mapping[str, Any]) -> dict[str, Figure]:
     drawn |= {name: measure_figure(cells, name, title) for name, title in TITLES.items()}
     if pushes:
         drawn["pushes"] = push_figure([p for p in pushes if p["bandwidth"] is None])
-    return {name: drawn[name] for name in CAPTIONS if name in drawn}
+    return {name: drawn[name] for name in captions("comparison") if name in drawn}

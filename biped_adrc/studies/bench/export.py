@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import csv
 import itertools
-import os
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from biped_adrc.errors import InputError, OutputError
+from biped_adrc.errors import InputError
+from biped_adrc.files import replacing
 from biped_adrc.studies.bench.sweep import Sweep
 
 KINDS = ("csv", "parquet")
@@ -35,7 +32,7 @@ def export(results: Sweep, path: Path) -> None:
 def export_csv(results: Sweep, path: Path) -> None:
     """Floats come back to the last bit; an empty field is no value. Raises OutputError."""
     names = results.names()
-    with _replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
+    with replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(names)
         for row in results.rows():
@@ -66,7 +63,7 @@ def export_parquet(results: Sweep, path: Path) -> None:
     made = {bool: pa.bool_(), int: pa.int64(), float: pa.float64(), str: pa.string()}
     schema = pa.schema([(name, made[kind]) for name, kind in kinds.items()])
     rows = results.rows()
-    with _replacing(path) as temporary, parquet.ParquetWriter(temporary, schema) as writer:
+    with replacing(path) as temporary, parquet.ParquetWriter(temporary, schema) as writer:
         while block := list(itertools.islice(rows, BLOCK)):
             columns = [[_as(kind, row.get(name)) for row in block] for name, kind in kinds.items()]
             writer.write_table(pa.table(columns, schema=schema))
@@ -90,28 +87,3 @@ def _kind(types: set[type]) -> type:
 
 def _as(kind: type, x: Any) -> Any:
     return None if x is None else kind(x)
-
-
-@contextmanager
-def _replacing(path: Path) -> Iterator[Path]:
-    """A temporary file beside `path`, which takes its place when all is in it. Raises OutputError."""
-    temporary = None
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        os.close(handle)
-        temporary = Path(name)
-        yield temporary
-        with open(temporary, "rb") as file:
-            os.fsync(file.fileno())
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(temporary, 0o666 & ~umask)
-        os.replace(temporary, path)
-    except OSError as error:
-        raise OutputError(
-            f"cannot write '{path}': {error.strerror or error}; choose a folder you may write to"
-        ) from error
-    finally:
-        if temporary is not None:
-            temporary.unlink(missing_ok=True)

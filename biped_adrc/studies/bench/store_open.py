@@ -5,13 +5,13 @@ Nothing is written into a file before it is known to be one of this study.
 
 from __future__ import annotations
 
-import fcntl
 import os
 import sqlite3
 import time
 from json import loads
 from pathlib import Path
-from typing import IO
+
+from filelock import FileLock, Timeout
 
 from biped_adrc.errors import InputError
 from biped_adrc.studies.bench.points import text_of
@@ -50,7 +50,7 @@ def open_store(path: Path, about: About, other_versions: bool = False) -> Store:
     except BaseException as error:
         if connection is not None:
             connection.close()
-        lock.close()
+        lock.release()
         if isinstance(error, sqlite3.Error):
             raise cannot_write(path, error) from error
         raise
@@ -163,36 +163,20 @@ def _difference(found: About, asked: About) -> str:
     return f", other in {', '.join(differ)}" if differ else ""
 
 
-def _locked(path: Path) -> IO[str]:
+def _locked(path: Path) -> FileLock:
     """The lock, with the number of this process in it. Raises InputError where another has it, OutputError."""
     beside = path.with_name(f"{path.name}.lock")
-    while True:
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            lock = open(beside, "a+", encoding="utf-8")  # noqa: SIM115
-        except OSError as error:
-            raise cannot_write(path, error) from error
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError as error:
-            lock.seek(0)
-            holder = lock.read().strip()
-            lock.close()
-            raise InputError(
-                f"the results file '{path}' is being written by process {holder or 'of another'}; expected one "
-                "study at a time. Wait for it, or choose another folder"
-            ) from error
-        if _same_file(lock, beside):
-            break
-        lock.close()  # its last holder has just removed it
-    lock.truncate(0)
-    lock.write(f"{os.getpid()}\n")
-    lock.flush()
-    return lock
-
-
-def _same_file(lock: IO[str], path: Path) -> bool:
+    lock = FileLock(beside, blocking=False, thread_local=False)
     try:
-        return os.path.samestat(os.fstat(lock.fileno()), path.stat())
-    except FileNotFoundError:
-        return False
+        path.parent.mkdir(parents=True, exist_ok=True)
+        lock.acquire()
+        beside.write_text(f"{os.getpid()}\n", encoding="utf-8")
+    except Timeout as error:
+        holder = beside.read_text(encoding="utf-8").strip() if beside.is_file() else ""
+        raise InputError(
+            f"the results file '{path}' is being written by process {holder or 'of another'}; expected one "
+            "study at a time. Wait for it, or choose another folder"
+        ) from error
+    except OSError as error:
+        raise cannot_write(path, error) from error
+    return lock

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, is_dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from biped_adrc.studies.claims import evidence
@@ -29,21 +30,6 @@ class Evidence:
     jumps: tuple[Jumps, ...]
     orders: tuple[Order, ...]
 
-    def record(self) -> dict[str, Any]:
-        """Every number as plain values, at the step used (`value`) and at half of it (`at_half`)."""
-        found: dict[str, Any] = _plain(self)
-        return found
-
-
-def _plain(x: Any) -> Any:
-    if hasattr(x, "_asdict"):
-        return {name: _plain(value) for name, value in x._asdict().items()}
-    if is_dataclass(x):
-        return {field.name: _plain(getattr(x, field.name)) for field in fields(x)}
-    if isinstance(x, dict):
-        return {name: _plain(value) for name, value in x.items()}
-    return [_plain(value) for value in x] if isinstance(x, tuple | list) else x
-
 
 def preset_evidence(preset: str) -> dict[str, tuple[Any, ...]]:
     """What is computed once for a preset, beside the members of the set."""
@@ -66,9 +52,9 @@ def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task]:
     return out
 
 
-def gathered(presets: tuple[str, ...], results: dict[str, Any]) -> Evidence:
-    """The evidence in the results of `claim_tasks`."""
-    rest = [results[f"claims rest {preset}"] for preset in presets]
+def gathered(presets: tuple[str, ...], found: Mapping[str, Any]) -> Evidence:
+    """The evidence in the results of `claim_tasks`, by their names behind "claims"."""
+    rest = [found[f"rest {preset}"] for preset in presets]
     parts = {part: tuple(x for one in rest for x in one[part]) for part in PRESET_PARTS}
-    tried = tuple(o for preset in presets for o in results[f"claims members {preset}"])
-    return Evidence(members=tried, orders=results["claims orders"], **parts)
+    tried = tuple(o for preset in presets for o in found[f"members {preset}"])
+    return Evidence(members=tried, orders=found["orders"], **parts)

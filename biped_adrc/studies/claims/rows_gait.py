@@ -18,19 +18,19 @@ from biped_adrc.studies.claims.evidence import (
     noise_spectrum,
 )
 from biped_adrc.studies.claims.words import (
-    BY_CONSTRUCTION,
     CONTRADICTED,
     DEPENDS,
     NOT_TESTABLE,
     Case,
     Claim,
     Figure,
+    Span,
     Tally,
     above_limit,
     below_limit,
     fewer,
-    judged,
-    span,
+    row,
+    told,
 )
 
 PRINTED_SPEED = float(X_STAR[5] + 0.5 * X_STAR[7] + X_STAR[9])
@@ -42,7 +42,7 @@ def gait_claims(
 ) -> list[Claim]:
     """All rows of this module; distance: of the undisturbed walks on gait (a) from x*."""
     return [
-        fixed_point(distance),
+        told("fixed_point", values={"distance": distance}),
         stable([c for c in cycles if c.gait == "published"]),
         recipe_stable([c for c in cycles if c.gait == "recipe"]),
         recipe_speed([c for c in cycles if c.gait == "recipe" and c.controller == "NPD"]),
@@ -55,18 +55,6 @@ def gait_claims(
     ]
 
 
-def fixed_point(distance: float) -> Claim:
-    """x* of section VI."""
-    return Claim(
-        "The walk has the fixed point x* in the Poincaré map",
-        "VI",
-        BY_CONSTRUCTION,
-        f"farthest from x* after the undisturbed walks: {distance:.1e} (rad, rad/s)",
-        "gait (a) was designed to pass through x*, since the polynomials are not printed; that "
-        "RABBIT's geometry puts the foot of x* on the ground could have failed, and does not",
-    )
-
-
 def _largest(cycles: Sequence[Cycle], declared_cycles: int) -> Tally:
     below_one, round_off = math.nextafter(1.0, 0.0), declared()["limits"]["multiplier"]
     bound = (convergence()[0], round_off)
@@ -76,53 +64,36 @@ def _largest(cycles: Sequence[Cycle], declared_cycles: int) -> Tally:
 
 def stable(cycles: Sequence[Cycle]) -> Claim:
     """Gait (a), by central differences."""
-    return judged(
-        "The walk is asymptotically stable: all |lambda| are less than one",
-        "abstract; VI; VII",
-        _largest(cycles, in_all(4)),
-        f"largest multiplier of gait (a) {span([c.multiplier.at_half for c in cycles], '.4f')}",
-        "central differences of the return map, not the regression (27). The largest is delta^2 of the "
-        "impact at x*, which RABBIT's parameters give; the others are tracking errors and decay by the "
-        "gains of Table II",
-        asserted=True,
-    )
+    found = Span.of(c.multiplier for c in cycles)
+    return row("stable", _largest(cycles, in_all(4)), multipliers=found)
 
 
 def recipe_stable(cycles: Sequence[Cycle]) -> Claim:
     """Gait (b)."""
-    return judged(
-        "The gait of section IV is 'a successful virtual holonomic constraint to achieve a stable gait'",
-        "IV; VII",
-        _largest(cycles, in_all(2)),
-        f"largest multiplier of gait (b) {span([c.multiplier.at_half for c in cycles], '.4f')}",
-        "the recipe, with its free parameters from ratios of rates at x*, closes in a stable cycle on "
-        "a foot that cannot slip; what it asks of ground and motors is the next row but one",
-        asserted=True,
-    )
+    found = Span.of(c.multiplier for c in cycles)
+    return row("recipe_stable", _largest(cycles, in_all(2)), multipliers=found)
 
 
 def recipe_speed(cycles: Sequence[Cycle]) -> Claim:
     """The one number of x* that the recipe predicts."""
     limit = declared()["limits"]["speed"]
-    tally, worst = _speeds(cycles, limit), _farthest(cycles)
     shown = ", ".join(
         f"{c.rate.at_half:.4f} ({100.0 * (c.rate.at_half / PRINTED_SPEED - 1.0):+.1f} %) {c.preset}"
         for c in cycles
     )
-    return judged(
-        f"The gait of section IV walks at the speed of x*, Theta' = {PRINTED_SPEED:.3f} rad/s before impact",
-        "IV; VI",
-        tally,
-        f"{shown} rad/s",
-        f"holds within {100.0 * limit:g} %. {_hangs_on(cycles, worst)}The only number of x* that the "
-        "recipe predicts: pose and ratios of rates were used to fit it",
-        asserted=True,
+    return row(
+        "recipe_speed",
+        _speeds(cycles, limit),
+        speed=PRINTED_SPEED,
+        rates=shown,
+        percent=100.0 * limit,
+        hangs_on=_hangs_on(cycles, _farthest(cycles)),
     )
 
 
 def _speeds(cycles: Sequence[Cycle], limit: float) -> Tally:
     off = [Figure(*(abs(v / PRINTED_SPEED - 1.0) for v in c.rate)) for c in cycles]
-    cases = [below_limit(c.name, f, limit, convergence()) for c, f in zip(cycles, off, strict=True)]
+    cases = [below_limit(c.name, f, limit) for c, f in zip(cycles, off, strict=True)]
     return Tally(tuple(cases), in_all(1))
 
 
@@ -143,19 +114,12 @@ def _hangs_on(cycles: Sequence[Cycle], worst: float) -> str:
 def recipe_needs(needs: Sequence[Needs]) -> Claim:
     """Whether a robot could walk gait (b)."""
     cases = [Case(n.name, n.friction, not n.illegal, _doubtful(n)) for n in needs]
-    shown = "; ".join(
+    shown = (
         f"{n.preset}: friction {_two(n.friction)} in the mean over 5 ms and "
         f"{_two(n.friction_at_an_instant)} at an instant, {n.torque.at_half:.0f} N m"
         for n in needs
     )
-    return judged(
-        "The gait of section IV can be walked by the robot of section II (pinned foot, its motors)",
-        "II; IV; VII",
-        Tally(tuple(cases), in_all(1)),
-        shown,
-        "undisturbed; RABBIT's motors give 150 N m, dry ground a friction of 0.6. The paper prints "
-        "neither torque nor ground force as a limit, so this is what its stability costs",
-    )
+    return row("recipe_needs", Tally(tuple(cases), in_all(1)), needs="; ".join(shown))
 
 
 def _doubtful(n: Needs) -> bool:
@@ -174,15 +138,9 @@ def _two(f: Figure) -> str:
 def pinned_at_impact(needs: Sequence[Needs]) -> Claim:
     """The hypothesis of (6)."""
     limit = declared()["limits"]["friction"]
-    cases = [below_limit(n.name, n.impulse_ratio, limit, convergence()) for n in needs]
-    return judged(
-        "At impact 'there exist no rebounds or slips in the stance foot'",
-        "II",
-        Tally(tuple(cases), in_all(2)),
-        f"impulse ratio {span([n.impulse_ratio.at_half for n in needs], '.2f')}",
-        f"holds where the impulse lies inside the cone of a friction of {limit:g}, at each gait's own "
-        "impact; a hypothesis of the paper's, which its x* does not always meet",
-    )
+    cases = [below_limit(n.name, n.impulse_ratio, limit) for n in needs]
+    ratios = Span.of(n.impulse_ratio for n in needs)
+    return row("pinned_at_impact", Tally(tuple(cases), in_all(2)), ratios=ratios)
 
 
 def not_smooth(needs: Sequence[Needs]) -> Claim:
@@ -190,16 +148,11 @@ def not_smooth(needs: Sequence[Needs]) -> Claim:
     limit = declared()["limits"]["smooth"]
     recipes = [n for n in needs if n.gait == "recipe"]
     cases = [Case(n.name, Figure(n.rate_jump, n.rate_jump), n.rate_jump > limit) for n in recipes]
-    invariant = max((n.rate_jump for n in needs if n.gait == "published"), default=float("nan"))
-    return judged(
-        "The generated trajectory is not 'smooth enough in the impact'",
-        "VII",
+    return row(
+        "not_smooth",
         Tally(tuple(cases), in_all(1)),
-        f"rates after impact jump by {span([n.rate_jump for n in recipes], '.2g')} rad/s against gait "
-        f"(b); by {invariant:.0e} against gait (a)",
-        "gait (b) does not take the impact into account; gait (a), through the same x*, does: x* does "
-        "not exclude a smooth one",
-        asserted=True,
+        jumps=Span(n.rate_jump for n in recipes),
+        invariant=max((n.rate_jump for n in needs if n.gait == "published"), default=math.nan),
     )
 
 
@@ -211,21 +164,12 @@ def not_optimal(needs: Sequence[Needs]) -> Claim:
         for a in needs
         if b.preset == a.preset and (b.gait, a.gait) == ("recipe", "published")
     ]
-    cases = []
-    for b, a in pairs:
-        over = Figure(*(x / y for x, y in zip(b.cost, a.cost, strict=True)))
-        cases.append(above_limit(b.preset, over, 1.0, convergence()))
-    shown = "; ".join(
-        f"{b.preset} {b.cost.at_half:.3f} against {a.cost.at_half:.3f}" for b, a in pairs
-    )
-    return judged(
-        "The trajectory generation 'did not provide an optimal trajectory reference to minimize energy'",
-        "VII",
-        Tally(tuple(cases), in_all(1)),
-        f"cost of transport of gait (b) against (a): {shown}",
-        "holds where a gait through the same x* needs less; gait (a) was designed for torque, not for "
-        "energy",
-    )
+    cases = [
+        above_limit(b.preset, Figure(*(x / y for x, y in zip(b.cost, a.cost, strict=True))), 1.0)
+        for b, a in pairs
+    ]
+    costs = (f"{b.preset} {b.cost.at_half:.3f} against {a.cost.at_half:.3f}" for b, a in pairs)
+    return row("not_optimal", Tally(tuple(cases), in_all(1)), costs="; ".join(costs))
 
 
 def global_stability(starts: Sequence[Start]) -> Claim:
@@ -238,37 +182,36 @@ def global_stability(starts: Sequence[Start]) -> Claim:
     if fails and passed:
         every = len(fails) == len(below) and len(passed) == len(above)
         word = CONTRADICTED if every else DEPENDS
-    return Claim(
-        "'Global stability is tested by Poincaré's return map'",
-        "I",
+    values = {
+        "failing": Span(s.least * s.factor for s in fails),
+        "passing": Span(s.least * s.factor for s in passed),
+        "least": Span(s.least for s in starts),
+        "fails": len(fails),
+        "below": len(below),
+        "passed": len(passed),
+        "above": len(above),
+    }
+    return told(
+        "global_stability",
         word,
-        f"no step from {span([s.least * s.factor for s in fails], '.3f')} of the gait's speed after "
-        f"impact, under either controller; from {span([s.least * s.factor for s in passed], '.3f')} all "
-        "steps",
-        "multipliers speak of a neighbourhood. The least speed, "
-        f"{span([s.least for s in starts], '.3f')} of the gait's, follows from one quadrature of the "
-        f"zero dynamics and {len(fails)} of {len(below)} starts 3 % below it fail, {len(passed)} of "
-        f"{len(above)} above it walk on",
-        f"{len(fails)} of {len(below)} starts below fail, {len(passed)} of {len(above)} above walk on"
+        values,
+        share=f"{len(fails)} of {len(below)} starts below fail, {len(passed)} of {len(above)} above walk on"
         f"{fewer(len(starts), in_all(len(declared()['basin']['factors'])))}",
-        "impacts made are the same at half the step",
+        convergence="impacts made are the same at half the step",
         marginal=sum(not s.same for s in starts),
     )
 
 
 def printed_multipliers(periods: Sequence[float]) -> Claim:
     """The ten numbers of section VI."""
-    least = min(periods, default=float("nan"))
-    return Claim(
-        "|lambda(Phi)| = " + ", ".join(f"{v:g}" for v in PUBLISHED_MULTIPLIERS),
-        "VI",
-        CONTRADICTED if longest_step(min(PUBLISHED_MULTIPLIERS)) < least else NOT_TESTABLE,
-        f"a tracking error decays to {fastest_decay(0.4):.1e} in 0.4 s under Table II; "
-        f"{min(PUBLISHED_MULTIPLIERS):g} needs steps shorter than "
-        f"{1e3 * longest_step(min(PUBLISHED_MULTIPLIERS)):.0f} ms, those here take {1e3 * least:.0f} ms "
-        "or more",
-        "one multiplier is of the cycle, the other eight of the section are tracking errors that decay "
-        "like exp(-25 t). They come from a regression of ten states on a section of nine dimensions; "
-        "on numbers that are noise alone the same regression gives, in the median, "
-        + ", ".join(f"{v:.2f}" for v in noise_spectrum()),
-    )
+    period, least = min(periods, default=math.nan), min(PUBLISHED_MULTIPLIERS)
+    values = {
+        "published": ", ".join(f"{v:g}" for v in PUBLISHED_MULTIPLIERS),
+        "decay": fastest_decay(0.4),
+        "least": least,
+        "longest": 1e3 * longest_step(least),
+        "period": 1e3 * period,
+        "noise": ", ".join(f"{v:.2f}" for v in noise_spectrum()),
+    }
+    word = CONTRADICTED if longest_step(least) < period else NOT_TESTABLE
+    return told("printed_multipliers", word, values)

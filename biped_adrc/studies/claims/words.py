@@ -3,27 +3,40 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import tomllib
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
 from typing import Any, NamedTuple
 
-from biped_adrc.studies.checks import Check, at_least, at_most
+from biped_adrc.checks import Check, at_least, at_most
+from biped_adrc.studies.claims.admissible import convergence, declared
 from biped_adrc.viz.report import CLAIM_COLUMNS
 
 REPLICATED = "replicated"
 DEPENDS = "depends"
-BY_CONSTRUCTION = "by construction"
 CONTRADICTED = "contradicted"
 NOT_TESTABLE = "not testable"
 
-MEANINGS = {
-    REPLICATED: "it could have failed, and holds for every case declared before the run; where a run tried "
-    "fewer, for all of those, and the share says how many were declared",
-    DEPENDS: "it holds in a share of the cases",
-    BY_CONSTRUCTION: "it was put in, or follows from what was put in",
-    CONTRADICTED: "it holds in none of the cases, or a case shows the opposite",
-    NOT_TESTABLE: "what is printed does not determine it",
-}
+
+@cache
+def texts() -> dict[str, Any]:
+    """The file claims.toml: the rows of the table in words, by name."""
+    text = files("biped_adrc.studies.claims").joinpath("claims.toml").read_text("utf-8")
+    return {name: _joined(value) for name, value in tomllib.loads(text).items()}
+
+
+def _joined(value: Any) -> Any:
+    """Texts of several lines as one."""
+    if isinstance(value, dict):
+        return {name: _joined(x) for name, x in value.items()}
+    return " ".join(value.split()) if isinstance(value, str) else value
+
+
+PREFACE: str = texts()["preface"]
+"""What the report says before the table."""
+MEANINGS: dict[str, str] = texts()["words"]
 """Every word, and what it says of a claim."""
 
 
@@ -62,18 +75,24 @@ class Case(NamedTuple):
     """The figure is not converged, or the verdict at half of the step is another."""
 
 
-def below_limit(name: str, figure: Figure, limit: float, convergence: Sequence[float]) -> Case:
-    """A case that holds for a number <= limit; NaN does not hold."""
-    verdicts = (bool(figure.value <= limit), bool(figure.at_half <= limit))
-    doubtful = not figure.converged(*convergence) or verdicts[0] != verdicts[1]
-    return Case(name, figure, verdicts[1], doubtful)
+def below_limit(
+    name: str, figure: Figure, limit: float, bound: Sequence[float] | None = None
+) -> Case:
+    """A case that holds for a number <= limit; NaN does not hold. bound: as of `Figure.converged`."""
+    return _limited(name, figure, lambda x: x <= limit, bound)
 
 
-def above_limit(name: str, figure: Figure, limit: float, convergence: Sequence[float]) -> Case:
+def above_limit(name: str, figure: Figure, limit: float) -> Case:
     """A case that holds for a number >= limit; NaN does not hold."""
-    verdicts = (bool(figure.value >= limit), bool(figure.at_half >= limit))
-    doubtful = not figure.converged(*convergence) or verdicts[0] != verdicts[1]
-    return Case(name, figure, verdicts[1], doubtful)
+    return _limited(name, figure, lambda x: x >= limit)
+
+
+def _limited(
+    name: str, figure: Figure, test: Callable[[float], bool], bound: Sequence[float] | None = None
+) -> Case:
+    used, half = (bool(test(x)) for x in figure)
+    doubtful = not figure.converged(*(bound or convergence())) or used != half
+    return Case(name, figure, half, doubtful)
 
 
 @dataclass(frozen=True)
@@ -199,6 +218,39 @@ def judged(
     )
 
 
+def against(found: int, count: int) -> str:
+    """The word for a claim against which so many of so many cases speak."""
+    if found == 0:
+        return NOT_TESTABLE
+    return CONTRADICTED if found == count else DEPENDS
+
+
+def row(name: str, tally: Tally, **values: Any) -> Claim:
+    """The row of claims.toml for a claim that was tried on cases, with these values in its texts."""
+    said = _said(name, values)
+    asserted = bool(said.get("asserted"))
+    return judged(
+        said["claim"], said["where"], tally, said["number"], said["reason"], asserted=asserted
+    )
+
+
+def told(name: str, word: str = "", values: Mapping[str, Any] | None = None, **rest: Any) -> Claim:
+    """The row of claims.toml with these values in its texts, and a word that no tally gives.
+
+    word: that of the file by default. rest: of `Claim`.
+    """
+    said = _said(name, values or {})
+    word = word or said["word"]
+    return Claim(said["claim"], said["where"], word, said["number"], said["reason"], **rest)
+
+
+def _said(name: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    found = texts()[name]
+    found = {**texts().get(found.get("like"), {}), **found}
+    of = {"limit": declared()["limits"], **values}
+    return {key: x.format(**of) if isinstance(x, str) else x for key, x in found.items()}
+
+
 def claim_checks(claims: Sequence[Claim]) -> list[Check]:
     """Every claim that is said to be replicated has to stay so: all of its cases hold, none is marginal.
 
@@ -219,6 +271,18 @@ def claim_checks(claims: Sequence[Claim]) -> list[Check]:
             if c.asserted is not None
         ),
     ]
+
+
+class Span(tuple[float, ...]):
+    """Numbers of which a text names the smallest and the largest."""
+
+    @classmethod
+    def of(cls, figures: Iterable[Figure]) -> Span:
+        """At half of the step."""
+        return cls(f.at_half for f in figures)
+
+    def __format__(self, form: str) -> str:
+        return span(self, form or ".3g")
 
 
 def span(values: Sequence[float], form: str = ".3g") -> str:
