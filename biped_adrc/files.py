@@ -7,9 +7,11 @@ import re
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from json import JSONDecodeError
 from pathlib import Path
+from tomllib import TOMLDecodeError
 
-from biped_adrc.errors import InputError, OutputError
+from biped_adrc.errors import BipedError, InputError, OutputError
 
 _KIND = re.compile(r"\.[A-Za-z]\w*")
 """The end of a name that says what is in a file; '.1' of 'push_0.1' does not."""
@@ -50,6 +52,27 @@ def _same(a: Path, b: Path) -> bool:
         return os.path.samefile(a, b)
     except OSError:
         return os.path.realpath(a) == os.path.realpath(b)
+
+
+@contextmanager
+def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[None]:
+    """Raises `error`, which names the file and what it is, for whatever goes wrong while it is read.
+
+    Errors that are raised on purpose keep their text behind the name of the file.
+    """
+    where, kind = f"{what} '{path}'", Path(path).suffix[1:].upper()
+    try:
+        yield
+    except FileNotFoundError:
+        raise error(f"{where} not found") from None
+    except OSError as found:
+        raise error(f"{where} cannot be read: {found.strerror}") from found
+    except (JSONDecodeError, TOMLDecodeError, UnicodeDecodeError) as found:
+        raise error(f"{where} is not valid {kind}: {found}") from found
+    except KeyError as found:
+        raise error(f"{where}: the key {found} is missing") from found
+    except (TypeError, ValueError, AttributeError, IndexError) as found:
+        raise error(f"{where}: {found}") from found
 
 
 def write_text(path: Path, text: str) -> None:

@@ -25,7 +25,7 @@ import numpy as np
 from biped_adrc.errors import GaitError, InputError, NotFiniteError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Bezier, Curve, Polynomial
-from biped_adrc.types import Array
+from biped_adrc.types import Array, read_only
 
 _SLOPE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0  # times 1 / h, error h^4 f^(5) / 30
 _BEND = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0  # times 1 / h^2, error h^4 f^(6) / 90
@@ -63,14 +63,13 @@ class LinearOutputs(Outputs):
     desired: VirtualConstraint
 
     def __post_init__(self) -> None:
-        H0 = np.array(self.H0, dtype=float)
+        H0 = read_only(self.H0)
         expected = (self.desired.curve.coefficients.shape[0], len(self.desired.phase))
         if H0.shape != expected or not np.all(np.isfinite(H0)):
             raise GaitError(
                 f"H0 has shape {H0.shape}, expected {expected} finite numbers: a row for each row of the "
                 "curve h_d, a column for each coordinate of its phase"
             )
-        H0.setflags(write=False)
         object.__setattr__(self, "H0", H0)
 
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from biped_adrc.errors import ModelError
+from biped_adrc.files import reading
 from biped_adrc.model.urdf import Inertial, Tree, load_tree
 from biped_adrc.resources import data_folder
 
@@ -135,23 +136,15 @@ def load_description(robot: str | Path) -> RobotDescription:
                 "or give the path of a robot.toml"
             )
         path = data_folder("urdf") / str(robot) / "robot.toml"
-    if not path.is_file():
-        raise ModelError(f"robot record '{path}' not found")
-    try:
+    with reading("robot record", path, ModelError):
         data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ModelError(f"robot record '{path}' is not valid TOML: {error}") from error
     return description_of(data, path)
 
 
 def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
     """The record `data`, whose URDF lies beside `path`. Raises ModelError that names the key."""
-    try:
+    with reading("robot record", path, ModelError):
         return _description(data, path)
-    except KeyError as error:
-        raise ModelError(f"robot record '{path}': the key {error} is missing") from error
-    except (TypeError, ValueError, AttributeError, IndexError) as error:
-        raise ModelError(f"robot record '{path}': {error}") from error
 
 
 def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:

@@ -15,7 +15,7 @@ import numpy as np
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import Bezier
+from biped_adrc.gait.curves import Bezier, bezier_between
 from biped_adrc.gait.design.audit import NODES, audited, missed_limits, missed_wishes, objective_of
 from biped_adrc.gait.design.ipopt import Progress, relaxed, solve
 from biped_adrc.gait.design.programme import Programme, transcribe
@@ -160,25 +160,20 @@ def exact_gait(biped: Biped, request: GaitRequest, limits: RobotLimits, x: Unkno
     impact = biped.impact(q, dq)
     theta_plus, theta_minus = float(c @ impact.q), float(c @ q)
     span = theta_minus - theta_plus
-    alpha = x.alpha.copy()
-    alpha[:, 0], alpha[:, M] = impact.q[:p], q[:p]
-    alpha[:, 1] = alpha[:, 0] + impact.v[:p] / float(c @ impact.v) * span / M
-    alpha[:, M - 1] = alpha[:, M] - slope * span / M
+    slopes = impact.v[:p] / float(c @ impact.v) * span, slope * span
+    alpha = bezier_between(impact.q[:p], *slopes, q[:p], M)
+    alpha[:, 2:-2] = x.alpha[:, 2:-2]
     constraint = VirtualConstraint(Bezier(alpha), c, theta_plus, theta_minus)
     zero = ZeroDynamics.of(biped, constraint, NODES)
-    sigma = zero.sigma_minus
-    q, v = zero.end_state(sigma)
-    period = zero.orbit(sigma * zero.delta).period
-    step = float(np.hypot(*biped.swing_foot(q)))
+    gait = Gait.of_cycle(request.name(), zero, {}, request.slope)
+    step = float(np.hypot(*biped.swing_foot(gait.q_minus)))
     provenance = {
         "method": "direct optimisation on the zero dynamics, hybrid-invariant Bezier curves, IPOPT",
         "asked": request.in_words(),
         "minimised": request.objective.value,
-        "limits": ", ".join(f"{k} {v}" for k, v in limits._asdict().items()),
-        "speed [m/s]": f"{step / period:.6f}",
+        "limits": ", ".join(f"{k} {v}" for k, v in vars(limits).items()),
+        "speed [m/s]": f"{step / gait.period:.6f}",
         "step length [m]": f"{step:.6f}",
         "command": request.command(biped),
     }
-    d = biped.description
-    name = request.name()
-    return Gait(name, d.name, biped.preset, constraint, q, v, period, provenance, request.slope)
+    return replace(gait, provenance=provenance)

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import output_path, write_text
+from biped_adrc.files import output_path, reading, write_text
 from biped_adrc.gait.exchange.matfile import read_mat, write_mat
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import FORMAT as STORED
@@ -74,21 +74,13 @@ def read_record(
         raise InputError(f"gait file '{path}' ends in '{path.suffix}', expected .json or .mat")
     if found.get("format") == FORMAT and "units" not in found:
         raise InputError(f"gait file '{path}' ends before its units: it is cut off; copy it again")
-    try:
+    with reading("gait file", path, GaitError):
         return _record(_ours(found, names or {}), convention)
-    except GaitError as error:
-        raise GaitError(f"gait file '{path}': {error}") from error
 
 
 def _read_json(path: Path) -> dict[str, Any]:
-    try:
+    with reading("gait file", path, InputError):
         found = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise InputError(f"gait file '{path}' not found") from None
-    except OSError as error:
-        raise InputError(f"gait file '{path}' cannot be read: {error.strerror}") from error
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"gait file '{path}' is not valid JSON: {error}") from error
     if not isinstance(found, dict):
         raise InputError(f"gait file '{path}' holds a {type(found).__name__}, expected an object")
     return found
