@@ -22,7 +22,7 @@ import numpy as np
 
 from biped_adrc.analysis.stride_gain import bumped
 from biped_adrc.control.stride import StrideGains, StridePI
-from biped_adrc.errors import GaitError, InputError
+from biped_adrc.errors import GaitError, InputError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, gauss_nodes
@@ -149,8 +149,7 @@ def _check(gait: Gait, force: float, steps: int, longest: float) -> None:
         raise InputError(f"the force on the hip is {force} N, expected a finite number")
     if steps < 1:
         raise InputError(f"a walk of {steps} steps was asked for, expected at least 1")
-    if not (math.isfinite(longest) and longest > 0):
-        raise InputError(f"the longest step is {longest} s, expected a positive number")
+    check_positive(longest, f"the longest step is {longest} s")
     if gait.slope:
         raise InputError(
             f"gait '{gait.name}' walks on a slope of {gait.slope} rad, expected level ground"

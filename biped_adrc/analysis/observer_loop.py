@@ -33,7 +33,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array, ComplexArray
 
@@ -173,8 +173,7 @@ def observer_loop(
             f"the linear loop of a {type(observer).__name__} was asked for, expected a GPIObserver in "
             "continuous time"
         )
-    if not (np.isfinite(kappa_ratio) and kappa_ratio > 0.0):
-        raise InputError(f"kappa_ratio is {kappa_ratio}, expected a positive number")
+    check_positive(kappa_ratio, f"kappa_ratio is {kappa_ratio}")
     K_p, K_d = (joint_gain(gain, joint) for gain in (gains.K_p, gains.K_d))
     return ObserverLoop(observer, K_p, K_d, float(kappa_ratio))
 

@@ -26,7 +26,7 @@ from scipy.linalg import expm
 
 from biped_adrc.analysis.observer_loop import joint_gain
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.gpi_sampled import SampledGPIParameters
@@ -70,8 +70,7 @@ class SampledLoop:
             )
         if self.form not in FORMS:
             raise InputError(f"the observer's form is '{self.form}', expected one of {list(FORMS)}")
-        if not (np.isfinite(self.kappa_ratio) and self.kappa_ratio > 0.0):
-            raise InputError(f"kappa_ratio is {self.kappa_ratio}, expected a positive number")
+        check_positive(self.kappa_ratio, f"kappa_ratio is {self.kappa_ratio}")
 
     # -- the step ------------------------------------------------------------------------------------
     @cached_property

@@ -23,7 +23,7 @@ from biped_adrc.analysis.regression import Regression
 from biped_adrc.analysis.return_map import ReturnMap, sorted_eigenvalues
 from biped_adrc.analysis.variational import StepDerivative
 from biped_adrc.control.npd import NPDController
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
@@ -57,8 +57,7 @@ class Tolerances:
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
-            if not (np.isfinite(value) and value > 0):
-                raise InputError(f"tolerance '{name}' is {value}, expected a positive number")
+            check_positive(value, f"tolerance '{name}' is {value}")
 
     def distance(self, one: ComplexArray, other: ComplexArray) -> Array:
         """|one_i - other_j| in units of what is allowed (len(one), len(other)); at most 1 where they agree."""

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.errors import GaitError
+from biped_adrc.errors import GaitError, check_positive
 from biped_adrc.files import output_path, reading, write_text
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import CURVES
@@ -66,10 +66,9 @@ class Gait:
                 f"gait '{self.name}' has {p} joints and a phase row of {n}, robot "
                 f"'{biped.description.name}' has {biped.p} motors and {biped.n} coordinates"
             )
-        if not (math.isfinite(self.period) and self.period > 0.0):
-            raise GaitError(
-                f"gait '{self.name}': the period is {self.period} s, expected a positive number"
-            )
+        check_positive(
+            self.period, f"gait '{self.name}': the period is {self.period} s", error=GaitError
+        )
         if not abs(self.slope) < 0.5 * math.pi:
             raise GaitError(
                 f"gait '{self.name}': the slope is {self.slope} rad, expected less than a right angle"

@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import GaitError, InputError, NotFiniteError
+from biped_adrc.errors import GaitError, InputError, NotFiniteError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Bezier, Curve, Polynomial
 from biped_adrc.types import Array, read_only
@@ -121,10 +121,7 @@ class FunctionOutputs(Outputs):
     difference: float = 4e-3
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.difference) and self.difference > 0):
-            raise InputError(
-                f"difference is {self.difference} rad, expected a positive number such as 4e-3"
-            )
+        check_positive(self.difference, f"difference is {self.difference} rad", " such as 4e-3")
 
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
         y = np.asarray(self.function(q), dtype=float)
