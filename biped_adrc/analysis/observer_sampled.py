@@ -24,7 +24,7 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import expm
 
-from biped_adrc.analysis.observer_loop import joint_gain
+from biped_adrc.analysis.observer_loop import joint_gains
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hardware.motors import whole_and_part
@@ -206,8 +206,9 @@ def sampled_loop(
     kappa_ratio: float = 1.0,
 ) -> SampledLoop:
     """The loop of one joint with its gains. Raises InputError as `SampledLoop`."""
-    K_p, K_d = (joint_gain(gain, joint) for gain in (gains.K_p, gains.K_d))
-    return SampledLoop(observer, period, K_p, K_d, delay, known, form, kappa_ratio)
+    return SampledLoop(
+        observer, period, *joint_gains(gains, joint), delay, known, form, kappa_ratio
+    )
 
 
 def largest_period(

@@ -147,7 +147,7 @@ class StabilityTable:
             return float(np.min(ratio))
         if ratio.shape[0] != ratio.shape[1]:
             return float("inf")
-        return float(np.max(ratio[_pairing(ratio)]))
+        return _farthest(ratio)
 
     @property
     def verdict(self) -> str:
@@ -181,8 +181,7 @@ class StabilityTable:
             return "; the closed loop does not keep to the zero dynamics, or the step is too long"
         if row.method is not Method.CENTRAL or row.uncertainty == 0.0:
             return ""
-        pairs = np.abs(row.multipliers[:, np.newaxis] - self.trusted.multipliers)
-        distance = float(np.max(pairs[_pairing(pairs)]))
+        distance = _farthest(np.abs(row.multipliers[:, np.newaxis] - self.trusted.multipliers))
         if distance <= 2.0 * row.uncertainty:
             return (
                 f"; they differ by {distance:.1e}, and the extrapolation changes them by "
@@ -202,10 +201,9 @@ class StabilityTable:
         return "\n".join([*lines, self.verdict])
 
 
-def _pairing(cost: Array) -> tuple[Array, Array]:
-    """Rows and columns of the pairing of least total cost."""
-    pairs: tuple[Array, Array] = linear_sum_assignment(cost)
-    return pairs
+def _farthest(cost: Array) -> float:
+    """The largest cost in the pairing of least total cost."""
+    return float(np.max(cost[linear_sum_assignment(cost)]))
 
 
 # -- rows ------------------------------------------------------------------------------------------
@@ -227,8 +225,7 @@ def central_row(P: ReturnMap, s: Array) -> Row:
     """
     wide, narrow = P.jacobian(s), replace(P, difference=0.5 * P.difference).jacobian(s)
     best, half = sorted_eigenvalues((4.0 * narrow - wide) / 3.0), sorted_eigenvalues(narrow)
-    pairs = np.abs(best[:, np.newaxis] - half)
-    return Row(Method.CENTRAL, best, float(np.max(pairs[_pairing(pairs)])))
+    return Row(Method.CENTRAL, best, _farthest(np.abs(best[:, np.newaxis] - half)))
 
 
 def regression_row(regression: Regression) -> Row:

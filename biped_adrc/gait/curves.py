@@ -114,4 +114,14 @@ def bezier_between(begin: Array, first: Array, last: Array, end: Array, degree: 
     return np.column_stack((begin, middle, end))
 
 
+def ramp(kind: type[Curve], degree: int, start: float, end: float) -> Array:
+    """Coefficients (M + 1,) of start + s (end - start)."""
+    k = np.arange(degree + 1) / degree
+    if kind is Bezier:
+        return np.asarray((1.0 - k) * start + k * end)
+    a = np.zeros(degree + 1)
+    a[:2] = start, end - start
+    return a
+
+
 CURVES: dict[str, type[Curve]] = {"bezier": Bezier, "polynomial": Polynomial}

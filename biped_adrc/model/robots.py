@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from biped_adrc.errors import ModelError
+from biped_adrc.errors import ModelError, check_positive
 from biped_adrc.files import reading
 from biped_adrc.model.urdf import Inertial, Tree, load_tree
 from biped_adrc.resources import data_folder
@@ -81,6 +81,11 @@ class RobotDescription:
     def joints(self) -> tuple[str, ...]:
         """Names of q1..qN: the actuated joints, joints without a motor, the pitch."""
         return (*self.actuated, *self.passive, self.unactuated)
+
+    @property
+    def feet(self) -> tuple[str, str]:
+        """Stance and swing foot."""
+        return self.stance_foot, self.swing_foot
 
     def preset(self, name: str | None = None) -> Preset:
         """The preset `name`, or the default one. Raises ModelError with the names there are."""
@@ -221,6 +226,5 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
 
 def _positive(value: object, what: str) -> float:
     number = float(value)  # type: ignore[arg-type]
-    if not (math.isfinite(number) and number > 0):
-        raise ValueError(f"{what} is {value}, expected a positive number")
+    check_positive(number, f"{what} is {value}")
     return number

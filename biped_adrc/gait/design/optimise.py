@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -17,8 +17,8 @@ from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Bezier, bezier_between
 from biped_adrc.gait.design.audit import NODES, audited, missed_limits, missed_wishes, objective_of
-from biped_adrc.gait.design.ipopt import Progress, relaxed, solve
-from biped_adrc.gait.design.programme import Programme, transcribe
+from biped_adrc.gait.design.ipopt import Found, Progress, relaxed, solve
+from biped_adrc.gait.design.programme import transcribe
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.design.start import cold_start
 from biped_adrc.gait.design.step import Unknowns
@@ -83,19 +83,11 @@ def _staged(
     stages, iterations = request.stages(), 0
     direction, guess = cold_start(biped, stages[0], limits)
     for stage in stages:
-        found = _solve(biped, stage, limits, direction, guess, progress, stage is stages[-1])
+        found, x = _solve(biped, stage, limits, direction, guess, progress, stage is stages[-1])
         iterations += found.iterations
         if found.solved:
-            guess = found.unknowns._asdict()
-    return found.unknowns, iterations
-
-
-class _Solution(NamedTuple):
-    """A solution, or where the search for one ended."""
-
-    solved: bool
-    unknowns: Unknowns
-    iterations: int
+            guess = x._asdict()
+    return x, iterations
 
 
 def _solve(
@@ -106,11 +98,11 @@ def _solve(
     guess: dict[str, Any],
     progress: Progress | None,
     diagnose: bool,
-) -> _Solution:
+) -> tuple[Found, Unknowns]:
     """From a guess; `diagnose` asks for a GaitError that says why there is no solution."""
-    programme = transcribe(biped, request, limits, direction)
+    programme, unknowns = transcribe(biped, request, limits, direction)
     x0 = np.concatenate([np.ravel(guess[name], order="F") for name in Unknowns._fields])
-    bounds = _bounds(programme, guess, request, limits)
+    bounds = _bounds(unknowns, guess, request, limits)
     found = solve(programme, x0, bounds, progress)
     iterations = found.iterations
     if not found.solved:
@@ -125,16 +117,15 @@ def _solve(
                 f"no gait with {request.in_words()} was found: IPOPT stopped with {found.status}, though its "
                 "limits can be met; try another degree or number of nodes"
             )
-    x = programme.unknowns.parts(found.x)
-    return _Solution(found.solved, x, iterations)
+    return replace(found, iterations=iterations), unknowns.parts(found.x)
 
 
 def _bounds(
-    programme: Programme, guess: dict[str, Any], request: GaitRequest, limits: RobotLimits
+    unknowns: Unknowns, guess: dict[str, Any], request: GaitRequest, limits: RobotLimits
 ) -> tuple[Array, Array]:
     """Bounds of the unknowns: rates are positive, the peak is the limit unless it is made least."""
     low, high = {}, {}
-    for name, part in zip(Unknowns._fields, programme.unknowns, strict=True):
+    for name, part in zip(Unknowns._fields, unknowns, strict=True):
         low[name] = np.full(part.numel(), -np.inf)
         high[name] = np.full(part.numel(), np.inf)
     for name in ("rate", "rates"):
