@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.types import Array
+from biped_adrc.types import Array, read_only
 
 _KNEES = (2, 3)  # of the paper's coordinates
 _PHASE = (1.0, 0.0, 0.5, 0.0, 1.0)  # Theta = q5 + q1 + q3 / 2
@@ -37,7 +37,7 @@ class AngleMap:
     b: Array
 
     def __post_init__(self) -> None:
-        A, b = np.array(self.A, dtype=float), np.array(self.b, dtype=float)
+        A, b = read_only(self.A), read_only(self.b)
         n = len(b) if b.ndim == 1 else -1
         if A.shape != (n, n) or not (np.all(np.isfinite(A)) and np.all(np.isfinite(b))):
             raise InputError(
@@ -50,7 +50,6 @@ class AngleMap:
                 "coordinate must be independent of the others"
             )
         for name, value in (("A", A), ("b", b)):
-            value.setflags(write=False)
             object.__setattr__(self, name, value)
 
     def angles(self, q: Array) -> Array:

@@ -20,11 +20,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from biped_adrc.errors import InputError, ModelError, NotFiniteError
-from biped_adrc.model.pinned import frame_index
+from biped_adrc.errors import InputError, ModelError
+from biped_adrc.model.pinned import finite_angles, frame_index
 from biped_adrc.model.reduction import Reduction, reduce
 from biped_adrc.model.robots import GRAVITY
-from biped_adrc.model.straighten import straightened
+from biped_adrc.model.straighten import place_of, straightened
 from biped_adrc.model.urdf import Vector, numbers, parse, tree_of
 from biped_adrc.types import Array
 
@@ -163,11 +163,7 @@ class Arm:
         return np.array(pin.updateFramePlacement(self.model, self._data, frame).translation)
 
     def _finite(self, q: Array) -> Array:
-        if q.shape != (self.n,):
-            raise InputError(f"expected an array of shape ({self.n},), found {q.shape}")
-        if not math.isfinite(q.dot(q)):
-            raise NotFiniteError(f"expected finite angles or rates, found {q}")
-        return q
+        return finite_angles(q, (self.n,))
 
     def _checked(self) -> Arm:
         """Itself, once the tool is there and D is positive definite at random states. Raises ModelError."""
@@ -187,7 +183,7 @@ class Arm:
 def _strip(root: ET.Element, source: str) -> None:
     """Take out the <inertial> of links whose mass is written as 0: frames."""
     for link in root.findall("link"):
-        inertial, where = link.find("inertial"), f"URDF '{source}', link '{link.get('name')}'"
+        inertial, where = link.find("inertial"), place_of(link, source)
         mass = None if inertial is None else inertial.find("mass")
         if inertial is None or mass is None:
             continue
@@ -203,7 +199,7 @@ def _effort(joint: ET.Element, source: str) -> float:
     limit = joint.find("limit")
     if limit is None or "effort" not in limit.attrib:
         return math.inf
-    where = f"URDF '{source}', joint '{joint.get('name')}' <limit>"
+    where = f"{place_of(joint, source)} <limit>"
     effort = numbers(limit, "effort", "", 1, where)[0]
     if not effort > 0.0:
         raise ModelError(

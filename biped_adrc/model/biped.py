@@ -14,17 +14,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.errors import ModelError
 from biped_adrc.model.contact import FloatingDynamics, Impact
 from biped_adrc.model.physical import check_numbers, check_planar
-from biped_adrc.model.pinned import PinnedDynamics
+from biped_adrc.model.pinned import PinnedDynamics, finite_angles
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
-from biped_adrc.model.relabelling import relabelling
+from biped_adrc.model.relabelling import absolute_angles, relabelling
 from biped_adrc.model.reroot import reroot
 from biped_adrc.model.robots import RobotDescription, load_description
 from biped_adrc.model.urdf import Inertial, Tree
@@ -73,7 +72,7 @@ class Biped:
         n, R = self.n, self.R
         q, v = 0.3 * np.arange(1.0, n + 1.0), np.cos(np.arange(float(n)))
         one, other = (self.floating.inertia_on_fixed_base(x) for x in (q, self.relabel(q)))
-        lengths = [float(np.linalg.norm(self.floating.legs(x))) for x in (q, self.relabel(q))]
+        lengths = [float(np.linalg.norm(self.swing_foot(x))) for x in (q, self.relabel(q))]
         w = R @ v
         alike = math.isclose(v @ one @ v, w @ other @ w, rel_tol=1e-9)
         if not (alike and math.isclose(*lengths, rel_tol=1e-9)):
@@ -106,7 +105,7 @@ class Biped:
     @cached_property
     def R(self) -> Array:
         """(n, n): q+ = R q- + r exchanges the legs at impact, as `relabel` does. Raises ModelError."""
-        return relabelling(self.tree, self.description.joints, self._feet)
+        return relabelling(self.tree, self.description.joints, self.description.feet)
 
     def relabel(self, q: Array) -> Array:
         """q (n,) in the coordinates of the next single support [rad]."""
@@ -137,45 +136,24 @@ class Biped:
     @cached_property
     def pinned(self) -> PinnedDynamics:
         """Single-support dynamics from the pinned model."""
-        d = self.description
-        return PinnedDynamics(
-            self.pinned_tree,
-            d.joints,
-            self._stance_chain(),
-            self._feet,
-            d.hip,
-            self._rotors,
-            d.gravity,
-        )
+        chain = self._stance_chain()
+        return PinnedDynamics(self.pinned_tree, self.description, chain, self.armature)
 
     @cached_property
     def floating(self) -> FloatingDynamics:
         """Unpinned dynamics from the floating model."""
-        d = self.description
-        return FloatingDynamics(self.tree, d.joints, d.base, self._feet, self._rotors, d.gravity)
-
-    @property
-    def _feet(self) -> tuple[str, str]:
-        return (self.description.stance_foot, self.description.swing_foot)
-
-    @property
-    def _rotors(self) -> dict[str, float]:
-        return dict.fromkeys(self.description.actuated, self.armature)
+        return FloatingDynamics(self.tree, self.description, self.armature)
 
     def _stance_chain(self) -> Array:
         """Row (n,): absolute angle of the stance foot's link as a sum of coordinates."""
-        row = np.zeros(self.n)
         pitch = self.tree.joint_above(self.description.trunk)
         if pitch is None or pitch.name != self.description.unactuated:
             raise ModelError(
                 f"URDF '{self.tree.source}': link '{self.description.trunk}' hangs on "
                 f"'{pitch.name if pitch else 'nothing'}', expected '{self.description.unactuated}'"
             )
-        for joint in self.tree.path_to_root(self.description.stance_foot):
-            if joint.name in self.description.joints:
-                sign = sum(a * b for a, b in zip(joint.axis, pitch.axis, strict=True))
-                row[self.description.joints.index(joint.name)] = sign
-        return row
+        foot = self.description.stance_foot
+        return absolute_angles(self.tree, self.description.joints, [foot])[0]
 
     # -- single support (1), (11)-(15) -----------------------------------------------------------
     def inertia(self, q: Array) -> Array:
@@ -307,17 +285,16 @@ class Biped:
         `mass` alone leaves the inertias about the COM as they are. Raises ModelError for an unknown
         body or a factor that is not positive.
         """
-        for kind, factors in (("mass", mass or {}), ("inertia", inertia or {})):
-            for body, factor in factors.items():
+        factors = {"mass": mass or {}, "inertia": inertia or {}}
+        for kind, by_body in factors.items():
+            for body, factor in by_body.items():
                 if not (math.isfinite(factor) and factor > 0):
                     raise ModelError(f"{kind} factor of '{body}' is {factor}, expected > 0")
         friction = self.friction if friction is None else friction
-        return replace(
-            self.scaled({"mass": mass or {}, "inertia": inertia or {}}), friction=friction
-        )
+        return replace(self, tree=self.scaled(factors), friction=friction)
 
-    def scaled(self, factors: Mapping[str, Mapping[str, float]]) -> Biped:
-        """The robot with "mass", "com" and "inertia" multiplied, each by class or link name.
+    def scaled(self, factors: Mapping[str, Mapping[str, float]]) -> Tree:
+        """The tree with "mass", "com" or "inertia" multiplied: by kind, then by class or link name.
 
         Raises ModelError for an unknown body, or one without mass.
         """
@@ -327,11 +304,9 @@ class Biped:
                 for link in self._links(body):
                     old = inertials.get(link) or self.tree.links[link].inertial
                     if old is None:
-                        raise ModelError(f"link '{link}' has no mass, so its {kind} cannot change")
-                    x = getattr(old, kind)
-                    new: Any = factor * x if kind == "mass" else tuple(factor * y for y in x)
-                    inertials[link] = replace(old, **{kind: new})
-        return replace(self, tree=self.tree.with_inertials(inertials))
+                        raise ModelError(f"link '{link}' has no mass, so its {kind} has no error")
+                    inertials[link] = old.scaled(kind, factor)
+        return self.tree.with_inertials(inertials)
 
     def _links(self, body: str) -> tuple[str, ...]:
         if body in self.description.links:
@@ -342,13 +317,4 @@ class Biped:
         raise ModelError(f"robot '{self.description.name}' has no body '{body}'; it has {known}")
 
     def _angles(self, q: Array) -> Array:
-        """q itself, once it is known to be n finite numbers."""
-        if q.shape != self._shape:
-            raise InputError(f"expected an array of shape {self._shape}, found {q.shape}")
-        if not math.isfinite(q.dot(q)):
-            raise NotFiniteError(f"expected finite angles or rates, found {q}")
-        return q
-
-    @cached_property
-    def _shape(self) -> tuple[int]:
-        return (self.n,)
+        return finite_angles(q, (self.n,))

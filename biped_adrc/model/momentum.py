@@ -38,18 +38,17 @@ class LinkMotion:
         pin.updateFramePlacements(f.model, data)
         object.__setattr__(self, "data", data)
 
-    def about(self, point: Array, joints: Iterable[int] | None = None) -> float:
-        """L of the links of `joints` (by Pinocchio, all without) about a point (x, z) [kg m^2/s]."""
-        model, data = self.floating.model, self.data
-        centre, total = np.array([point[0], 0.0, point[1]]), 0.0
+    def momentum(self, joints: Iterable[int] | None = None) -> Any:
+        """Spatial momentum of the links of `joints` (by Pinocchio, all without), in the axes of the world."""
+        model, data, total = self.floating.model, self.data, pin.Force.Zero()
         for j in range(1, model.njoints) if joints is None else joints:
-            body, place, motion = model.inertias[j], data.oMi[j], data.v[j]
-            omega = place.rotation @ motion.angular
-            velocity = place.rotation @ (motion.linear + np.cross(motion.angular, body.lever))
-            arm = place.act(body.lever) - centre
-            spin = place.rotation @ body.inertia @ place.rotation.T @ omega
-            total -= float((np.cross(arm, body.mass * velocity) + spin)[1])
+            total += data.oMi[j].act(model.inertias[j] * data.v[j])
         return total
+
+    def about(self, point: Array, joints: Iterable[int] | None = None) -> float:
+        """L of the links of `joints` (all without) about a point (x, z) [kg m^2/s]."""
+        h = self.momentum(joints)
+        return -float((h.angular - np.cross([point[0], 0.0, point[1]], h.linear))[1])
 
     @property
     def new_foot(self) -> Array:
@@ -84,11 +83,5 @@ class LinkMotion:
     @property
     def com_velocity(self) -> Array:
         """(x, z) [m/s]."""
-        model, data = self.floating.model, self.data
-        total = np.zeros(3)
-        for j in range(1, model.njoints):
-            motion, body = data.v[j], model.inertias[j]
-            velocity = motion.linear + np.cross(motion.angular, body.lever)
-            total += body.mass * (data.oMi[j].rotation @ velocity)
-        velocity_of_all: Array = total[[0, 2]] / float(pin.computeTotalMass(model))
-        return velocity_of_all
+        velocity: Array = self.momentum().linear / pin.computeTotalMass(self.floating.model)
+        return velocity[[0, 2]]

@@ -7,27 +7,30 @@ stance shin. The paper's coordinates count from the torso. Both are angles of th
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pinocchio as pin
 
-from biped_adrc.errors import ModelError
+from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.model.reroot import PIN_JOINT
+from biped_adrc.model.robots import RobotDescription
 from biped_adrc.model.urdf import Tree, to_xml
 from biped_adrc.types import Array
 
-_XZ = [0, 2]
+XZ = [0, 2]
+"""The plane of motion among Pinocchio's axes."""
 
 
-def build(tree: Tree, armature: dict[str, float], gravity: float) -> pin.Model:
-    """The Pinocchio model of `tree` with rotor inertias [kg m^2] by joint name; gravity [m/s^2] downwards."""
+def build(tree: Tree, d: RobotDescription, armature: float) -> pin.Model:
+    """The Pinocchio model of `tree` with a rotor inertia [kg m^2] at every motor, and its gravity."""
     model = pin.buildModelFromXML(to_xml(tree))
     if model.nq != model.nv:
         raise ModelError(f"URDF '{tree.source}': nq = {model.nq} differs from nv = {model.nv}")
     rotor = np.zeros(model.nv)
-    for joint, value in armature.items():
-        rotor[velocity_index(model, joint)] = value
+    rotor[[velocity_index(model, joint) for joint in d.actuated]] = armature
     model.armature = rotor
-    model.gravity.linear = np.array([0.0, 0.0, -gravity])
+    model.gravity.linear = np.array([0.0, 0.0, -d.gravity])
     return model
 
 
@@ -47,21 +50,21 @@ def frame_index(model: pin.Model, frame: str) -> int:
     return int(model.getBodyId(frame))
 
 
+def finite_angles(q: Array, shape: tuple[int]) -> Array:
+    """q itself, once it is known to be finite numbers of this shape. Raises InputError, NotFiniteError."""
+    if q.shape != shape:
+        raise InputError(f"expected an array of shape {shape}, found {q.shape}")
+    if not math.isfinite(q.dot(q)):
+        raise NotFiniteError(f"expected finite angles or rates, found {q}")
+    return q
+
+
 class PinnedDynamics:
     """D_s, Omega, forward dynamics and kinematics at (q_s, q_s'); arrays are (n,) or (n, n)."""
 
-    def __init__(
-        self,
-        tree: Tree,
-        joints: tuple[str, ...],
-        stance_chain: Array,
-        feet: tuple[str, str],
-        hip: str,
-        armature: dict[str, float],
-        gravity: float,
-    ):
-        """`joints` names q1..qN, `stance_chain` (n,) gives the pin's angle as a sum of them."""
-        self.model = build(tree, armature, gravity)
+    def __init__(self, tree: Tree, d: RobotDescription, stance_chain: Array, armature: float):
+        """`stance_chain` (n,) gives the pin's angle as a sum of the robot's coordinates."""
+        self.model, joints = build(tree, d, armature), d.joints
         self.data = self.model.createData()
         n = len(joints)
         if self.model.nv != n:
@@ -69,14 +72,13 @@ class PinnedDynamics:
                 f"URDF '{tree.source}': pinned model has {self.model.nv} coordinates, "
                 f"the robot record names {n} ({list(joints)})"
             )
-        T = np.zeros((n, n))
+        self.T = np.zeros((n, n))  # q_tree = T q_s
         for j, name in enumerate(joints[:-1]):
-            T[velocity_index(self.model, name), j] = 1.0
-        T[velocity_index(self.model, PIN_JOINT)] = stance_chain
-        self.T = T
-        self.swing = frame_index(self.model, feet[1])
-        self.hip = frame_index(self.model, hip)
-        self.torso_joint = int(self.model.frames[self.hip].parentJoint)
+            self.T[velocity_index(self.model, name), j] = 1.0
+        self.T[velocity_index(self.model, PIN_JOINT)] = stance_chain
+        self._inverse = np.linalg.inv(self.T)
+        self.swing = frame_index(self.model, d.swing_foot)
+        self.hip = frame_index(self.model, d.hip)
 
     def inertia(self, q: Array) -> Array:
         """D_s(q) (n, n) [kg m^2] from CRBA."""
@@ -89,10 +91,10 @@ class PinnedDynamics:
 
     def inertia_and_bias(self, q: Array, v: Array) -> tuple[Array, Array]:
         """D_s and Omega at once."""
-        T, x = self._T, self._T @ q
+        T, x = self.T, self.T @ q
         M = pin.crba(self.model, self.data, x)
         nle = pin.nonLinearEffects(self.model, self.data, x, T @ v)
-        return self._Tt @ M @ T, self._Tt @ nle
+        return T.T @ M @ T, T.T @ nle
 
     def gravity(self, q: Array) -> Array:
         """G_s(q) = dV/dq (n,) [N m]."""
@@ -108,21 +110,8 @@ class PinnedDynamics:
 
         T is square with determinant +-1: tau_tree = T^-T force and q'' = T^-1 a_tree.
         """
-        T = self._T
-        a = pin.aba(self.model, self.data, T @ q, T @ v, self._inverse_t @ force)
-        return self._inverse @ a
-
-    @property
-    def T(self) -> Array:
-        """(n, n), q_tree = T q_s."""
-        return self._T
-
-    @T.setter
-    def T(self, value: Array) -> None:
-        self._T = value
-        self._Tt = value.T
-        self._inverse = np.linalg.inv(value)
-        self._inverse_t = self._inverse.T
+        T, inverse = self.T, self._inverse
+        return inverse @ pin.aba(self.model, self.data, T @ q, T @ v, inverse.T @ force)
 
     def potential_energy(self, q: Array) -> float:
         """V(q) [J], zero at the height of the stance foot."""
@@ -131,14 +120,14 @@ class PinnedDynamics:
     def position(self, q: Array, frame: int) -> Array:
         """(x, z) of a frame from the stance foot [m]."""
         pin.forwardKinematics(self.model, self.data, self.T @ q)
-        return pin.updateFramePlacement(self.model, self.data, frame).translation[_XZ]
+        return pin.updateFramePlacement(self.model, self.data, frame).translation[XZ]
 
     def jacobian(self, q: Array, frame: int) -> Array:
         """d(x, z)/dq_s of a frame (2, n) [m]."""
         J = pin.computeFrameJacobian(
             self.model, self.data, self.T @ q, frame, pin.LOCAL_WORLD_ALIGNED
         )
-        return J.reshape(6, -1)[_XZ] @ self.T  # one coordinate comes without its axis
+        return J.reshape(6, -1)[XZ] @ self.T  # one coordinate comes without its axis
 
     def centre_of_mass(
         self, q: Array, v: Array | None = None, a: Array | None = None
@@ -149,12 +138,12 @@ class PinnedDynamics:
         a = zero if a is None else a
         pin.centerOfMass(self.model, self.data, self.T @ q, self.T @ v, self.T @ a)
         d = self.data
-        return d.com[0][_XZ].copy(), d.vcom[0][_XZ].copy(), d.acom[0][_XZ].copy()
+        return d.com[0][XZ].copy(), d.vcom[0][XZ].copy(), d.acom[0][XZ].copy()
 
     def mass_jacobian(self, q: Array) -> Array:
         """m dp_com/dq_s (2, n) [kg m]."""
         J = pin.jacobianCenterOfMass(self.model, self.data, self.T @ q).reshape(3, -1)
-        return self.mass * J[_XZ] @ self.T
+        return self.mass * J[XZ] @ self.T
 
     def bodies(self) -> tuple[Array, Array, Array]:
         """Of the bodies in Pinocchio's order: mass (n,), inertia about the COM (n,), and the rows A (n, n) of
@@ -179,7 +168,7 @@ class PinnedDynamics:
             pin.updateFramePlacement(self.model, self.data, frame).translation
             for frame in (self.swing, self.hip)
         ]
-        return np.array([*coms, *frames])[:, _XZ]
+        return np.array([*coms, *frames])[:, XZ]
 
     @property
     def mass(self) -> float:

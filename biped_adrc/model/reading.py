@@ -90,8 +90,10 @@ def _expanded(path: Path) -> ET.Element:
     return robot
 
 
-def _by_joint(joints: list[ET.Element], tag: str, key: str, source: str) -> dict[str, float]:
-    """A number of <tag key> by joint, where it is given. Raises ModelError when it is negative."""
+def _by_joint(
+    joints: list[ET.Element], tag: str, key: str, source: str, least: float = 0.0
+) -> dict[str, float]:
+    """A number of <tag key> by joint, where it is given. Raises ModelError when it is below `least`."""
     found = {}
     for joint in joints:
         element = joint.find(tag)
@@ -99,23 +101,14 @@ def _by_joint(joints: list[ET.Element], tag: str, key: str, source: str) -> dict
             continue
         where = f"{place_of(joint, source)} <{tag}>"
         value = numbers(element, key, "", 1, where)[0]
-        if value < 0:
+        if value < least:
             raise ModelError(f"{where}: {key} is {value:g}, expected a number >= 0")
         found[joint.get("name", "")] = value
     return found
 
 
 def _ranges(joints: list[ET.Element], source: str) -> dict[str, tuple[float, float]]:
-    low, high = (
-        {
-            joint.get("name", ""): numbers(
-                limit, key, "0", 1, f"{place_of(joint, source)} <limit>"
-            )[0]
-            for joint in joints
-            if (limit := joint.find("limit")) is not None and key in limit.attrib
-        }
-        for key in ("lower", "upper")
-    )
+    low, high = (_by_joint(joints, "limit", key, source, -math.inf) for key in ("lower", "upper"))
     return {
         name: (low[name], high[name])
         for name in low

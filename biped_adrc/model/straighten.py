@@ -18,7 +18,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
-from scipy.spatial.transform import Rotation
+import pinocchio as pin
 
 from biped_adrc.errors import ModelError
 from biped_adrc.model.urdf import GEOMETRY_SIZES, JOINT_TYPES, numbers
@@ -53,8 +53,7 @@ def straightened(robot: ET.Element, source: str) -> Straightened:
 
 def _rotation(element: ET.Element | None, where: str) -> Array:
     """R (3, 3) of the rpy of an <origin>: about the fixed axes x, y, z in this order."""
-    angles = numbers(element, "rpy", "0 0 0", 3, f"{where} <origin>")
-    R: Array = Rotation.from_euler("xyz", angles).as_matrix()
+    R: Array = pin.rpy.rpyToMatrix(*numbers(element, "rpy", "0 0 0", 3, f"{where} <origin>"))
     return np.where(np.abs(R) < _ROUND_OFF, 0.0, R)
 
 

@@ -12,8 +12,11 @@ import re
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
-from xml.sax.saxutils import quoteattr
+from typing import Any
+
+import numpy as np
 
 from biped_adrc.errors import ModelError
 
@@ -21,9 +24,11 @@ Vector = tuple[float, float, float]
 
 JOINT_TYPES = ("revolute", "prismatic", "fixed")
 GEOMETRY_SIZES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length")}
+MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 LARGEST = 1e100
 """Of the numbers in a URDF, in any unit; products of more overflow."""
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
+_FREE = {"lower": "-1000", "upper": "1000", "effort": "1000", "velocity": "1000"}  # no limit
 _ALMOST_ONE = 1e-6  # how far an axis may be from unit length, dimensionless
 
 
@@ -34,6 +39,12 @@ class Inertial:
     mass: float
     com: Vector
     inertia: tuple[float, float, float, float, float, float]
+
+    def scaled(self, kind: str, factor: float) -> Inertial:
+        """With "mass", "com" or "inertia" multiplied."""
+        old: Any = getattr(self, kind)
+        new: Any = factor * old if kind == "mass" else tuple(factor * x for x in old)
+        return replace(self, **{kind: new})
 
 
 @dataclass(frozen=True)
@@ -143,63 +154,43 @@ def tree_of(root: ET.Element, source: str) -> Tree:
 
 def to_xml(tree: Tree) -> str:
     """URDF text of `tree`; `load_tree` of it gives the tree back."""
-    out = ['<?xml version="1.0"?>', f"<robot name={quoteattr(tree.name)}>"]
+    robot = ET.Element("robot", name=tree.name)
     for link in tree.links.values():
-        body = _inertial_xml(link.inertial) + [
-            line for visual in link.visuals for line in _visual_xml(visual, link.name)
-        ]
-        if body:
-            out += [f"  <link name={quoteattr(link.name)}>", *body, "  </link>"]
-        else:
-            out.append(f"  <link name={quoteattr(link.name)}/>")
+        body = ET.SubElement(robot, "link", name=link.name)
+        if link.inertial is not None:
+            _write_inertial(ET.SubElement(body, "inertial"), link.inertial)
+        for visual in link.visuals:
+            _write_visual(ET.SubElement(body, "visual"), visual, link.name)
     for joint in tree.joints:
-        out += [
-            f'  <joint name={quoteattr(joint.name)} type="{joint.type}">',
-            f"    <parent link={quoteattr(joint.parent)}/>",
-            f"    <child link={quoteattr(joint.child)}/>",
-            f'    <origin xyz="{_text(joint.origin)}"/>',
-        ]
+        element = ET.SubElement(robot, "joint", name=joint.name, type=joint.type)
+        ET.SubElement(element, "parent", link=joint.parent)
+        ET.SubElement(element, "child", link=joint.child)
+        ET.SubElement(element, "origin", xyz=_text(*joint.origin))
         if joint.type != "fixed":
-            out += [
-                f'    <axis xyz="{_text(joint.axis)}"/>',
-                '    <limit lower="-1000" upper="1000" effort="1000" velocity="1000"/>',
-            ]
-        out.append("  </joint>")
-    return "\n".join([*out, "</robot>", ""])
+            ET.SubElement(element, "axis", xyz=_text(*joint.axis))
+            ET.SubElement(element, "limit", _FREE)
+    ET.indent(robot)
+    return '<?xml version="1.0"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
 
 
-def _text(values: tuple[float, ...]) -> str:
+def _text(*values: float) -> str:
     return " ".join(f"{value:.17g}" for value in values)
 
 
-def _inertial_xml(inertial: Inertial | None) -> list[str]:
-    if inertial is None:
-        return []
-    names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-    moments = " ".join(f'{n}="{i:.17g}"' for n, i in zip(names, inertial.inertia, strict=True))
-    return [
-        "    <inertial>",
-        f'      <origin xyz="{_text(inertial.com)}"/>',
-        f'      <mass value="{inertial.mass:.17g}"/>',
-        f"      <inertia {moments}/>",
-        "    </inertial>",
-    ]
+def _write_inertial(element: ET.Element, inertial: Inertial) -> None:
+    ET.SubElement(element, "origin", xyz=_text(*inertial.com))
+    ET.SubElement(element, "mass", value=_text(inertial.mass))
+    ET.SubElement(element, "inertia", dict(zip(MOMENTS, map(_text, inertial.inertia), strict=True)))
 
 
-def _visual_xml(visual: Visual, link: str) -> list[str]:
-    if visual.shape == "box":
-        shape = f'<box size="{_text(visual.size)}"/>'
-    else:
-        names = GEOMETRY_SIZES[visual.shape]
-        sizes = " ".join(f'{n}="{s:.17g}"' for n, s in zip(names, visual.size, strict=True))
-        shape = f"<{visual.shape} {sizes}/>"
-    return [
-        "    <visual>",
-        f'      <origin xyz="{_text(visual.origin)}"/>',
-        f"      <geometry>{shape}</geometry>",
-        f'      <material name={quoteattr(link)}><color rgba="{_text(visual.rgba)}"/></material>',
-        "    </visual>",
-    ]
+def _write_visual(element: ET.Element, visual: Visual, link: str) -> None:
+    ET.SubElement(element, "origin", xyz=_text(*visual.origin))
+    keys = GEOMETRY_SIZES[visual.shape]
+    sizes = [_text(*visual.size)] if len(keys) == 1 else map(_text, visual.size)
+    shape = dict(zip(keys, sizes, strict=True))
+    ET.SubElement(ET.SubElement(element, "geometry"), visual.shape, shape)
+    material = ET.SubElement(element, "material", name=link)
+    ET.SubElement(material, "color", rgba=_text(*visual.rgba))
 
 
 def numbers(element: ET.Element | None, key: str, default: str, count: int, where: str) -> Vector:
@@ -257,10 +248,9 @@ def _read_link(element: ET.Element, source: str) -> Link:
 def _read_inertial(element: ET.Element, where: str) -> Inertial:
     mass = numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
     moments = _required(element, "inertia", where)
-    names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
     values = [
-        numbers(moments, n, "" if n in ("ixx", "iyy", "izz") else "0", 1, f"{where} <inertia>")[0]
-        for n in names
+        numbers(moments, n, "" if n[1] == n[2] else "0", 1, f"{where} <inertia>")[0]
+        for n in MOMENTS
     ]
     return Inertial(mass, _origin(element, f"{where} <inertial>"), tuple(values))  # type: ignore[arg-type]
 
@@ -271,11 +261,11 @@ def _read_visual(element: ET.Element, where: str) -> Visual:
     if shape is None:
         found = ", ".join(f"<{g.tag}>" for g in geometry) or "nothing"
         raise ModelError(f"{where} <visual>: found {found}, expected one of {list(GEOMETRY_SIZES)}")
-    if shape.tag == "box":
-        size: tuple[float, ...] = numbers(shape, "size", "", 3, f"{where} <box>")
-    else:
-        keys = GEOMETRY_SIZES[shape.tag]
-        size = tuple(numbers(shape, k, "", 1, f"{where} <{shape.tag}>")[0] for k in keys)
+    count = 3 if shape.tag == "box" else 1
+    read = (
+        numbers(shape, k, "", count, f"{where} <{shape.tag}>") for k in GEOMETRY_SIZES[shape.tag]
+    )
+    size = tuple(chain.from_iterable(read))
     if min(size) <= 0:
         raise ModelError(f"{where} <{shape.tag}>: sizes {size}, expected positive numbers")
     colour = element.find("material/color")
@@ -358,12 +348,8 @@ def _check_inertial(inertial: Inertial, where: str) -> None:
             f"{where}: the moments of inertia are {inertial.inertia}, expected finite ones"
         )
     ixx, ixy, ixz, iyy, iyz, izz = (moment / size for moment in inertial.inertia)
-    minors = (
-        ixx,
-        ixx * iyy - ixy**2,
-        ixx * (iyy * izz - iyz**2) - ixy * (ixy * izz - iyz * ixz) + ixz * (ixy * iyz - iyy * ixz),
-    )
-    if min(minors) <= 0:
+    J = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
+    if min(np.linalg.det(J[:k, :k]) for k in (1, 2, 3)) <= 0:
         raise ModelError(f"{where}: the inertia matrix is not positive definite")
     if any(2 * moment > (ixx + iyy + izz) * (1 + 1e-9) for moment in (ixx, iyy, izz)):
         xx, _, _, yy, _, zz = inertial.inertia
