@@ -28,13 +28,14 @@ from biped_adrc.analysis.stability import (
 from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.reference import TimeReference
-from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model.limits import Limits
 from biped_adrc.scenario.build import Scene, build
 from biped_adrc.scenario.passive import SETTLES, Cycle, known_cycle
+from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.walk import default_method
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Mode
 
@@ -56,15 +57,20 @@ def gait_cycle(s: Scenario, observer_states: bool = True, slope: float | None = 
 
     RK4 at 0.5 ms is within 2e-7 of delta^2 on the published gaits; ADRC takes the exponential method at 1 ms.
     """
+    cycle = gait_map(s, observer_states)
+    walker = cycle.P.walker if slope is None else replace(cycle.P.walker, slope=slope)
+    has_states = walker.split(Mode()) is not None
+    method = default_method(walker) if has_states else RK4(5e-4)
+    difference = cycle.P.difference if has_states else DIFFERENCE
+    return replace(cycle, P=replace(cycle.P, walker=walker, method=method, difference=difference))
+
+
+def gait_map(s: Scenario, observer_states: bool = True) -> Cycle:
+    """The return map of a scenario by its own method, its pushes left out, and the state of its gait."""
     scene = Scene.of(s)
     walker = build(replace(s, pushes=()), scene)
-    if slope is not None:
-        walker = replace(walker, slope=slope)
-    has_states = walker.split(Mode()) is not None
-    method = Exponential(1e-3) if has_states else RK4(5e-4)
-    P = ReturnMap(walker, method, observer_states, 1e-5 if has_states else DIFFERENCE)
-    gait = scene.walked
-    return Cycle(P, walker.initial_state(gait.q_minus, gait.v_minus))
+    P = ReturnMap(walker, method_of(s, walker), observer_states)
+    return Cycle(P, walker.initial_state(scene.walked.q_minus, scene.walked.v_minus))
 
 
 def find_cycle(

@@ -17,6 +17,7 @@ from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.push import Push, joints_push
 from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.studies.claims.admissible import method
 from biped_adrc.studies.claims.gathered import claim_tasks
 from biped_adrc.studies.laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.studies.pair import CONTROLLERS
@@ -140,7 +141,7 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
 def stepped(run: Scenario) -> Scenario:
     """With the steps of the reproduction; ADRC with its feedback in the linear part of the method."""
     h, fine = STEPS[run.controller]
-    return replace(run, method="feedback" if run.controller == "ADRC" else "rk4", h=h, fine=fine)
+    return replace(run, method=method(run.controller), h=h, fine=fine)
 
 
 def pushed_run(plan: Plan, controller: str) -> Scenario:

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.analysis.regression import Regression, regress_multipliers
-from biped_adrc.analysis.return_map import Mapper, PeriodicOrbit, ReturnMap
+from biped_adrc.analysis.return_map import PeriodicOrbit
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.build import Scene
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.studies.cycle_stability import gait_map
 from biped_adrc.types import Array
 
 
@@ -65,17 +65,14 @@ def poincare_twice(run: Scenario) -> PoincareResult:
     return replace(found, half=poincare(replace(run, h=0.5 * h)))
 
 
-def poincare(run: Scenario, with_states: bool = True, mapper: Mapper = map) -> PoincareResult:
+def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
     """Fixed point by Newton and multipliers by central differences, without disturbances."""
-    run = replace(run, pushes=())
+    cycle = gait_map(replace(run, h=run.h or 1e-3, method=None), with_states)
+    P, guess = cycle.P, cycle.guess
     scene = Scene.of(run)
-    walker, biped, gait = build(run, scene), scene.biped, scene.walked
-    method = method_of(replace(run, h=run.h or 1e-3, method=None), walker)
+    biped, gait = scene.biped, scene.walked
     # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
-    P = ReturnMap(walker, method, with_states)
-    q, v = gait.q_minus, gait.v_minus
-    start = walker.initial_state(q, v)
-    orbit = P.fixed_point(start if with_states else start[: 2 * biped.n])
+    orbit = P.fixed_point(guess if with_states else guess[: 2 * biped.n])
     return PoincareResult(
         run.controller,
         biped.preset,
@@ -120,10 +117,8 @@ def return_map_samples(run: Scenario, size: float = 0.05, count: int = 21) -> tu
 
     Returns both (count,) [rad/s]; NaN where the walker does not come back.
     """
-    scene = Scene.of(run)
+    P, scene = gait_map(run, observer_states=False).P, Scene.of(run)
     biped, gait = scene.biped, scene.walked
-    walker = build(replace(run, pushes=()), scene)
-    P = ReturnMap(walker, method_of(run, walker), controller_states=False)
     before = np.linspace(1.0 - size, 1.0 + size, count)
     after = np.full(count, np.nan)
     c = biped.phase
