@@ -101,7 +101,7 @@ def test_a_comparison_with_it(own: str, tmp_path) -> None:
 
 
 def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
-    monkeypatch.setattr(registry, "_GIVEN", {})
+    monkeypatch.setattr(registry, "REGISTRY", {k: dict(v) for k, v in registry.REGISTRY.items()})
     Mine = registry.own("controller", f"{own}:Mine")
     ba.register("controller", "mine", Mine)
     assert isinstance(build(ba.Scenario("Mine")).controller, Mine)
@@ -118,7 +118,7 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
     ("values", "message"),
     [
         ({"controller": "nowhere_at_all.x:Mine"}, "no module 'nowhere_at_all'.*installed"),
-        ({"controller": "OWN:Mien"}, "no class 'Mien'; did you mean 'Mine'"),
+        ({"controller": "OWN:Mien"}, "no class 'Mien'; it has .'Mine'"),
         ({"controller": "OWN:Lawless"}, "neither a method output.*nor laws"),
         ({"controller": "OWN:NoController"}, "made a NoController, expected a Controller"),
         ({"controller": "OWN:Needy"}, "needs stiffness; give --set stiffness="),
@@ -183,3 +183,32 @@ def test_every_controller_and_observer_of_the_package_has_a_name() -> None:
         if cls.__module__.startswith(("biped_adrc.control", "biped_adrc.observers"))
     }
     assert {cls.__name__ for cls in leaves - loaded} <= made
+
+
+def test_the_working_directory_is_looked_in_for_names_of_the_user_alone(own: str) -> None:
+    build(ba.Scenario("LESO"))
+    assert str(Path.cwd()) not in sys.path
+    build(ba.Scenario(f"{own}:Mine"))
+    assert str(Path.cwd()) == sys.path[-1]
+
+
+def test_choices_are_those_of_the_package() -> None:
+    from biped_adrc.engine.choice import ENGINES
+    from biped_adrc.scenario.run import METHODS
+    from biped_adrc.scenario.scenario import CHOICES
+
+    assert set(CHOICES["engine"]) == set(ENGINES)
+    assert set(CHOICES["method"]) == set(METHODS)
+    assert set(CHOICES["reset"]) == {policy.value for policy in ba.ResetPolicy}
+
+
+def test_a_robot_and_a_gait_of_ones_own(own: str, tmp_path) -> None:
+    (tmp_path / f"{own}_parts.py").write_text(
+        "import biped_adrc as ba\n"
+        "def robot(preset=None, friction=False):\n"
+        "    return ba.Biped.load('rabbit', preset, friction)\n"
+        "def gait(biped):\n"
+        "    return ba.load_gait('v0.5', biped)\n"
+    )
+    s = ba.Scenario("NPD", robot=f"{own}_parts:robot", gait=f"{own}_parts:gait", **FAST)
+    assert ba.walk_scenario(s).gait.name == "v0.5"
