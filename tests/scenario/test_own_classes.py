@@ -149,6 +149,27 @@ def test_a_module_that_does_not_import(own: str, tmp_path) -> None:
         build(ba.Scenario(f"{own}_broken:Mine"))
 
 
+def test_what_is_made_of_the_scenarios_values() -> None:
+    def made(**values):
+        return build(ba.Scenario(**values)).controller
+
+    leso = made(controller="LESO")
+    assert (leso.observer.m, set(leso.observer.poles)) == (1, {-500.0})
+    assert made(controller="LESO", bandwidth=300.0).observer.m == 1
+    assert made(controller="LESO", poles="-10,-20,-30,-40").observer.m == 2
+    assert made(controller="ADRC").observer == ba.GPIObserver.from_poles(ba.TABLE_I)
+    assert made(controller="PD", K_d=9.0).gains == type(made(controller="PD").gains)(K_d=9.0)
+    assert made(controller="NPD", K_p=9.0, solve_theta=False).gains == ba.Gains(9.0, 50.0)
+    around = made(controller="stride PI", own={"inner": "DOB", "limit": 0.4}, bandwidth=99.0)
+    assert type(around.inner.observer).__name__ == "MomentumObserver"
+    assert set(around.inner.observer.poles) == {-99.0}
+    assert around.gains.limit == 0.4
+    assert made(controller="DOB").observer == type(made(controller="DOB"))(leso.reference).observer
+    assert made(controller="CLF-QP", own={"epsilon": 0.02}).torque_limit is None
+    late = made(controller="delayed", own={"delay": 1e-3, "order": 2}, bandwidth=300.0, order=1)
+    assert (late.order, late.inner.observer.m) == (2, 1)
+
+
 def test_every_name_of_the_registry_is_there() -> None:
     for kind in ("controller", "observer", "disturbance"):
         for name in registry.names(kind):
