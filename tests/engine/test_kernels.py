@@ -22,7 +22,7 @@ from numba import types
 from biped_adrc.engine.kernels import layout, methods
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.plan import plan
-from biped_adrc.engine.kernels.run import arc, walk_plan
+from biped_adrc.engine.kernels.run import arc
 from biped_adrc.engine.kernels.tables import (
     STATUS,
     Clock,
@@ -47,6 +47,38 @@ STIFF[A0], STIFF[A1] = 2e4 * 300.0, 2e4 + 300.0
 START = np.array([-0.3, 1.1, 0.02, 0.1])
 FAR = 10.0
 """[s], later than anything here."""
+
+
+class Walked(NamedTuple):
+    """How a walk ended."""
+
+    code: int
+    """Of `tables.STATUS`."""
+    impacts: int
+    t: float
+    """[s]"""
+    x: np.ndarray
+    """x+ after the last impact asked for, the last good state otherwise (nx,)."""
+    step: int
+    t_start: float
+    """[s]"""
+
+
+def walk_plan(made, K, x, t, step, t_start, t_end, impacts, x_minus, x_plus, times):
+    """A walk of a plan; strike i goes into row i of x_minus, x_plus and times."""
+    m, nx = len(times), made.nx
+    if x_minus.shape != (m, nx) or x_plus.shape != (m, nx):
+        raise InputError(
+            f"x- and x+ have shapes {x_minus.shape} and {x_plus.shape}, expected ({m}, {nx}) for {m} times"
+        )
+    if not (math.isfinite(t) and math.isfinite(t_end) and t_end > t):
+        raise InputError(f"the run would go from {t} s to {t_end} s; expected a positive duration")
+    s, strikes = made.start(x, t, step, t_start, t_end), np.zeros((m, 1 + 2 * nx))
+    status, count = kernels().stride(made.P, made.F, K, made.work(), s, impacts, strikes)
+    times[:count] = strikes[:count, 0]
+    x_minus[:count], x_plus[:count] = strikes[:count, 1 : 1 + nx], strikes[:count, 1 + nx :]
+    head = s[[layout.TIME, layout.STEP, layout.START]].tolist()
+    return Walked(status, count, head[0], s[layout.HEAD :].copy(), int(head[1]), head[2])
 
 
 # -- the system, as C functions and as Python -----------------------------------------------------
