@@ -1,10 +1,11 @@
-"""Errors: one base class, and the exit code of the command for each kind; and a check that many share.
+"""Errors: one base class, and the exit code of the command for each kind; and checks that many share.
 
 A message says what was asked, what was found, what was expected and what to try.
 """
 
 from __future__ import annotations
 
+import math
 from numbers import Integral
 
 
@@ -52,3 +53,11 @@ def check_count(count: object, what: str) -> None:
     """Raise InputError, beginning with `what`, unless `count` is a whole number from 1 on; True is none."""
     if isinstance(count, bool) or not isinstance(count, Integral) or int(count) < 1:
         raise InputError(f"{what}, expected a whole number, at least 1")
+
+
+def check_positive(
+    value: float, what: str, hint: str = "", error: type[BipedError] = InputError
+) -> None:
+    """Raise `error`, beginning with `what` and ending with `hint`, unless `value` is finite and above 0."""
+    if not (math.isfinite(value) and value > 0):
+        raise error(f"{what}, expected a positive number{hint}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
 import re
@@ -10,7 +9,9 @@ import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
+from json import JSONDecodeError
 from pathlib import Path
+from tomllib import TOMLDecodeError
 from typing import Any
 
 import numpy as np
@@ -58,18 +59,6 @@ def _same(a: Path, b: Path) -> bool:
         return os.path.realpath(a) == os.path.realpath(b)
 
 
-def read_json(path: Path, what: str, error: type[BipedError] = InputError) -> Any:
-    """What a file holds. Raises `error`, which says `what` the file should be, where it cannot be read."""
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise error(f"{what} '{path}' not found") from None
-    except OSError as reason:
-        raise error(f"{what} '{path}' cannot be read: {reason.strerror}") from reason
-    except (json.JSONDecodeError, UnicodeDecodeError) as reason:
-        raise error(f"{what} '{path}' is not valid JSON: {reason}") from reason
-
-
 def plain(value: Any) -> Any:
     """As JSON has it: records by their fields, arrays as lists, a number that is not finite as text."""
     if is_dataclass(value):
@@ -83,6 +72,27 @@ def plain(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [plain(v) for v in value]
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
+
+
+@contextmanager
+def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[None]:
+    """Raises `error`, which names the file and what it is, for whatever goes wrong while it is read.
+
+    Errors that are raised on purpose keep their text behind the name of the file.
+    """
+    where, kind = f"{what} '{path}'", Path(path).suffix[1:].upper()
+    try:
+        yield
+    except FileNotFoundError:
+        raise error(f"{where} not found") from None
+    except OSError as found:
+        raise error(f"{where} cannot be read: {found.strerror}") from found
+    except (JSONDecodeError, TOMLDecodeError, UnicodeDecodeError) as found:
+        raise error(f"{where} is not valid {kind}: {found}") from found
+    except KeyError as found:
+        raise error(f"{where}: the key {found} is missing") from found
+    except (TypeError, ValueError, AttributeError, IndexError) as found:
+        raise error(f"{where}: {found}") from found
 
 
 def write_text(path: Path, text: str) -> None:

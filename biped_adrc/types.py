@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 """Real array in float64; shapes are stated in the docstrings."""
 
 ComplexArray = NDArray[np.complex128]
 """Complex array, for eigenvalues and transfer functions."""
+
+
+def read_only(values: ArrayLike) -> Array:
+    """A copy as numbers that cannot be changed, for frozen records."""
+    array = np.array(values, dtype=float)
+    array.setflags(write=False)
+    return array

@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.analysis.observer_choice import Hardware, count_error, obstacle, recommend
+from biped_adrc.analysis.observer_choice import Hardware, OnHardware, count_error, recommend
 from biped_adrc.analysis.observer_design import observer_report
 from biped_adrc.analysis.observer_impact import impact_peak, orbit_impact
 from biped_adrc.analysis.observer_loop import conditioning, observer_loop
@@ -484,7 +484,7 @@ def test_recommended_bandwidth_is_the_last_that_is_allowed():
     for m in (1, 5):
         found = recommend(hardware, ba.Gains(), m)
         at = (ba.GPIObserver.from_bandwidth(f * found.bandwidth, m) for f in (0.999, 1.002))
-        assert [obstacle(hardware, o, ba.Gains()) for o in at] == ["", found.because]
+        assert [OnHardware(hardware, o, ba.Gains()).obstacle for o in at] == ["", found.because]
     none = recommend(hardware._replace(counts=10.0), ba.Gains(), 1)
     assert math.isnan(none.bandwidth)
 

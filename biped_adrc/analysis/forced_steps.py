@@ -21,8 +21,8 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.analysis.stride_gain import bumped
-from biped_adrc.control.stride import StrideGains, StridePI
-from biped_adrc.errors import GaitError, InputError
+from biped_adrc.control.stride import StridePI, stride_jump
+from biped_adrc.errors import GaitError, InputError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, gauss_nodes
@@ -95,26 +95,19 @@ def forced_walk(
     delta2, zeta = zero.delta**2, 0.5 * zero.sigma_minus**2
     length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
     curve = ForcedCurve.of(biped, gait.constraint, force)
-    integral, beta, done = 0.0, 0.0, list[ForcedStep]()
+    w, done = np.zeros(3), list[ForcedStep]()  # T, integral and beta, as in `stride_jump`
     for _ in range(steps):
         if stride is not None:
-            h = bumped(gait.constraint, beta * np.array(stride.direction))
+            h = bumped(gait.constraint, w[2] * np.array(stride.direction))
             curve = ForcedCurve.of(biped, h, force)
         T = curve.duration(delta2 * zeta)
         if not longest >= T:
             break
         zeta = delta2 * zeta - curve.end
-        done.append(ForcedStep(length / T, beta, zeta))
+        done.append(ForcedStep(length / T, float(w[2]), zeta))
         if stride is not None:
-            integral, beta = pi(stride.gains, stride.speed - length / T, integral)
+            w = stride_jump(stride.parameters, np.array((T, w[1], w[2])))
     return tuple(done)
-
-
-def pi(k: StrideGains, e: float, integral: float) -> tuple[float, float]:
-    """I and beta after a step that missed its speed by e [m/s]."""
-    most = k.limit / abs(k.K_I) if k.K_I else math.inf
-    integral = min(max(integral + e, -most), most)
-    return integral, min(max(k.K_P * e + k.K_I * integral, -k.limit), k.limit)
 
 
 def stopping_force(gait: Gait, biped: Biped, steps: int, stride: StridePI | None = None) -> float:
@@ -149,8 +142,7 @@ def _check(gait: Gait, force: float, steps: int, longest: float) -> None:
         raise InputError(f"the force on the hip is {force} N, expected a finite number")
     if steps < 1:
         raise InputError(f"a walk of {steps} steps was asked for, expected at least 1")
-    if not (math.isfinite(longest) and longest > 0):
-        raise InputError(f"the longest step is {longest} s, expected a positive number")
+    check_positive(longest, f"the longest step is {longest} s")
     if gait.slope:
         raise InputError(
             f"gait '{gait.name}' walks on a slope of {gait.slope} rad, expected level ground"

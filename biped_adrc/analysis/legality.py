@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -54,6 +55,15 @@ def outcome_of(status: Status, legal: bool) -> str:
     return "legal" if legal else "made"
 
 
+def _over_steps(worst: Callable[[list[float]], float], name: str, text: str) -> property:
+    """The least or largest of a number of the single supports: NumPy's, since Python's pass over a NaN."""
+
+    def found(legality: Legality) -> float:
+        return float(worst([getattr(s, name) for s in legality.supports]))
+
+    return property(found, doc=text)
+
+
 @dataclass(frozen=True)
 class Legality:
     """What the single supports of a walk needed, the last unfinished one too, held against limits."""
@@ -88,52 +98,20 @@ class Legality:
             legal += 1
         return legal
 
-    @property
-    def least_normal_force(self) -> float:
-        """F_N at any instant [N]."""
-        return self._least("least_normal_force")
-
-    @property
-    def friction(self) -> float:
-        """Largest |F_T| / F_N at any instant; infinite where in a step the ground never pushed."""
-        return self._largest("friction")
-
-    @property
-    def mean_normal_force(self) -> float:
-        """Least of the means [N]."""
-        return self._least("mean_normal_force")
-
-    @property
-    def mean_friction(self) -> float:
-        """Largest of the means."""
-        return self._largest("mean_friction")
+    least_normal_force = _over_steps(np.min, "least_normal_force", "F_N at any instant [N].")
+    friction = _over_steps(
+        np.max, "friction", "At any instant; infinite where in a step the ground never pushed."
+    )
+    mean_normal_force = _over_steps(np.min, "mean_normal_force", "Least of the means [N].")
+    mean_friction = _over_steps(np.max, "mean_friction", "Largest of the means.")
+    scuffing = _over_steps(np.max, "scuffing", "[m].")
+    peak_torque = _over_steps(np.max, "peak_torque", "[N m].")
 
     @property
     def share_outside(self) -> float:
         """Share of the time outside the friction cone."""
-        time = [s.duration for s in self.supports]
-        if sum(time) == 0.0:
-            return self._largest("share_outside")
-        return sum(s.share_outside * t for s, t in zip(self.supports, time, strict=True)) / sum(
-            time
-        )
-
-    @property
-    def scuffing(self) -> float:
-        """[m]"""
-        return self._largest("scuffing")
-
-    @property
-    def peak_torque(self) -> float:
-        """[N m]"""
-        return self._largest("peak_torque")
-
-    def _largest(self, name: str) -> float:
-        # NumPy's max and min, since Python's pass over a NaN
-        return float(np.max([getattr(s, name) for s in self.supports]))
-
-    def _least(self, name: str) -> float:
-        return float(np.min([getattr(s, name) for s in self.supports]))
+        time, share = zip(*((s.duration, s.share_outside) for s in self.supports), strict=True)
+        return float(np.average(share, weights=time) if any(time) else np.max(share))
 
     def record(self) -> dict[str, Any]:
         """All of it as plain values; None where a number is not finite, as a friction without contact is."""

@@ -12,6 +12,8 @@ observer filters, is not in it.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -79,72 +81,73 @@ def count_error(counts: float) -> float:
     return 2.0 * math.pi / counts / math.sqrt(12.0)
 
 
-def loop_on(
-    hardware: Hardware, observer: GPIObserver, gains: Gains, joint: int = 0, ratio: float = 1.0
-) -> SampledLoop:
-    """The sampled loop at this period and delay, with kappa off by a ratio."""
-    return sampled_loop(
-        observer,
-        hardware.period,
-        gains,
-        joint=joint,
-        delay=hardware.delay,
-        known=hardware.known,
-        kappa_ratio=ratio,
-    )
+@dataclass(frozen=True)
+class OnHardware:
+    """An observer and the gains of one joint at this period and delay."""
 
+    hardware: Hardware
+    observer: GPIObserver
+    gains: Gains
+    joint: int = 0
 
-def ripple(hardware: Hardware, observer: GPIObserver, gains: Gains, joint: int = 0) -> float:
-    """rms torque [N m] of one encoder count; infinite for an unstable loop."""
-    sigma_a = loop_on(hardware, observer, gains, joint).rms(count_error(hardware.counts))
-    return sigma_a * hardware.inertia
+    def sampled(self, ratio: float = 1.0) -> SampledLoop:
+        """The sampled loop, with kappa off by a ratio."""
+        k = self.hardware
+        return sampled_loop(
+            self.observer,
+            k.period,
+            self.gains,
+            joint=self.joint,
+            delay=k.delay,
+            known=k.known,
+            kappa_ratio=ratio,
+        )
 
+    @cached_property
+    def ripple(self) -> float:
+        """rms torque [N m] of one encoder count; infinite for an unstable loop."""
+        return self.sampled().rms(count_error(self.hardware.counts)) * self.hardware.inertia
 
-def weakest(
-    hardware: Hardware, observer: GPIObserver, gains: Gains, joint: int = 0
-) -> tuple[float, float]:
-    """The one of KAPPA_RATIOS with the largest spectral radius, and that radius."""
-    radii = {
-        ratio: loop_on(hardware, observer, gains, joint, ratio).spectral_radius
-        for ratio in KAPPA_RATIOS
-    }
-    return max(radii.items(), key=lambda found: found[1])
+    @cached_property
+    def weakest(self) -> tuple[float, float]:
+        """The one of KAPPA_RATIOS with the largest spectral radius, and that radius."""
+        radii = {ratio: self.sampled(ratio).spectral_radius for ratio in KAPPA_RATIOS}
+        return max(radii.items(), key=lambda found: found[1])
 
+    @cached_property
+    def obstacle(self) -> str:
+        """What forbids it: "stability", "ripple", or "" where nothing does."""
+        if not self.weakest[1] < 1.0:
+            return "stability"
+        return "" if self.ripple <= SHARE * self.hardware.torque_limit else "ripple"
 
-def obstacle(hardware: Hardware, observer: GPIObserver, gains: Gains, joint: int = 0) -> str:
-    """ "ripple", "stability", or "" for an observer that is allowed."""
-    if not weakest(hardware, observer, gains, joint)[1] < 1.0:
-        return "stability"
-    allowed = SHARE * hardware.torque_limit
-    return "" if ripple(hardware, observer, gains, joint) <= allowed else "ripple"
+    @cached_property
+    def rejection(self) -> float:
+        """|e / xi| at REJECTED [s^2]."""
+        loop = observer_loop(self.observer, self.gains, self.joint)
+        return float(np.abs(loop.tracking_error(np.array([REJECTED])))[0])
 
 
 def recommend(hardware: Hardware, gains: Gains, m: int, joint: int = 0) -> Recommended:
     """The largest bandwidth of the lowest range of bandwidths that are allowed."""
 
     def against(w: float) -> str:
-        return obstacle(hardware, GPIObserver.from_bandwidth(w, m), gains, joint)
+        return OnHardware(hardware, GPIObserver.from_bandwidth(w, m), gains, joint).obstacle
 
     low, because = math.nan, ""
     for w in np.geomspace(LEAST, MOST, BANDS):
-        found = against(float(w))
-        if found and math.isfinite(low):
-            because = found
+        forbids = against(float(w))
+        if forbids and math.isfinite(low):
+            because = forbids
             low = last_true(lambda w: not against(w), low, float(w))
             break
-        low = low if found else float(w)
+        low = low if forbids else float(w)
     if not math.isfinite(low):
         return Recommended(m, math.nan, "", math.nan, math.nan, math.nan)
     observer = GPIObserver.from_bandwidth(low, m)
+    found = OnHardware(hardware, observer, gains, joint)
     margin = largest_delay(observer, hardware.period, gains, joint=joint, known=hardware.known)
-    torque, error = ripple(hardware, observer, gains, joint), rejection(observer, gains, joint)
-    return Recommended(m, low, because, torque, margin, error)
-
-
-def rejection(observer: GPIObserver, gains: Gains, joint: int = 0) -> float:
-    """|e / xi| at REJECTED [s^2]."""
-    error = observer_loop(observer, gains, joint).tracking_error(np.array([REJECTED]))
-    return float(np.abs(error[0]))
+    return Recommended(m, low, because, found.ripple, margin, found.rejection)
 
 
 def without_observer(gains: Gains, joint: int = 0) -> float:

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, field
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -18,12 +18,9 @@ import numpy as np
 from biped_adrc.analysis.observer_choice import (
     ORDERS,
     Hardware,
+    OnHardware,
     Recommended,
-    loop_on,
-    obstacle,
     recommend,
-    rejection,
-    ripple,
     without_observer,
 )
 from biped_adrc.analysis.observer_impact import Impact, ImpactPeak, impact_peak, orbit_impact
@@ -65,16 +62,12 @@ class Response(NamedTuple):
 
 
 @dataclass(frozen=True)
-class ObserverReport:
+class ObserverReport(OnHardware):
     """The module's numbers for one observer and the gains of one joint; `text()` has all of it."""
 
-    observer: GPIObserver
-    gains: Gains
-    robot: str
+    robot: str = field(kw_only=True)
     """Its name and preset."""
-    hardware: Hardware
-    impact: Impact
-    joint: int = 0
+    impact: Impact = field(kw_only=True)
 
     @cached_property
     def loop(self) -> ObserverLoop:
@@ -99,47 +92,29 @@ class ObserverReport:
     @cached_property
     def sampled_margins(self) -> tuple[float, float]:
         """The largest stable delay [s] at this period, hidden and known."""
-        hidden, known = (
-            largest_delay(
-                self.observer, self.hardware.period, self.gains, joint=self.joint, known=told
-            )
-            for told in (False, True)
-        )
+        made = self.observer, self.hardware.period, self.gains
+        hidden, known = (largest_delay(*made, joint=self.joint, known=k) for k in (False, True))
         return hidden, known
 
     @cached_property
     def largest_periods(self) -> dict[str, tuple[float, float]]:
         """The largest stable period [s], the delay hidden and known, by form of the observer and delay."""
-        cases = {
-            "no delay": (0.0, "current"),
-            "a delay of one period": (1.0, "current"),
-            "no delay, measurement held": (0.0, "held"),
+        return {
+            "no delay": self._periods(),
+            "a delay of one period": self._periods(delay_periods=1.0),
+            "no delay, measurement held": self._periods(form="held"),
         }
-        return {name: self._periods(delay, form) for name, (delay, form) in cases.items()}
 
-    def _periods(self, delay: float, form: str) -> tuple[float, float]:
-        hidden, known = (
-            largest_period(
-                self.observer,
-                self.gains,
-                joint=self.joint,
-                delay_periods=delay,
-                known=told,
-                form=form,
-            )
-            for told in (False, delay > 0.0)
-        )
+    def _periods(self, delay_periods: float = 0.0, form: str = "current") -> tuple[float, float]:
+        made = partial(largest_period, self.observer, self.gains, joint=self.joint, form=form)
+        told = (False, delay_periods > 0.0)
+        hidden, known = (made(delay_periods=delay_periods, known=k) for k in told)
         return hidden, known
 
     @cached_property
     def spectral_radius(self) -> float:
         """Of the sampled loop at this period and delay."""
-        return loop_on(self.hardware, self.observer, self.gains, self.joint).spectral_radius
-
-    @cached_property
-    def ripple(self) -> float:
-        """rms torque [N m] of one encoder count; infinite for an unstable loop."""
-        return ripple(self.hardware, self.observer, self.gains, self.joint)
+        return self.sampled().spectral_radius
 
     @property
     def frequencies(self) -> Array:
@@ -184,11 +159,6 @@ class ObserverReport:
         """For each m of ORDERS what the encoders, the period and the delay allow."""
         return tuple(recommend(self.hardware, self.gains, m, self.joint) for m in ORDERS)
 
-    @cached_property
-    def obstacle(self) -> str:
-        """What forbids the observer, as in `recommended`: "stability", "ripple", or "" where nothing does."""
-        return obstacle(self.hardware, self.observer, self.gains, self.joint)
-
     @property
     def runs(self) -> bool:
         """Whether it is allowed: stable for all KAPPA_RATIOS, the ripple within SHARE of the limit.
@@ -200,8 +170,7 @@ class ObserverReport:
     @cached_property
     def against_none(self) -> float:
         """The error that a 5 Hz disturbance leaves, over that with K_p and K_d alone."""
-        alone = without_observer(self.gains, self.joint)
-        return rejection(self.observer, self.gains, self.joint) / alone
+        return self.rejection / without_observer(self.gains, self.joint)
 
     @property
     def verdict(self) -> str:
@@ -263,10 +232,10 @@ def observer_report(
     hardware = Hardware(
         period, delay, known, float(counts), float(limit), worst_inertia(robot, gait)
     )
-    loop_on(hardware, observer, gains, joint)  # an order that round-off spoils is refused here
+    OnHardware(hardware, observer, gains, joint).sampled()  # refuses an order that round-off spoils
     name = f"{robot.description.name} ({robot.preset})"
     impact = orbit_impact(robot, gait, observer.order)
-    return ObserverReport(observer, gains, name, hardware, impact, joint)
+    return ObserverReport(hardware, observer, gains, joint, robot=name, impact=impact)
 
 
 def _check_joint(robot: Biped, gains: Gains, joint: int) -> None:

@@ -61,8 +61,7 @@ class Impact(NamedTuple):
 
 def orbit_impact(biped: Biped, gait: Gait, order: int) -> Impact:
     """The impact of the gait's periodic orbit. Raises GaitError where the orbit cannot be had."""
-    zero = ZeroDynamics.of(biped, gait.constraint)
-    orbit = zero.orbit(zero.delta * zero.sigma_minus)
+    orbit = ZeroDynamics.of(biped, gait.constraint).cycle
     xi = np.array([biped.reduction(q, v).xi for q, v in zip(orbit.q, orbit.v, strict=True)])
     rate = orbit.v @ gait.constraint.phase
     t = _times(orbit.theta, rate, gait.constraint.theta_plus)

@@ -33,7 +33,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
+from biped_adrc.observers.base import Observer
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array, ComplexArray
 
@@ -168,15 +169,19 @@ def observer_loop(
     observer: GPIObserver, gains: Gains = TABLE_II, joint: int = 0, kappa_ratio: float = 1.0
 ) -> ObserverLoop:
     """The loop of one joint with its gains. Raises InputError for another observer or a joint without gains."""
+    checked_gpi(observer, "linear loop")
+    check_positive(kappa_ratio, f"kappa_ratio is {kappa_ratio}")
+    return ObserverLoop(observer, *joint_gains(gains, joint), float(kappa_ratio))
+
+
+def checked_gpi(observer: Observer, what: str) -> GPIObserver:
+    """The observer itself. Raises InputError, which names what was asked of it, for another kind."""
     if not isinstance(observer, GPIObserver):
         raise InputError(
-            f"the linear loop of a {type(observer).__name__} was asked for, expected a GPIObserver in "
+            f"the {what} of a {type(observer).__name__} was asked for, expected a GPIObserver in "
             "continuous time"
         )
-    if not (np.isfinite(kappa_ratio) and kappa_ratio > 0.0):
-        raise InputError(f"kappa_ratio is {kappa_ratio}, expected a positive number")
-    K_p, K_d = (joint_gain(gain, joint) for gain in (gains.K_p, gains.K_d))
-    return ObserverLoop(observer, K_p, K_d, float(kappa_ratio))
+    return observer
 
 
 def conditioning(observer: GPIObserver) -> Condition:
@@ -221,9 +226,13 @@ def _squared(p: Array) -> Array:
     return square
 
 
-def joint_gain(gain: Array | float, joint: int) -> float:
-    """The gain of one joint. Raises InputError for a joint that has none."""
-    values = np.atleast_1d(gain)
+def joint_gains(gains: Gains, joint: int) -> tuple[float, float]:
+    """K_p [1/s^2] and K_d [1/s] of one joint. Raises InputError for a joint that has none."""
+    K_p, K_d = (_of_joint(np.atleast_1d(gain), joint) for gain in (gains.K_p, gains.K_d))
+    return K_p, K_d
+
+
+def _of_joint(values: Array, joint: int) -> float:
     if len(values) == 1:
         return float(values[0])
     if not 0 <= joint < len(values):

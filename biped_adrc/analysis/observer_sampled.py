@@ -24,9 +24,9 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import expm
 
-from biped_adrc.analysis.observer_loop import joint_gain
+from biped_adrc.analysis.observer_loop import joint_gains
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.gpi_sampled import SampledGPIParameters
@@ -70,8 +70,7 @@ class SampledLoop:
             )
         if self.form not in FORMS:
             raise InputError(f"the observer's form is '{self.form}', expected one of {list(FORMS)}")
-        if not (np.isfinite(self.kappa_ratio) and self.kappa_ratio > 0.0):
-            raise InputError(f"kappa_ratio is {self.kappa_ratio}, expected a positive number")
+        check_positive(self.kappa_ratio, f"kappa_ratio is {self.kappa_ratio}")
 
     # -- the step ------------------------------------------------------------------------------------
     @cached_property
@@ -207,8 +206,9 @@ def sampled_loop(
     kappa_ratio: float = 1.0,
 ) -> SampledLoop:
     """The loop of one joint with its gains. Raises InputError as `SampledLoop`."""
-    K_p, K_d = (joint_gain(gain, joint) for gain in (gains.K_p, gains.K_d))
-    return SampledLoop(observer, period, K_p, K_d, delay, known, form, kappa_ratio)
+    return SampledLoop(
+        observer, period, *joint_gains(gains, joint), delay, known, form, kappa_ratio
+    )
 
 
 def largest_period(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from biped_adrc.analysis.observer_choice import KAPPA_RATIOS, SHARE, weakest, without_observer
+from biped_adrc.analysis.observer_choice import KAPPA_RATIOS, SHARE, without_observer
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.observer_design import ObserverReport
@@ -71,7 +71,7 @@ def _unstable(report: ObserverReport) -> str:
     late = f"a delay of {k.delay * 1e6:.0f} us" if k.delay > 0.0 else "no delay"
     if not radius < 1.0:
         return f"with {late} the sampled loop is unstable, spectral radius {radius:.4g}"
-    ratio, radius = weakest(k, report.observer, report.gains, report.joint)
+    ratio, radius = report.weakest
     return (
         f"with {late} and {ratio:g} times the model's kappa the sampled loop is unstable, spectral radius "
         f"{radius:.4g} (stability is asked for from {KAPPA_RATIOS[0]:g} to {KAPPA_RATIOS[-1]:g} times)"

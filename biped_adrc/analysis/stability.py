@@ -23,7 +23,7 @@ from biped_adrc.analysis.regression import Regression
 from biped_adrc.analysis.return_map import ReturnMap, sorted_eigenvalues
 from biped_adrc.analysis.variational import StepDerivative
 from biped_adrc.control.npd import NPDController
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
@@ -57,8 +57,7 @@ class Tolerances:
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
-            if not (np.isfinite(value) and value > 0):
-                raise InputError(f"tolerance '{name}' is {value}, expected a positive number")
+            check_positive(value, f"tolerance '{name}' is {value}")
 
     def distance(self, one: ComplexArray, other: ComplexArray) -> Array:
         """|one_i - other_j| in units of what is allowed (len(one), len(other)); at most 1 where they agree."""
@@ -148,7 +147,7 @@ class StabilityTable:
             return float(np.min(ratio))
         if ratio.shape[0] != ratio.shape[1]:
             return float("inf")
-        return float(np.max(ratio[_pairing(ratio)]))
+        return _farthest(ratio)
 
     @property
     def verdict(self) -> str:
@@ -182,8 +181,7 @@ class StabilityTable:
             return "; the closed loop does not keep to the zero dynamics, or the step is too long"
         if row.method is not Method.CENTRAL or row.uncertainty == 0.0:
             return ""
-        pairs = np.abs(row.multipliers[:, np.newaxis] - self.trusted.multipliers)
-        distance = float(np.max(pairs[_pairing(pairs)]))
+        distance = _farthest(np.abs(row.multipliers[:, np.newaxis] - self.trusted.multipliers))
         if distance <= 2.0 * row.uncertainty:
             return (
                 f"; they differ by {distance:.1e}, and the extrapolation changes them by "
@@ -203,10 +201,9 @@ class StabilityTable:
         return "\n".join([*lines, self.verdict])
 
 
-def _pairing(cost: Array) -> tuple[Array, Array]:
-    """Rows and columns of the pairing of least total cost."""
-    pairs: tuple[Array, Array] = linear_sum_assignment(cost)
-    return pairs
+def _farthest(cost: Array) -> float:
+    """The largest cost in the pairing of least total cost."""
+    return float(np.max(cost[linear_sum_assignment(cost)]))
 
 
 # -- rows ------------------------------------------------------------------------------------------
@@ -228,8 +225,7 @@ def central_row(P: ReturnMap, s: Array) -> Row:
     """
     wide, narrow = P.jacobian(s), replace(P, difference=0.5 * P.difference).jacobian(s)
     best, half = sorted_eigenvalues((4.0 * narrow - wide) / 3.0), sorted_eigenvalues(narrow)
-    pairs = np.abs(best[:, np.newaxis] - half)
-    return Row(Method.CENTRAL, best, float(np.max(pairs[_pairing(pairs)])))
+    return Row(Method.CENTRAL, best, _farthest(np.abs(best[:, np.newaxis] - half)))
 
 
 def regression_row(regression: Regression) -> Row:

@@ -68,8 +68,7 @@ def _merit(gait: Gait, biped: Biped, name: str, d: tuple[float, ...]) -> Directi
     gain = stride_response(gait, biped, d).static_gain
 
     def torque(beta: float) -> Array:
-        zero = ZeroDynamics.of(biped, bumped(gait.constraint, beta * np.array(d)))
-        return zero.orbit(zero.delta * zero.sigma_minus).u
+        return ZeroDynamics.of(biped, bumped(gait.constraint, beta * np.array(d))).cycle.u
 
     change = (torque(DIFFERENCE) - torque(-DIFFERENCE)) / (2.0 * DIFFERENCE)
     U = float(np.max(np.abs(change)))

@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from biped_adrc.analysis.observer_loop import checked_gpi, joint_gains
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.errors import InputError
 from biped_adrc.observers.base import Observer
@@ -93,7 +94,7 @@ def loop_to_ss(controller: ADRCController, joint: int = 0) -> StateSpace:
     E_k. Raises InputError for another observer, a joint that has no gains, and when python-control is missing.
     """
     observer = _checked(controller.observer)
-    K_p, K_d = _gain(controller.gains.K_p, joint), _gain(controller.gains.K_d, joint)
+    K_p, K_d = joint_gains(controller.gains, joint)
     E_A, E_B = _error(observer)
     k = observer.order
     feedback = np.concatenate(([-K_p, -K_d], np.array([K_p, K_d, 1.0]) @ _estimates(observer)))
@@ -117,12 +118,7 @@ def loop_to_ss(controller: ADRCController, joint: int = 0) -> StateSpace:
 
 
 def _checked(observer: Observer) -> GPIObserver:
-    if not isinstance(observer, GPIObserver):
-        raise InputError(
-            f"the state space of a {type(observer).__name__} was asked for, expected a GPIObserver in "
-            "continuous time"
-        )
-    return observer
+    return checked_gpi(observer, "state space")
 
 
 def _injection(observer: GPIObserver) -> Array:
@@ -148,17 +144,6 @@ def _error(observer: GPIObserver) -> tuple[Array, Array]:
 
 def _error_names(observer: GPIObserver) -> list[str]:
     return [f"E_{i + 1}" for i in range(observer.order)]
-
-
-def _gain(gain: Array | float, joint: int) -> float:
-    values = np.atleast_1d(gain)
-    if len(values) == 1:
-        return float(values[0])
-    if not 0 <= joint < len(values):
-        raise InputError(
-            f"joint {joint} was asked for, found gains of joints 0 to {len(values) - 1}"
-        )
-    return float(values[joint])
 
 
 def _state_space(A: Any, B: Any, C: Any, D: Any = None, **names: Any) -> StateSpace:

@@ -29,7 +29,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from biped_adrc.control.base import Controller, ControllerLaws, Measurement, controller_laws
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array
 
@@ -134,11 +134,11 @@ class Delayed(Controller):
     torque_limit: float | None = None
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.delay) and self.delay > 0.0):
-            raise InputError(
-                f"the delay is {self.delay} s, expected a positive number; use {type(self.inner).__name__} "
-                "itself without one"
-            )
+        check_positive(
+            self.delay,
+            f"the delay is {self.delay} s",
+            f"; use {type(self.inner).__name__} itself without one",
+        )
         is_whole = isinstance(self.order, (int, np.integer)) and not isinstance(self.order, bool)
         if not (is_whole and 1 <= self.order <= HIGHEST):
             raise InputError(

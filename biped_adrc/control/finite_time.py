@@ -12,14 +12,13 @@ adaptive methods take small steps there, the smaller alpha the more.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.output_npd import linearising_torque
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.outputs import Outputs
 from biped_adrc.types import Array
 
@@ -53,8 +52,7 @@ class FiniteTimeController(Controller):
                 f"alpha is {self.alpha}, expected between 0 and 1; for a linear law use "
                 "OutputNPDController"
             )
-        if not (math.isfinite(self.eps) and self.eps > 0.0):
-            raise InputError(f"eps is {self.eps} s, expected a positive number such as 0.1")
+        check_positive(self.eps, f"eps is {self.eps} s", " such as 0.1")
 
     def output(self, s: Array, m: Measurement) -> Array:
         o = self.outputs(m.t, m.q, m.v)

@@ -9,11 +9,9 @@ Han, IEEE Trans. Industrial Electronics 56(3), 2009. w_o of 3 to 10 times w_c is
 
 from __future__ import annotations
 
-import numpy as np
-
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.errors import InputError
+from biped_adrc.errors import check_positive
 from biped_adrc.gait.reference import Reference
 from biped_adrc.observers.gpi import GPIObserver
 
@@ -30,6 +28,5 @@ def linear_adrc(
 
 def bandwidth_gains(bandwidth: float) -> Gains:
     """K_p = w_c^2 and K_d = 2 w_c for w_c [rad/s]. Raises InputError."""
-    if not (np.isfinite(bandwidth) and bandwidth > 0):
-        raise InputError(f"controller bandwidth is {bandwidth} rad/s, expected a positive number")
+    check_positive(bandwidth, f"controller bandwidth is {bandwidth} rad/s")
     return Gains(bandwidth**2, 2.0 * bandwidth)

@@ -28,7 +28,7 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.corrected import Correction
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.biped import Biped
@@ -90,8 +90,7 @@ class StrideGains:
             raise InputError(
                 f"stride gains are K_P = {self.K_P}, K_I = {self.K_I} rad s/m, expected finite numbers"
             )
-        if not (math.isfinite(self.limit) and self.limit > 0):
-            raise InputError(f"the bound on beta is {self.limit} rad, expected a positive number")
+        check_positive(self.limit, f"the bound on beta is {self.limit} rad")
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from biped_adrc.disturbances.base import (
     onset,
     within,
 )
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.types import Array
 
 
@@ -64,8 +64,7 @@ class TorqueNoise(Windowed):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not (math.isfinite(self.bandwidth) and self.bandwidth > 0):
-            raise InputError(f"noise bandwidth is {self.bandwidth} Hz, expected a positive number")
+        check_positive(self.bandwidth, f"noise bandwidth is {self.bandwidth} Hz")
         for name, least in (("seed", 0), ("sines", 1)):
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, int) or value < least:

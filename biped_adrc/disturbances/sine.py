@@ -15,7 +15,7 @@ from biped_adrc.disturbances.base import (
     onset,
     within,
 )
-from biped_adrc.errors import InputError
+from biped_adrc.errors import check_positive
 from biped_adrc.types import Array
 
 
@@ -47,8 +47,7 @@ class TorqueSine(Windowed):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not (math.isfinite(self.frequency) and self.frequency > 0):
-            raise InputError(f"sine frequency is {self.frequency} Hz, expected a positive number")
+        check_positive(self.frequency, f"sine frequency is {self.frequency} Hz")
 
     @property
     def parameters(self) -> SineParameters:

@@ -25,7 +25,7 @@ import numpy as np
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.curves import Curve, CurveParameters, curve
 from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint
-from biped_adrc.types import Array
+from biped_adrc.types import Array, read_only
 
 
 class ConstraintParameters(NamedTuple):
@@ -84,7 +84,7 @@ class VirtualConstraint(Reference):
     fade: float | None = None
 
     def __post_init__(self) -> None:
-        c = np.array(self.phase, dtype=float)
+        c = read_only(self.phase)
         span = self.theta_minus - self.theta_plus
         if not np.all(np.isfinite(c)) or not np.isfinite(span) or span == 0.0:
             raise GaitError(
@@ -96,9 +96,7 @@ class VirtualConstraint(Reference):
                 f"the fade of the constraint is {self.fade}, expected a positive share of its phase range, or "
                 "None for a curve that goes on as it is"
             )
-        fade = np.zeros(0) if self.fade is None else np.array([float(self.fade)])
-        c.setflags(write=False)
-        fade.setflags(write=False)
+        fade = read_only([] if self.fade is None else [self.fade])
         object.__setattr__(self, "phase", c)
         object.__setattr__(
             self,

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.errors import GaitError
-from biped_adrc.types import Array
+from biped_adrc.types import Array, read_only
 
 
 class CurveParameters(NamedTuple):
@@ -42,13 +42,12 @@ class Curve(ABC):
     coefficients: Array
 
     def __post_init__(self) -> None:
-        a = np.array(self.coefficients, dtype=float)
+        a = read_only(self.coefficients)
         if a.ndim != 2 or a.shape[1] < 2 or not np.all(np.isfinite(a)):
             raise GaitError(
                 f"curve coefficients have shape {a.shape}, expected (joints, degree + 1) finite numbers "
                 "with degree >= 1"
             )
-        a.setflags(write=False)
         object.__setattr__(self, "coefficients", a)
 
     @property
@@ -102,6 +101,27 @@ def bernstein_to_power(degree: int) -> Array:
         for j in range(k, degree + 1):
             T[k, j] = comb(degree, k) * comb(degree - k, j - k) * (-1) ** (j - k)
     return T
+
+
+def bezier_between(begin: Array, first: Array, last: Array, end: Array, degree: int) -> Array:
+    """Bezier coefficients (p, M + 1) from `begin` to `end` with these first and last slopes dh/ds, each (p,).
+
+    Those between lie on a straight line.
+    """
+    inner = np.linspace(0.0, 1.0, degree - 1)
+    ends = begin + first / degree, end - last / degree
+    middle = ends[0][:, np.newaxis] * (1.0 - inner) + ends[1][:, np.newaxis] * inner
+    return np.column_stack((begin, middle, end))
+
+
+def ramp(kind: type[Curve], degree: int, start: float, end: float) -> Array:
+    """Coefficients (M + 1,) of start + s (end - start)."""
+    k = np.arange(degree + 1) / degree
+    if kind is Bezier:
+        return np.asarray((1.0 - k) * start + k * end)
+    a = np.zeros(degree + 1)
+    a[:2] = start, end - start
+    return a
 
 
 CURVES: dict[str, type[Curve]] = {"bezier": Bezier, "polynomial": Polynomial}

@@ -14,10 +14,11 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.errors import GaitError
-from biped_adrc.files import output_path, read_json, write_text
+from biped_adrc.errors import GaitError, check_positive
+from biped_adrc.files import output_path, reading, write_text
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import CURVES
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.resources import data_folder
 from biped_adrc.types import Array
@@ -47,6 +48,15 @@ class Gait:
         impact = biped.impact(self.q_minus, self.v_minus)
         return impact.q, impact.v
 
+    @classmethod
+    def of_cycle(
+        cls, name: str, zero: ZeroDynamics, provenance: Mapping[str, Any], slope: float = 0.0
+    ) -> Gait:
+        """A constraint with the periodic orbit of its zero dynamics. Raises GaitError when there is none."""
+        q, v = zero.end_state(zero.sigma_minus)
+        robot, preset, period = zero.biped.description.name, zero.biped.preset, zero.cycle.period
+        return cls(name, robot, preset, zero.constraint, q, v, period, provenance, slope)
+
     def check(self, biped: Biped) -> Gait:
         """The gait itself, when it fits the robot and its curve closes. Raises GaitError."""
         c = self.constraint
@@ -56,10 +66,9 @@ class Gait:
                 f"gait '{self.name}' has {p} joints and a phase row of {n}, robot "
                 f"'{biped.description.name}' has {biped.p} motors and {biped.n} coordinates"
             )
-        if not (math.isfinite(self.period) and self.period > 0.0):
-            raise GaitError(
-                f"gait '{self.name}': the period is {self.period} s, expected a positive number"
-            )
+        check_positive(
+            self.period, f"gait '{self.name}': the period is {self.period} s", error=GaitError
+        )
         if not abs(self.slope) < 0.5 * math.pi:
             raise GaitError(
                 f"gait '{self.name}': the slope is {self.slope} rad, expected less than a right angle"
@@ -172,13 +181,8 @@ def load_gait(gait: str | Path, biped: Biped) -> Gait:
                 f"there is no gait '{gait}' for robot '{robot}', preset '{preset}'; {choose}, or give the path "
                 "of a .json file"
             )
-    record = read_json(path, "gait file", GaitError)
-    try:
-        return _from_record(record).check(biped)
-    except KeyError as error:
-        raise GaitError(f"gait file '{path}': the key {error} is missing") from error
-    except (GaitError, TypeError, ValueError) as error:
-        raise GaitError(f"gait file '{path}': {error}") from error
+    with reading("gait file", path, GaitError):
+        return _from_record(json.loads(path.read_text(encoding="utf-8"))).check(biped)
 
 
 def _from_record(record: Mapping[str, Any]) -> Gait:
@@ -186,14 +190,15 @@ def _from_record(record: Mapping[str, Any]) -> Gait:
         raise GaitError(f"format is '{record['format']}', expected '{FORMAT}'")
     if record["curve"] not in CURVES:
         raise GaitError(f"curve is '{record['curve']}', expected one of {sorted(CURVES)}")
-    q, v = (_vector(record, key, len(record["phase"])) for key in ("q_minus", "v_minus"))
+    n = len(record["phase"])
+    q, v, phase = (finite_vector(record, key, n) for key in ("q_minus", "v_minus", "phase"))
     return Gait(
         record["name"],
         record["robot"],
         record["preset"],
         VirtualConstraint(
             CURVES[record["curve"]](np.array(record["coefficients"], dtype=float)),
-            _vector(record, "phase", len(record["phase"])),
+            phase,
             float(record["theta_plus"]),
             float(record["theta_minus"]),
         ),
@@ -205,7 +210,8 @@ def _from_record(record: Mapping[str, Any]) -> Gait:
     )
 
 
-def _vector(record: Mapping[str, Any], key: str, length: int) -> Array:
+def finite_vector(record: Mapping[str, Any], key: str, length: int) -> Array:
+    """The numbers under a key of a record. Raises GaitError unless there are `length` finite ones."""
     value = np.array(record[key], dtype=float)
     if value.shape != (length,) or not np.all(np.isfinite(value)):
         raise GaitError(f"{key} is {record[key]}, expected {length} finite numbers")

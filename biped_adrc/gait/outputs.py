@@ -22,10 +22,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import GaitError, InputError, NotFiniteError
+from biped_adrc.errors import GaitError, InputError, NotFiniteError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import Bezier, Curve, Polynomial
-from biped_adrc.types import Array
+from biped_adrc.gait.curves import Bezier, Polynomial, ramp
+from biped_adrc.types import Array, read_only
 
 _SLOPE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0  # times 1 / h, error h^4 f^(5) / 30
 _BEND = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0  # times 1 / h^2, error h^4 f^(6) / 90
@@ -63,14 +63,13 @@ class LinearOutputs(Outputs):
     desired: VirtualConstraint
 
     def __post_init__(self) -> None:
-        H0 = np.array(self.H0, dtype=float)
+        H0 = read_only(self.H0)
         expected = (self.desired.curve.coefficients.shape[0], len(self.desired.phase))
         if H0.shape != expected or not np.all(np.isfinite(H0)):
             raise GaitError(
                 f"H0 has shape {H0.shape}, expected {expected} finite numbers: a row for each row of the "
                 "curve h_d, a column for each coordinate of its phase"
             )
-        H0.setflags(write=False)
         object.__setattr__(self, "H0", H0)
 
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
@@ -90,20 +89,13 @@ class LinearOutputs(Outputs):
                 f"[H0; c] has shape {M.shape} and rank {np.linalg.matrix_rank(M)}; y = 0 fixes q_b over the "
                 f"phase only when it is square and of rank {n}. Choose outputs independent of the phase"
             )
-        a, kind = _with_phase(d)
-        q_b: Array = np.asarray(np.linalg.solve(M, a)[:p], dtype=np.float64)
-        return VirtualConstraint(kind(q_b), d.phase, d.theta_plus, d.theta_minus)
-
-
-def _with_phase(d: VirtualConstraint) -> tuple[Array, type[Curve]]:
-    """Coefficients (p + 1, M + 1) of [h_d; Theta], and the kind of curve they are of."""
-    if isinstance(d.curve, Bezier):
-        theta = np.linspace(d.theta_plus, d.theta_minus, d.curve.degree + 1)
-        return np.vstack((d.curve.coefficients, theta)), Bezier
-    a = d.curve.power_coefficients
-    theta = np.zeros(a.shape[1])
-    theta[:2] = d.theta_plus, d.theta_minus - d.theta_plus
-    return np.vstack((a, theta)), Polynomial
+        curve = d.curve
+        if not isinstance(curve, Bezier):
+            curve = Polynomial(curve.power_coefficients)
+        kind = type(curve)
+        phase = ramp(kind, curve.degree, d.theta_plus, d.theta_minus)
+        a: Array = np.asarray(np.linalg.solve(M, np.vstack((curve.coefficients, phase))))
+        return VirtualConstraint(kind(a[:p]), d.phase, d.theta_plus, d.theta_minus)
 
 
 @dataclass(frozen=True)
@@ -122,10 +114,7 @@ class FunctionOutputs(Outputs):
     difference: float = 4e-3
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.difference) and self.difference > 0):
-            raise InputError(
-                f"difference is {self.difference} rad, expected a positive number such as 4e-3"
-            )
+        check_positive(self.difference, f"difference is {self.difference} rad", " such as 4e-3")
 
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
         y = np.asarray(self.function(q), dtype=float)

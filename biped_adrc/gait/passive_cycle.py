@@ -7,13 +7,11 @@ published, a start for Newton on the return map and nothing more.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
-
-import numpy as np
 
 from biped_adrc.errors import GaitError
+from biped_adrc.files import reading
+from biped_adrc.gait.gait import finite_vector
 from biped_adrc.model.biped import Biped
 from biped_adrc.resources import data_folder
 from biped_adrc.types import Array
@@ -48,7 +46,7 @@ def passive_cycle(biped: Biped) -> PassiveCycle:
             f"no walking cycle without motors is stored for robot '{robot}', preset '{preset}': there is no "
             f"file '{path}'"
         )
-    try:
+    with reading("cycle", path, GaitError):
         data = tomllib.loads(path.read_text(encoding="utf-8"))
         return PassiveCycle(
             robot,
@@ -56,17 +54,6 @@ def passive_cycle(biped: Biped) -> PassiveCycle:
             str(data["source"]),
             float(data["slope"]),
             float(data["max_step_time"]),
-            _numbers(data, "q_plus", biped.n),
-            _numbers(data, "v_plus", biped.n),
+            finite_vector(data, "q_plus", biped.n),
+            finite_vector(data, "v_plus", biped.n),
         )
-    except KeyError as error:
-        raise GaitError(f"cycle '{path}': the key {error} is missing") from error
-    except (TypeError, ValueError) as error:
-        raise GaitError(f"cycle '{path}': {error}") from error
-
-
-def _numbers(data: Mapping[str, Any], key: str, n: int) -> Array:
-    values = np.array(data[key], dtype=float)
-    if values.shape != (n,) or not np.all(np.isfinite(values)):
-        raise ValueError(f"{key} is {data[key]}, expected {n} finite numbers")
-    return values

@@ -12,13 +12,10 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.through_state import GaitLimits, constraint_through, onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
+from biped_adrc.types import read_only
 
-X_STAR: Array = np.array(
-    [3.247, 3.672, -0.622, -0.644, -0.0104, -0.298, 0.340, -1.578, 1.370, -0.170]
-)
+X_STAR = read_only([3.247, 3.672, -0.622, -0.644, -0.0104, -0.298, 0.340, -1.578, 1.370, -0.170])
 """x* of section VI, (q, q') just before impact [rad, rad/s]."""
-X_STAR.setflags(write=False)
 
 PUBLISHED_MULTIPLIERS = (0.640, 0.640, 0.844, 0.844, 0.237, 0.237, 0.138, 0.354, 0.354, 0.6609)
 """|lambda(Phi)| of section VI, from the regression (27) on a disturbed walk."""

@@ -144,9 +144,6 @@ def design_recipe_gait(biped: Biped, parameters: RecipeParameters | None = None)
     """
     p = parameters or fit_to_x_star(biped)
     constraint, residual = recipe_constraint(biped, p)
-    zero = ZeroDynamics.of(biped, constraint)
-    sigma = zero.sigma_minus
-    q, v = zero.end_state(sigma)
     provenance = {
         "method": "section IV: hip sine, inverse kinematics, polynomial regression on Theta",
         "source": "pose of x*, section VI; free parameters from the ratios of its rates",
@@ -159,10 +156,7 @@ def design_recipe_gait(biped: Biped, parameters: RecipeParameters | None = None)
         "regression residual [rad]": f"{residual:.2e}",
         "command": f"biped-adrc gait recipe --preset {biped.preset}",
     }
-    period = zero.orbit(sigma * zero.delta).period
-    return Gait(
-        "recipe", biped.description.name, biped.preset, constraint, q, v, period, provenance
-    )
+    return Gait.of_cycle("recipe", ZeroDynamics.of(biped, constraint), provenance)
 
 
 def impact_smoothness(gait: Gait, biped: Biped) -> Array:

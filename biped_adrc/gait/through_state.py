@@ -19,7 +19,7 @@ from scipy.optimize import brentq, least_squares
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import Bezier
+from biped_adrc.gait.curves import Bezier, bezier_between
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
@@ -128,16 +128,10 @@ def _problem(biped: Biped, q: Array, v: Array, degree: int, limits: GaitLimits) 
             f"Theta runs from {theta_plus:.4g} to {theta_minus:.4g} rad, but its rate is "
             f"{rate_plus:.4g} rad/s after and {rate_minus:.4g} rad/s before impact; all three need one sign"
         )
-    alpha = np.zeros((p, degree + 1))
-    alpha[:, 0], alpha[:, -1] = impact.q[:p], q[:p]
-    alpha[:, 1] = alpha[:, 0] + impact.v[:p] / rate_plus * span / degree
-    alpha[:, -2] = alpha[:, -1] - v[:p] / rate_minus * span / degree
-    for k in range(2, degree - 1):  # straight between the fixed inner points
-        w = (k - 1) / (degree - 2)
-        alpha[:, k] = (1 - w) * alpha[:, 1] + w * alpha[:, -2]
+    slopes = impact.v[:p] / rate_plus * span, v[:p] / rate_minus * span
     return _Problem(
         biped,
-        alpha,
+        bezier_between(impact.q[:p], *slopes, q[:p], degree),
         c,
         theta_plus,
         theta_minus,

@@ -15,8 +15,9 @@ make the quadrature exact to round-off for smooth constraints.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -101,14 +102,18 @@ class ZeroDynamics:
         """W = int -G_N I dTheta over the step, so that (sigma-^2 - sigma+^2) / 2 = W."""
         return float(self.weights @ (-self.gravity * self.inertia))
 
+    @cached_property
+    def _end(self) -> tuple[Array, Array]:
+        """(q-, q'-) on the constraint at |Theta'-| = 1 rad/s, in the direction of the walk."""
+        q, dq, _ = configuration(self.constraint, self.constraint.theta_minus)
+        return q, np.sign(self.constraint.theta_minus - self.constraint.theta_plus) * dq
+
     @property
     def delta(self) -> float:
         """sigma+ / sigma- across impact at the end of the step."""
-        q, dq, _ = configuration(self.constraint, self.constraint.theta_minus)
-        rate = -1.0 if self.constraint.theta_minus < self.constraint.theta_plus else 1.0
-        impact = self.biped.impact(q, rate * dq)
-        before = self.biped.angular_momentum(q, rate * dq)
-        return self.biped.angular_momentum(impact.q, impact.v) / before
+        impact = self.biped.impact(*self._end)
+        after = self.biped.angular_momentum(impact.q, impact.v)
+        return after / self.biped.angular_momentum(*self._end)
 
     @property
     def sigma_minus(self) -> float:
@@ -120,18 +125,12 @@ class ZeroDynamics:
                 f"the zero dynamics have no periodic orbit: W = {self.work:.6g}, "
                 f"delta^2 = {delta2:.6g} give sigma-^2 = {square:.6g} < 0; change the constraint"
             )
-        return float(-np.sqrt(square) if self._backwards else np.sqrt(square))
-
-    @property
-    def _backwards(self) -> bool:
-        q, dq, _ = configuration(self.constraint, self.constraint.theta_minus)
-        rate = np.sign(self.constraint.theta_minus - self.constraint.theta_plus)
-        return bool(self.biped.inertia(q)[-1] @ dq * rate < 0)
+        return math.copysign(math.sqrt(square), self.biped.angular_momentum(*self._end))
 
     def end_state(self, sigma_minus: float) -> tuple[Array, Array]:
         """(q-, q'-) on the constraint with angular momentum sigma_minus, each (n,)."""
-        q, dq, _ = configuration(self.constraint, self.constraint.theta_minus)
-        return q, dq * (sigma_minus / float(self.biped.inertia(q)[-1] @ dq))
+        q, v = self._end
+        return q, v * (sigma_minus / self.biped.angular_momentum(q, v))
 
     def sigma_squared(self, sigma_plus: float) -> Array:
         """sigma^2 at the nodes (K,) for a step that starts with sigma_plus; negative where it stops."""
@@ -171,6 +170,11 @@ class ZeroDynamics:
             time,
             float(np.sum(time)),
         )
+
+    @property
+    def cycle(self) -> ZeroDynamicsOrbit:
+        """The periodic orbit. Raises GaitError when there is none."""
+        return self.orbit(self.sigma_minus * self.delta)
 
     def dynamics(self, k: int, rate: float) -> tuple[Array, Array, Array, float]:
         """q'', u, ground reaction and swing height at node k: Theta'' from the unactuated row."""

@@ -30,7 +30,7 @@ from numpy.polynomial import Legendre, legendre
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from biped_adrc.errors import GaitError
+from biped_adrc.errors import GaitError, check_positive
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
 from biped_adrc.types import Array
 
@@ -162,8 +162,7 @@ class ZeroOrbits:
 
     def steps_to(self, zeta: float, closeness: float) -> int:
         """Steps until |zeta_k - zeta*| <= closeness * zeta*. Raises GaitError when it never comes there."""
-        if not (math.isfinite(closeness) and closeness > 0):
-            raise GaitError(f"closeness is {closeness}, expected a positive number")
+        check_positive(closeness, f"closeness is {closeness}", error=GaitError)
         self.rho(zeta)
         ratio = abs(zeta / self.zeta_star - 1.0) / closeness
         if ratio <= 1.0:

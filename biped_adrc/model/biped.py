@@ -72,7 +72,7 @@ class Biped:
         n, R = self.n, self.R
         q, v = 0.3 * np.arange(1.0, n + 1.0), np.cos(np.arange(float(n)))
         one, other = (self.floating.inertia_on_fixed_base(x) for x in (q, self.relabel(q)))
-        lengths = [float(np.linalg.norm(self.floating.legs(x))) for x in (q, self.relabel(q))]
+        lengths = [float(np.linalg.norm(self.swing_foot(x))) for x in (q, self.relabel(q))]
         w = R @ v
         alike = math.isclose(v @ one @ v, w @ other @ w, rel_tol=1e-9)
         if not (alike and math.isclose(*lengths, rel_tol=1e-9)):
@@ -105,7 +105,7 @@ class Biped:
     @cached_property
     def R(self) -> Array:
         """(n, n): q+ = R q- + r exchanges the legs at impact, as `relabel` does. Raises ModelError."""
-        return relabelling(self.tree, self.description.joints, self._feet)
+        return relabelling(self.tree, self.description.joints, self.description.feet)
 
     def relabel(self, q: Array) -> Array:
         """q (n,) in the coordinates of the next single support [rad]."""
@@ -136,30 +136,13 @@ class Biped:
     @cached_property
     def pinned(self) -> PinnedDynamics:
         """Single-support dynamics from the pinned model."""
-        d = self.description
-        return PinnedDynamics(
-            self.pinned_tree,
-            d.joints,
-            self._stance_chain(),
-            self._feet,
-            d.hip,
-            self._rotors,
-            d.gravity,
-        )
+        chain = self._stance_chain()
+        return PinnedDynamics(self.pinned_tree, self.description, chain, self.armature)
 
     @cached_property
     def floating(self) -> FloatingDynamics:
         """Unpinned dynamics from the floating model."""
-        d = self.description
-        return FloatingDynamics(self.tree, d.joints, d.base, self._feet, self._rotors, d.gravity)
-
-    @property
-    def _feet(self) -> tuple[str, str]:
-        return (self.description.stance_foot, self.description.swing_foot)
-
-    @property
-    def _rotors(self) -> dict[str, float]:
-        return dict.fromkeys(self.description.actuated, self.armature)
+        return FloatingDynamics(self.tree, self.description, self.armature)
 
     def _stance_chain(self) -> Array:
         """Row (n,): absolute angle of the stance foot's link as a sum of coordinates."""

@@ -18,11 +18,10 @@ import numpy as np
 import pinocchio as pin
 
 from biped_adrc.errors import SingularError
-from biped_adrc.model.pinned import build, frame_index, velocity_index
+from biped_adrc.model.pinned import XZ, build, frame_index, velocity_index
+from biped_adrc.model.robots import RobotDescription
 from biped_adrc.model.urdf import Tree
 from biped_adrc.types import Array
-
-_XZ = [0, 2]
 
 
 class Impact(NamedTuple):
@@ -51,28 +50,20 @@ class Impact(NamedTuple):
 class FloatingDynamics:
     """The floating model in q_e = (q_s, p_e), evaluated with p_e at the origin."""
 
-    def __init__(
-        self,
-        tree: Tree,
-        joints: tuple[str, ...],
-        base: tuple[str, str],
-        feet: tuple[str, str],
-        armature: dict[str, float],
-        gravity: float,
-    ):
-        self.model = build(tree, armature, gravity)
+    def __init__(self, tree: Tree, d: RobotDescription, armature: float):
+        self.model = build(tree, d, armature)
         self.data = self.model.createData()
-        self.n = len(joints)
-        self.angles = np.array([velocity_index(self.model, name) for name in joints])
-        self.base = np.array([velocity_index(self.model, name) for name in base])
-        self.stance, self.swing = (frame_index(self.model, foot) for foot in feet)
+        self.n = len(d.joints)
+        self.angles = np.array([velocity_index(self.model, name) for name in d.joints])
+        self.base = np.array([velocity_index(self.model, name) for name in d.base])
+        self.stance, self.swing = (frame_index(self.model, foot) for foot in d.feet)
 
     def configuration(self, q: Array, p_e: Array | None = None) -> Array:
         """Pinocchio configuration for q_s (n,) and the stance foot at p_e (2,) [m]."""
         x = np.zeros(self.model.nq)
         x[self.angles] = q
         pin.forwardKinematics(self.model, self.data, x)
-        foot = pin.updateFramePlacement(self.model, self.data, self.stance).translation[_XZ]
+        foot = pin.updateFramePlacement(self.model, self.data, self.stance).translation[XZ]
         x[self.base] = (0.0 if p_e is None else p_e) - foot
         return x
 
@@ -91,19 +82,11 @@ class FloatingDynamics:
         M = pin.crba(self.model, self.data, self.configuration(q))
         return M[np.ix_(self.angles, self.angles)]
 
-    def legs(self, q: Array) -> Array:
-        """Vector from the stance foot to the swing foot (2,) [m]."""
-        pin.forwardKinematics(self.model, self.data, self.configuration(q))
-        feet = [
-            pin.updateFramePlacement(self.model, self.data, f) for f in (self.stance, self.swing)
-        ]
-        return (feet[1].translation - feet[0].translation)[_XZ]
-
     def _foot_jacobian(self, x: Array, frame: int) -> Array:
         J: Array = pin.computeFrameJacobian(
             self.model, self.data, x, frame, pin.LOCAL_WORLD_ALIGNED
         )
-        return J[_XZ]
+        return J[XZ]
 
     def extended_inertia(self, q: Array) -> Array:
         """D_e(q) (n + 2, n + 2) of (2)."""
@@ -128,7 +111,7 @@ class FloatingDynamics:
         pin.forwardKinematics(self.model, self.data, x, w, zero)
         drift = pin.getFrameClassicalAcceleration(
             self.model, self.data, self.stance, pin.LOCAL_WORLD_ALIGNED
-        ).linear[_XZ]
+        ).linear[XZ]
         Zdot_v = np.zeros(self.model.nv)
         Zdot_v[self.base] = -drift
         M = np.array(pin.crba(self.model, self.data, x))
@@ -140,10 +123,7 @@ class FloatingDynamics:
         n = self.n
         D_e = self.extended_inertia(q)
         E_2 = self.swing_jacobian(q)
-        K = np.zeros((n + 4, n + 4))
-        K[: n + 2, : n + 2] = D_e
-        K[: n + 2, n + 2 :] = -E_2.T
-        K[n + 2 :, : n + 2] = E_2
+        K = np.block([[D_e, -E_2.T], [E_2, np.zeros((2, 2))]])
         rhs = np.concatenate((D_e[:, :n] @ v, np.zeros(2)))
         try:
             solution = np.asarray(np.linalg.solve(K, rhs), dtype=np.float64)

@@ -31,9 +31,8 @@ import pinocchio as pin
 from biped_adrc.linear import solve
 from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.model.contact import FloatingDynamics
+from biped_adrc.model.pinned import XZ
 from biped_adrc.types import Array
-
-_XZ = [0, 2]
 
 
 class AccelerationDerivatives(NamedTuple):
@@ -151,4 +150,4 @@ def foot_derivatives(floating: FloatingDynamics, x: Array, foot: int) -> tuple[A
     linear, angular = columns[:3].T, columns[3:].T
     i, j = np.indices((len(x), len(x)))
     H = np.cross(angular[np.minimum(i, j)], linear[np.maximum(i, j)])
-    return columns[_XZ], np.moveaxis(H, -1, 0)[_XZ]
+    return columns[XZ], np.moveaxis(H, -1, 0)[XZ]

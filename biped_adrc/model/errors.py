@@ -138,7 +138,7 @@ def _even(random: np.random.Generator, width: float, count: int) -> list[float]:
 def _rubbing(biped: Biped) -> Iterator[tuple[str, ...]]:
     """Joints with friction, a joint and its twin of the other leg together; none where friction is off."""
     d, met = biped.description, set[str]()
-    twin = twins(biped.tree, (d.stance_foot, d.swing_foot))
+    twin = twins(biped.tree, d.feet)
     above = {joint.child: joint.name for joint in biped.tree.joints}
     below = {joint.name: joint.child for joint in biped.tree.joints}
     rubbing = [name for name in d.joints if d.viscous.get(name) or d.static.get(name)]

@@ -9,11 +9,10 @@ chatter break it in the mean as well.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.model.robots import RobotDescription
 
 WINDOW = 5e-3
@@ -58,8 +57,7 @@ class Limits:
             raise InputError(
                 f"the torque limit is {torque} N m, expected a positive number, or None for the robot's record"
             )
-        if not (math.isfinite(self.window) and self.window > 0.0):
-            raise InputError(f"the force window is {self.window} s, expected a positive number")
+        check_positive(self.window, f"the force window is {self.window} s")
 
     def of(self, robot: RobotDescription) -> KnownLimits:
         """With what the robot's record says where None was given."""

@@ -14,22 +14,23 @@ import pinocchio as pin
 
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.model.reroot import PIN_JOINT
+from biped_adrc.model.robots import RobotDescription
 from biped_adrc.model.urdf import Tree, to_xml
 from biped_adrc.types import Array
 
-_XZ = [0, 2]
+XZ = [0, 2]
+"""The plane of motion among Pinocchio's axes."""
 
 
-def build(tree: Tree, armature: dict[str, float], gravity: float) -> pin.Model:
-    """The Pinocchio model of `tree` with rotor inertias [kg m^2] by joint name; gravity [m/s^2] downwards."""
+def build(tree: Tree, d: RobotDescription, armature: float) -> pin.Model:
+    """The Pinocchio model of `tree` with a rotor inertia [kg m^2] at every motor, and its gravity."""
     model = pin.buildModelFromXML(to_xml(tree))
     if model.nq != model.nv:
         raise ModelError(f"URDF '{tree.source}': nq = {model.nq} differs from nv = {model.nv}")
     rotor = np.zeros(model.nv)
-    for joint, value in armature.items():
-        rotor[velocity_index(model, joint)] = value
+    rotor[[velocity_index(model, joint) for joint in d.actuated]] = armature
     model.armature = rotor
-    model.gravity.linear = np.array([0.0, 0.0, -gravity])
+    model.gravity.linear = np.array([0.0, 0.0, -d.gravity])
     return model
 
 
@@ -61,18 +62,9 @@ def finite_angles(q: Array, shape: tuple[int]) -> Array:
 class PinnedDynamics:
     """D_s, Omega, forward dynamics and kinematics at (q_s, q_s'); arrays are (n,) or (n, n)."""
 
-    def __init__(
-        self,
-        tree: Tree,
-        joints: tuple[str, ...],
-        stance_chain: Array,
-        feet: tuple[str, str],
-        hip: str,
-        armature: dict[str, float],
-        gravity: float,
-    ):
-        """`joints` names q1..qN, `stance_chain` (n,) gives the pin's angle as a sum of them."""
-        self.model = build(tree, armature, gravity)
+    def __init__(self, tree: Tree, d: RobotDescription, stance_chain: Array, armature: float):
+        """`stance_chain` (n,) gives the pin's angle as a sum of the robot's coordinates."""
+        self.model, joints = build(tree, d, armature), d.joints
         self.data = self.model.createData()
         n = len(joints)
         if self.model.nv != n:
@@ -85,8 +77,8 @@ class PinnedDynamics:
             self.T[velocity_index(self.model, name), j] = 1.0
         self.T[velocity_index(self.model, PIN_JOINT)] = stance_chain
         self._inverse = np.linalg.inv(self.T)
-        self.swing = frame_index(self.model, feet[1])
-        self.hip = frame_index(self.model, hip)
+        self.swing = frame_index(self.model, d.swing_foot)
+        self.hip = frame_index(self.model, d.hip)
 
     def inertia(self, q: Array) -> Array:
         """D_s(q) (n, n) [kg m^2] from CRBA."""
@@ -128,14 +120,14 @@ class PinnedDynamics:
     def position(self, q: Array, frame: int) -> Array:
         """(x, z) of a frame from the stance foot [m]."""
         pin.forwardKinematics(self.model, self.data, self.T @ q)
-        return pin.updateFramePlacement(self.model, self.data, frame).translation[_XZ]
+        return pin.updateFramePlacement(self.model, self.data, frame).translation[XZ]
 
     def jacobian(self, q: Array, frame: int) -> Array:
         """d(x, z)/dq_s of a frame (2, n) [m]."""
         J = pin.computeFrameJacobian(
             self.model, self.data, self.T @ q, frame, pin.LOCAL_WORLD_ALIGNED
         )
-        return J.reshape(6, -1)[_XZ] @ self.T  # one coordinate comes without its axis
+        return J.reshape(6, -1)[XZ] @ self.T  # one coordinate comes without its axis
 
     def centre_of_mass(
         self, q: Array, v: Array | None = None, a: Array | None = None
@@ -146,12 +138,12 @@ class PinnedDynamics:
         a = zero if a is None else a
         pin.centerOfMass(self.model, self.data, self.T @ q, self.T @ v, self.T @ a)
         d = self.data
-        return d.com[0][_XZ].copy(), d.vcom[0][_XZ].copy(), d.acom[0][_XZ].copy()
+        return d.com[0][XZ].copy(), d.vcom[0][XZ].copy(), d.acom[0][XZ].copy()
 
     def mass_jacobian(self, q: Array) -> Array:
         """m dp_com/dq_s (2, n) [kg m]."""
         J = pin.jacobianCenterOfMass(self.model, self.data, self.T @ q).reshape(3, -1)
-        return self.mass * J[_XZ] @ self.T
+        return self.mass * J[XZ] @ self.T
 
     def bodies(self) -> tuple[Array, Array, Array]:
         """Of the bodies in Pinocchio's order: mass (n,), inertia about the COM (n,), and the rows A (n, n) of
@@ -176,7 +168,7 @@ class PinnedDynamics:
             pin.updateFramePlacement(self.model, self.data, frame).translation
             for frame in (self.swing, self.hip)
         ]
-        return np.array([*coms, *frames])[:, _XZ]
+        return np.array([*coms, *frames])[:, XZ]
 
     @property
     def mass(self) -> float:

@@ -13,7 +13,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from biped_adrc.errors import ModelError
+from biped_adrc.errors import ModelError, check_positive
+from biped_adrc.files import reading
 from biped_adrc.model.urdf import Inertial, Tree, load_tree
 from biped_adrc.resources import data_folder
 
@@ -81,6 +82,11 @@ class RobotDescription:
         """Names of q1..qN: the actuated joints, joints without a motor, the pitch."""
         return (*self.actuated, *self.passive, self.unactuated)
 
+    @property
+    def feet(self) -> tuple[str, str]:
+        """Stance and swing foot."""
+        return self.stance_foot, self.swing_foot
+
     def preset(self, name: str | None = None) -> Preset:
         """The preset `name`, or the default one. Raises ModelError with the names there are."""
         name = self.default_preset if name is None else name
@@ -135,23 +141,15 @@ def load_description(robot: str | Path) -> RobotDescription:
                 "or give the path of a robot.toml"
             )
         path = data_folder("urdf") / str(robot) / "robot.toml"
-    if not path.is_file():
-        raise ModelError(f"robot record '{path}' not found")
-    try:
+    with reading("robot record", path, ModelError):
         data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ModelError(f"robot record '{path}' is not valid TOML: {error}") from error
     return description_of(data, path)
 
 
 def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
     """The record `data`, whose URDF lies beside `path`. Raises ModelError that names the key."""
-    try:
+    with reading("robot record", path, ModelError):
         return _description(data, path)
-    except KeyError as error:
-        raise ModelError(f"robot record '{path}': the key {error} is missing") from error
-    except (TypeError, ValueError, AttributeError, IndexError) as error:
-        raise ModelError(f"robot record '{path}': {error}") from error
 
 
 def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
@@ -228,6 +226,5 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
 
 def _positive(value: object, what: str) -> float:
     number = float(value)  # type: ignore[arg-type]
-    if not (math.isfinite(number) and number > 0):
-        raise ValueError(f"{what} is {value}, expected a positive number")
+    check_positive(number, f"{what} is {value}")
     return number

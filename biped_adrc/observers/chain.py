@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.observers.base import Estimate, Observer, ObserverLaws, ResetPolicy
 from biped_adrc.types import Array
 
@@ -94,8 +94,7 @@ def stable_poles(poles: Sequence[complex], what: str, because: str) -> tuple[com
 
 def equal_poles(bandwidth: float, number: int) -> tuple[complex, ...]:
     """That many poles at -bandwidth [rad/s]. Raises InputError unless it is positive."""
-    if not (np.isfinite(bandwidth) and bandwidth > 0):
-        raise InputError(f"observer bandwidth is {bandwidth} rad/s, expected a positive number")
+    check_positive(bandwidth, f"observer bandwidth is {bandwidth} rad/s")
     return (complex(-bandwidth),) * number
 
 

@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import check_positive
 from biped_adrc.observers.base import ObserverLaws
 from biped_adrc.observers.chain import (
     ChainObserver,
@@ -64,8 +64,7 @@ class SampledGPIObserver(ChainObserver):
         Raises InputError.
         """
         poles = stable_poles(poles, "a discrete GPI observer", " (m >= 0)")
-        if not (np.isfinite(period) and period > 0):
-            raise InputError(f"the sampling period is {period} s, expected a positive number")
+        check_positive(period, f"the sampling period is {period} s")
         return cls(len(poles) - 2, 1.0 / period, period, poles)
 
     @cached_property

@@ -10,9 +10,9 @@ from scipy.io import loadmat, savemat
 import biped_adrc as ba
 from biped_adrc.errors import GaitError, InputError, OutputError
 from biped_adrc.gait.conventions import CONVENTIONS, convention
-from biped_adrc.gait.curves import Bezier, Polynomial
+from biped_adrc.gait.curves import Bezier, Polynomial, ramp
 from biped_adrc.gait.exchange.closure import check, closing_conventions
-from biped_adrc.gait.exchange.convert import mapped, ramp, record_of, reversed_curve
+from biped_adrc.gait.exchange.convert import mapped, record_of, reversed_curve
 from biped_adrc.gait.exchange.files import read_record, write_record
 from biped_adrc.gait.exchange.importing import export_gait, import_constraint, import_gait
 from biped_adrc.gait.exchange.matfile import read_mat, write_mat

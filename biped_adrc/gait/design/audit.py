@@ -36,7 +36,7 @@ class Audited(NamedTuple):
 def audited(biped: Biped, gait: Gait, nodes: int = NODES) -> Audited:
     """The step of a gait. Raises GaitError when its zero dynamics have none."""
     zero = ZeroDynamics.of(biped, gait.constraint, nodes)
-    o = zero.orbit(zero.sigma_minus * zero.delta)
+    o = zero.cycle
     along, out = ground_axes(gait.slope)
     height = np.array([biped.swing_foot(q) @ out for q in o.q])
     length = float(np.hypot(*biped.swing_foot(gait.q_minus)))

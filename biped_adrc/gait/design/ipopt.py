@@ -54,23 +54,11 @@ def solve(
 
     Raises KeyboardInterrupt on Ctrl-C, after the iteration under way.
     """
-    x = programme.unknowns.vector()
-    return _run(x, programme.objective, programme.rows, x0, bounds, progress, strategy)
-
-
-def _run(
-    x: Any,
-    objective: Any,
-    rows: tuple[Row, ...],
-    x0: Array,
-    bounds: Bounds,
-    progress: Progress | None,
-    strategy: str,
-) -> Found:
+    rows = programme.rows
     g = ca.vertcat(*(row.value for row in rows))
     low = np.concatenate([np.full(row.value.numel(), row.low) for row in rows])
     high = np.concatenate([np.full(row.value.numel(), row.high) for row in rows])
-    watch = _Watch(x.numel(), low, high, progress)
+    watch = _Watch(programme.x.numel(), low, high, progress)
     options: dict[str, Any] = {
         "print_time": False,
         "iteration_callback": watch,
@@ -84,7 +72,8 @@ def _run(
         "ipopt.acceptable_constr_viol_tol": 1e-9,
         "ipopt.acceptable_iter": 5,
     }
-    solver = ca.nlpsol("gait", "ipopt", {"x": x, "f": objective, "g": g}, options)
+    problem = {"x": programme.x, "f": programme.objective, "g": g}
+    solver = ca.nlpsol("gait", "ipopt", problem, options)
     with _interruptible(watch):
         found = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
     stats = solver.stats()
@@ -163,29 +152,27 @@ def relaxed(programme: Programme, asked: str, x0: Array, bounds: Bounds, status:
         if np.isfinite(row.high):
             rows.append(Row(row.name, row.value - give, -np.inf, row.high))
     weight = np.array([ASKED_WEIGHT if name in ASKED else 1.0 for name in names])
-    found = _run(
-        ca.vertcat(programme.unknowns.vector(), slack),
+    count = len(names)
+    softened = Programme(
+        ca.vertcat(programme.x, slack),
         ca.dot(weight, slack) + 1e-6 * programme.objective,
         tuple(rows),
-        np.concatenate((x0, np.ones(len(names)))),
-        (
-            np.concatenate((bounds[0], np.zeros(len(names)))),
-            np.concatenate((bounds[1], np.full(len(names), np.inf))),
-        ),
-        None,
-        "monotone",
     )
+    low, high = bounds
+    none, all_of_it = np.zeros(count), np.full(count, np.inf)
+    ends = np.concatenate((low, none)), np.concatenate((high, all_of_it))
+    found = solve(softened, np.concatenate((x0, np.ones(count))), ends, None, "monotone")
     if not found.solved:
         raise GaitError(
             f"no gait with {asked} was found ({status}), and what stands in the way could not be told; ask "
             "for a slower or shorter step, give one of speed and step only, or loosen the limits"
         )
-    missed = _named(programme, names, found.x[-len(names) :])
+    missed = _named(programme, names, found.x[-count:])
     if missed:
         raise GaitError(
             f"no gait with {asked} keeps the limits; these would have to give: {'; '.join(missed)}"
         )
-    return found.x[: -len(names)]
+    return found.x[:-count]
 
 
 def _named(programme: Programme, names: list[str], gives: Array) -> list[str]:

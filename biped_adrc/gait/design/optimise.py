@@ -9,16 +9,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import Bezier
+from biped_adrc.gait.curves import Bezier, bezier_between
 from biped_adrc.gait.design.audit import NODES, audited, missed_limits, missed_wishes, objective_of
-from biped_adrc.gait.design.ipopt import Progress, relaxed, solve
-from biped_adrc.gait.design.programme import Programme, transcribe
+from biped_adrc.gait.design.ipopt import Found, Progress, relaxed, solve
+from biped_adrc.gait.design.programme import transcribe
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.design.start import cold_start
 from biped_adrc.gait.design.step import Unknowns
@@ -83,19 +83,11 @@ def _staged(
     stages, iterations = request.stages(), 0
     direction, guess = cold_start(biped, stages[0], limits)
     for stage in stages:
-        found = _solve(biped, stage, limits, direction, guess, progress, stage is stages[-1])
+        found, x = _solve(biped, stage, limits, direction, guess, progress, stage is stages[-1])
         iterations += found.iterations
         if found.solved:
-            guess = found.unknowns._asdict()
-    return found.unknowns, iterations
-
-
-class _Solution(NamedTuple):
-    """A solution, or where the search for one ended."""
-
-    solved: bool
-    unknowns: Unknowns
-    iterations: int
+            guess = x._asdict()
+    return x, iterations
 
 
 def _solve(
@@ -106,11 +98,11 @@ def _solve(
     guess: dict[str, Any],
     progress: Progress | None,
     diagnose: bool,
-) -> _Solution:
+) -> tuple[Found, Unknowns]:
     """From a guess; `diagnose` asks for a GaitError that says why there is no solution."""
-    programme = transcribe(biped, request, limits, direction)
+    programme, unknowns = transcribe(biped, request, limits, direction)
     x0 = np.concatenate([np.ravel(guess[name], order="F") for name in Unknowns._fields])
-    bounds = _bounds(programme, guess, request, limits)
+    bounds = _bounds(unknowns, guess, request, limits)
     found = solve(programme, x0, bounds, progress)
     iterations = found.iterations
     if not found.solved:
@@ -125,16 +117,15 @@ def _solve(
                 f"no gait with {request.in_words()} was found: IPOPT stopped with {found.status}, though its "
                 "limits can be met; try another degree or number of nodes"
             )
-    x = programme.unknowns.parts(found.x)
-    return _Solution(found.solved, x, iterations)
+    return replace(found, iterations=iterations), unknowns.parts(found.x)
 
 
 def _bounds(
-    programme: Programme, guess: dict[str, Any], request: GaitRequest, limits: RobotLimits
+    unknowns: Unknowns, guess: dict[str, Any], request: GaitRequest, limits: RobotLimits
 ) -> tuple[Array, Array]:
     """Bounds of the unknowns: rates are positive, the peak is the limit unless it is made least."""
     low, high = {}, {}
-    for name, part in zip(Unknowns._fields, programme.unknowns, strict=True):
+    for name, part in zip(Unknowns._fields, unknowns, strict=True):
         low[name] = np.full(part.numel(), -np.inf)
         high[name] = np.full(part.numel(), np.inf)
     for name in ("rate", "rates"):
@@ -160,25 +151,20 @@ def exact_gait(biped: Biped, request: GaitRequest, limits: RobotLimits, x: Unkno
     impact = biped.impact(q, dq)
     theta_plus, theta_minus = float(c @ impact.q), float(c @ q)
     span = theta_minus - theta_plus
-    alpha = x.alpha.copy()
-    alpha[:, 0], alpha[:, M] = impact.q[:p], q[:p]
-    alpha[:, 1] = alpha[:, 0] + impact.v[:p] / float(c @ impact.v) * span / M
-    alpha[:, M - 1] = alpha[:, M] - slope * span / M
+    slopes = impact.v[:p] / float(c @ impact.v) * span, slope * span
+    alpha = bezier_between(impact.q[:p], *slopes, q[:p], M)
+    alpha[:, 2:-2] = x.alpha[:, 2:-2]
     constraint = VirtualConstraint(Bezier(alpha), c, theta_plus, theta_minus)
     zero = ZeroDynamics.of(biped, constraint, NODES)
-    sigma = zero.sigma_minus
-    q, v = zero.end_state(sigma)
-    period = zero.orbit(sigma * zero.delta).period
-    step = float(np.hypot(*biped.swing_foot(q)))
+    gait = Gait.of_cycle(request.name(), zero, {}, request.slope)
+    step = float(np.hypot(*biped.swing_foot(gait.q_minus)))
     provenance = {
         "method": "direct optimisation on the zero dynamics, hybrid-invariant Bezier curves, IPOPT",
         "asked": request.in_words(),
         "minimised": request.objective.value,
-        "limits": ", ".join(f"{k} {v}" for k, v in limits._asdict().items()),
-        "speed [m/s]": f"{step / period:.6f}",
+        "limits": ", ".join(f"{k} {v}" for k, v in vars(limits).items()),
+        "speed [m/s]": f"{step / gait.period:.6f}",
         "step length [m]": f"{step:.6f}",
         "command": request.command(biped),
     }
-    d = biped.description
-    name = request.name()
-    return Gait(name, d.name, biped.preset, constraint, q, v, period, provenance, request.slope)
+    return replace(gait, provenance=provenance)

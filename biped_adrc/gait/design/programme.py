@@ -49,9 +49,10 @@ class Row(NamedTuple):
 
 @dataclass(frozen=True)
 class Programme:
-    """Unknowns, what is made least, and the rows to keep."""
+    """What is looked for, what is made least, and the rows to keep."""
 
-    unknowns: Unknowns
+    x: Any
+    """The unknowns, one column."""
     objective: Any
     """Scaled, and smooth where the objective is not."""
     rows: tuple[Row, ...]
@@ -59,11 +60,11 @@ class Programme:
 
 def transcribe(
     biped: Biped, request: GaitRequest, limits: RobotLimits, direction: float
-) -> Programme:
-    """The programme; `direction` is the sign of Theta'."""
+) -> tuple[Programme, Unknowns]:
+    """The programme and its unknowns; `direction` is the sign of Theta'."""
     step = Step(biped, request, limits, direction)
     rows = (*_equalities(step), *_limits(step))
-    return Programme(step.x, _objective(step), rows)
+    return Programme(step.x.vector(), _objective(step), rows), step.x
 
 
 def _equalities(k: Step) -> tuple[Row, ...]:

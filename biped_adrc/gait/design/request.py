@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
-from typing import NamedTuple
 
 from biped_adrc.errors import GaitError
 from biped_adrc.model.biped import Biped
@@ -23,21 +22,6 @@ class Objective(Enum):
     """int sum |u_i q_i'| dt / (m g L), the cost of transport."""
     PEAK = "peak"
     """max |u_i| [N m]."""
-
-
-class RobotLimits(NamedTuple):
-    """StepLimits of one robot, nothing left open."""
-
-    friction: float
-    impulse_friction: float
-    torque: float
-    normal_force: float
-    clearance: float | None
-    lift_off: float
-    ranges: Mapping[str, tuple[float, float]]
-    multiplier: float
-    slowest: float
-    reserve: float
 
 
 @dataclass(frozen=True)
@@ -77,18 +61,15 @@ class StepLimits:
                 f"ranges are given for {sorted(unknown)}, robot '{d.name}' has the joints {list(d.joints)}"
             )
         friction = d.friction_coefficient if self.friction is None else self.friction
-        return RobotLimits(
-            friction,
-            friction if self.impulse_friction is None else self.impulse_friction,
-            d.peak_torque if self.torque is None else self.torque,
-            self.normal_force,
-            self.clearance,
-            self.lift_off,
-            {**d.ranges, **self.ranges},
-            self.multiplier,
-            self.slowest,
-            self.reserve,
-        )
+        own = {
+            "friction": friction,
+            "impulse_friction": friction
+            if self.impulse_friction is None
+            else self.impulse_friction,
+            "torque": d.peak_torque if self.torque is None else self.torque,
+            "ranges": {**d.ranges, **self.ranges},
+        }
+        return RobotLimits(**{**vars(self), **own})
 
     def __post_init__(self) -> None:
         for name in (f.name for f in fields(self) if f.name != "ranges"):
@@ -108,6 +89,15 @@ class StepLimits:
                 raise GaitError(
                     f"the range of '{joint}' is [{low}, {high}] rad, expected low < high"
                 )
+
+
+@dataclass(frozen=True)
+class RobotLimits(StepLimits):
+    """StepLimits of one robot, nothing left open."""
+
+    friction: float
+    impulse_friction: float
+    torque: float
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from biped_adrc.errors import GaitError
+from biped_adrc.gait.curves import bezier_between
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.through_state import onto_section
 from biped_adrc.ground import ground_axes
@@ -121,16 +122,12 @@ def cold_start(
         dq, rate = v / float(c @ v), abs(float(c @ v))
     impact = biped.impact(q, dq)
     theta = np.array([c @ q_plus, c @ q])
-    begin, end = impact.v[:p] / float(c @ impact.v), dq[:p]
-    inner = np.linspace(0.0, 1.0, M - 1)
     span = theta[1] - theta[0]
-    first, last = q_plus[:p] + begin * span / M, q[:p] - end * span / M
-    between = first[:, np.newaxis] * (1.0 - inner) + last[:, np.newaxis] * inner
-    alpha = np.column_stack((q_plus[:p], between, q[:p]))
+    slopes = impact.v[:p] / float(c @ impact.v) * span, dq[:p] * span
     guess = {
         "q": q,
         "slope": dq[:p],
-        "alpha": alpha,
+        "alpha": bezier_between(q_plus[:p], *slopes, q[:p], M),
         "theta": theta,
         "after": impact.v_e,
         "impulse": impact.impulse,
@@ -138,4 +135,4 @@ def cold_start(
         "rates": np.full(request.nodes, rate),
         "peak": 0.5,
     }
-    return float(np.sign(theta[1] - theta[0])), guess
+    return float(np.sign(span)), guess

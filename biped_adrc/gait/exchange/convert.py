@@ -20,7 +20,7 @@ import numpy as np
 
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import AngleMap, convention
-from biped_adrc.gait.curves import CURVES, Bezier, Curve
+from biped_adrc.gait.curves import CURVES, Bezier, Curve, ramp
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import Gait
 from biped_adrc.types import Array
@@ -71,16 +71,6 @@ def reversed_curve(curve: Curve) -> Curve:
         for k in range(degree + 1)
     ]
     return type(curve)(a @ np.array(T))
-
-
-def ramp(kind: type[Curve], degree: int, start: float, end: float) -> Array:
-    """Coefficients (M + 1,) of start + s (end - start)."""
-    k = np.arange(degree + 1) / degree
-    if kind is Bezier:
-        return np.asarray((1.0 - k) * start + k * end)
-    a = np.zeros(degree + 1)
-    a[:2] = start, end - start
-    return a
 
 
 def coordinates(record: GaitRecord) -> Coordinates:

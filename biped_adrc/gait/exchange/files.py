@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import output_path, read_json, write_text
+from biped_adrc.files import output_path, reading, write_text
 from biped_adrc.gait.exchange.matfile import read_mat, write_mat
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import FORMAT as STORED
@@ -74,14 +74,13 @@ def read_record(
         raise InputError(f"gait file '{path}' ends in '{path.suffix}', expected .json or .mat")
     if found.get("format") == FORMAT and "units" not in found:
         raise InputError(f"gait file '{path}' ends before its units: it is cut off; copy it again")
-    try:
+    with reading("gait file", path, GaitError):
         return _record(_ours(found, names or {}), convention)
-    except GaitError as error:
-        raise GaitError(f"gait file '{path}': {error}") from error
 
 
 def _read_json(path: Path) -> dict[str, Any]:
-    found = read_json(path, "gait file")
+    with reading("gait file", path, InputError):
+        found = json.loads(path.read_text(encoding="utf-8"))
     if not isinstance(found, dict):
         raise InputError(f"gait file '{path}' holds a {type(found).__name__}, expected an object")
     return found

@@ -16,7 +16,6 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots import robot_names
-from biped_adrc.types import Array
 
 
 def import_constraint(record: GaitRecord) -> VirtualConstraint:
@@ -48,8 +47,9 @@ def import_gait(
     state = state_to_paper(record, along.turns)
     period = record.period
     if state is None or period is None:
-        q, v, period = _orbit(biped, constraint)
-        state = (q, v) if state is None else state
+        own = Gait.of_cycle(record.name, ZeroDynamics.of(biped, constraint), {})
+        period = own.period
+        state = (own.q_minus, own.v_minus) if state is None else state
     provenance = dict(record.provenance) or {
         "method": f"imported from convention '{record.convention}'",
         "source": "arrays" if isinstance(gait, GaitRecord) else Path(gait).name,
@@ -60,14 +60,6 @@ def import_gait(
     return Gait(
         record.name, robot, preset, constraint, *state, period, provenance, record.slope
     ).check(biped)
-
-
-def _orbit(biped: Biped, constraint: VirtualConstraint) -> tuple[Array, Array, float]:
-    """(q-, q'-) and the period of the periodic orbit. Raises GaitError when there is none."""
-    zero = ZeroDynamics.of(biped, constraint)
-    sigma = zero.sigma_minus
-    q, v = zero.end_state(sigma)
-    return q, v, zero.orbit(sigma * zero.delta).period
 
 
 def export_gait(gait: Gait, path: Path | str, convention: str = "paper") -> None:

@@ -17,7 +17,7 @@ import numpy as np
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.conventions import CONVENTIONS, Convention, convention
 from biped_adrc.gait.curves import CURVES, Curve
-from biped_adrc.types import Array
+from biped_adrc.types import Array, read_only
 
 _COORDINATES = {5: True, 3: False}  # with knees, without
 
@@ -135,7 +135,7 @@ class GaitRecord:
             a = np.array(value)
             if np.iscomplexobj(a):
                 raise TypeError("its numbers are complex")
-            a = a.astype(float)
+            a = read_only(a)
         except (TypeError, ValueError) as error:
             raise self.error(f"{key} is not an array of real numbers: {error}") from error
         if a.ndim != dimensions or a.size == 0 or (key == "coefficients" and a.shape[1] < 2):
@@ -152,7 +152,6 @@ class GaitRecord:
                 f"{key}: {what} (counted from 1) is {a[where]}, expected finite numbers; was the file "
                 "written by an optimisation that did not converge?"
             )
-        a.setflags(write=False)
         return a
 
     def _check_phase_range(self) -> None:
