@@ -25,7 +25,7 @@ from rich.console import Console
 from rich.table import Table as RichTable
 
 from biped_adrc.files import write_text
-from biped_adrc.studies.versions import versions
+from biped_adrc.versions import versions
 
 NOT_INSTALLED = "not installed: pip install 'biped-adrc[bench]'"
 _WIDTH = 130  # of a table that is not printed on a terminal

@@ -1,15 +1,21 @@
-"""Files that are written: their names, and writing them whole or not at all."""
+"""Files: their names, JSON that is read, plain values for JSON, and writing whole or not at all."""
 
 from __future__ import annotations
 
+import json
+import math
 import os
 import re
 import tempfile
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import fields, is_dataclass
 from json import JSONDecodeError
 from pathlib import Path
 from tomllib import TOMLDecodeError
+from typing import Any
+
+import numpy as np
 
 from biped_adrc.errors import BipedError, InputError, OutputError
 
@@ -73,6 +79,27 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
         raise error(f"{where}: the key {found} is missing") from found
     except (TypeError, ValueError, AttributeError, IndexError) as found:
         raise error(f"{where}: {found}") from found
+
+
+def read_json(path: Path, what: str, error: type[BipedError] = InputError) -> Any:
+    """What a file holds. Raises `error`, which says `what` the file should be, where it cannot be read."""
+    with reading(what, path, error):
+        return json.loads(path.read_text(encoding="utf-8"))
+
+
+def plain(value: Any) -> Any:
+    """As JSON has it: records by their fields, arrays as lists, a number that is not finite as text."""
+    if is_dataclass(value):
+        value = {field.name: getattr(value, field.name) for field in fields(value)}
+    elif hasattr(value, "_asdict"):
+        value = value._asdict()
+    if isinstance(value, Mapping):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        return [plain(v) for v in value]
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def write_text(path: Path, text: str) -> None:

@@ -18,7 +18,7 @@ from biped_adrc.errors import BipedError
 from biped_adrc.files import write_text
 from biped_adrc.studies.verification.groups import Group, group_named, groups
 from biped_adrc.studies.verification.row import COLUMNS, Row
-from biped_adrc.studies.versions import versions
+from biped_adrc.versions import versions
 
 PAGE = Path(__file__).resolve().parent / "verification.md"
 COMMAND = "python docs/write_verification.py"

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.analysis.observer_loop import observer_loop
+from biped_adrc.files import plain
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.studies.claims import evidence, rows_control, rows_gait, rows_push
 from biped_adrc.studies.claims.admissible import Member, convergence, declared, members
@@ -615,7 +616,7 @@ def test_every_claim_has_a_row_with_every_column():
 
 
 def test_every_number_is_recorded_at_both_steps():
-    record = json.loads(json.dumps(EVIDENCE.record()))
+    record = json.loads(json.dumps(plain(EVIDENCE)))
     peak = record["members"][0]["walked"]["ADRC"]["peak"]
     assert peak == pytest.approx({"value": 1e-6 * 1.001, "at_half": 1e-6})
     assert record["members"][0]["member"]["preset"] == "identified"

@@ -12,13 +12,13 @@ from typer.testing import CliRunner
 from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.return_map import PeriodicOrbit
+from biped_adrc.checks import at_most
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.limits import KnownLimits
 from biped_adrc.studies import reproduction, verdicts
-from biped_adrc.studies.checks import at_most
 from biped_adrc.studies.claims.words import Case, Claim, Figure, Tally, judged
 from biped_adrc.studies.convergence import convergence_check
 from biped_adrc.studies.findings import _torso
@@ -329,7 +329,7 @@ def stubbed(monkeypatch):
             "run_tasks": lambda *_: [Timed(value, 0.0) for value in values.values()],
             "_checks": lambda *_: checks,
             "claims": lambda *_: claims,
-            "gathered": lambda *_: SimpleNamespace(record=dict),
+            "gathered": lambda *_: {},
             "findings": lambda *_: [],
             "tables": lambda *_: {},
             "save": lambda *_: None,

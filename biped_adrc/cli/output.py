@@ -42,7 +42,7 @@ def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
 def write_run(walk: Recording, path: Path, settings: dict[str, Any]) -> None:
     """The run with its settings and versions, or its signals."""
     from biped_adrc.hybrid.storage import save
-    from biped_adrc.studies.versions import versions
+    from biped_adrc.versions import versions
 
     if path.suffix.lower() == ".mat":
         walk.export(path)

@@ -175,7 +175,7 @@ def _explain(derived: Derived) -> None:
     for sentence in derived.said:
         _say(f"guessed  {sentence}")
     for check in derived.checks:
-        _say(f"{'holds' if check.ok else 'BROKEN':<8} {check}")
+        _say(f"{'holds' if check.holds else 'BROKEN':<8} {check}")
 
 
 def _describe(biped: Biped) -> None:

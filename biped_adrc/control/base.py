@@ -134,6 +134,8 @@ class Controller(Composed):
 
     def correct(self, s: Array, m: Measurement) -> Array:
         """Sampled: s with the measurement of this tick taken in."""
+        if self._laws is None:
+            return s
         law = self._law("correct")
         if law is None and self._law("flow") is not None:
             raise InputError(
@@ -143,6 +145,8 @@ class Controller(Composed):
 
     def predict(self, s: Array, m: Measurement, u: Array) -> Array:
         """Sampled: s at the next tick, under the applied torque u."""
+        if self._laws is None:
+            return s
         law = self._law("predict")
         if law is None and self._law("flow") is not None:
             raise InputError(

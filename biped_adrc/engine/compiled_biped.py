@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import ctypes
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -38,7 +40,16 @@ def pointer_call(machine: Machine, name: str, K: Array, inp: Array, out: Array) 
         given, result = given + inp.strides[0], result + out.strides[0]
 
 
-class _Call:
+def parts_of(rows: Array, shapes: Any) -> Iterator[Array]:
+    """Arrays of these shapes that lie one after the other in `rows` (size,) or (N, size)."""
+    at = 0
+    for shape in shapes:
+        part = rows[..., at : at + math.prod(shape)]
+        yield part.reshape(*rows.shape[:-1], *shape)
+        at += math.prod(shape)
+
+
+class Call:
     """One function with its own input and output arrays."""
 
     def __init__(self, machine: Machine, name: str, K: Array, inputs: int, outputs: int):
@@ -101,7 +112,7 @@ class CompiledBiped(Biped):
         return self
 
     @cached_property
-    def _calls(self) -> dict[str, _Call]:
+    def _calls(self) -> dict[str, Call]:
         robot = self.robot
         assert robot is not None
         key = hash_of("plant", skeleton(robot.structure), skeleton(robot.arrays), versions_text())
@@ -116,7 +127,7 @@ class CompiledBiped(Biped):
             "accelerate": (3 * n, n),
             "ground": (3 * n, 2),
         }
-        return {name: _Call(code, name, K, *size) for name, size in sizes.items()}
+        return {name: Call(code, name, K, *size) for name, size in sizes.items()}
 
     @cached_property
     def shapes(self) -> Reduction:
@@ -129,26 +140,10 @@ class CompiledBiped(Biped):
         """Numbers in a `Reduction`."""
         return sum(map(math.prod, self.shapes))
 
-    def code(self, name: str) -> tuple[int, Array]:
-        """The address of a function, and the numbers that it takes."""
-        call = self._calls[name]
-        return call.owner.addresses[name], call.K
-
-    def into(self, name: str, inp: Array, out: Array) -> None:
-        """Call a function with arrays of one's own, contiguous."""
-        call = self._calls[name]
-        pointer_call(call.owner, name, call.K, inp[np.newaxis], out[np.newaxis])
-
-    def parts_of(self, rows: Array) -> list[Array]:
-        """The parts of a `Reduction` in what `terms` gave, (size,) or (N, size)."""
-        ends = np.cumsum([math.prod(shape) for shape in self.shapes])[:-1]
-        parts = zip(np.split(rows, ends, axis=-1), self.shapes, strict=True)
-        return [part.reshape(*rows.shape[:-1], *shape) for part, shape in parts]
-
     def reduction(self, q: Array, v: Array) -> Reduction:
         call, n = self._calls["terms"], self.n
         call.inp[:n], call.inp[n:] = self._angles(q), self._angles(v)
-        return Reduction(*self.parts_of(call()))
+        return Reduction(*parts_of(call(), self.shapes))
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
         call, n = self._calls["body"], self.n

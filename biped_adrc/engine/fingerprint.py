@@ -7,13 +7,13 @@ import platform
 import types
 from collections import namedtuple
 from functools import lru_cache
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from biped_adrc.engine.symbols import names_of
+from biped_adrc.versions import NEVER_TRACED, packages, source_text
 
 
 def hash_of(*parts: Any) -> str:
@@ -105,17 +105,6 @@ def versions_text() -> str:
     """The versions of what makes code, the processor, and the package's own source."""
     from biped_adrc.engine.machine import processor
 
-    versions = (platform.python_version(), np.__version__, version("casadi"), version("llvmlite"))
-    return "\n".join([*versions, processor(), source_text(Path(__file__).parents[1])])
-
-
-NEVER_TRACED = ("analysis", "cli", "studies", "viz")
-"""Rooms that depend on the engine: it can reach nothing in them but laws that it is given."""
-
-
-def source_text(root: Path) -> str:
-    """A hash of every module of the package at `root` that code may be traced from."""
-    rooms = (path for path in sorted(root.iterdir()) if path.name not in NEVER_TRACED)
-    paths = [path for room in rooms for path in (sorted(room.rglob("*.py")) or [room])]
-    texts = (path.read_bytes() for path in paths if path.suffix == ".py")
-    return hashlib.sha256(b"\0".join(texts)).hexdigest()
+    made_by = packages(("numpy", "casadi", "llvmlite")).values()
+    source = source_text(Path(__file__).parents[1], NEVER_TRACED)
+    return "\n".join([platform.python_version(), *made_by, processor(), source])

@@ -18,6 +18,7 @@ from biped_adrc.engine.kernels.run import arc
 from biped_adrc.engine.kernels.tables import STATUS
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.ticks import TERMINAL, run_ticks
+from biped_adrc.engine.told import Point, compiled_references
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import Flown, RunOptions, run_arcs
@@ -53,9 +54,12 @@ def on_compiled_plant(
 ) -> Trajectory:
     """A run in Python with compiled dynamics. Raises as `run_compiled`."""
     walker = with_compiled_plant(walker)
+    points: list[Point] = []
+    controller = compiled_references(walker.controller, walker.plant.n, points)
+    walker = replace(walker, controller=controller)
     if walker.sampled:
         try:
-            return run_ticks(walker, x0, mode, method, options)
+            return run_ticks(walker, x0, mode, method, options, points)
         except NotCompiled:  # a disturbance or a method without a compiled form
             pass
     return simulator.run(walker, x0, mode, method, options)

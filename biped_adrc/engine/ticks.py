@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import repeat
 from typing import Any
 
 import numpy as np
@@ -18,12 +19,14 @@ from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.semantics import decided
 from biped_adrc.control.base import Measurement
-from biped_adrc.engine.compiled_biped import CompiledBiped
+from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.tables import STATUS
+from biped_adrc.engine.told import Point, Told
 from biped_adrc.errors import NotFiniteError, SingularError
+from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.held import HeldSizes
 from biped_adrc.hardware.motors import Line
 from biped_adrc.hybrid import simulator
@@ -32,7 +35,6 @@ from biped_adrc.hybrid.simulator import Record, RunOptions
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, Found, HybridSystem, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
-from biped_adrc.model.biped import Biped
 from biped_adrc.model.reduction import Reduction
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
@@ -40,21 +42,32 @@ from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """The guards that end a run, by status."""
-BLOCK = 64
+BLOCK = 256
 """Ticks of which the measurements lie in one array."""
+ROOM = 1024
+"""Nodes of an arc to make room for at first."""
 NONE = np.zeros(0)
 
 
 def run_ticks(
-    walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
+    walker: Walker,
+    x0: Array,
+    mode: Mode,
+    method: OneStepMethod,
+    options: RunOptions,
+    points: Sequence[Point] = (),
 ) -> Trajectory:
-    """A run of a walker with compiled dynamics. Raises NotCompiled for a disturbance or method without laws."""
+    """A run of a walker with compiled dynamics, whose controller has references with the laws `points`.
+
+    Raises NotCompiled for a disturbance or method without laws.
+    """
     plant = CompiledWalker.held(walker, method)
     assert walker.held is not None
     sizes = walker.held.sizes
     system: HybridSystem = Ticked(walker, plant, Places.of(sizes, len(x0)))
     if sizes.total == sizes.p and not sizes.rate:
-        system = Bare(walker, plant, options.t0)
+        told = Told(walker.nominal, points[0] if points else None)
+        system = Bare(walker, plant, told, options.t0)
     return simulator.run(system, x0, mode, method, options)
 
 
@@ -89,7 +102,7 @@ class Moving:
         self.s = self.plan.start(x, t, mode.step, mode.start, end)
         self.s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
         self.rows = np.empty((0, 1 + 2 * self.plan.nx))
-        self.grow(64)
+        self.grow(ROOM)
 
     def grow(self, rows: int) -> None:
         """Room for so many nodes; those that there are stay."""
@@ -173,7 +186,8 @@ class Between:
 
 
 # -- without hardware ------------------------------------------------------------------------------
-_HOLD = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_void_p] * 9)
+_TERMS, _POINT = partial(tuple.__new__, Reduction), partial(tuple.__new__, ReferencePoint)
+_HOLD = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)
 
 
 @dataclass(frozen=True)
@@ -185,6 +199,7 @@ class Bare(HybridSystem):
 
     walker: Walker
     plant: CompiledWalker
+    told: Told
     t_first: float
 
     def mover(self, fired: str | None) -> Mover:
@@ -230,8 +245,9 @@ class Bare(HybridSystem):
         count = max(0, math.floor((t - origin) / period))
         while origin + count * period < t:
             count += 1
-        seen = Seen(moving, walker.nominal)
-        for q, v, terms in seen:
+        seen, told = Seen(moving, self.told), self.told.point or Unasked()
+        for q, v, terms, point in seen:
+            told.now = q, v, point
             if t == origin + count * period:
                 B = None if body is None else body(q, v)
                 m = Measurement(t, mode.step, t - mode.start, q, v, terms, B)
@@ -260,43 +276,52 @@ class Bare(HybridSystem):
             record.add(nodes[:, 0].copy(), *(np.hstack(part) for part in parts))
 
 
-class Seen:
-    """(q, v, terms) at one tick after the other, as `move` takes the plant on."""
+@dataclass
+class Unasked:
+    """In place of a reference that there is none of."""
 
-    def __init__(self, moving: Moving, model: Biped):
-        assert isinstance(model, CompiledBiped)
-        self.moving, self.model = moving, model
-        self.law = model.code("terms")
+    now: Any = None
+
+
+class Seen:
+    """(q, v, terms, point) at one tick after the other, as `move` takes the plant on; all read only."""
+
+    def __init__(self, moving: Moving, told: Told):
+        self.moving, self.told, self.n = moving, told, told.robot.structure.n
+        self.shapes = [(), (self.n,), (self.n,), *told.shapes]
         self.hold = _HOLD(kernels().ADDRESSES["hold"])
-        self.given: tuple[Any, ...] = ()
-        self.next, self.width = 0, 2 * model.n + model.size
+        self.given = np.zeros(8, dtype=np.int64)
+        self.at, self.next, self.width = self.given.ctypes.data, 0, sum(map(math.prod, self.shapes))
 
     def point(self) -> None:
         """At the arrays of the run, which may have grown."""
-        m, plan, (law, K) = self.moving, self.moving.plan, self.law
+        m, plan = self.moving, self.moving.plan
         arrays = (plan.P, plan.F, m.K, m.work, m.s, m.rows)
-        self.given = (*(array.ctypes.data for array in arrays), law, K.ctypes.data)
+        addresses = [array.ctypes.data for array in arrays]
+        self.given[:] = *addresses, self.told.address, self.told.K.ctypes.data
 
-    def __iter__(self) -> Iterator[tuple[Array, Array, Reduction]]:
-        n, size = self.model.n, self.width
-        last = np.empty(size)
-        last[: 2 * n] = self.moving.s[layout.HEAD : layout.HEAD + 2 * n]
-        self.model.into("terms", last[: 2 * n], last[2 * n :])
+    def __iter__(self) -> Iterator[Any]:
         self.point()
+        last = np.empty((1, self.width))
+        last[0, 0] = self.moving.s[layout.TIME]
+        last[0, 1 : 1 + 2 * self.n] = self.moving.s[layout.HEAD : layout.HEAD + 2 * self.n]
+        pointer_call(self.told.machine, "told", self.told.K, last, last[:, 1 + 2 * self.n :])
         while True:
-            block = np.empty((BLOCK + 1, size))
-            block[0], self.next = last, block.ctypes.data
-            q, v, out = block[:-1, :n], block[:-1, n : 2 * n], block[:-1, 2 * n :]
-            terms = self.model.parts_of(out)
-            yield from zip(q, v, map(Reduction._make, zip(*terms, strict=True)), strict=True)
-            last = block[-1]
+            block = np.empty((BLOCK + 1, self.width))
+            block[0], self.next = last[0], block.ctypes.data
+            block.flags.writeable = False
+            _, q, v, *rest = parts_of(block[:-1], self.shapes)
+            terms = map(_TERMS, zip(*rest[:7], strict=True))
+            points = map(_POINT, zip(*rest[7:], strict=True)) if rest[7:] else repeat(None)
+            yield from zip(q, v, terms, points, strict=False)
+            last = block[-1:]
 
     def move(self) -> int:
         """Take the plant on; a code."""
         self.next += 8 * self.width
-        code: int = self.hold(*self.given, self.next)
+        code: int = self.hold(self.at, self.next)
         while code == layout.FULL:
             self.moving.grow(2 * len(self.moving.rows))
             self.point()
-            code = self.hold(*self.given, self.next)
+            code = self.hold(self.at, self.next)
         return code

@@ -68,7 +68,7 @@ class Reference(Composed):
 def reference_laws(reference: Reference) -> ReferenceLaws:
     """The laws of a reference, or its method as a law, which runs in Python only and says so."""
     if not reference._obstacle:
-        laws: ReferenceLaws = reference.laws  # type: ignore[assignment]
+        laws: ReferenceLaws = reference._laws
         return laws
     return ReferenceLaws((), lambda k, t, q, v: reference(t, q, v), reference._obstacle)
 

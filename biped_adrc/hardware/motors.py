@@ -56,9 +56,9 @@ def limited(k: MotorParameters, line: Line, u: Array) -> Array:
 
 def sent(k: MotorParameters, line: Line, u: Array) -> Line:
     """The line after a tick that sends u."""
-    p, queue = len(line.u), line.queue
-    next_one = u
+    queue, next_one = line.queue, u
     if len(queue) > 0:
+        p = len(u)
         next_one = queue[:p]
         queue = np.concatenate((queue[p:], u))
     if len(line.waiting) > 0:

@@ -18,12 +18,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from biped_adrc.checks import Check
 from biped_adrc.errors import ModelError, OutputError
 from biped_adrc.files import write_text
 from biped_adrc.model.anatomy import anatomy
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.legs import check_alike
-from biped_adrc.model.own_checks import Check, checks
+from biped_adrc.model.own_checks import checks
 from biped_adrc.model.planar_base import on_planar_base
 from biped_adrc.model.reading import Reading, read, tip_of
 from biped_adrc.model.record import FRICTION, PRESET, Hints, record_of, to_toml
@@ -45,7 +46,7 @@ class Derived:
     @property
     def broken(self) -> tuple[Check, ...]:
         """Checks that do not hold."""
-        return tuple(check for check in self.checks if not check.ok)
+        return tuple(check for check in self.checks if not check.holds)
 
     def write(self, folder: Path | str) -> Path:
         """Write floating.urdf and robot.toml for `Biped.load`; the path of robot.toml.

@@ -12,11 +12,11 @@ masses, COM velocities and spins of the bodies:
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 import pinocchio as pin
 
+from biped_adrc.checks import Check, at_most
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.pinned import frame_index
 from biped_adrc.types import Array
@@ -27,23 +27,6 @@ LIMIT = 1e-9
 ACCURACY = 1e-6
 """Largest relative round-off in q''; feet of 1e-7 of the hip's mass leave 1e-8."""
 DEFINITE = "D_s is positive definite; round-off left in q'' by its condition"
-
-
-@dataclass(frozen=True)
-class Check:
-    """A law, and the largest gap found; it holds when gap <= limit. Both are relative."""
-
-    law: str
-    gap: float
-    limit: float = LIMIT
-
-    @property
-    def ok(self) -> bool:
-        """Whether the law holds; a gap that is not a number does not."""
-        return bool(self.gap <= self.limit)
-
-    def __str__(self) -> str:
-        return f"{self.law}: {self.gap:.1e} {'<=' if self.ok else 'is not <='} {self.limit:.0e}"
 
 
 def checks(biped: Biped) -> tuple[Check, ...]:
@@ -60,7 +43,7 @@ def checks(biped: Biped) -> tuple[Check, ...]:
             # np.maximum keeps a nan
             laws[law] = float(np.maximum(laws.get(law, 0.0), gap))
     limits = {DEFINITE: ACCURACY}
-    return tuple(Check(law, gap, limits.get(law, LIMIT)) for law, gap in laws.items())
+    return tuple(at_most(law, "law", gap, limits.get(law, LIMIT)) for law, gap in laws.items())
 
 
 def angular_momentum(biped: Biped, q: Array, v_e: Array, point: Array) -> float:

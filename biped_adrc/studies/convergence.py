@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.studies.checks import Check, at_most
+from biped_adrc.checks import Check, at_most
 from biped_adrc.studies.runs import Outcome
 
 AGREE = 0.01

@@ -9,6 +9,7 @@ import numpy as np
 
 from biped_adrc.analysis.linear_loop import tracking_error
 from biped_adrc.analysis.quadrature import integrate
+from biped_adrc.checks import Check, at_most, between
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.tracking import TABLE_II
@@ -24,7 +25,6 @@ from biped_adrc.model.contact import Impact
 from biped_adrc.model.momentum import LinkMotion
 from biped_adrc.model.reduction import reduce
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
-from biped_adrc.studies.checks import Check, at_most, between
 from biped_adrc.studies.runs import FullOutcome, Outcome, Run, execute_fully
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE

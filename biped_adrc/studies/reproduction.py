@@ -12,16 +12,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
+from biped_adrc.checks import Check
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.errors import OutputError
-from biped_adrc.files import write_text
+from biped_adrc.files import plain, write_text
 from biped_adrc.hybrid.storage import save
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies import verdicts
-from biped_adrc.studies.checks import Check
 from biped_adrc.studies.claims.gathered import gathered
 from biped_adrc.studies.claims.table import claims
 from biped_adrc.studies.claims.words import MEANINGS, PREFACE, Claim, claim_checks
@@ -36,7 +34,7 @@ from biped_adrc.studies.pool import TaskProgress, run_tasks
 from biped_adrc.studies.results import Results
 from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
-from biped_adrc.studies.versions import versions
+from biped_adrc.versions import versions
 from biped_adrc.viz.meshcat import animation_html
 from biped_adrc.viz.report import write_report
 
@@ -60,25 +58,26 @@ def reproduce(
     found = claims(plan, r)
     checks = _checks(plan, r) + claim_checks(found) + _laws(plan, r)
     simulated = time.perf_counter()
-    summary = {
+    made = {
         "command": command,
         **_said(plan, r, found),
         "holds": all(check.holds for check in checks),
-        "checks": [check.record() for check in checks],
+        "checks": checks,
         "tables": tables(plan, r),
         **_numbers(plan, r),
         "push_map": [cell.row() for cell in r.cells],
         "seconds": {name: one.seconds for name, one in zip(named, done, strict=True)},
     }
+    summary: dict[str, Any] = plain(made)
     for c, head in r.heads.items():
         save(_stored(head), out / f"walk-{c.lower()}.npz", _run_settings(head))
     pictures = draw_all(plan, r, out, workers)
     animation = _animate(r)
     write_text(out / "walk.html", animation)
     summary["wall_time_s"] = time.perf_counter() - started
-    write_report(out / "report.html", clean(summary), pictures, animation)
+    write_report(out / "report.html", summary, pictures, animation)
     summary["seconds_writing"] = time.perf_counter() - simulated
-    write_text(out / "summary.json", json.dumps(clean(summary), indent=1) + "\n")
+    write_text(out / "summary.json", json.dumps(summary, indent=1) + "\n")
     return summary
 
 
@@ -110,7 +109,7 @@ def _said(plan: Plan, r: Results, found: list[Claim]) -> dict[str, Any]:
 def _numbers(plan: Plan, r: Results) -> dict[str, Any]:
     """The numbers of the runs, at the steps at which they were made."""
     return {
-        "claims_evidence": gathered(plan.presets, r.claims).record(),
+        "claims_evidence": gathered(plan.presets, r.claims),
         "nominal": {name: [s.record() for s in o.certificates] for name, o in r.nominal(plan)},
         "multipliers": {c: r.multipliers[c].record() for c in BOTH if c in r.multipliers},
         "headline": {c: _three_steps(head) for c, head in r.heads.items()},
@@ -139,19 +138,6 @@ def probe(out: Path) -> None:
     marker.unlink()
     if not out.is_dir():
         raise OutputError(f"'{out}' is not a folder; choose another with --out")
-
-
-def clean(value: Any) -> Any:
-    """Plain JSON values: numpy numbers as numbers, what is not finite as text."""
-    if isinstance(value, dict):
-        return {str(k): clean(v) for k, v in value.items()}
-    if isinstance(value, list | tuple):
-        return [clean(v) for v in value]
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, float) and not np.isfinite(value):
-        return str(value)
-    return value
 
 
 def _settings(plan: Plan) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from biped_adrc.studies.checks import Check
+from biped_adrc.checks import Check
 from biped_adrc.studies.plan import BOTH, Headline, Plan, RecipeResult
 from biped_adrc.studies.poincare import PoincareResult, RegressionTest, regression_of
 from biped_adrc.studies.push_map import Cell

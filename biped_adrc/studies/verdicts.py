@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from biped_adrc.checks import Check, at_least, at_most, below
 from biped_adrc.gait.published import X_STAR
-from biped_adrc.studies.checks import Check, at_least, at_most, below
 from biped_adrc.studies.convergence import (
     MULTIPLIER_ROUND_OFF,
     convergence_check,

@@ -17,8 +17,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from biped_adrc.types import Array
-from biped_adrc.viz.deviation import Deviation
-from biped_adrc.viz.ending import ending
 from biped_adrc.viz.moving import (
     COLOURS,
     HEADROOM,
@@ -32,9 +30,9 @@ from biped_adrc.viz.moving import (
     follow,
     ground,
 )
-from biped_adrc.viz.placement import Recorded, Scene, is_wheel
-from biped_adrc.viz.plots.lines import angle_unit
-from biped_adrc.viz.side_view import SideView
+from biped_adrc.viz.placement import Recorded, Scene, ending, is_wheel
+from biped_adrc.viz.plots.over_time import angle_unit
+from biped_adrc.viz.side_view import Deviation, SideView
 from biped_adrc.viz.style import PUSH
 
 DPI = 100

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.types import Array
 from biped_adrc.viz import plots
-from biped_adrc.viz.plots.lines import Window
+from biped_adrc.viz.plots.over_time import Window
 from biped_adrc.viz.push_map_plot import push_map_figure
 from biped_adrc.viz.style import new_figure, style
 from biped_adrc.viz.thin import thin

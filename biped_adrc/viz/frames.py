@@ -14,8 +14,7 @@ import numpy as np
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.trajectory import Arc, hermite
 from biped_adrc.types import Array
-from biped_adrc.viz.loads import loads
-from biped_adrc.viz.placement import Scene, joint_values
+from biped_adrc.viz.placement import Scene, joint_values, loads
 
 TOLERANCE = 1e-6
 """[rad], of an interpolated joint angle."""

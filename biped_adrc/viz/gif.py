@@ -17,7 +17,6 @@ from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes
 from biped_adrc.types import Array
 from biped_adrc.viz.apart import LINES, Magnified, frames_apart
-from biped_adrc.viz.ending import ending
 from biped_adrc.viz.moving import (
     COLOURS,
     HEADROOM,
@@ -31,7 +30,7 @@ from biped_adrc.viz.moving import (
     follow,
     ground,
 )
-from biped_adrc.viz.placement import Recorded, Scene
+from biped_adrc.viz.placement import Recorded, Scene, ending
 from biped_adrc.viz.side_view import SideView
 from biped_adrc.viz.style import style
 

@@ -16,10 +16,9 @@ from biped_adrc.files import write_text
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 from biped_adrc.viz import meshcat_scene as draw
-from biped_adrc.viz.ending import ending
 from biped_adrc.viz.frames import Frames
 from biped_adrc.viz.meshcat_page import MemoryWindow, page
-from biped_adrc.viz.placement import Recorded, Scene, exchanged, is_wheel
+from biped_adrc.viz.placement import Recorded, Scene, ending, exchanged, is_wheel
 from biped_adrc.viz.side_view import SideView
 
 GHOST = 0.35

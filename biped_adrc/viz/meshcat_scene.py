@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.urdf import Joint, Tree, Visual
 from biped_adrc.types import Array
-from biped_adrc.viz.placement import Scene, joint_transform, legs, spokes, turn
-from biped_adrc.viz.surface import TILE
+from biped_adrc.viz.placement import TILE, Scene, joint_transform, legs, spokes, turn
 
 with warnings.catch_warnings():
     # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here

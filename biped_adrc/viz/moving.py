@@ -9,9 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 
 from biped_adrc.types import Array
-from biped_adrc.viz.loads import loads
+from biped_adrc.viz.placement import TILE, loads
 from biped_adrc.viz.side_view import STANCE, SWING, TRUNK, SideView
-from biped_adrc.viz.surface import TILE
 
 COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
 REACTION, TORQUE, REFERENCE = "#009E73", "#CC79A7", "#B9B9B9"

@@ -1,8 +1,14 @@
-"""Where the links of the drawn robot are: the tree of the URDF at (q, step, foothold).
+"""Where the links of the drawn robot are, on which ground, under which loads, by the tree of its URDF.
 
 In odd single supports the stance leg is the one the robot record calls so (RABBIT: left), in even ones the
 other. The joints drawn are q in odd steps and R q in even ones, so no drawn angle jumps at impact. A rimless
 wheel has spokes in place of legs: it is drawn at q in every step, on the next of its equal spokes.
+
+The ground is a slope that steps down fall off from,
+
+    z(x) = -tan(slope) x - sum of the heights of the steps down behind x
+
+with a step's edge half way between the footholds on either side of it; where it is has no part in the walk.
 """
 
 from __future__ import annotations
@@ -10,7 +16,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from itertools import pairwise
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -19,8 +26,51 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.relabelling import twins
 from biped_adrc.model.urdf import Joint, Tree
 from biped_adrc.types import Array
-from biped_adrc.viz.surface import Surface
 from biped_adrc.walker import Walker
+
+TILE = 0.5
+"""[m], along x, of the light and dark tiles."""
+
+
+class Tile(NamedTuple):
+    """A piece of the surface without a step."""
+
+    ends: Array
+    """(2, 2), x and z of both ends [m]."""
+    even: bool
+    """Light ones are even, dark ones odd."""
+
+
+@dataclass(frozen=True)
+class Surface:
+    """slope [rad], positive downhill; steps down of `heights` (E,) [m] at x = `edges` (E,) [m], in order."""
+
+    slope: float
+    edges: Array
+    heights: Array
+
+    def height(self, x: float, before: bool = False) -> float:
+        """z at x [m]; at an edge below it, or above it if `before`."""
+        passed = self.edges < x if before else self.edges <= x
+        return -math.tan(self.slope) * x - float(np.sum(self.heights[passed]))
+
+    def line(self, low: float, high: float) -> Array:
+        """(K, 2), x and z of the corners from x = low to high [m]."""
+        inside = self.edges[(low < self.edges) & (self.edges < high)]
+        corners = [(x, self.height(x, before)) for x in inside for before in (True, False)]
+        return np.array([(low, self.height(low)), *corners, (high, self.height(high, True))])
+
+    def tiles(self, low: int, high: int) -> list[Tile]:
+        """The pieces from x = low TILE to high TILE, cut at multiples of TILE and at edges."""
+        inside = self.edges[(low * TILE < self.edges) & (self.edges < high * TILE)]
+        cuts = np.unique([*(k * TILE for k in range(low, high + 1)), *inside])
+        return [
+            Tile(
+                np.array([(a, self.height(a)), (b, self.height(b, True))]),
+                math.floor(a / TILE) % 2 == 0,
+            )
+            for a, b in pairwise(cuts)
+        ]
 
 
 def turn(axis: tuple[float, float, float], angle: float) -> Array:
@@ -169,3 +219,42 @@ class Scene:
             q = np.concatenate((q[: len(change)] + change, q[len(change) :]))
         x, z = self.foothold(i)
         return joint_values(self.biped, q, arc.mode.step, x, z)
+
+
+class Loads(NamedTuple):
+    """Forces at one stored node."""
+
+    ground_reaction: Array
+    """(2,), (F_T, F_N) on the stance foot [N]."""
+    zeta: Array
+    """(n,) external torque on the drawn joints of q1..qn [N m]."""
+
+
+def loads(scene: Scene, t: float) -> Loads:
+    """The loads at the last stored node up to t [s]; of the ends of the run outside it.
+
+    Controller states are not interpolated: a fast observer's would not survive it.
+    """
+    arc = scene.trajectory.arcs[scene.arc_at(t)]
+    k = min(max(int(np.searchsorted(arc.t, t, side="right")) - 1, 0), len(arc.t) - 1)
+    i = scene.walker.instant(float(arc.t[k]), arc.x[k], arc.mode)
+    # with q drawn as R q, power zeta' q' is that of R^-T zeta, and R is its own inverse
+    zeta = scene.biped.R.T @ i.zeta if exchanged(scene.biped, arc.mode.step) else i.zeta
+    return Loads(scene.walker.ground_reaction(i, arc.mode), zeta)
+
+
+def ending(trajectory: Trajectory) -> str:
+    """Such as "fell at 3.42 s: hip too low"; empty for a walk that did what it was asked for.
+
+    The reason is the event that ended the run, its detail, or what its status says, in this order.
+    """
+    status = trajectory.status
+    if status.ok:
+        return ""
+    event = trajectory.arcs[-1].event
+    reason = status.value.split(";")[0]
+    if event is not None and event.x_plus is None:
+        reason = event.guard.replace("_", " ")
+    elif trajectory.detail:
+        reason = trajectory.detail
+    return f"{status.name.lower().replace('_', ' ')} at {trajectory.t_end:.2f} s: {reason}"

@@ -10,8 +10,7 @@ from matplotlib.collections import LineCollection
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes
-from biped_adrc.viz.ending import ending
-from biped_adrc.viz.placement import Recorded, Scene
+from biped_adrc.viz.placement import Recorded, Scene, ending
 from biped_adrc.viz.side_view import STANCE, SWING, TRUNK, SideView
 from biped_adrc.viz.style import label, new_figure, render, style
 

@@ -11,9 +11,10 @@ import time
 from pathlib import Path
 
 from biped_adrc.studies.bench.execute import run_study
-from biped_adrc.studies.bench.store import About, numerical_versions
+from biped_adrc.studies.bench.store import About
 from biped_adrc.studies.bench.store_open import open_store
 from biped_adrc.studies.bench.workers import Threads
+from biped_adrc.versions import numerical_versions
 
 
 def rows(records):

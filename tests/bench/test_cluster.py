@@ -16,11 +16,11 @@ from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.studies.bench import cluster as of_cluster
 from biped_adrc.studies.bench.cluster import Cluster, difference
 from biped_adrc.studies.bench.execute import run_study
-from biped_adrc.studies.bench.store import numerical_versions
 from biped_adrc.studies.bench.store_open import open_store
 from biped_adrc.studies.bench.study_file import read_study
 from biped_adrc.studies.bench.sweep import sweep
 from biped_adrc.studies.bench.workers import Threads
+from biped_adrc.versions import numerical_versions
 
 pytestmark = pytest.mark.filterwarnings("ignore")
 FOLDER = Path(standin.__file__).parent

@@ -18,9 +18,10 @@ from biped_adrc.errors import InputError, OutputError
 from biped_adrc.studies.bench.chunk import made
 from biped_adrc.studies.bench.execute import run_study
 from biped_adrc.studies.bench.points import key_of, text_of
-from biped_adrc.studies.bench.store import Placed, Ran, numerical_versions
+from biped_adrc.studies.bench.store import Placed, Ran
 from biped_adrc.studies.bench.store_open import APPLICATION, open_store, read_store
 from biped_adrc.studies.bench.workers import Threads
+from biped_adrc.versions import numerical_versions
 
 KILLS = 50
 N = 160

@@ -19,13 +19,11 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.studies.walk import Walk
-from biped_adrc.viz.deviation import Deviation
-from biped_adrc.viz.ending import ending
 from biped_adrc.viz.export import Clip, export
 from biped_adrc.viz.gif import Motion, write_gif
 from biped_adrc.viz.moving import arrow, cut, ring
-from biped_adrc.viz.placement import Scene
-from biped_adrc.viz.side_view import SideView
+from biped_adrc.viz.placement import Scene, ending
+from biped_adrc.viz.side_view import Deviation, SideView
 from biped_adrc.viz.stick import strip, write_strip
 from biped_adrc.viz.style import new_figure, style
 

@@ -32,7 +32,7 @@ from biped_adrc.viz.figures import (
     return_map_figure,
     tracking_figure,
 )
-from biped_adrc.viz.plots.lines import angle_unit
+from biped_adrc.viz.plots.over_time import angle_unit
 from biped_adrc.viz.robot_figure import robot_figure
 from biped_adrc.viz.style import render, style
 from biped_adrc.walker import Walker

@@ -15,7 +15,9 @@ from biped_adrc.engine.kernels.call import (
     Rows,
     call,
     data,
+    floats_at,
     inner,
+    ints_at,
     kernel,
     shift,
     unit,
@@ -28,33 +30,7 @@ from biped_adrc.engine.kernels.laws import (
     row,
     watch,
 )
-from biped_adrc.engine.kernels.layout import (
-    AFTER,
-    ARC,
-    ARMED,
-    COMPLETED,
-    COORDINATES,
-    COUNT,
-    DX0,
-    END,
-    EVERY,
-    FIRED,
-    FULL,
-    GUARDS,
-    HEAD,
-    JOINTS,
-    LIMIT,
-    PERIOD,
-    PERIOD_PART,
-    RESTART,
-    ROOM,
-    STATES,
-    T_FIRST,
-    TIME,
-    VALUES,
-    X0,
-    ZERO_PIVOT,
-)
+from biped_adrc.engine.kernels.layout import *
 from biped_adrc.engine.kernels.segment import node, through
 from biped_adrc.types import Array
 
@@ -167,13 +143,16 @@ def arc(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array, kept:
 
 
 @unit
-def hold(
-    P: Ints, F: Array, K: Array, W: Array, s: Array, R: Array, law: int, model: Array, seen: Array
-) -> int:
-    """As `arc`, and in `seen` (q, q') there with what the law at this address says of them."""
-    code, size = go_on(P, F, K, W, s, R), 2 * P[COORDINATES]
+def hold(given: Ints, seen: Array) -> int:
+    """As `arc`, and in `seen` (t, q, q') there, with what a law says of them.
+
+    given: addresses of P, F, K, W, s and R, of the law, and of its numbers.
+    """
+    P, F, K, W = ints_at(given[0]), floats_at(given[1]), floats_at(given[2]), floats_at(given[3])
+    s = floats_at(given[4])
+    code, size = go_on(P, F, K, W, s, floats_at(given[5])), 2 * P[COORDINATES]
     if code != FULL:
-        x = shift(s, HEAD)
-        copy(x, seen, size)
-        call(law, model, x, shift(seen, size))
+        seen[0] = s[TIME]
+        copy(shift(s, HEAD), shift(seen, 1), size)
+        call(given[6], floats_at(given[7]), seen, shift(seen, 1 + size))
     return code

@@ -129,3 +129,23 @@ def shift(typingctx: Any, pointer: Any, i: Any) -> Any:
         return builder.gep(arguments[0], [arguments[1]])
 
     return pointer(pointer, types.int64), codegen
+
+
+@intrinsic
+def floats_at(typingctx: Any, address: Any) -> Any:
+    """Pointer to the float64 at an address."""
+
+    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.inttoptr(arguments[0], ir.DoubleType().as_pointer())
+
+    return types.CPointer(types.float64)(types.int64), codegen
+
+
+@intrinsic
+def ints_at(typingctx: Any, address: Any) -> Any:
+    """Pointer to the int64 at an address."""
+
+    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.inttoptr(arguments[0], ir.IntType(64).as_pointer())
+
+    return types.CPointer(types.int64)(types.int64), codegen

@@ -12,29 +12,7 @@ import numpy as np
 
 from biped_adrc.engine.kernels.call import Ints, inner, shift, unit
 from biped_adrc.engine.kernels.laws import broken, copy, finite, flow, regular, row
-from biped_adrc.engine.kernels.layout import (
-    ATOL,
-    B_AT,
-    C_AT,
-    DX0,
-    DX1,
-    E3_AT,
-    E5_AT,
-    K2,
-    MAX_STEP,
-    REACHED,
-    RTOL,
-    SLOPES,
-    STAGE,
-    STAGES,
-    STATES,
-    STEP_FAILED,
-    TRY,
-    WEIGHTS_AT,
-    WIDTH,
-    X0,
-    X1,
-)
+from biped_adrc.engine.kernels.layout import *
 from biped_adrc.types import Array
 
 

@@ -11,37 +11,7 @@ import math
 from biped_adrc.engine.kernels.call import Ints, inner, shift, unit
 from biped_adrc.engine.kernels.dop853 import eighth
 from biped_adrc.engine.kernels.laws import copy, row, watch
-from biped_adrc.engine.kernels.layout import (
-    AFTER,
-    COORDINATES,
-    DOP853,
-    DX0,
-    DXB,
-    ETD,
-    EVENT,
-    FAR,
-    FAR_VALUE,
-    FELL,
-    FOOT_STRIKE,
-    FOOT_X,
-    GUARDS,
-    HIP_TOO_LOW,
-    KIND,
-    LANDED,
-    LEAST_STEP,
-    RESOLUTION,
-    STAGE,
-    STALLED,
-    STRUCK,
-    TRIED,
-    VALUES,
-    X0,
-    X1,
-    XB,
-    XE,
-    XRTOL,
-    XTOL,
-)
+from biped_adrc.engine.kernels.layout import *
 from biped_adrc.engine.kernels.steps import classical, halve
 from biped_adrc.types import Array
 

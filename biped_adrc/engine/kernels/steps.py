@@ -9,47 +9,7 @@ from __future__ import annotations
 
 from biped_adrc.engine.kernels.call import Ints, call, inner, shift, unit
 from biped_adrc.engine.kernels.laws import copy, copy_held, flow, join, remainder, row, watch
-from biped_adrc.engine.kernels.layout import (
-    DXB,
-    E_HALF,
-    FAR,
-    FAR_VALUE,
-    FIRST,
-    FORCED,
-    FULL_STEP,
-    HALF,
-    HALF_PHI,
-    JOINTS,
-    K2,
-    K3,
-    K4,
-    LANDED,
-    LAST,
-    LEVELS,
-    MATRICES,
-    MIDDLE,
-    MOVING,
-    N0,
-    N_SUB,
-    NA,
-    NB,
-    NC,
-    ROWS_AT,
-    SLOW,
-    STAGE,
-    STATES,
-    STIFF,
-    TRIED,
-    TURN,
-    WEIGHTS_AT,
-    XB,
-    Y0,
-    Y_SUB,
-    Y_TRY,
-    YA,
-    YB,
-    H,
-)
+from biped_adrc.engine.kernels.layout import *
 from biped_adrc.types import Array
 
 

@@ -5,21 +5,7 @@ from __future__ import annotations
 from biped_adrc.engine.kernels.arc import arm, load, save, travel
 from biped_adrc.engine.kernels.call import Ints, Rows, data, kernel
 from biped_adrc.engine.kernels.laws import copy, jump, lower, row
-from biped_adrc.engine.kernels.layout import (
-    ARMED,
-    COMPLETED,
-    COUNT,
-    EVENT_LIMIT,
-    EVERY,
-    FIRED,
-    FOOT_STRIKE,
-    STATES,
-    STRUCK,
-    TIME,
-    TIME_OUT,
-    X0,
-    XE,
-)
+from biped_adrc.engine.kernels.layout import *
 from biped_adrc.types import Array
 
 

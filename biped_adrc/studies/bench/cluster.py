@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from biped_adrc.errors import InputError
-from biped_adrc.studies.bench.store import numerical_versions
 from biped_adrc.studies.bench.workers import Workers, WorkersError
+from biped_adrc.versions import numerical_versions
 
 TIMEOUT = 10.0
 """[s] for a scheduler to answer, and for its first worker."""
@@ -133,7 +133,7 @@ def _asked() -> Callable[[], Any]:
 
     def versions() -> Any:
         try:
-            from biped_adrc.studies.bench.store import numerical_versions
+            from biped_adrc.versions import numerical_versions
         except ImportError as error:
             return f"biped-adrc cannot be imported there ({error})"
         return dict(numerical_versions())

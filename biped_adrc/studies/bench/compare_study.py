@@ -28,11 +28,12 @@ from biped_adrc.studies.bench.execute import LARGEST_CHUNK, Progress, run_study
 from biped_adrc.studies.bench.findings import answers, sentences
 from biped_adrc.studies.bench.points import Point, key_of, text_of
 from biped_adrc.studies.bench.run import run_trials
-from biped_adrc.studies.bench.store import About, Store, numerical_versions
+from biped_adrc.studies.bench.store import About, Store
 from biped_adrc.studies.bench.store_open import open_store
 from biped_adrc.studies.bench.sweep import check_folder
 from biped_adrc.studies.bench.trial import Trial
 from biped_adrc.studies.bench.workers import Workers, workers_of
+from biped_adrc.versions import numerical_versions
 from biped_adrc.viz.comparison_figure import legal_figure, measure_figure, push_figure
 from biped_adrc.viz.comparison_page import comparison_html
 from biped_adrc.viz.comparison_text import NEEDS, REASONS

@@ -11,14 +11,10 @@ beside the file, which the system gives up with its process, keeps a second writ
 
 from __future__ import annotations
 
-import hashlib
-import platform
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import lru_cache
-from importlib.metadata import PackageNotFoundError, version
 from json import JSONDecodeError, loads
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -28,39 +24,6 @@ from filelock import FileLock
 from biped_adrc.errors import InputError, OutputError
 from biped_adrc.studies.bench.chunk import CRASHED, NO_WALK
 from biped_adrc.studies.bench.points import text_of
-
-SOURCE = "source of biped-adrc"
-NUMERICAL = (
-    "biped-adrc",
-    "pin",
-    "numpy",
-    "scipy",
-    "casadi",
-    "numba",
-    "llvmlite",
-    "qpsolvers",
-    "daqp",
-)
-
-
-@lru_cache(maxsize=1)
-def numerical_versions() -> Mapping[str, str]:
-    """Of what the numbers of a run depend on, with a hash of this package's own lines, edited or not."""
-    found = {"python": platform.python_version(), "machine": platform.machine()}
-    found[SOURCE] = _source()
-    for package in NUMERICAL:
-        try:
-            found[package] = version(package)
-        except PackageNotFoundError:
-            found[package] = "none"
-    return found
-
-
-def _source() -> str:
-    digest, root = hashlib.sha256(), Path(__file__).parents[2]
-    for path in sorted(root.rglob("*.py")):
-        digest.update(str(path.relative_to(root)).encode() + path.read_bytes())
-    return digest.hexdigest()[:12]
 
 
 class About(NamedTuple):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass
 from typing import Any
 
 from biped_adrc.studies.claims import evidence
@@ -29,21 +29,6 @@ class Evidence:
     basin: tuple[Start, ...]
     jumps: tuple[Jumps, ...]
     orders: tuple[Order, ...]
-
-    def record(self) -> dict[str, Any]:
-        """Every number as plain values, at the step used (`value`) and at half of it (`at_half`)."""
-        found: dict[str, Any] = _plain(self)
-        return found
-
-
-def _plain(x: Any) -> Any:
-    if hasattr(x, "_asdict"):
-        return {name: _plain(value) for name, value in x._asdict().items()}
-    if is_dataclass(x):
-        return {field.name: _plain(getattr(x, field.name)) for field in fields(x)}
-    if isinstance(x, dict):
-        return {name: _plain(value) for name, value in x.items()}
-    return [_plain(value) for value in x] if isinstance(x, tuple | list) else x
 
 
 def preset_evidence(preset: str) -> dict[str, tuple[Any, ...]]:

@@ -10,7 +10,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any, NamedTuple
 
-from biped_adrc.studies.checks import Check, at_least, at_most
+from biped_adrc.checks import Check, at_least, at_most
 from biped_adrc.studies.claims.admissible import convergence, declared
 from biped_adrc.viz.report import CLAIM_COLUMNS
 

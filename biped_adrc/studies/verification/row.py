@@ -12,6 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+from biped_adrc import checks
+from biped_adrc.checks import Check
 from biped_adrc.errors import InputError
 
 
@@ -75,7 +77,14 @@ class Row:
     @property
     def holds(self) -> bool:
         """Whether it is within its tolerance; False for a row without one."""
-        return self.tolerance is not None and self.difference <= self.tolerance
+        return self.check is not None and self.check.holds
+
+    @property
+    def check(self) -> Check | None:
+        """The assertion; None for a row without a tolerance."""
+        if self.tolerance is None:
+            return None
+        return checks.at_most(self.quantity, "law", self.difference, self.tolerance)
 
     @property
     def verdict(self) -> str:

@@ -3,34 +3,20 @@
 Nothing here opens a window or touches pyplot. Whole figures made of these are in `biped_adrc.viz.figures`.
 """
 
-from biped_adrc.viz.plots.comparison import error_over_time, error_sizes, torque_sizes
-from biped_adrc.viz.plots.disturbance import (
-    external_torque,
-    matched_disturbance,
-    total_disturbance,
-)
-from biped_adrc.viz.plots.energy import energy
-from biped_adrc.viz.plots.ground import friction_cone, ground_reaction
-from biped_adrc.viz.plots.phase import phase_portrait
-from biped_adrc.viz.plots.stability import magnitudes, multipliers, staircase
-from biped_adrc.viz.plots.tracking import angles, joint_tracking, torques, tracking_errors
-
-__all__ = [
-    "angles",
-    "energy",
-    "error_over_time",
-    "error_sizes",
-    "external_torque",
-    "friction_cone",
-    "ground_reaction",
-    "joint_tracking",
-    "magnitudes",
-    "matched_disturbance",
-    "multipliers",
-    "phase_portrait",
-    "staircase",
-    "torque_sizes",
-    "torques",
-    "total_disturbance",
-    "tracking_errors",
-]
+from biped_adrc.viz.plots.comparison import error_over_time as error_over_time
+from biped_adrc.viz.plots.comparison import error_sizes as error_sizes
+from biped_adrc.viz.plots.comparison import torque_sizes as torque_sizes
+from biped_adrc.viz.plots.over_time import angles as angles
+from biped_adrc.viz.plots.over_time import energy as energy
+from biped_adrc.viz.plots.over_time import external_torque as external_torque
+from biped_adrc.viz.plots.over_time import friction_cone as friction_cone
+from biped_adrc.viz.plots.over_time import ground_reaction as ground_reaction
+from biped_adrc.viz.plots.over_time import joint_tracking as joint_tracking
+from biped_adrc.viz.plots.over_time import matched_disturbance as matched_disturbance
+from biped_adrc.viz.plots.over_time import phase_portrait as phase_portrait
+from biped_adrc.viz.plots.over_time import torques as torques
+from biped_adrc.viz.plots.over_time import total_disturbance as total_disturbance
+from biped_adrc.viz.plots.over_time import tracking_errors as tracking_errors
+from biped_adrc.viz.plots.stability import magnitudes as magnitudes
+from biped_adrc.viz.plots.stability import multipliers as multipliers
+from biped_adrc.viz.plots.stability import staircase as staircase

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.viz.plots.lines import Window, broken, shade
+from biped_adrc.viz.plots.over_time import Window, broken, shade
 from biped_adrc.viz.style import DASHES, PALETTE, label
 
 MARKERS = "osD^"

@@ -1,4 +1,4 @@
-"""What a study asserts: a value computed in the run, a limit, and whether it holds.
+"""What is asserted: a value that was computed, a limit, and whether it holds.
 
 kind: "law" (physics and numerics), "consistency" (what was built in, such as a gait that was designed to close
 on x*), "reproduced" (what could have failed).
@@ -6,9 +6,7 @@ on x*), "reproduced" (what could have failed).
 
 from __future__ import annotations
 
-import math
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 KINDS = ("law", "consistency", "reproduced")
 
@@ -23,12 +21,8 @@ class Check:
     limit: str
     holds: bool
 
-    def record(self) -> dict[str, Any]:
-        """As plain values; a value that is not finite becomes a text."""
-        values = asdict(self)
-        if not math.isfinite(self.value):
-            values["value"] = str(self.value)
-        return values
+    def __str__(self) -> str:
+        return f"{self.name}: {self.value:.1e} {'' if self.holds else 'is not '}{self.limit}"
 
 
 def at_most(name: str, kind: str, value: float, limit: float) -> Check:

@@ -1,0 +1,225 @@
+"""Signals over time on axes of your own: angles, errors, torques, disturbances, ground, energy, and phase."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.errors import InputError
+from biped_adrc.ground import ground_axes
+from biped_adrc.types import Array
+from biped_adrc.viz.style import DASHES, GREY, PALETTE, PUSH, label
+
+Window = tuple[float, float]
+"""Start and stop of a push [s]."""
+
+
+def broken(s: Signals, y: Array) -> Array:
+    """y (K, ...) with a row of NaN where a single support begins, so that no line crosses an impact."""
+    return np.insert(y, np.flatnonzero(np.diff(s.step)) + 1, np.nan, axis=0)
+
+
+def line(axes: Axes, s: Signals, y: Array, i: int, name: str) -> None:
+    """y (K,) over time in the i-th colour and dash."""
+    axes.plot(broken(s, s.t), broken(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
+
+
+def shade(axes: Axes, push: Window | None) -> None:
+    """Mark the time of a push."""
+    if push is not None:
+        axes.axvspan(*push, color=PUSH, alpha=0.45, zorder=0, label="push")
+
+
+def legend(axes: Axes) -> Axes:
+    """A legend beside the axes, where it covers nothing."""
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2, frameon=False)
+    return axes
+
+
+def angle_unit(values: Array) -> tuple[str, float]:
+    """The unit in which the largest of `values` [rad] reads well, and its factor."""
+    largest = np.nanmax(np.abs(values), initial=0.0)
+    for unit, factor in (("rad", 1.0), ("mrad", 1e3), ("µrad", 1e6)):
+        if largest * factor >= 0.5:
+            return unit, factor
+    return "nrad", 1e9
+
+
+JOINTS = ("stance hip", "swing hip", "stance knee", "swing knee")
+
+
+def joint_name(s: Signals, i: int) -> str:
+    """q_1 stance hip, and so on; q_i alone on another robot."""
+    known = s.q_d.shape[1] == len(JOINTS)
+    return f"$q_{i + 1}$ {JOINTS[i]}" if known else f"$q_{i + 1}$"
+
+
+def chosen(s: Signals, joints: Sequence[int] | None) -> tuple[int, ...]:
+    """Indices of actuated joints, all if None. Raises InputError for one that does not exist."""
+    p = s.q_d.shape[1]
+    found = tuple(range(p)) if joints is None else tuple(joints)
+    if not found or not all(0 <= i < p for i in found):
+        raise InputError(f"joints {list(found)} were asked for, expected indices from 0 to {p - 1}")
+    return found
+
+
+def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
+    """All coordinates over time [rad], with motors or without."""
+    shade(axes, push)
+    for i in range(s.q.shape[1]):
+        line(axes, s, s.q[:, i], i, f"$q_{i + 1}$")
+    label(axes, "time [s]", "angle [rad]")
+    return legend(axes)
+
+
+def joint_tracking(
+    axes: Axes, s: Signals, joints: Sequence[int] | None = None, push: Window | None = None
+) -> Axes:
+    """Angles of the actuated joints as broad lines, their references dashed on top in black; [rad] over [s]."""
+    shade(axes, push)
+    joints, t = chosen(s, joints), broken(s, s.t)
+    for i in joints:
+        dash = DASHES[i % 2]
+        axes.plot(
+            t, broken(s, s.q[:, i]), color=PALETTE[i], ls=dash, lw=2.2, label=joint_name(s, i)
+        )
+    for i in joints:
+        name = "references" if i == joints[0] else "_"
+        axes.plot(t, broken(s, s.q_d[:, i]), color="black", ls=(0, (4, 3)), lw=0.8, label=name)
+    label(axes, "time [s]", "angle [rad]")
+    return legend(axes)
+
+
+def tracking_errors(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
+    """q_b - q_d by joint, in the unit in which the largest reads well."""
+    shade(axes, push)
+    unit, factor = angle_unit(s.error)
+    for i in range(s.error.shape[1]):
+        line(axes, s, factor * s.error[:, i], i, f"$q_{i + 1}$")
+    label(axes, "time [s]", f"tracking error [{unit}]")
+    return legend(axes)
+
+
+def torques(axes: Axes, s: Signals, limit: float | None = None, push: Window | None = None) -> Axes:
+    """Torques of the motors [N m]; limit [N m] is drawn as dotted lines."""
+    shade(axes, push)
+    for i in range(s.u.shape[1]):
+        line(axes, s, s.u[:, i], i, f"$u_{i + 1}$")
+    if limit is not None:
+        axes.axhline(limit, color=GREY, ls=":", label=f"limit {limit:g} N m")
+        axes.axhline(-limit, color=GREY, ls=":", label="_")
+    label(axes, "time [s]", "torque [N m]")
+    return legend(axes)
+
+
+NO_OBSERVER = "no observer: nothing is estimated"
+
+
+def external_torque(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
+    """The torque from outside on every joint that is ever pushed [N m]; on all where none is."""
+    shade(axes, push)
+    pushed = np.flatnonzero(np.any(s.zeta != 0.0, axis=0))
+    for i in pushed.tolist() or range(s.zeta.shape[1]):
+        line(axes, s, s.zeta[:, i], i, f"$\\zeta_{i + 1}$")
+    label(axes, "time [s]", r"push $\zeta$ [N m]")
+    return legend(axes)
+
+
+def total_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | None = None) -> Axes:
+    """xi of (13), q_b'' - kappa u, and its estimate xi^ for one actuated joint [rad/s^2]."""
+    chosen(s, (joint,))
+    shade(axes, push)
+    _pair(axes, s, s.xi[:, joint], s.xi_estimate[:, joint], r"\xi", joint)
+    label(axes, "time [s]", f"$\\xi_{joint + 1}$ [rad/s²]")
+    return legend(axes)
+
+
+def matched_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | None = None) -> Axes:
+    """The torque from outside on one actuated joint, and what the estimate amounts to there [N m].
+
+    Solid: zeta_b, which enters (14) as kappa zeta_b, the matched part. Dashed: kappa^-1 (xi^ - xi_nominal);
+    it also holds the unmatched part and errors of the model, so the lines differ by those.
+    """
+    chosen(s, (joint,))
+    shade(axes, push)
+    _pair(axes, s, s.zeta[:, joint], s.zeta_estimate[:, joint], r"\zeta", joint)
+    label(axes, "time [s]", f"$\\zeta_{joint + 1}$ [N m]")
+    return legend(axes)
+
+
+def _pair(axes: Axes, s: Signals, true: Array, estimate: Array, symbol: str, joint: int) -> None:
+    t, index = broken(s, s.t), f"_{joint + 1}"
+    axes.plot(t, broken(s, true), color=PALETTE[0], lw=2.4, alpha=0.6, label=f"${symbol}{index}$")
+    if np.isnan(estimate).all():
+        middle = {"ha": "center", "va": "center", "transform": axes.transAxes}
+        axes.text(0.5, 0.9, NO_OBSERVER, **middle)  # type: ignore[arg-type]
+        return
+    axes.plot(
+        t,
+        broken(s, estimate),
+        color="black",
+        ls=(0, (4, 2)),
+        lw=1.0,
+        label=f"$\\hat{{{symbol}}}{index}$",
+    )
+
+
+def energy(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
+    """Energies over time [J], potential energy from its least value; impacts take kinetic energy only."""
+    shade(axes, push)
+    potential = s.potential - s.potential.min()
+    for i, (values, name) in enumerate(
+        ((s.kinetic, "kinetic"), (potential, "potential"), (s.kinetic + potential, "total"))
+    ):
+        line(axes, s, values, i, name)
+    label(axes, "time [s]", "energy [J]")
+    return legend(axes)
+
+
+def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -> Axes:
+    """F_T against F_N [N] in single support and the cone |F_T| = mu F_N; outside it a foot would slip.
+
+    mu: coefficient of dry friction, 0.6 for RABBIT (its record names the source). slope [rad] of the ground,
+    positive downhill; F_T is along it. Impulses at impact are not forces and are not drawn. Raises InputError
+    for a coefficient that is not positive.
+    """
+    if not (np.isfinite(mu) and mu > 0.0):
+        raise InputError(f"the coefficient of friction is {mu}, expected a positive number")
+    tangent, normal = (s.ground_reaction @ axis for axis in ground_axes(slope))
+    top = 1.1 * max(float(np.max(normal)), 1.0)
+    axes.fill([0.0, mu * top, -mu * top], [0.0, top, top], color="#dddddd", zorder=0)
+    for sign in (-1.0, 1.0):
+        name = f"cone, $\\mu$ = {mu:g}" if sign > 0 else "_"
+        axes.plot([0.0, sign * mu * top], [0.0, top], color=GREY, ls="--", label=name)
+    axes.plot(
+        broken(s, tangent), broken(s, normal), color=PALETTE[0], lw=0.9, label="ground reaction"
+    )
+    axes.axhline(0.0, color="black", lw=0.8, label="_")
+    label(axes, "$F_T$ [N]", "$F_N$ [N]")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.14), ncols=2, frameon=False)
+    return axes
+
+
+def ground_reaction(axes: Axes, s: Signals, push: Window | None = None, slope: float = 0.0) -> Axes:
+    """F_T and F_N over time [N], along and out of ground of this slope [rad], positive downhill."""
+    shade(axes, push)
+    for i, (name, axis) in enumerate(zip(("$F_T$", "$F_N$"), ground_axes(slope), strict=True)):
+        line(axes, s, s.ground_reaction @ axis, i, name)
+    axes.axhline(0.0, color="black", lw=0.8, label="_")
+    label(axes, "time [s]", "ground reaction [N]")
+    return legend(axes)
+
+
+def phase_portrait(axes: Axes, s: Signals, name: str = "walk", colour: int = 0) -> Axes:
+    """Theta [rad] against Theta' [rad/s]: solid in single support, dotted across impacts."""
+    axes.plot(broken(s, s.theta), broken(s, s.dtheta), color=PALETTE[colour], lw=0.8, label=name)
+    for k, j in enumerate(np.flatnonzero(np.diff(s.step))):
+        ends, text = slice(j, j + 2), "impact" if k == 0 else "_"
+        axes.plot(s.theta[ends], s.dtheta[ends], color=GREY, ls=":", lw=0.6, label=text)
+    axes.plot(s.theta[0], s.dtheta[0], "o", color="black", ms=4, label="start")
+    label(axes, r"$\Theta$ [rad]", r"$\dot\Theta$ [rad/s]")
+    axes.legend(loc="best", frameon=False)
+    return axes
