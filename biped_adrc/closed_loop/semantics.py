@@ -274,6 +274,19 @@ def landed(
     return np.concatenate((q_plus, v_plus, s, tail))
 
 
-def clearance(tan_slope: float, foot: Array) -> Any:
-    """Height of the swing foot (x, z) above the slope through the stance foot, along the vertical [m]."""
-    return foot[1] + tan_slope * foot[0]
+def clearance(tan_slope: float, drop: float, foot: Array) -> Any:
+    """Height of the swing foot (x, z) above the ground, along the vertical [m]; 0 at touchdown.
+
+    The ground is a slope through the stance foot, and `drop` [m] lower where this single support ends.
+    """
+    return foot[1] + tan_slope * foot[0] + drop
+
+
+def hip_margin(lowest: float, hip: Array) -> Any:
+    """Height of the hip (x, z) above the lowest that is no fall [m]."""
+    return hip[1] - lowest
+
+
+def time_left(longest: float, start: float, t: float) -> Any:
+    """Of the longest single support, for one that began at `start` [s]."""
+    return start + longest - t

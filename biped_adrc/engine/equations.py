@@ -3,7 +3,7 @@
     flow    (t, step, t_start, x, zeta) -> x'            (10); between ticks the torque is held
     tick    (t, step, t_start, x, zeta, outside) -> x, q''   sensors, controller, motors and meter at a tick
     strike  (t, step, x) -> x+                           (7), (8), relabelling, and the controller's jump
-    watch   (q) -> clearance, x of the swing foot, height of the hip
+    watch   (t, t_start, drop, q) -> what the guards look at, x of the swing foot
 
 `outside`, for the meter: forces [N], impulse since the last tick [N s], drop of the ground [m]. flow, tick and
 strike add, after x, the least pivot of the matrices that the controller inverts.
@@ -51,6 +51,10 @@ class Numbers(NamedTuple):
     torque_limit: float
     """[N m], infinite without."""
     tan_slope: float
+    lowest_hip: float
+    """[m]"""
+    longest: float
+    """Single support [s]."""
     friction: tuple[Array, Array] | tuple[()]
     """Viscous [N m s] and static [N m] of the coordinates, empty without."""
     held: HeldParameters | tuple[()] = ()
@@ -228,11 +232,13 @@ class Equations:
 
     def watch(self) -> Function:
         """What the guards look at."""
-        inp, plant = Vector("inp", self.make.robot.n), self.loop(Tracer()).plant
-        q = inp.take(plant.n)
+        K, plant = self.numbers, self.loop(Tracer()).plant
+        inp = Vector("inp", 3 + plant.n)
+        t, start, drop, q = inp.take(), inp.take(), inp.take(), inp.take(plant.n)
         foot = plant.swing_foot(q)
-        clearance = semantics.clearance(self.numbers.tan_slope, foot)
-        return self.made(inp, clearance, foot[0], plant.hip(q)[1])
+        clearance = semantics.clearance(K.tan_slope, drop, foot)
+        hip = semantics.hip_margin(K.lowest_hip, plant.hip(q))
+        return self.made(inp, clearance, hip, semantics.time_left(K.longest, start, t), foot[0])
 
     def _split(self, trace: Tracer) -> SplitLaws:
         """The split's laws, for symbols."""

@@ -109,6 +109,8 @@ def _numbers(
         laws.parameters,
         limit,
         math.tan(walker.slope),
+        float(walker.lowest_hip),
+        float(walker.max_step_time),
         biped.friction_coefficients if biped.friction else (),
         () if walker.held is None else walker.held,
         np.array(walker.impact_gain, dtype=float) if walker.impact_gain else (),
