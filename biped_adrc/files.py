@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import re
@@ -59,21 +60,6 @@ def _same(a: Path, b: Path) -> bool:
         return os.path.realpath(a) == os.path.realpath(b)
 
 
-def plain(value: Any) -> Any:
-    """As JSON has it: records by their fields, arrays as lists, a number that is not finite as text."""
-    if is_dataclass(value):
-        value = {field.name: getattr(value, field.name) for field in fields(value)}
-    elif hasattr(value, "_asdict"):
-        value = value._asdict()
-    if isinstance(value, Mapping):
-        return {str(k): plain(v) for k, v in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        value = value.tolist()
-    if isinstance(value, list | tuple):
-        return [plain(v) for v in value]
-    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
-
-
 @contextmanager
 def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[None]:
     """Raises `error`, which names the file and what it is, for whatever goes wrong while it is read.
@@ -93,6 +79,27 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
         raise error(f"{where}: the key {found} is missing") from found
     except (TypeError, ValueError, AttributeError, IndexError) as found:
         raise error(f"{where}: {found}") from found
+
+
+def read_json(path: Path, what: str, error: type[BipedError] = InputError) -> Any:
+    """What a file holds. Raises `error`, which says `what` the file should be, where it cannot be read."""
+    with reading(what, path, error):
+        return json.loads(path.read_text(encoding="utf-8"))
+
+
+def plain(value: Any) -> Any:
+    """As JSON has it: records by their fields, arrays as lists, a number that is not finite as text."""
+    if is_dataclass(value):
+        value = {field.name: getattr(value, field.name) for field in fields(value)}
+    elif hasattr(value, "_asdict"):
+        value = value._asdict()
+    if isinstance(value, Mapping):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        return [plain(v) for v in value]
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def write_text(path: Path, text: str) -> None:

@@ -23,13 +23,10 @@ from biped_adrc.analysis.observer_choice import (
     recommend,
     without_observer,
 )
-from biped_adrc.analysis.observer_impact import Impact, ImpactPeak, impact_peak, orbit_impact
+from biped_adrc.analysis.observer_impact import Impact, orbit_impact
 from biped_adrc.analysis.observer_loop import (
-    Condition,
-    DelayMargin,
     ObserverLoop,
     bandwidth,
-    conditioning,
     observer_loop,
 )
 from biped_adrc.analysis.observer_sampled import largest_delay, largest_period
@@ -39,7 +36,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
-from biped_adrc.observers.base import Observer, ResetPolicy
+from biped_adrc.observers.base import Observer
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, ComplexArray
@@ -73,21 +70,6 @@ class ObserverReport(OnHardware):
     def loop(self) -> ObserverLoop:
         """In continuous time."""
         return observer_loop(self.observer, self.gains, self.joint)
-
-    @cached_property
-    def condition(self) -> Condition:
-        """Of the observer matrix."""
-        return conditioning(self.observer)
-
-    @cached_property
-    def hidden(self) -> DelayMargin:
-        """In continuous time, the observer fed with the torque asked for."""
-        return self.loop.delay_margin()
-
-    @cached_property
-    def told(self) -> DelayMargin:
-        """In continuous time, the observer fed with the torque that acts."""
-        return self.loop.delay_margin(known=True)
 
     @cached_property
     def sampled_margins(self) -> tuple[float, float]:
@@ -145,14 +127,6 @@ class ObserverReport(OnHardware):
                 float(level[0]), float(level[top]), float(grid[top]), float(edge)
             )
         return found
-
-    @cached_property
-    def impact_peaks(self) -> dict[ResetPolicy, ImpactPeak]:
-        """After the gait's impact, by reset policy."""
-        return {
-            policy: impact_peak(self.observer, self.impact, policy, self.gains)
-            for policy in ResetPolicy
-        }
 
     @cached_property
     def recommended(self) -> tuple[Recommended, ...]:

@@ -6,6 +6,10 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from biped_adrc.analysis.observer_choice import KAPPA_RATIOS, SHARE, without_observer
+from biped_adrc.analysis.observer_impact import impact_peak
+from biped_adrc.analysis.observer_loop import conditioning
+from biped_adrc.columns import columns
+from biped_adrc.observers.base import ResetPolicy
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.observer_design import ObserverReport
@@ -20,10 +24,7 @@ class Section(NamedTuple):
 
     def lines(self) -> list[str]:
         """Title, header and rows, in columns of equal width."""
-        cells = (self.header, *self.rows)
-        widths = [max(len(row[i]) for row in cells) for i in range(len(self.header))]
-        table = ("  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)) for row in cells)
-        return [self.title, *(f"  {line}".rstrip() for line in table)]
+        return [self.title, *(f"  {line}" for line in columns((self.header, *self.rows)))]
 
 
 # -- the verdict ---------------------------------------------------------------------------------
@@ -100,7 +101,7 @@ def sections(report: ObserverReport) -> list[Section]:
 
 
 def _gains(report: ObserverReport) -> Section:
-    o, c = report.observer, report.condition
+    o, c = report.observer, conditioning(report.observer)
     names = [f"l_{o.order - 1 - i} [1/s^{i + 1}]" for i in range(o.order)]
     rows = [
         (name, f"{physical:.6g}", f"{scaled:.6g}")
@@ -112,7 +113,7 @@ def _gains(report: ObserverReport) -> Section:
 
 
 def _stability(report: ObserverReport) -> Section:
-    hidden, known = report.hidden, report.told
+    hidden, known = (report.loop.delay_margin(told) for told in (False, True))
     sampled = report.sampled_margins
     period = microseconds(report.hardware.period)
     rows = [
@@ -155,7 +156,8 @@ def _impact(report: ObserverReport) -> Section:
             f"{p.disturbance:.4g} rad/s^2",
             f"{p.torque:.4g} N m",
         )
-        for policy, p in report.impact_peaks.items()
+        for policy in ResetPolicy
+        for p in [impact_peak(report.observer, report.impact, policy, report.gains)]
     )
     title = "Peak after the gait's impact: error of the estimates, and the torque it costs"
     return Section(title, ("reset", "x1^", "x2^", "xi^", "torque"), rows)

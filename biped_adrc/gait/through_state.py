@@ -162,19 +162,13 @@ def constraint_through(
             f"the swing foot of the state is {height:.3g} m above the ground; move it with onto_section"
         )
     problem = _problem(biped, q, v, degree, limits or GaitLimits())
-    f = _optimise(problem, np.zeros(biped.p * (degree - 3)), max_evaluations)
-    f = _close(problem, f)
+    start = np.zeros(
+        biped.p * (degree - 3)
+    )  # Gauss-Newton, closure and limits as weighted residuals
+    options = {"x_scale": 0.1, "ftol": 1e-8, "max_nfev": max_evaluations}
+    f = _close(problem, least_squares(problem.residuals, start, **options).x)
     _check_limits(problem, f)
     return problem.constraint(f)
-
-
-def _optimise(problem: _Problem, start: Array, max_evaluations: int) -> Array:
-    """Gauss-Newton on the torque, with closure and limits as weighted residuals."""
-    result = least_squares(
-        problem.residuals, start, x_scale=0.1, ftol=1e-8, max_nfev=max_evaluations
-    )
-    f: Array = result.x
-    return f
 
 
 def _check_limits(problem: _Problem, f: Array) -> None:

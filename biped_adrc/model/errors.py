@@ -72,11 +72,12 @@ class ModelErrors:
         random = np.random.default_rng(_seed(seed))
         bodies = tuple(biped.description.links) if links is None else links
         m, d, J = (
-            dict(zip(bodies, _even(random, width, len(bodies)), strict=True))
+            dict(zip(bodies, random.uniform(-width, width, len(bodies)).tolist(), strict=True))
             for width in (mass, com, inertia)
         )
         pairs = list(_rubbing(biped))
-        by_pair = zip(pairs, _even(random, friction, len(pairs)), strict=True)
+        drawn = random.uniform(-friction, friction, len(pairs)).tolist()
+        by_pair = zip(pairs, drawn, strict=True)
         return cls(m, d, J, {joint: e for pair, e in by_pair for joint in pair})
 
     def apply(self, biped: Biped) -> Biped:
@@ -129,10 +130,6 @@ def _seed(seed: int) -> int:
     if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
         raise InputError(f"the seed of model errors is {seed}, expected a whole number >= 0")
     return seed
-
-
-def _even(random: np.random.Generator, width: float, count: int) -> list[float]:
-    return [float(e) for e in random.uniform(-width, width, count)]
 
 
 def _rubbing(biped: Biped) -> Iterator[tuple[str, ...]]:

@@ -7,12 +7,14 @@ is walked backwards keeps its coordinate when its axis is negated: if the child 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from biped_adrc.errors import ModelError
-from biped_adrc.model.urdf import Inertial, Joint, Link, Tree, Vector, Visual
+from biped_adrc.model.urdf import Joint, Link, Tree, Vector
 
 PIN_JOINT = "stance_pin"
+ZERO: Vector = (0.0, 0.0, 0.0)
 
 
 def _minus(a: Vector, b: Vector) -> Vector:
@@ -21,13 +23,9 @@ def _minus(a: Vector, b: Vector) -> Vector:
 
 def _moved(link: Link, origin: Vector) -> Link:
     """`link` written in a frame whose origin lies at `origin` of the old one."""
-    inertial: Inertial | None = None
-    if link.inertial is not None:
-        inertial = replace(link.inertial, com=_minus(link.inertial.com, origin))
-    visuals: tuple[Visual, ...] = tuple(
-        replace(v, origin=_minus(v.origin, origin)) for v in link.visuals
-    )
-    return Link(link.name, inertial, visuals)
+    body = link.inertial and replace(link.inertial, com=_minus(link.inertial.com, origin))
+    visuals = tuple(replace(v, origin=_minus(v.origin, origin)) for v in link.visuals)
+    return Link(link.name, body, visuals)
 
 
 def reroot(tree: Tree, foot: str, torso: str) -> Tree:
@@ -39,59 +37,41 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
     chain = _chain(tree, foot, torso)
     pitch = tree.joint_above(torso)
     assert pitch is not None
-    ground = "ground"
-    links: dict[str, Link] = {ground: Link(ground, None, ())}
-    joints = [Joint(PIN_JOINT, "revolute", ground, foot, (0.0, 0.0, 0.0), pitch.axis)]
-    here, here_origin = foot, (0.0, 0.0, 0.0)  # origin of the new frame of `here` in its old frame
-    links[foot] = _moved(tree.links[foot], here_origin)
-    walked: set[str] = set()
+    origin = {joint.parent: joint.origin for joint in chain}  # of the new frames in the old ones
+    joints = [Joint(PIN_JOINT, "revolute", "ground", foot, ZERO, pitch.axis)]
     for joint in chain:
-        axis = joint.axis if joint.type == "fixed" else _minus((0.0, 0.0, 0.0), joint.axis)
-        # the old joint sits at the old origin of `here`, and at joint.origin of its parent
-        joints.append(
-            Joint(
-                joint.name,
-                joint.type,
-                here,
-                joint.parent,
-                _minus((0.0, 0.0, 0.0), here_origin),
-                axis,
-            )
-        )
-        walked.add(joint.name)
-        here, here_origin = joint.parent, joint.origin
-        links[here] = _moved(tree.links[here], here_origin)
-        joints += _branches(tree, here, here_origin, walked, links)
-    return Tree(f"{tree.name}_pinned", links, tuple(joints), tree.source)
+        axis = joint.axis if joint.type == "fixed" else _minus(ZERO, joint.axis)
+        back = _minus(ZERO, origin.get(joint.child, ZERO))
+        turned = replace(joint, parent=joint.child, child=joint.parent, origin=back, axis=axis)
+        beside = _beside(tree, joint.parent, chain)
+        moved = (replace(j, origin=_minus(j.origin, origin.get(j.parent, ZERO))) for j in beside)
+        joints += [turned, *moved]
+    links = {
+        name: _moved(tree.links[name], origin.get(name, ZERO))
+        for name in (joint.child for joint in joints)
+    }
+    ground = {"ground": Link("ground", None, ())}
+    return Tree(f"{tree.name}_pinned", {**ground, **links}, tuple(joints), tree.source)
 
 
 def _chain(tree: Tree, foot: str, torso: str) -> tuple[Joint, ...]:
     """Joints from `foot` up to `torso`."""
-    chain: list[Joint] = []
-    for joint in tree.path_to_root(foot):
-        if joint.child == torso:
-            break
-        chain.append(joint)
-    else:
+    path = tree.path_to_root(foot)
+    ends = [k for k, joint in enumerate(path) if joint.child == torso]
+    if not ends:
         raise ModelError(f"URDF '{tree.source}': foot '{foot}' does not hang below '{torso}'")
+    chain = path[: ends[0]]
     for joint in chain:
         if joint.type == "prismatic":
             raise ModelError(
                 f"URDF '{tree.source}', joint '{joint.name}': prismatic joint in the stance leg"
             )
-    return tuple(chain)
+    return chain
 
 
-def _branches(
-    tree: Tree, link: str, origin: Vector, walked: set[str], links: dict[str, Link]
-) -> list[Joint]:
-    """Everything that hangs on `link` beside the walked chain, with its joints moved to `origin`."""
-    out: list[Joint] = []
+def _beside(tree: Tree, link: str, chain: tuple[Joint, ...]) -> Iterator[Joint]:
+    """All joints below `link` that are not reached by the chain."""
     for joint in tree.joints_below(link):
-        if joint.name in walked:
-            continue
-        walked.add(joint.name)
-        out.append(replace(joint, origin=_minus(joint.origin, origin)))
-        links[joint.child] = tree.links[joint.child]
-        out += _branches(tree, joint.child, (0.0, 0.0, 0.0), walked, links)
-    return out
+        if joint not in chain:
+            yield joint
+            yield from _beside(tree, joint.child, chain)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Mapping
 from inspect import Parameter, signature
 from typing import Any
 
@@ -17,7 +17,7 @@ def takes(make: Callable[..., Any]) -> Mapping[str, Parameter]:
     return {name: p for name, p in found.items() if p.kind not in _VARIADIC}
 
 
-def lacking(make: Callable[..., Any], values: Mapping[str, Any]) -> list[str]:
+def lacking(make: Callable[..., Any], values: Container[str]) -> list[str]:
     """Parameters without a default that are not among the values."""
     wanted = (p for p in takes(make).values() if p.default is Parameter.empty)
     return [p.name for p in wanted if p.name not in values]

@@ -32,26 +32,14 @@ class Entry:
     """What a name stands for: `module:name`, words for a reader, and values where a scenario has none."""
 
     home: str
-    words: str
+    words: str = ""
     defaults: Mapping[str, Any] = field(default_factory=dict)
-
-    def load(self) -> Callable[..., Any]:
-        """The class or function itself."""
-        module, _, name = self.home.partition(":")
-        found: Callable[..., Any] = getattr(import_module(f"biped_adrc.{module}"), name)
-        return found
-
-
-@dataclass(frozen=True)
-class Own(Entry):
-    """A class or function of the user's own; `given` where it was handed over and not named."""
-
-    kind: str = ""
     given: Callable[..., Any] | None = None
+    """Where it was handed over and not named."""
 
     def load(self) -> Callable[..., Any]:
-        """The class or function itself. Raises InputError where it cannot be imported."""
-        return self.given if self.given is not None else _imported(self.kind, self.home)
+        """The class or function itself. Raises InputError where the user's own cannot be imported."""
+        return _imported(self.home) if self.given is None else self.given
 
 
 def _read() -> dict[str, dict[str, Entry]]:
@@ -63,15 +51,12 @@ def _read() -> dict[str, dict[str, Entry]]:
 
 
 REGISTRY = {**_read(), "curve": {}, "robot": {}, "gait": {}}
-"""By kind and name, from registry.toml; `names` lists curves, and the files of robots and gaits, too."""
-
-_GIVEN: dict[tuple[str, str], Own] = {}
+"""By kind and name, from registry.toml and `register`; `names` has curves and files of robots and gaits too."""
 
 
 def names(kind: str) -> tuple[str, ...]:
-    """Of one kind, those registered by the user last."""
-    given = (name for of, name in _GIVEN if of == kind)
-    return tuple(dict.fromkeys((*REGISTRY[kind], *_stored(kind), *given)))
+    """Of one kind."""
+    return tuple(dict.fromkeys((*_stored(kind), *REGISTRY[kind])))
 
 
 def _stored(kind: str) -> Iterable[str]:
@@ -100,7 +85,7 @@ def register(kind: str, name: str, thing: Callable[..., Any], words: str = "") -
             f"{list(names(kind))}, choose another name"
         )
     home = f"{thing.__module__}:{getattr(thing, '__qualname__', name)}"
-    _GIVEN[kind, name] = Own(home, words or _first_line(thing), {}, kind, thing)
+    REGISTRY[kind][name] = Entry(home, words, given=thing)
     if kind == "curve":
         from biped_adrc.gait.curves import CURVES
 
@@ -109,13 +94,13 @@ def register(kind: str, name: str, thing: Callable[..., Any], words: str = "") -
 
 def registered(home: str) -> Callable[..., Any] | None:
     """What `register` was given that is `module:Class`, or None."""
-    return next((own.given for own in _GIVEN.values() if own.home == home), None)
+    entries = (entry for of_kind in REGISTRY.values() for entry in of_kind.values())
+    return next((entry.given for entry in entries if entry.given and entry.home == home), None)
 
 
 def own(kind: str, name: str) -> Callable[..., Any] | None:
-    """What the user brought by this name; None for a name of the package's. Raises InputError."""
-    given = _GIVEN.get((kind, name))
-    return given.given if given else _imported(kind, name) if is_own(name) else None
+    """A robot or a gait that the user brought by this name; None for a file. Raises InputError."""
+    return find(kind, name).load() if is_own(name) or name in REGISTRY[kind] else None
 
 
 def is_own(name: str) -> bool:
@@ -130,25 +115,23 @@ def spelled(kind: str, name: str) -> str:
 
 def find(kind: str, name: str) -> Entry:
     """What a name stands for. Raises InputError with the names there are, the nearest first."""
+    known = spelled(kind, name)
+    if known in REGISTRY[kind]:
+        return REGISTRY[kind][known]
     if is_own(name):
-        return Own(name, "", {}, kind)
-    name = spelled(kind, name)
-    if (kind, name) in _GIVEN:
-        return _GIVEN[kind, name]
-    if name not in REGISTRY[kind]:
-        near = get_close_matches(name, names(kind), 1)
-        hint = f"did you mean '{near[0]}'? There are" if near else "choose one of"
-        raise InputError(
-            f"{kind} '{name}' is unknown; {hint} {list(names(kind))}, or give one of your own as "
-            "package.module:Class"
-        )
-    return REGISTRY[kind][name]
+        return Entry(name)
+    near = get_close_matches(name, names(kind), 1)
+    hint = f"did you mean '{near[0]}'? There are" if near else "choose one of"
+    raise InputError(
+        f"{kind} '{name}' is unknown; {hint} {list(names(kind))}, or give one of your own as "
+        "package.module:Class"
+    )
 
 
 def words(kind: str, name: str) -> str:
     """For a reader; of one's own the first line of its docstring."""
     found = find(kind, name)
-    return found.words or _first_line(found.load())
+    return found.words or (found.load().__doc__ or name).strip().splitlines()[0]
 
 
 def source_hash(thing: Callable[..., Any]) -> str:
@@ -163,34 +146,27 @@ def _plain(name: str) -> str:
     return name.casefold().replace("-", " ").replace("_", " ").strip()
 
 
-def _first_line(thing: Callable[..., Any]) -> str:
-    return (thing.__doc__ or thing.__name__).strip().splitlines()[0]
-
-
-def _imported(kind: str, home: str) -> Callable[..., Any]:
+def _imported(home: str) -> Callable[..., Any]:
     """A class by its name, from the path of Python or the working directory. Raises InputError."""
     module, _, name = home.partition(":")
     here = os.getcwd()
-    if here not in sys.path and "" not in sys.path:
+    if not home.startswith("biped_adrc.") and here not in sys.path and "" not in sys.path:
         sys.path.append(here)
     try:
         found = import_module(module)
     except ModuleNotFoundError as error:
         raise InputError(
-            f"{kind} '{home}': there is no module '{error.name}' in '{here}' or on the path of Python; "
+            f"'{home}': there is no module '{error.name}' in '{here}' or on the path of Python; "
             "expected package.module:Class, in the working directory or installed, here and where workers run"
         ) from error
     except Exception as error:  # whatever a module of the user's may raise
         raise InputError(
-            f"{kind} '{home}': importing '{module}' failed with {type(error).__name__}: {error}; run "
+            f"'{home}': importing '{module}' failed with {type(error).__name__}: {error}; run "
             f"python -c 'import {module}' to see where"
         ) from error
     if not callable(thing := getattr(found, name, None)):
-        there = [
-            key for key, x in vars(found).items() if isinstance(x, type) and x.__module__ == module
-        ]
-        near = get_close_matches(name, there, 1)
-        hint = f"did you mean '{near[0]}'?" if near else f"there are {there}"
-        raise InputError(f"{kind} '{home}': module '{module}' has no class '{name}'; {hint}")
+        there = [key for key, x in vars(found).items() if isinstance(x, type)]
+        near = get_close_matches(name, there, 1) or there
+        raise InputError(f"'{home}': module '{module}' has no class '{name}'; it has {near}")
     made: Callable[..., Any] = thing
     return made

@@ -10,7 +10,7 @@ import json
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, field
 from typing import Any
 
 from pydantic import ConfigDict, field_validator, model_validator
@@ -18,7 +18,7 @@ from pydantic.dataclasses import dataclass
 
 from biped_adrc.scenario.push import Push, parse_push
 from biped_adrc.scenario.registry import find, spelled
-from biped_adrc.scenario.values import clear, value
+from biped_adrc.scenario.values import clear, described
 
 HARDWARE: dict[str, dict[str, Any]] = {
     "none": {},
@@ -52,6 +52,7 @@ FREE = ("adaptive", "stiff")
 
 @clear(lambda values: HARDWARE.get(str(values.get("hardware", "none")), {}))
 @dataclass(frozen=True, config=ConfigDict(extra="forbid", allow_inf_nan=False))
+@described("scenario.toml")
 class Scenario:
     """One walk. `hardware` fills in what is not given of sampling, sensors and motors.
 
@@ -59,138 +60,79 @@ class Scenario:
     """
 
     # who walks, how far
-    controller: str = value("ADRC", "Controller of the registry, or module:Class.")
-    robot: str = value(
-        "rabbit", "Robot by name ('biped-adrc robot list'), or the path of a robot.toml."
-    )
-    preset: str | None = value(None, "Parameters of the robot; its record's default if not given.")
-    gait: str = value(
-        "published",
-        "published (through x*), recipe (section IV), v0.4 to v1.1 (by speed), or a .json file.",
-    )
-    impacts: int = value(25, "Impacts to walk (12.5 steps of the paper are 25).", ge=1, le=10_000)
-    first_step: int = value(1, "Number of the first single support.", ge=1, le=100_000)
-    continued: bool = value(False, "The constraint goes on smoothly past its ends.")
-    seed: int = value(0, "Of all that is drawn.", ge=0, le=MOST_SEED)
+    controller: str = "ADRC"
+    robot: str = "rabbit"
+    preset: str | None = None
+    gait: str = "published"
+    impacts: int = 25
+    first_step: int = 1
+    continued: bool = False
+    seed: int = 0
     # controller
-    K_p: float | None = value(
-        None, "Proportional gain; the controller's own without.", "1/s^2", gt=0
-    )
-    K_d: float | None = value(None, "Derivative gain; the controller's own without.", "1/s", gt=0)
-    observer: str | None = value(
-        None, "Observer of the registry, or module:Class; the controller's own without."
-    )
-    poles: tuple[float, ...] | None = value(
-        None, "m + 2 observer poles, comma separated; the controller's own without.", "rad/s"
-    )
-    bandwidth: float | None = value(
-        None,
-        "All observer poles at minus this; the controller's own without.",
-        "rad/s",
-        gt=0,
-        le=1e6,
-    )
-    order: int | None = value(None, "m of the observer, with a bandwidth.", ge=0, le=12)
-    reset: str = value("model", "Observer at impact: none, relabel, measured or model.")
-    solve_theta: bool = value(True, "Solve the loop through Theta''; as printed without.")
-    own: dict[str, Any] = value(
-        {}, "What a controller, observer or disturbance takes beside these, by name."
-    )
+    K_p: float | None = None
+    K_d: float | None = None
+    observer: str | None = None
+    poles: tuple[float, ...] | None = None
+    bandwidth: float | None = None
+    order: int | None = None
+    reset: str = "model"
+    solve_theta: bool = True
+    own: dict[str, Any] = field(default_factory=dict)
     # sampling, sensors, motors
-    hardware: str = value(
-        "none", "Where the values of this part come from: none, ideal (1 kHz) or rabbit."
-    )
-    period: float | None = value(
-        None, "Sampling period of the controller; continuous without.", "s", ge=1e-5, le=0.1
-    )
-    delay: float = value(0.0, "From a tick to the torque's effect.", "s", ge=0, le=1.0)
-    delay_known: bool = value(False, "Whether the observer knows the delay.")
-    counts: float | None = value(None, "Encoder counts per revolution; exact without.", ge=1)
-    noise: float = value(0.0, "Standard deviation of the joints' angles.", "rad", ge=0, le=1.0)
-    pitch_noise: float = value(0.0, "That of the unactuated pitch.", "rad", ge=0, le=1.0)
-    rate_noise: float = value(0.0, "That of rates that are measured.", "rad/s", ge=0, le=100.0)
-    velocity: str = value(
-        "measured", "Rates: exact, from differences of angles, or so but for the pitch's."
-    )
-    filter_time: float = value(0.0, "Low-pass of the differences.", "s", ge=0, le=1.0)
-    torque_limit: float | None = value(None, "Of every motor.", "N m", gt=0)
-    rate_limit: float | None = value(None, "Of every motor's torque.", "N m/s", gt=0)
-    lag: float = value(0.0, "Time constant of the motors.", "s", ge=0, le=1.0)
-    friction: bool = value(False, "Joint friction of the robot's record in the plant.")
+    hardware: str = "none"
+    period: float | None = None
+    delay: float = 0.0
+    delay_known: bool = False
+    counts: float | None = None
+    noise: float = 0.0
+    pitch_noise: float = 0.0
+    rate_noise: float = 0.0
+    velocity: str = "measured"
+    filter_time: float = 0.0
+    torque_limit: float | None = None
+    rate_limit: float | None = None
+    lag: float = 0.0
+    friction: bool = False
     # pushes
-    pushes: tuple[Push, ...] = value(
-        (), "JOINTS=TORQUE@STEP:START-STOP, one after the other.", "N m"
-    )
-    push: str = value(
-        "none", "One more, by its shape in time: pulse, step, sine, noise, or module:Class."
-    )
-    on: str = value(
-        "q1,q2,q3,q4", "Joints such as 'q1,-q3', 'random joints', or 'link NAME' for the force."
-    )
-    amplitude: float = value(0.0, "Torque on each joint.", "N m", ge=0, le=1e5)
-    force: float = value(0.0, "Force on a link, or on the hip.", "N", ge=0, le=1e5)
-    direction: float = value(0.0, "Of a force, from forwards to up.", "rad", ge=-7, le=7)
-    pushed_step: int = value(3, "Single support in which it begins.", ge=1, le=100_000)
-    onset: float | None = value(
-        None, "In that step; drawn without, to end with it.", "s", ge=0, le=2
-    )
-    duration: float = value(0.2, "Of a pulse, a sine or noise.", "s", gt=0, le=100.0)
-    frequency: float = value(5.0, "Of a sine; the highest of noise.", "Hz", gt=0, le=1000.0)
+    pushes: tuple[Push, ...] = ()
+    push: str = "none"
+    on: str = "q1,q2,q3,q4"
+    amplitude: float = 0.0
+    force: float = 0.0
+    direction: float = 0.0
+    pushed_step: int = 3
+    onset: float | None = None
+    duration: float = 0.2
+    frequency: float = 5.0
     # the plant is not the model
-    mass: dict[str, float] = value({}, "Factors of the plant's bodies, by body.")
-    inertia: dict[str, float] = value({}, "The same of inertias.")
-    mass_error: float = value(0.0, "Half-width of relative errors drawn for bodies.", ge=0, lt=1)
-    com_error: float = value(0.0, "The same for centres of mass.", ge=0, lt=1)
-    inertia_error: float = value(0.0, "The same for inertias.", ge=0, lt=1)
-    friction_error: float = value(0.0, "The same for friction.", ge=0, lt=1)
-    trunk_load: float = value(0.0, "Relative error of the torso's mass, not drawn.", gt=-1, le=10)
-    impact_error: float = value(
-        0.0, "Half-width of relative errors of rates after impact.", ge=0, lt=1
-    )
+    mass: dict[str, float] = field(default_factory=dict)
+    inertia: dict[str, float] = field(default_factory=dict)
+    mass_error: float = 0.0
+    com_error: float = 0.0
+    inertia_error: float = 0.0
+    friction_error: float = 0.0
+    trunk_load: float = 0.0
+    impact_error: float = 0.0
     # ground
-    slope: float = value(0.0, "Downhill, beside the gait's own.", "rad", ge=-0.5, le=0.5)
-    ground_step: float = value(
-        0.0, "The ground falls by this in the pushed step.", "m", ge=-0.2, le=0.2
-    )
-    ground_rms: float = value(0.0, "Unevenness, drawn.", "m", ge=0, le=0.1)
+    slope: float = 0.0
+    ground_step: float = 0.0
+    ground_rms: float = 0.0
     # start
-    start: dict[str, float] = value(
-        {}, "Added to the start, by coordinate: q1.. [rad], v1.. [rad/s]."
-    )
-    start_speed: float = value(0.0, "Relative change of all rates.", gt=-1, le=2)
-    start_speed_spread: float = value(0.0, "Standard deviation of it, drawn.", ge=0, le=1)
-    start_spread: float = value(0.0, "Standard deviation added to all angles.", "rad", ge=0, le=1)
-    start_rate_spread: float = value(0.0, "The same for rates.", "rad/s", ge=0, le=10)
+    start: dict[str, float] = field(default_factory=dict)
+    start_speed: float = 0.0
+    start_speed_spread: float = 0.0
+    start_spread: float = 0.0
+    start_rate_spread: float = 0.0
     # what ground and motors can give
-    friction_limit: float | None = value(
-        None, "Friction of the ground for a legal walk; the robot's record without.", gt=0, le=1
-    )
-    force_window: float = value(
-        5e-3, "Over which the force of the ground is averaged for that.", "s", gt=0, le=0.1
-    )
+    friction_limit: float | None = None
+    force_window: float = 5e-3
     # numerics
-    method: str | None = value(
-        None, "rk4, exponential, feedback, adaptive or stiff; what fits the walker without."
-    )
-    h: float | None = value(
-        None,
-        "Step of rk4, exponential and feedback; 1 ms or what fits without.",
-        "s",
-        ge=1e-6,
-        le=0.1,
-    )
-    fine: float | None = value(
-        None,
-        "The step where a push switches and in the single support after.",
-        "s",
-        ge=1e-6,
-        le=0.1,
-    )
-    tolerance: float = value(1e-9, "Of adaptive and stiff.", gt=0, le=1)
-    engine: str = value(
-        "compiled", "compiled where it can run, or pinocchio, which it is checked against."
-    )
-    max_step_time: float = value(2.0, "A longer single support ends as stalled.", "s", gt=0, le=100)
+    method: str | None = None
+    h: float | None = None
+    fine: float | None = None
+    tolerance: float = 1e-9
+    engine: str = "compiled"
+    max_step_time: float = 2.0
 
     @field_validator("pushes", mode="before")
     @classmethod

@@ -101,7 +101,7 @@ def test_a_comparison_with_it(own: str, tmp_path) -> None:
 
 
 def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
-    monkeypatch.setattr(registry, "_GIVEN", {})
+    monkeypatch.setattr(registry, "REGISTRY", {k: dict(v) for k, v in registry.REGISTRY.items()})
     Mine = registry.own("controller", f"{own}:Mine")
     ba.register("controller", "mine", Mine)
     assert isinstance(build(ba.Scenario("Mine")).controller, Mine)
@@ -118,7 +118,7 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
     ("values", "message"),
     [
         ({"controller": "nowhere_at_all.x:Mine"}, "no module 'nowhere_at_all'.*installed"),
-        ({"controller": "OWN:Mien"}, "no class 'Mien'; did you mean 'Mine'"),
+        ({"controller": "OWN:Mien"}, "no class 'Mien'; it has .'Mine'"),
         ({"controller": "OWN:Lawless"}, "neither a method output.*nor laws"),
         ({"controller": "OWN:NoController"}, "made a NoController, expected a Controller"),
         ({"controller": "OWN:Needy"}, "needs stiffness; give --set stiffness="),
@@ -147,6 +147,27 @@ def test_a_module_that_does_not_import(own: str, tmp_path) -> None:
     (tmp_path / f"{own}_broken.py").write_text("1 / 0\n")
     with pytest.raises(InputError, match=r"failed with ZeroDivisionError.*python -c"):
         build(ba.Scenario(f"{own}_broken:Mine"))
+
+
+def test_what_is_made_of_the_scenarios_values() -> None:
+    def made(**values):
+        return build(ba.Scenario(**values)).controller
+
+    leso = made(controller="LESO")
+    assert (leso.observer.m, set(leso.observer.poles)) == (1, {-500.0})
+    assert made(controller="LESO", bandwidth=300.0).observer.m == 1
+    assert made(controller="LESO", poles="-10,-20,-30,-40").observer.m == 2
+    assert made(controller="ADRC").observer == ba.GPIObserver.from_poles(ba.TABLE_I)
+    assert made(controller="PD", K_d=9.0).gains == type(made(controller="PD").gains)(K_d=9.0)
+    assert made(controller="NPD", K_p=9.0, solve_theta=False).gains == ba.Gains(9.0, 50.0)
+    around = made(controller="stride PI", own={"inner": "DOB", "limit": 0.4}, bandwidth=99.0)
+    assert type(around.inner.observer).__name__ == "MomentumObserver"
+    assert set(around.inner.observer.poles) == {-99.0}
+    assert around.gains.limit == 0.4
+    assert made(controller="DOB").observer == type(made(controller="DOB"))(leso.reference).observer
+    assert made(controller="CLF-QP", own={"epsilon": 0.02}).torque_limit is None
+    late = made(controller="delayed", own={"delay": 1e-3, "order": 2}, bandwidth=300.0, order=1)
+    assert (late.order, late.inner.observer.m) == (2, 1)
 
 
 def test_every_name_of_the_registry_is_there() -> None:
@@ -183,3 +204,32 @@ def test_every_controller_and_observer_of_the_package_has_a_name() -> None:
         if cls.__module__.startswith(("biped_adrc.control", "biped_adrc.observers"))
     }
     assert {cls.__name__ for cls in leaves - loaded} <= made
+
+
+def test_the_working_directory_is_looked_in_for_names_of_the_user_alone(own: str) -> None:
+    build(ba.Scenario("LESO"))
+    assert str(Path.cwd()) not in sys.path
+    build(ba.Scenario(f"{own}:Mine"))
+    assert str(Path.cwd()) == sys.path[-1]
+
+
+def test_choices_are_those_of_the_package() -> None:
+    from biped_adrc.engine.choice import ENGINES
+    from biped_adrc.scenario.run import METHODS
+    from biped_adrc.scenario.scenario import CHOICES
+
+    assert set(CHOICES["engine"]) == set(ENGINES)
+    assert set(CHOICES["method"]) == set(METHODS)
+    assert set(CHOICES["reset"]) == {policy.value for policy in ba.ResetPolicy}
+
+
+def test_a_robot_and_a_gait_of_ones_own(own: str, tmp_path) -> None:
+    (tmp_path / f"{own}_parts.py").write_text(
+        "import biped_adrc as ba\n"
+        "def robot(preset=None, friction=False):\n"
+        "    return ba.Biped.load('rabbit', preset, friction)\n"
+        "def gait(biped):\n"
+        "    return ba.load_gait('v0.5', biped)\n"
+    )
+    s = ba.Scenario("NPD", robot=f"{own}_parts:robot", gait=f"{own}_parts:gait", **FAST)
+    assert ba.walk_scenario(s).gait.name == "v0.5"

@@ -127,7 +127,7 @@ def test_and_walks_on_when_it_is_given(own: str, monkeypatch) -> None:
     np.testing.assert_array_equal(again.trajectory.final_state, walk.trajectory.final_state)
     as_object = ba.load_walk("mine.npz", controller=Mine(given.gait.constraint, 0.8))
     assert isinstance(as_object.walker.controller, Mine)
-    monkeypatch.setattr(registry, "_GIVEN", {})
+    monkeypatch.setattr(registry, "REGISTRY", {k: dict(v) for k, v in registry.REGISTRY.items()})
     ba.register("controller", "mine", Mine)
     assert isinstance(ba.load_walk("mine.npz").walker.controller, Mine)
     with pytest.raises(InputError, match="expected a Controller or its class"):

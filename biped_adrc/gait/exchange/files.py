@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import output_path, reading, write_text
+from biped_adrc.files import output_path, read_json, reading, write_text
 from biped_adrc.gait.exchange.matfile import read_mat, write_mat
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import FORMAT as STORED
@@ -79,8 +79,7 @@ def read_record(
 
 
 def _read_json(path: Path) -> dict[str, Any]:
-    with reading("gait file", path, InputError):
-        found = json.loads(path.read_text(encoding="utf-8"))
+    found = read_json(path, "gait file")
     if not isinstance(found, dict):
         raise InputError(f"gait file '{path}' holds a {type(found).__name__}, expected an object")
     return found

@@ -58,13 +58,11 @@ class GaitRecord:
     def __post_init__(self) -> None:
         if self.curve not in CURVES:
             raise self.error(f"curve is '{self.curve}', expected one of {sorted(CURVES)}")
-        a = self._array("coefficients", self.coefficients, 2)
-        object.__setattr__(self, "coefficients", a)
-        for key in ("phase", "q_minus", "v_minus"):
-            if getattr(self, key) is not None:
-                object.__setattr__(self, key, self._array(key, getattr(self, key), 1))
-        if self.outputs is not None:
-            object.__setattr__(self, "outputs", self._array("outputs", self.outputs, 2))
+        for key in ("coefficients", "phase", "q_minus", "v_minus", "outputs"):
+            value = getattr(self, key)
+            if value is not None or key == "coefficients":
+                dimensions = 2 if key in ("coefficients", "outputs") else 1
+                object.__setattr__(self, key, self._array(key, value, dimensions))
         self._check_phase_range()
         layout = self.layout
         for key in ("phase", "q_minus", "v_minus"):
