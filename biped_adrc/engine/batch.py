@@ -18,7 +18,6 @@ from biped_adrc.engine.choice import COMPILED, PINOCCHIO
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.plan import Plan
 from biped_adrc.engine.kernels.tables import STATUS
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.simulate import COMPILED_PLANT, on_compiled_plant
@@ -158,7 +157,7 @@ def _prepared(case: Case) -> Callable[[], Walked]:
     except (NotCompiled, ModelError) as reason:
         walked = _in_python(case, x, reason)
         return lambda: walked
-    return lambda: _compiled(compiled, case, x)
+    return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
 
 
 def _ended(case: Case, status: Status, detail: str) -> Callable[[], Walked]:
@@ -168,12 +167,24 @@ def _ended(case: Case, status: Status, detail: str) -> Callable[[], Walked]:
     return lambda: walked
 
 
-def _compiled(compiled: CompiledWalker, case: Case, x: Array) -> Walked:
+def _strides(compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impacts: int) -> Walked:
+    """The walk from x at the start of the single support `mode`, in compiled code."""
     plan, nx = compiled.plan, len(x)
-    s = plan.start(x, case.mode.start, case.mode.step, case.mode.start, case.t_end)
-    strikes = np.zeros((case.impacts, 1 + 2 * nx))
-    code, made = kernels().stride(plan.P, plan.F, compiled.K, plan.work(), s, case.impacts, strikes)
-    return _walked(plan, code, made, s, strikes, case.mode)
+    s, strikes = (
+        plan.start(x, mode.start, mode.step, mode.start, t_end),
+        np.zeros((impacts, 1 + 2 * nx)),
+    )
+    code, made = kernels().stride(plan.P, plan.F, compiled.K, plan.work(), s, impacts, strikes)
+    return Walked(
+        STATUS[code],
+        "",
+        strikes[:made, 0].copy(),
+        strikes[:made, 1 : 1 + nx].copy(),
+        s[layout.HEAD :].copy(),
+        float(s[layout.TIME]),
+        COMPILED,
+        mode.start,
+    )
 
 
 def _in_python(case: Case, x: Array, reason: BipedError) -> Walked:
@@ -211,21 +222,4 @@ class Strides:
     def one(self, start: tuple[Array, Mode]) -> Walked:
         """From x+ after an impact that began the single support of `mode`: its foot strike has just fired."""
         x, mode = start
-        plan, nx = self.compiled.plan, len(x)
-        s = plan.start(x, mode.start, mode.step, mode.start, mode.start + self.t_end)
-        strikes = np.zeros((1, 1 + 2 * nx))
-        code, made = kernels().stride(plan.P, plan.F, self.compiled.K, plan.work(), s, 1, strikes)
-        return _walked(plan, code, made, s, strikes, mode)
-
-
-def _walked(plan: Plan, code: int, made: int, s: Array, strikes: Array, mode: Mode) -> Walked:
-    return Walked(
-        STATUS[code],
-        "",
-        strikes[:made, 0].copy(),
-        strikes[:made, 1 : 1 + plan.nx].copy(),
-        s[layout.HEAD :].copy(),
-        float(s[layout.TIME]),
-        COMPILED,
-        mode.start,
-    )
+        return _strides(self.compiled, x, mode, mode.start + self.t_end, 1)

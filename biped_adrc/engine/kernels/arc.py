@@ -116,7 +116,7 @@ def save(P: Ints, W: Array, s: Array) -> None:
     copy(row(P, W, X0), shift(s, HEAD), P[STATES])
 
 
-@inner
+@unit
 def go_on(P: Ints, F: Array, K: Array, W: Array, s: Array, R: Array) -> int:
     """From the run's vector s, whose ROOM is the rows of R, to the first event or its END; a code."""
     load(P, W, s)
