@@ -104,6 +104,12 @@ class Tree:
             joint = self.joint_above(joint.parent)
         return tuple(path)
 
+    def path_below(self, link: str, top: str) -> tuple[Joint, ...] | None:
+        """Joints from `link` up to link `top`, None where it does not hang there."""
+        path = self.path_to_root(link)
+        ends = [k for k, joint in enumerate(path) if joint.child == top]
+        return path[: ends[0]] if ends else None
+
     def with_inertials(self, inertials: Mapping[str, Inertial]) -> Tree:
         """The same tree with the inertials of some links replaced."""
         links = {
