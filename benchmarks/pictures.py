@@ -1,6 +1,6 @@
 """How long the pictures of a walk of 25 impacts take to write, and how large they are.
 
-Run: python benchmarks/pictures.py
+Scenario: python benchmarks/pictures.py
 """
 
 from __future__ import annotations
@@ -10,9 +10,10 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.run import walk_scenario
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.plan import PAPER_PUSH
-from biped_adrc.studies.runs import Run, execute_fully
-from biped_adrc.studies.walk import Walk
 from biped_adrc.viz.export import Clip, export
 
 REPEATS = 3
@@ -30,7 +31,7 @@ def quickest(write: Callable[[], None]) -> float:
 
 def main() -> None:
     walks: dict[str, Walk] = {
-        c: execute_fully(Run(c, pushes=(PAPER_PUSH,))) for c in ("NPD", "ADRC")
+        c: walk_scenario(Scenario(c, pushes=(PAPER_PUSH,))) for c in ("NPD", "ADRC")
     }
     one = {"ADRC": walks["ADRC"]}
     with tempfile.TemporaryDirectory() as folder:

@@ -22,7 +22,7 @@ NUMERICAL = (
     "daqp",
 )
 SOURCE = "source of biped-adrc"
-NEVER_TRACED = ("analysis", "cli", "studies", "viz")
+NEVER_TRACED = ("analysis", "cli", "scenario", "studies", "viz")
 """Rooms that depend on the engine: code that is made can reach nothing in them but laws that it is given."""
 
 

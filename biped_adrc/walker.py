@@ -152,7 +152,7 @@ class Walker(ClosedLoop[Biped]):
         With `step`, above the ground on which that single support ends; without, where no step down is.
         """
         drop = 0.0 if step is None else self.drop(step)
-        return float(semantics.clearance(math.tan(self.slope), self.plant.swing_foot(q))) + drop
+        return float(semantics.clearance(math.tan(self.slope), drop, self.plant.swing_foot(q)))
 
     @cached_property
     def lowest_hip(self) -> float:
@@ -170,12 +170,12 @@ class Walker(ClosedLoop[Biped]):
             ),
             Guard(
                 "hip_too_low",
-                lambda t, x: float(self.plant.hip(x[:n])[1]) - self.lowest_hip,
+                lambda t, x: float(semantics.hip_margin(self.lowest_hip, self.plant.hip(x[:n]))),
                 terminal=Status.FELL,
             ),
             Guard(
                 "step_too_long",
-                lambda t, x: mode.start + self.max_step_time - t,
+                lambda t, x: float(semantics.time_left(self.max_step_time, mode.start, t)),
                 terminal=Status.STALLED,
             ),
         )

@@ -3,7 +3,7 @@
 <!-- modules of biped_adrc.gait -->      one section for every module of the package
 <!-- names of biped_adrc -->             a table of the names at the top of the package
 <!-- help of biped-adrc simulate -->     what the command prints for --help
-<!-- fields of biped_adrc.studies.bench.trial.Trial -->   a table of what a study may vary
+<!-- fields of biped_adrc.scenario.scenario.Scenario -->   a table of what a study may vary
 """
 
 import importlib
@@ -53,7 +53,8 @@ def _names(_: str) -> str:
 def _fields(model: str) -> str:
     module, _, name = model.rpartition(".")
     rows = ["| name | unit | default | range | what |", "|---|---|---|---|---|"]
-    for field, info in getattr(importlib.import_module(module), name).model_fields.items():
+    found = getattr(importlib.import_module(module), name)
+    for field, info in found.__pydantic_fields__.items():
         unit = info.json_schema_extra["unit"]
         ends = [
             f"{sign} {getattr(part, key):g}"
@@ -61,7 +62,7 @@ def _fields(model: str) -> str:
             for key, sign in (("ge", "≥"), ("gt", ">"), ("le", "≤"), ("lt", "<"))
             if hasattr(part, key)
         ]
-        usual = "none" if info.default is None else info.get_default()
+        usual = "none" if info.default is None else info.get_default(call_default_factory=True)
         shown = f"{usual:g}" if isinstance(usual, float) else str(usual)
         rows.append(
             f"| `{field}` | {'' if unit == '1' else unit} | {shown} | {', '.join(ends)} | {info.description} |"

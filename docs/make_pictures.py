@@ -1,6 +1,6 @@
 """Make the pictures README.md opens with, from the runs of a reproduction, and that of the zero dynamics.
 
-Run: python docs/make_pictures.py OUT
+Scenario: python docs/make_pictures.py OUT
 
 Beside each picture a JSON file holds the numbers that it shows; docs/check_pictures.py compares them with runs.
 """
@@ -18,9 +18,9 @@ from biped_adrc.analysis.zero_report import zero_report
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.model.biped import Biped
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.stored import load_walks
 from biped_adrc.studies.figures import draw, push_window
-from biped_adrc.studies.recording import Recording
-from biped_adrc.studies.runs import load_walks
 from biped_adrc.viz.gif import Motion, write_gif
 from biped_adrc.viz.numbers import SHARES, Numbers, as_text, numbers_of, rounded
 from biped_adrc.viz.placement import Scene
@@ -32,7 +32,7 @@ IMAGES = Path(__file__).resolve().parent / "images"
 BEFORE, AFTER = 0.15, 0.25
 """[s], shown before and after the push."""
 MOTION = Motion(apart=True, magnify=30.0, slower=5.0, width=800)
-Walks = Mapping[str, Recording]
+Walks = Mapping[str, Walk]
 
 
 def load(out: Path) -> Walks:

@@ -1,6 +1,6 @@
 """Write docs/critical_phase.md: in which phase of the step a push throws which controller.
 
-Run: python docs/write_critical_phase.py OUT
+Scenario: python docs/write_critical_phase.py OUT
 
 OUT: folder of `biped-adrc reproduce --full`, or docs/critical_phase, whose summary.json has all the cells.
 """
@@ -18,8 +18,8 @@ from write_results import table
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes, write_text
+from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.studies.push_map import WORDS, Cell, Fate, apart, certain, counts, settings_of
-from biped_adrc.studies.runs import CONTROLLERS
 from biped_adrc.viz.figures import push_map_figure
 from biped_adrc.viz.numbers import as_text, numbers_of
 from biped_adrc.viz.style import render

@@ -21,7 +21,6 @@ from biped_adrc.files import write_text
 from biped_adrc.studies.bench.cell import is_legal, is_made
 from biped_adrc.studies.bench.run import run_trial
 from biped_adrc.studies.bench.statistics import paired_ratio
-from biped_adrc.studies.bench.trial import Trial
 
 DOCS = Path(__file__).resolve().parent
 GUIDE, STORED = DOCS / "guide" / "observer.md", DOCS / "comparison" / "observer_walks.json"
@@ -57,7 +56,7 @@ Walks = Mapping[str, Mapping[str, Sequence[Mapping[str, Any]]]]
 def walked(sensors: str, **controller: Any) -> list[Mapping[str, Any]]:
     """A row for each seed."""
     values = {**SENSORS[sensors], **SINE, **controller}
-    rows = [run_trial(Trial(**values, seed=seed).record()) for seed in range(SEEDS)]
+    rows = [run_trial({**values, "seed": seed}) for seed in range(SEEDS)]
     return [{name: row[name] for name in KEPT} for row in rows]
 
 

@@ -10,9 +10,10 @@ from biped_adrc.checks import at_least, at_most, between
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.files import plain
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.scenario.push import Push
+from biped_adrc.scenario.run import execute
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.poincare import speed_slope
-from biped_adrc.studies.push import Push
-from biped_adrc.studies.runs import Run, execute, from_record
 
 
 @pytest.fixture(scope="module")
@@ -94,10 +95,10 @@ def test_checks_do_not_hold_for_nan():
 
 
 def test_runs_are_records_and_come_back():
-    run = Run("NPD", pushes=(Push({"torso_pitch": 5.0}, step=2),), period=1e-3, impacts=2)
-    assert from_record(run.record()) == run
-    with pytest.raises(InputError, match="do not describe a run"):
-        from_record({"colour": "red"})
+    run = Scenario("NPD", pushes=(Push({"torso_pitch": 5.0}, step=2),), period=1e-3, impacts=2)
+    assert Scenario(**run.record()) == run
+    with pytest.raises(InputError, match="colour: unknown parameter"):
+        Scenario(colour="red")
     outcome = execute(run)
     assert outcome.walked
     assert outcome.x_minus.shape[0] == 2
@@ -105,20 +106,20 @@ def test_runs_are_records_and_come_back():
 
 
 @pytest.mark.parametrize(
-    ("run", "message"),
+    ("values", "message"),
     [
-        (Run("PID"), r"controller 'PID'.*NPD"),
-        (Run(method="euler"), r"method 'euler'.*rk4"),
-        (Run(method="stiff", h=1e-3), "chooses its own step"),
-        (Run(reset="never"), "reset policy 'never'"),
-        (Run(impacts=0), "0 impacts"),
-        (Run(pushes=(Push({"q1": 1.0}, kind="shove"),)), "push kind 'shove'"),
-        (Run("NPD", method="exponential"), "use RK4, Adaptive or Stiff"),
+        ({"controller": "PID"}, r"controller 'PID'.*NPD"),
+        ({"method": "euler"}, r"method: found 'euler'.*rk4"),
+        ({"method": "stiff", "h": 1e-3}, "chooses its own step"),
+        ({"reset": "never"}, "reset: found 'never'.*relabel"),
+        ({"impacts": 0}, "impacts: found 0"),
+        ({"pushes": ({"torque": {"q1": 1.0}, "kind": "shove"},)}, "'shove'.*pulse"),
+        ({"controller": "NPD", "method": "exponential"}, "use RK4, Adaptive or Stiff"),
     ],
 )
-def test_bad_runs(run, message):
+def test_bad_runs(values, message):
     with pytest.raises(InputError, match=message):
-        execute(run)
+        execute(Scenario(**values))
 
 
 def test_slope_of_sampled_map(biped):

@@ -11,7 +11,7 @@ import pytest
 
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError
-from biped_adrc.studies.push import Push, parse_push
+from biped_adrc.scenario.push import Push, parse_push
 
 
 def command(*arguments, **more):
@@ -47,7 +47,7 @@ def test_walk_store_and_animate(tmp_path):
     assert done.returncode == 0, done.stderr
     assert "COMPLETED" in done.stdout
     settings = json.loads(run.with_suffix(".json").read_text())["settings"]
-    assert settings["run"]["pushes"][0]["torque"] == {"q1": 10.0, "q2": 10.0}
+    assert settings["scenario"]["pushes"][0]["torque"] == {"q1": 10.0, "q2": 10.0}
     assert "pin" in settings["versions"]
     done = command("animate", str(run), "-o", str(page))
     assert done.returncode == 0, done.stderr
@@ -63,14 +63,14 @@ def test_walk_store_and_animate(tmp_path):
         (["simulate", "--poles=-1,x"], 3, "expected numbers"),
         (["simulate", "--push", "q1=5"], 3, "expected JOINTS=TORQUE@STEP"),
         (["simulate", "--push", "q7=5@1:0-1"], 3, "no joint 'q7'"),
-        (["simulate", "--period", "-1"], 3, "period is -1"),
-        (["simulate", "--step", "0"], 3, "step h"),
-        (["simulate", "--impacts", "0"], 3, "0 impacts"),
+        (["simulate", "--period", "-1"], 3, "period: found -1.0"),
+        (["simulate", "--step", "0"], 3, "h: found 0.0"),
+        (["simulate", "--impacts", "0"], 3, "impacts: found 0"),
         (["simulate", "--torque-limit", "5", "--impacts", "4"], 4, ""),
         (["animate", "nowhere.npz"], 3, "not found"),
         (["simulate", "--colour", "red"], 2, "No such option"),
         (["reproduce", "--preset", "foo"], 3, "no preset 'foo'"),
-        (["poincare", "--controller", "pid"], 3, "controller 'pid' does not fit"),
+        (["poincare", "--controller", "pid"], 3, "controller 'pid' is unknown"),
         (["poincare", "--robot", "compass", "--controller", "adrc"], 3, "with 0 motors"),
         (["poincare", "--robot", "compass", "--samples", "2"], 3, "expected 0 or at least 3"),
         (["poincare", "--robot", "compass", "--slope", "0.6"], 4, "no return to the section"),

@@ -14,6 +14,10 @@ from biped_adrc.analysis.quadrature import integrate, largest
 from biped_adrc.engine.choice import COMPILED
 from biped_adrc.errors import InputError
 from biped_adrc.model.limits import KnownLimits
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.run import execute_twice, walk_scenario
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.walk import FINE_STEP, Part, refined, walk_in_parts
 from biped_adrc.studies.convergence import (
     convergence_check,
     error_text,
@@ -21,8 +25,6 @@ from biped_adrc.studies.convergence import (
     observed_order,
 )
 from biped_adrc.studies.plan import BOTH, Plan, pushed_run
-from biped_adrc.studies.runs import Outcome, Run, execute_fully, execute_twice
-from biped_adrc.studies.walk import FINE_STEP, Part, refined, walk_in_parts
 from biped_adrc.timing import SampledTime
 
 
@@ -51,7 +53,7 @@ def test_what_is_not_finite_has_no_peak_and_no_integral():
 
 
 def made_up(**values: object) -> Outcome:
-    run = Run("ADRC", h=1e-3)
+    run = Scenario("ADRC", h=1e-3)
     found = Outcome(
         run,
         "COMPLETED",
@@ -186,7 +188,7 @@ def test_energy_is_balanced_in_the_pushed_step():
     from biped_adrc.studies.laws import walk_laws
 
     run = replace(pushed_run(Plan(), "ADRC"), first_step=19, impacts=1)
-    assert all(check.holds for check in walk_laws("ADRC", execute_fully(run)))
+    assert all(check.holds for check in walk_laws("ADRC", walk_scenario(run)))
 
 
 def test_thinning_keeps_ends_and_both_sides_of_jumps(biped, gait):

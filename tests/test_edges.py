@@ -136,7 +136,7 @@ def test_only_the_steps_beside_an_edge_have_to_be_short(observed):
 
 def test_the_default_step_of_python_is_named_where_the_walk_is_shown(biped, gait):
     law = ba.ADRCController(gait.constraint)
-    walk = ba.walk(ba.Walker(biped, law, pulse(1, 0.1, 0.15)), gait, 1)
+    walk = ba.walk(ba.Walker(biped, law, pulse(1, 0.1, 0.15)), gait, 1, engine="pinocchio")
     (remark,) = walk.remarks
     assert "0.5 ms" in remark
     assert "0.05 ms" in remark

@@ -172,11 +172,11 @@ def test_bad_values_are_refused(bare, gait):
         forced_walk(gait, bare, 0.0, 0)
     with pytest.raises(InputError, match=r"longest step is 0\.0 s"):
         forced_walk(gait, bare, 0.0, 3, longest=0.0)
-    with pytest.raises(InputError, match="law 'PID' is unknown"):
+    with pytest.raises(InputError, match="controller 'PID' is unknown"):
         HipCase("PID", stride=False)
     with pytest.raises(InputError, match="resolution is 0"):
         HipCase("NPD", stride=False, resolution=0)
-    with pytest.raises(InputError, match="0 steps"):
+    with pytest.raises(InputError, match="impacts: found 0"):
         HipCase("NPD", stride=False, steps=0)
     with pytest.raises(InputError, match="no preset"):
         hip_push(presets=())

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853
 
-from biped_adrc.gait.gait import load_gait
+from biped_adrc.scenario.build import Scene, build
 from biped_adrc.studies.plan import BOTH, Plan, headline, pushed_run
 from biped_adrc.walker import Mode
 
@@ -50,9 +50,8 @@ def test_the_peak_under_the_push(preset, controller):
     found, _ = headline(run)
     step = run.pushes[0].step
     arc = next(arc for arc in found.trajectory.arcs if arc.mode.step == step)
-    biped = run.biped()
-    gait = load_gait(run.gait, biped)
-    walker = run.build(biped, gait)
+    scene = Scene.of(run)
+    walker, gait = build(run, scene), scene.walked
     mode = Mode(*arc.mode)
     longest = LONGEST if controller == "ADRC" else np.inf
     peak = peak_error(walker, gait.constraint, arc.x[0], mode, float(arc.t[-1]), longest)

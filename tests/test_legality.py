@@ -13,10 +13,11 @@ from biped_adrc.analysis.legality import Legality, first_violation, outcome_of
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.analysis.window import window_means
 from biped_adrc.model.limits import KnownLimits
+from biped_adrc.scenario.run import execute
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.findings import _push
 from biped_adrc.studies.plan import Plan
 from biped_adrc.studies.results import Results
-from biped_adrc.studies.runs import Run, execute
 
 KNOWN = KnownLimits(0.6, 150.0, 5e-3)
 WEIGHT = 300.0
@@ -315,7 +316,9 @@ def test_the_finding_of_the_push_says_of_both_walks_whether_they_were_legal():
     def found(friction):
         walks = {}
         for c in ("NPD", "ADRC"):
-            o = execute(Run(c, impacts=1, pushes=plan.pushes, first_step=19, engine="compiled"))
+            o = execute(
+                Scenario(c, impacts=1, pushes=plan.pushes, first_step=19, engine="compiled")
+            )
             known = o.legality.limits._replace(friction=friction if c == "NPD" else 0.6)
             supports = tuple(replace(s, friction_limit=known.friction) for s in o.legality.supports)
             walks[c] = replace(o, legality=replace(o.legality, supports=supports, limits=known))

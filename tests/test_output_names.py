@@ -78,7 +78,7 @@ def contents(folder: Path) -> dict[Path, bytes]:
 def test_nothing_that_is_read_is_overwritten(line, names, folder, monkeypatch):
     shutil.copy("keep.json", "published-identified.json")
     before = contents(folder)
-    walk = "biped_adrc.studies.runs.walk_in_parts"
+    walk = "biped_adrc.scenario.run.walk_in_parts"
     monkeypatch.setattr(walk, lambda *_, **__: pytest.fail("walked before the name was looked at"))
     with pytest.raises((InputError, OutputError)) as error:
         command(*line.split())
@@ -120,7 +120,7 @@ def test_a_finished_run_is_written_before_it_is_printed(folder, monkeypatch):
 @pytest.mark.parametrize("out", ["o.csv", "o.parquet", "o.json", "o.npz.gz", ".", "", "own"])
 def test_a_name_that_is_no_runs_is_refused_before_the_walk(out, folder, monkeypatch):
     before = contents(folder)
-    walk = "biped_adrc.studies.runs.walk_in_parts"
+    walk = "biped_adrc.scenario.run.walk_in_parts"
     monkeypatch.setattr(walk, lambda *_, **__: pytest.fail("walked before the name was looked at"))
     with pytest.raises((InputError, OutputError), match=r"expected (\.npz or \.mat|the name)"):
         command("simulate", "-o", out)

@@ -9,8 +9,9 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError
+from biped_adrc.scenario.run import execute
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.push_map import Cell, Fate, Tried, apart, certain, counts, push_map, pushes
-from biped_adrc.studies.runs import Run, execute
 from biped_adrc.viz.figures import push_map_figure
 from biped_adrc.viz.push_map_plot import FATES
 
@@ -60,9 +61,9 @@ def test_settings_are_kept_apart():
 def test_a_fall_of_the_polynomial_is_none_of_the_robot():
     """A late push that throws NPD past the phase range, where the gait's polynomial explodes."""
     tried = Tried(0.3, 150.0, "swing knee -", None)
-    run = replace(tried.run(Run(preset="identified-bare"), "NPD"), continued=False)
+    run = replace(tried.run(Scenario(preset="identified-bare"), "NPD"), continued=False)
     assert not execute(run).walked
-    (found,) = push_map(Run(preset="identified-bare"), [tried])
+    (found,) = push_map(Scenario(preset="identified-bare"), [tried])
     assert found.npd.status == "COMPLETED"
     assert found.npd.word != "legal"
 
@@ -86,7 +87,7 @@ def test_the_map_is_drawn_of_every_word():
 def test_pushes_are_all_combinations():
     found = pushes((0.0, 0.1), (30.0,), ("all +", "hips +"), (None, 150.0))
     assert len(found) == len(set(found)) == 8
-    run = found[0].run(Run(), "NPD")
+    run = found[0].run(Scenario(), "NPD")
     assert run.pushes[0].stop - run.pushes[0].start == pytest.approx(0.2)
     assert run.continued
 

@@ -11,8 +11,8 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError
-from biped_adrc.studies.passive_walk import passive_walk
-from biped_adrc.studies.runs import Run, execute
+from biped_adrc.scenario.run import execute, passive_walk
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.timing import LONGEST_PERIOD
 
 ENGINES = ("pinocchio", "compiled")
@@ -58,8 +58,8 @@ def test_counts_are_whole_numbers_from_one(count, engine, walker, gait):
     ):
         with pytest.raises(InputError, match=re.escape(f"{said}, expected a whole number")):
             ba.walk(walker, gait, engine=engine, **{"impacts": 1, name: count})
-    with pytest.raises(InputError, match="expected a whole number"):
-        execute(Run("NPD", impacts=count, engine=engine))
+    with pytest.raises(InputError, match=re.escape(f"impacts: found {count!r}, should be")):
+        execute(Scenario("NPD", impacts=count, engine=engine))
 
 
 @pytest.mark.parametrize("count", NO_COUNTS)

@@ -23,6 +23,7 @@ from biped_adrc.errors import GaitError, InputError, SimulationError, SingularEr
 from biped_adrc.gait.curves import Polynomial as PolynomialCurve
 from biped_adrc.gait.passive_cycle import passive_cycle
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import (
     BESIDE,
     Cycle,
@@ -32,7 +33,6 @@ from biped_adrc.studies.cycle_stability import (
     known_cycle,
     walk_beside,
 )
-from biped_adrc.studies.runs import Run
 
 LARGEST = 1e-6  # relative
 OTHERS = 1e-7  # absolute
@@ -161,7 +161,7 @@ def test_simplest_walker_by_differences() -> None:
 @pytest.mark.parametrize("name", ["published", "recipe"])
 def test_multipliers_of_rabbit(any_biped: ba.Biped, name: str) -> None:
     """The stored gaits of all presets, and delta^2 where the impact keeps to the constraint."""
-    cycle = gait_cycle(Run("NPD", preset=any_biped.preset, gait=name))
+    cycle = gait_cycle(Scenario("NPD", preset=any_biped.preset, gait=name))
     P = replace(cycle.P, method=ba.RK4(7e-4), difference=2e-5)
     step = solved(replace(cycle, P=P), 1e-7)
     check(step.multipliers, sorted_eigenvalues(P.jacobian(step.s)))

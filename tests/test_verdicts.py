@@ -18,6 +18,8 @@ from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.limits import KnownLimits
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies import reproduction, verdicts
 from biped_adrc.studies.claims.words import Case, Claim, Figure, Tally, judged
 from biped_adrc.studies.convergence import convergence_check
@@ -27,7 +29,6 @@ from biped_adrc.studies.plan import Plan, RecipeResult
 from biped_adrc.studies.poincare import PoincareResult
 from biped_adrc.studies.pool import Timed
 from biped_adrc.studies.results import Results
-from biped_adrc.studies.runs import Outcome, Run
 from biped_adrc.studies.tables import _runs
 
 CERTIFICATE = Certificate(
@@ -62,7 +63,7 @@ def needing(**odd):
 def outcome(controller, peak=1e-2, impacts=9, asked=9, **more):
     status = "COMPLETED" if impacts == asked else "FELL"
     made = Outcome(
-        Run(controller, impacts=asked),
+        Scenario(controller, impacts=asked),
         status,
         "",
         impacts,
@@ -332,7 +333,7 @@ def stubbed(monkeypatch):
             "gathered": lambda *_: {},
             "findings": lambda *_: [],
             "tables": lambda *_: {},
-            "save": lambda *_: None,
+            "_save": lambda *_: None,
             "draw_all": lambda *_: {},
             "_animate": lambda *_: "",
             "_stored": lambda *_: None,

@@ -22,16 +22,18 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from report import Table, arguments, rounds
 
 from biped_adrc.engine.batch import Case, Walked, run_case, simulate_many
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.bench.build import case
+from biped_adrc.studies.bench.parameters import trial
 from biped_adrc.studies.bench.run import measured
-from biped_adrc.studies.bench.trial import Trial
 
 
-def trials(controller: str, walks: int, impacts: int) -> list[Trial]:
+def trials(controller: str, walks: int, impacts: int) -> list[Scenario]:
     """Pushes drawn by seed."""
     push: dict[str, Any] = {"push": "pulse", "on": "random joints", "amplitude": 40.0}
     return [
-        Trial(controller=controller, impacts=impacts, seed=seed, **push) for seed in range(walks)
+        trial({"controller": controller, "impacts": impacts, "seed": seed, **push})
+        for seed in range(walks)
     ]
 
 
@@ -45,12 +47,12 @@ def walk(cases: Sequence[Case]) -> list[Walked]:
     return list(simulate_many(cases, threads=1))
 
 
-def study(given: Sequence[Trial], known: Sequence[Walked], metered: bool) -> None:
+def study(given: Sequence[Scenario], known: Sequence[Walked], metered: bool) -> None:
     """Each made ready and walked; the rows are those of the walks `known`, which were metered."""
-    for trial, walked in zip(given, known, strict=True):
-        made = case(trial)
+    for s, walked in zip(given, known, strict=True):
+        made = case(s)
         run_case(made if metered else without(made))()
-        measured(trial, made, walked)
+        measured(s, made, walked)
 
 
 def check(one: Sequence[Walked], other: Sequence[Walked]) -> None:
@@ -69,7 +71,7 @@ def main() -> None:
     table = Table("Metering", f"CPU s, medians of {count} rounds", f"{walks} walks of 25 impacts")
     for name in ("NPD", "ADRC"):
         given = trials(name, walks, 25)
-        metered = [case(trial) for trial in given]
+        metered = [case(s) for s in given]
         plain = [without(one) for one in metered]
         known = walk(metered)
         check(known, walk(plain))

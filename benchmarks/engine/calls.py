@@ -126,7 +126,7 @@ def main() -> None:
     struck = np.concatenate((gait.q_minus, gait.v_minus))
     impact = Part(passive, "strike", (0.1, 2.0, struck), 2 * biped.n + 1)
     add(table, "impact", partial(biped.impact, gait.q_minus, gait.v_minus), impact, repeats)
-    watch = Part(passive, "watch", (q,), 4)
+    watch = Part(passive, "watch", (0.0, 0.0, 0.0, q), 4)
 
     def seen() -> tuple[Array, Array]:
         return biped.swing_foot(q), biped.hip(q)

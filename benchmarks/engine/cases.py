@@ -17,8 +17,9 @@ import biped_adrc as ba  # noqa: E402
 from biped_adrc.engine.batch import Case, Walked, run_case  # noqa: E402
 from biped_adrc.engine.choice import simulate_by  # noqa: E402
 from biped_adrc.hybrid.integrators import OneStepMethod  # noqa: E402
+from biped_adrc.scenario.build import Scene, build  # noqa: E402
+from biped_adrc.scenario.scenario import Scenario  # noqa: E402
 from biped_adrc.studies.plan import PAPER_PUSH  # noqa: E402
-from biped_adrc.studies.runs import Run  # noqa: E402
 
 simulate = partial(simulate_by, "compiled")
 
@@ -49,18 +50,16 @@ class Setting(NamedTuple):
 
 def paper(controller: str = "ADRC", period: float | None = None, push: bool = True) -> Setting:
     """The paper's run; period [s] of sampled control, or continuous time."""
-    run = Run(controller, period=period, pushes=(PAPER_PUSH,) if push else ())
-    biped = run.biped()
-    gait = ba.load_gait(run.gait, biped)
-    return Setting(run.build(biped, gait), gait)
+    run = Scenario(controller, period=period, pushes=(PAPER_PUSH,) if push else ())
+    scene = Scene.of(run)
+    return Setting(build(run, scene), scene.walked)
 
 
 def with_observer(order: int, bandwidth: float, period: float | None) -> Setting:
     """ADRC with the observer of that order, all poles at -bandwidth [rad/s], no push."""
-    run = Run("ADRC", period=period, bandwidth=bandwidth, order=order)
-    biped = run.biped()
-    gait = ba.load_gait(run.gait, biped)
-    return Setting(run.build(biped, gait), gait)
+    run = Scenario("ADRC", period=period, bandwidth=bandwidth, order=order)
+    scene = Scene.of(run)
+    return Setting(build(run, scene), scene.walked)
 
 
 def with_controller(setting: Setting, controller: ba.Controller) -> Setting:

@@ -1,6 +1,6 @@
 """What the first use costs: importing, compiling, loading from the cache, and the reproduction of the paper.
 
-Run: python benchmarks/engine/compiling.py [OUT] [--quick] [--full]
+Scenario: python benchmarks/engine/compiling.py [OUT] [--quick] [--full]
 
 Every row is a new process: with an empty folder for machine code (cold), and again with what it left there. The
 reproduction is that of `biped-adrc reproduce --quick`; with --full, of `biped-adrc reproduce`.
@@ -28,15 +28,16 @@ import json, time
 begin = time.perf_counter()
 import biped_adrc as ba
 from biped_adrc.studies.plan import PAPER_PUSH
-from biped_adrc.studies.runs import Run
-run = Run("ADRC", pushes=(PAPER_PUSH,), period=PERIOD, first_step=19)
-biped = run.biped()
-gait = ba.load_gait(run.gait, biped)
-walker = run.build(biped, gait)
+from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.run import method_of
+from biped_adrc.scenario.scenario import Scenario
+run = Scenario("ADRC", pushes=(PAPER_PUSH,), period=PERIOD, first_step=19)
+scene = Scene.of(run)
+walker, gait = build(run, scene), scene.walked
 ready = time.perf_counter()
-ba.walk(walker, gait, 1, run.one_step_method(), first_step=19, engine="compiled")
+ba.walk(walker, gait, 1, method_of(run, walker), first_step=19, engine="compiled")
 walked = time.perf_counter()
-ba.walk(walker, gait, 1, run.one_step_method(), first_step=19, engine="compiled")
+ba.walk(walker, gait, 1, method_of(run, walker), first_step=19, engine="compiled")
 again = time.perf_counter()
 print(json.dumps({"ready": ready - begin, "first": walked - ready, "again": again - walked}))
 """

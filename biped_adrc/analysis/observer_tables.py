@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from biped_adrc.analysis.observer_choice import KAPPA_RATIOS, SHARE, without_observer
 from biped_adrc.analysis.observer_impact import impact_peak
 from biped_adrc.analysis.observer_loop import conditioning
+from biped_adrc.columns import columns
 from biped_adrc.observers.base import ResetPolicy
 
 if TYPE_CHECKING:
@@ -23,10 +24,7 @@ class Section(NamedTuple):
 
     def lines(self) -> list[str]:
         """Title, header and rows, in columns of equal width."""
-        cells = (self.header, *self.rows)
-        widths = [max(len(row[i]) for row in cells) for i in range(len(self.header))]
-        table = ("  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)) for row in cells)
-        return [self.title, *(f"  {line}".rstrip() for line in table)]
+        return [self.title, *(f"  {line}" for line in columns((self.header, *self.rows)))]
 
 
 # -- the verdict ---------------------------------------------------------------------------------

@@ -22,6 +22,7 @@ from scipy.optimize import linear_sum_assignment
 from biped_adrc.analysis.regression import Regression
 from biped_adrc.analysis.return_map import ReturnMap, sorted_eigenvalues
 from biped_adrc.analysis.variational import StepDerivative
+from biped_adrc.columns import columns
 from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
@@ -194,11 +195,11 @@ class StabilityTable:
 
     def text(self, count: int = 9) -> str:
         """The table as lines of text, the `count` largest |lambda| of each row, and the verdict."""
-        lines = [
-            f"{row.method.value:29s}" + " ".join(f"{m:.6e}" for m in row.magnitudes[:count])
+        rows = [
+            (row.method.value, " ".join(f"{m:.6e}" for m in row.magnitudes[:count]))
             for row in self.rows
         ]
-        return "\n".join([*lines, self.verdict])
+        return "\n".join([*columns(rows, 28, gap=1), self.verdict])
 
 
 def _farthest(cost: Array) -> float:

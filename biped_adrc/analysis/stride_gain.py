@@ -18,11 +18,13 @@ At lambda = -mu, mu = (c b - d a) / d, the gains drop out, so a triple pole r, t
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.control.stride import TORSO_LEAN, StrideGains
+from biped_adrc.control.base import Controller
+from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI
 from biped_adrc.errors import GaitError, InputError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Polynomial
@@ -75,6 +77,22 @@ class StrideResponse:
             )
         K_P = r**3 / zero
         return StrideGains(K_P, (1.0 + self.a - 3.0 * r) / self.d - K_P, limit)
+
+
+def stride_pi(
+    inner: Controller,
+    gait: Gait,
+    biped: Biped,
+    direction: Sequence[float] = TORSO_LEAN,
+    limit: float = 0.3,
+) -> StridePI:
+    """The PI from step to step around `inner`, with the gains of the triple pole.
+
+    direction: d (p,). limit: bound on |beta| [rad]. Raises as `stride_response` and `StrideResponse.gains`.
+    """
+    along = tuple(float(d) for d in direction)
+    gains = stride_response(gait, biped, along).gains(limit)
+    return StridePI.on_gait(inner, gait, biped, gains, direction=along)
 
 
 def bumped(h: VirtualConstraint, shift: Array) -> VirtualConstraint:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from biped_adrc.analysis.stability import Tolerances, invariance_gap
+from biped_adrc.columns import columns
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import CLOSES
@@ -63,47 +64,49 @@ class ZeroDynamicsReport:
 
     def text(self) -> str:
         """The report as lines of text."""
-        return "\n".join([*self._robot(), *self._numbers(), *self._range(), *self._doubts()])
+        return "\n".join(
+            columns([*self._robot(), *self._numbers(), *self._range(), *self._doubts()])
+        )
 
-    def _robot(self) -> list[str]:
+    def _robot(self) -> list[tuple[str, ...]]:
         b, c = self.orbits.zero.biped, self.orbits.zero.constraint
         return [
-            f"robot {b.description.name}, parameters {b.preset}; slope {self.limits.slope:g} rad",
-            _line("Theta", f"{c.theta_plus:.6f} to {c.theta_minus:.6f} rad"),
+            (
+                f"robot {b.description.name}, parameters {b.preset}; slope {self.limits.slope:g} rad",
+            ),
+            ("Theta", f"{c.theta_plus:.6f} to {c.theta_minus:.6f} rad"),
         ]
 
-    def _numbers(self) -> list[str]:
+    def _numbers(self) -> list[tuple[str, ...]]:
         o, z = self.orbits, self.zeta_star
         inertia = o.inertia(grid(o.zero))
         return [
-            _line("I(Theta)", f"{np.min(inertia):.4f} to {np.max(inertia):.4f} kg m^2"),
-            _line("delta^2", f"{o.delta**2:.6f}, the multiplier of the cycle: stable"),
-            _line("V_zero(Theta-)", f"{o.v_end:.4f} {UNIT}"),
-            _line("V_max", f"{o.v_max:.4f} {UNIT} at Theta = {o.theta_max:.4f} rad"),
-            _line("existence", f"{o.existence:.4f} {UNIT} < 0: a periodic orbit exists"),
-            _line("zeta*", f"{z:.4f} {UNIT}, sigma- = {o.sigma(z):.5f} kg m^2/s"),
-            _line("orbit", f"period {o.period(z):.6f} s, speed {o.speed(z):.4f} m/s"),
-            _line("", f"{o.kinetic_energy(z):.3f} J before impact, step {o.step_length:.4f} m"),
-            _line("impact", f"asks for |F_T| / F_N = {self.impulse_ratio:.3f}, at any speed"),
+            ("I(Theta)", f"{np.min(inertia):.4f} to {np.max(inertia):.4f} kg m^2"),
+            ("delta^2", f"{o.delta**2:.6f}, the multiplier of the cycle: stable"),
+            ("V_zero(Theta-)", f"{o.v_end:.4f} {UNIT}"),
+            ("V_max", f"{o.v_max:.4f} {UNIT} at Theta = {o.theta_max:.4f} rad"),
+            ("existence", f"{o.existence:.4f} {UNIT} < 0: a periodic orbit exists"),
+            ("zeta*", f"{z:.4f} {UNIT}, sigma- = {o.sigma(z):.5f} kg m^2/s"),
+            ("orbit", f"period {o.period(z):.6f} s, speed {o.speed(z):.4f} m/s"),
+            ("", f"{o.kinetic_energy(z):.3f} J before impact, step {o.step_length:.4f} m"),
+            ("impact", f"asks for |F_T| / F_N = {self.impulse_ratio:.3f}, at any speed"),
         ]
 
-    def _range(self) -> list[str]:
+    def _range(self) -> list[tuple[str, ...]]:
         if self.domain.empty:
-            return [
-                _line("domain", f"empty: no speed keeps {_show(self.limits)} all along the step")
-            ]
+            return [("domain", f"empty: no speed keeps {_show(self.limits)} all along the step")]
         (v_0, v_1), (E_0, E_1) = self.speeds, self.energies
-        found = [
-            _line("domain", f"{self._ends()}"),
-            _line("speeds in it", f"{v_0:.4f} to {v_1:.4f} m/s, of the first step"),
-            _line("energies in it", f"{E_0:.3f} to {E_1:.3f} J before impact"),
+        found: list[tuple[str, ...]] = [
+            ("domain", f"{self._ends()}"),
+            ("speeds in it", f"{v_0:.4f} to {v_1:.4f} m/s, of the first step"),
+            ("energies in it", f"{E_0:.3f} to {E_1:.3f} J before impact"),
         ]
         if self.walkable:
             low, high = self.domain
             inside = low.zeta + 1e-9 * self.zeta_star  # rho itself excludes the end
             steps = [self._steps(zeta) for zeta in (inside, high.zeta)]
             text = f"{steps[0]} steps from the lower end, {steps[1]} from the upper"
-            found.append(_line("settled", f"to {CLOSENESS:.1%} of zeta* after {text}"))
+            found.append(("settled", f"to {CLOSENESS:.1%} of zeta* after {text}"))
         return found
 
     def _steps(self, zeta: float) -> str:
@@ -117,17 +120,21 @@ class ZeroDynamicsReport:
             f"{low.zeta:.4f} ({_because(low)}) < zeta < {high.zeta:.4f} ({_because(high)}) {UNIT}"
         )
 
-    def _doubts(self) -> list[str]:
-        found = []
+    def _doubts(self) -> list[tuple[str, ...]]:
+        found: list[tuple[str, ...]] = []
         if not self.walkable:
             found.append(
-                f"the periodic orbit does not keep {_show(self.limits)}: zeta* is outside of the domain"
+                (
+                    f"the periodic orbit does not keep {_show(self.limits)}: zeta* is outside of the domain",
+                )
             )
         if self.invariance > Tolerances().invariance:
             found.append(
-                f"the impact leaves the constraint by {self.invariance:.2g} rad or rad/s at |Theta'-| = "
-                "1 rad/s: the closed loop comes back to it in the course of a step only, and these numbers "
-                "are those of the zero dynamics"
+                (
+                    f"the impact leaves the constraint by {self.invariance:.2g} rad or rad/s at |Theta'-| = "
+                    "1 rad/s: the closed loop comes back to it in the course of a step only, and these numbers "
+                    "are those of the zero dynamics",
+                )
             )
         return found
 
@@ -168,10 +175,6 @@ def _check_ends(biped: Biped, constraint: VirtualConstraint, slope: float) -> No
             f"the step after the impact begins at Theta = {begin:.6g} rad, the curve at Theta+ = "
             f"{constraint.theta_plus:.6g} rad; expected the same within {CLOSES:g} rad"
         )
-
-
-def _line(name: str, text: str) -> str:
-    return f"{name:16s}{text}"
 
 
 def _because(bound: Bound) -> str:

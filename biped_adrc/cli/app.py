@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 import sys
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 from rich.console import Console
@@ -16,9 +16,6 @@ from rich.progress import (
     TextColumn,
     TimeElapsedColumn,
 )
-
-if TYPE_CHECKING:
-    from biped_adrc.studies.push import Push
 
 EXIT_CHECK_FAILED, EXIT_FELL, EXIT_INTERRUPTED = 1, 4, 130
 
@@ -47,23 +44,6 @@ RobotPreset = Annotated[
     str | None, typer.Option(help="Parameters of the robot; its record's default if not given.")
 ]
 StoredGait = Annotated[str, typer.Argument(help="A stored gait by name, or a .json file.")]
-Pushes = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--push",
-        help="Torque [N m] on joints in one single support, JOINTS=TORQUE@STEP:START-STOP [s]; e.g. "
-        "'q1,q2=30@19:0.1-0.3'. End with ':sine=5' for a sine of 5 Hz, ':rise=0.01' for edges of 10 ms, or "
-        "give 'START-' for one that stays. "
-        "Joints are q1..q5 or names of the URDF; q5 is the unactuated torso. May be repeated; "
-        "several joints with different torques: 'q1=30,q3=-20@19:0.1-0.3'.",
-    ),
-]
-
-
-def parse_pushes(texts: list[str] | None) -> tuple[Push, ...]:
-    from biped_adrc.studies.push import parse_push
-
-    return tuple(parse_push(text) for text in texts or ())
 
 
 def command() -> str:

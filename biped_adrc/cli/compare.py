@@ -24,7 +24,10 @@ def compare(
         typer.Option("--out", "-o", help="Folder of results, figures and page; goes on there."),
     ] = Path("comparison"),
     controllers: Annotated[
-        str | None, typer.Option(help="Comma separated; all of them if not given.")
+        str | None,
+        typer.Option(
+            help="Comma separated, your own as package.module:Class; those of the tables if not given."
+        ),
     ] = None,
     conditions: Annotated[
         str | None, typer.Option(help="Comma separated; all of them if not given.")
@@ -50,9 +53,8 @@ def compare(
     ] = False,
 ) -> None:
     """Which controller walks legally under what: controllers x conditions x seeds, with intervals and tests."""
-    from biped_adrc.studies.bench.catalogue import CONTROLLERS
     from biped_adrc.studies.bench.compare_study import RESULTS, run_comparison
-    from biped_adrc.studies.bench.conditions import CONDITIONS
+    from biped_adrc.studies.bench.conditions import COMPARED, CONDITIONS
 
     crew = study_workers(workers, threads, scheduler)
     with study_bar() as shown:
@@ -60,7 +62,7 @@ def compare(
             summary = run_comparison(
                 out,
                 command(),
-                _names(controllers, tuple(CONTROLLERS)),
+                _names(controllers, COMPARED),
                 _names(conditions, tuple(CONDITIONS)),
                 seeds,
                 pushes,

@@ -12,7 +12,7 @@ from biped_adrc.cli.output import FIGURES, say_written
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
-    from biped_adrc.studies.recording import Recording
+    from biped_adrc.scenario.recording import Walk
     from biped_adrc.viz.export import Clip
 
 
@@ -69,7 +69,7 @@ def animate(
 ) -> None:
     """Write the walk as a page, a picture or a strip; or show it live."""
     from biped_adrc.errors import InputError
-    from biped_adrc.studies.runs import load_walks
+    from biped_adrc.scenario.stored import load_walks
     from biped_adrc.viz.export import SUFFIXES, Clip, check_suffix, export
 
     runs, clip = [*(ghost or []), run], Clip(start, stop, fps, view, apart, magnify, slower)
@@ -86,7 +86,7 @@ def animate(
         _show(load_walks(runs), clip, port, browser, wait)
 
 
-def _show(walks: dict[str, Recording], clip: Clip, port: int, browser: bool, wait: float) -> None:
+def _show(walks: dict[str, Walk], clip: Clip, port: int, browser: bool, wait: float) -> None:
     """In a browser, until it is closed."""
     from biped_adrc.viz.live import play
     from biped_adrc.viz.meshcat import Look
@@ -113,8 +113,8 @@ def plot(
 ) -> None:
     """Draw the signals of a run."""
     from biped_adrc.files import write_bytes
+    from biped_adrc.scenario.stored import load_walks
     from biped_adrc.studies.figures import draw
-    from biped_adrc.studies.runs import load_walks
     from biped_adrc.viz.style import render
 
     runs = [run, *(beside or [])]

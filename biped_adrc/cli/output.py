@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 from biped_adrc.cli.app import console
 from biped_adrc.files import keep_inputs, output_path
-
-if TYPE_CHECKING:
-    from biped_adrc.studies.recording import Recording
 
 FIGURES, GAITS = (".png", ".svg"), (".json",)
 
@@ -37,17 +33,6 @@ def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
     keep_inputs((path, beside), read)
     check_beside(beside)
     return path
-
-
-def write_run(walk: Recording, path: Path, settings: dict[str, Any]) -> None:
-    """The run with its settings and versions, or its signals."""
-    from biped_adrc.hybrid.storage import save
-    from biped_adrc.versions import versions
-
-    if path.suffix.lower() == ".mat":
-        walk.export(path)
-    else:
-        save(walk.trajectory, path, {**settings, "versions": versions()})
 
 
 def say_written(path: Path | None) -> None:

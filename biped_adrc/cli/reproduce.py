@@ -12,13 +12,12 @@ from rich.table import Table
 from biped_adrc.cli.app import (
     EXIT_CHECK_FAILED,
     Preset,
-    Pushes,
     app,
     bar,
     command,
     console,
-    parse_pushes,
 )
+from biped_adrc.cli.options import Pushes
 
 
 @app.command()
@@ -42,11 +41,12 @@ def reproduce(
 ) -> None:
     """Reproduce the paper: runs, figures 1, 4, 5, 6, Tables I and II, stability, and a word for each claim."""
     from biped_adrc.model.robots import load_description
+    from biped_adrc.scenario.push import parse_push
     from biped_adrc.studies.plan import PAPER_PUSH, Plan
     from biped_adrc.studies.reproduction import failed, main_table
     from biped_adrc.studies.reproduction import reproduce as run
 
-    pushes = parse_pushes(push)
+    pushes = tuple(parse_push(text) for text in push or ())
     description = load_description("rabbit")
     description.preset(preset)
     for joint in (joint for p in pushes for joint in p.torque):

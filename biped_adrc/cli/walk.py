@@ -10,63 +10,19 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from biped_adrc.cli.app import (
-    EXIT_FELL,
-    Pushes,
-    Robot,
-    RobotPreset,
-    app,
-    bar,
-    console,
-    parse_pushes,
-)
-from biped_adrc.cli.output import inputs, run_path, say_written, write_run
-from biped_adrc.cli.passive import simulate_passive
-from biped_adrc.errors import InputError
+from biped_adrc.cli.app import EXIT_FELL, app, bar, console
+from biped_adrc.cli.options import Pushes, Sets, of_scenario, values_of
+from biped_adrc.cli.output import inputs, run_path, say_written
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
     from biped_adrc.analysis.legality import Legality
     from biped_adrc.model.limits import Limits
-    from biped_adrc.studies.runs import Outcome, Run
+    from biped_adrc.scenario.outcome import Outcome
+    from biped_adrc.scenario.recording import Walk
+    from biped_adrc.scenario.scenario import Scenario
 
 
-Controller = Annotated[str, typer.Option(help="ADRC or NPD; passive for robots without motors.")]
-Gait = Annotated[
-    str,
-    typer.Option(
-        help="published (through x*), recipe (section IV), v0.4 to v1.1 (by speed), or a .json file."
-    ),
-]
-Impacts = Annotated[int, typer.Option(help="Impacts to walk (12.5 steps of the paper are 25).")]
-Period = Annotated[
-    float | None,
-    typer.Option(help="Sampling period [s] of the controller; continuous if left out."),
-]
-TorqueLimit = Annotated[float | None, typer.Option(help="Saturation of the motors [N m].")]
-Poles = Annotated[
-    str | None,
-    typer.Option(help="m + 2 observer poles [rad/s], comma separated; by default Table I."),
-]
-Bandwidth = Annotated[
-    float | None, typer.Option(help="Observer bandwidth [rad/s] instead of poles.")
-]
-Order = Annotated[int, typer.Option(help="Order m of the observer, with --bandwidth.")]
-Reset = Annotated[str, typer.Option(help="Observer at impact: none, relabel, measured or model.")]
-AsPrinted = Annotated[
-    bool, typer.Option("--as-printed", help="Drop h' Theta'' from (20) and (28), as printed.")
-]
-Friction = Annotated[bool, typer.Option("--friction", help="Add the robot's joint friction.")]
-Method = Annotated[str | None, typer.Option(help="rk4, exponential, feedback, adaptive or stiff.")]
-Engine = Annotated[str, typer.Option(help="pinocchio, or compiled: the same walk, much faster.")]
-StepSize = Annotated[float | None, typer.Option(help="Step of rk4 and exponential [s].")]
-FrictionLimit = Annotated[
-    float | None,
-    typer.Option(help="Friction of the ground for a legal step; the robot's record without."),
-]
-ForceWindow = Annotated[
-    float, typer.Option(help="Over which the force of the ground is averaged for that [s].")
-]
 EndIllegal = Annotated[
     bool,
     typer.Option(
@@ -74,94 +30,80 @@ EndIllegal = Annotated[
         help="End at the first step that ground or motors could not carry; exit code 4, as for a fall.",
     ),
 ]
+AsPrinted = Annotated[
+    bool, typer.Option("--as-printed", help="Drop h' Theta'' from (20) and (28), as printed.")
+]
 Out = Annotated[
     Path | None, typer.Option("--out", "-o", help="Write the run (.npz), or its signals (.mat).")
 ]
+WHY = {
+    "compiled": "generated from Pinocchio's model and checked against it",
+    "pinocchio": "as asked for",
+}
+COMMON = ("controller", "gait", "robot", "preset", "impacts", "seed", "hardware", "period")
+LAW = ("torque_limit", "K_p", "K_d", "observer", "poles", "bandwidth", "order", "reset")
+NUMERICS = ("friction", "slope", "method", "engine", "friction_limit", "force_window")
 
 
 @app.command()
+@of_scenario(*COMMON, *LAW, *NUMERICS, h="--step")
 def simulate(
-    context: typer.Context,
-    controller: Controller = "ADRC",
-    gait: Gait = "published",
-    robot: Robot = "rabbit",
-    preset: RobotPreset = None,
+    given: dict[str, Any],
     push: Pushes = None,
-    impacts: Impacts = 25,
-    period: Period = None,
-    torque_limit: TorqueLimit = None,
-    poles: Poles = None,
-    bandwidth: Bandwidth = None,
-    order: Order = 1,
-    reset: Reset = "model",
+    sets: Sets = None,
     as_printed: AsPrinted = False,
-    friction: Friction = False,
-    method: Method = None,
-    step: StepSize = None,
-    engine: Engine = "pinocchio",
-    friction_limit: FrictionLimit = None,
-    force_window: ForceWindow = 5e-3,
     end_illegal: EndIllegal = False,
     out: Out = None,
 ) -> None:
     """Walk, and print what each step needed of the ground and of the motors."""
-    from biped_adrc.model.limits import Limits
+    from biped_adrc.scenario.build import limits
+    from biped_adrc.scenario.scenario import Scenario
+
+    values = {"controller": usual(given)} | values_of(given, push, sets)
+    if as_printed:
+        values["solve_theta"] = False
+    s = Scenario(**values)
+    read = inputs(s.robot, s.gait)
+    _walk(s, limits(s), end_illegal, run_path(out, read))
+
+
+def usual(given: dict[str, Any], motors: str = "ADRC") -> str:
+    """The controller where none is given; `motors` for a robot that has some."""
     from biped_adrc.model.robots import load_description
-    from biped_adrc.studies.runs import Run
+    from biped_adrc.scenario.registry import is_own
 
-    limits = Limits(friction_limit, None, force_window)
-    description = load_description(robot)
-    if not description.actuated:
-        simulate_passive(context, robot, preset, impacts, limits, out)
-        return
-    extra: dict[str, Any] = {}
-    if poles is not None:
-        extra["poles"] = _numbers(poles, "--poles")
-    run = Run(
-        controller.upper(),
-        robot,
-        description.preset(preset).name,
-        gait=gait,
-        pushes=parse_pushes(push),
-        period=period,
-        torque_limit=torque_limit,
-        friction=friction,
-        impacts=impacts,
-        bandwidth=bandwidth,
-        order=order,
-        solve_theta=not as_printed,
-        reset=reset,
-        method=method,
-        h=step,
-        engine=engine,
-        **extra,
-    )
-    _walk(run, limits, end_illegal, run_path(out, inputs(robot, gait)))
+    robot = str(given.get("robot", "rabbit"))
+    return motors if is_own(robot) or load_description(robot).actuated else "passive"
 
 
-def _walk(run: Run, limits: Limits, end_illegal: bool, out: Path | None) -> None:
-    """Carry out a run, print it, and write it where it is asked for."""
-    from biped_adrc.engine.choice import COMPILED
-    from biped_adrc.studies.runs import execute_fully
+def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> None:
+    """Carry out a scenario, print it, and write it where it is asked for."""
+    from biped_adrc.scenario.run import halved, walk_scenario
 
     with bar() as shown:
-        task = shown.add_task(f"walking, {run.controller}", total=run.impacts)
-        full = execute_fully(run, lambda t, n: shown.update(task, completed=n))
-        shown.update(task, description="the same at half the step", completed=0)
-        finer = replace(run.halved(), engine=COMPILED)
-        half = execute_fully(finer, lambda t, n: shown.update(task, completed=n))
+        task = shown.add_task(f"walking, {s.controller}", total=s.impacts)
+        full = walk_scenario(s, lambda t, n: shown.update(task, completed=n))
+        half = None
+        if full.gait is not None:
+            shown.update(task, description="the same at half the step", completed=0)
+            finer = replace(halved(s, full.walker), engine="compiled")
+            half = walk_scenario(finer, lambda t, n: shown.update(task, completed=n))
     if end_illegal:
-        full, half = full.until_illegal(limits), half.until_illegal(limits)
-    o = replace(full.outcome, half=half.outcome)
+        full, half = full.until_illegal(limits), half and half.until_illegal(limits)
     if out is not None:
-        write_run(full, out, {"run": run.record()})  # first, as printing may fail
-    _print_steps(o, full.legal_within(limits))
-    if "why" in full.trajectory.settings:
-        console.print(full.trajectory.settings["why"])
+        (full.export if out.suffix.lower() == ".mat" else full.save)(
+            out
+        )  # first, as printing may fail
+    if half is None:
+        _print_passive(full, limits)
+    else:
+        _print_steps(replace(full.outcome, half=half.outcome), full.legal_within(limits))
+    settings = full.trajectory.settings
+    console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
     for remark in full.remarks:
         console.print(f"note: {remark}", markup=False, highlight=False, soft_wrap=True)
     say_written(out)
-    if not o.walked:
+    if not full.trajectory.status.ok:
         raise typer.Exit(EXIT_FELL)
 
 
@@ -189,11 +131,40 @@ def _print_steps(o: Outcome, legality: Legality) -> None:
         f"F_N and friction: least and largest mean over {1e3 * legality.limits.window:g} ms; "
         f"{_instants(legality)}\n"
         f"{o.status}: {o.message}\n{o.impacts} impacts, largest tracking error {error_text(o)}, "
-        f"peak torque {o.peak_torque:.1f} N m, {o.method}, engine {o.engine}\n{legality.text()}"
+        f"peak torque {o.peak_torque:.1f} N m, {o.method}\n{legality.text()}"
     )
     stays = [c.step for c in o.certificates if not c.old_foot_velocity > 0.0]
     if stays:
         console.print(f"the old stance foot does not lift off after steps {stays}")
+
+
+def _print_passive(walk: Walk, limits: Limits) -> None:
+    """The steps of a robot without motors."""
+    from biped_adrc.analysis.certificate import ratio_text
+    from biped_adrc.walker import FOOT_STRIKE
+
+    names = ("step", "time [s]", "length [m]", "drop [m]", "friction", "at impact", "F_N [N]")
+    table = Table(*map(escape, names), escape("lost [J]"))
+    n, plant = walk.walker.plant.n, walk.walker.plant
+    events = walk.trajectory.events(FOOT_STRIKE)
+    for c, event in zip(walk.certified(limits), events, strict=True):
+        table.add_row(
+            f"{c.step}",
+            f"{c.duration:.4f}",
+            f"{c.step_length:.4f}",
+            f"{-float(plant.swing_foot(event.x_minus[:n])[1]):.4f}",
+            ratio_text(c.mean_friction),
+            ratio_text(c.impulse_ratio),
+            f"{c.mean_normal_force:.1f}",
+            f"{c.energy_lost:.4f}",
+        )
+    console.print(table)
+    status = walk.trajectory.status
+    legality = walk.legal_within(limits)
+    console.print(
+        f"{status.name}: {status.value}\n{len(events)} impacts, {walk.note}; friction and F_N in the mean of "
+        f"{1e3 * limits.window:g} ms\n{legality.text()}"
+    )
 
 
 def _instants(needed: Legality | Certificate) -> str:
@@ -218,26 +189,14 @@ def _nominal(c: Certificate) -> str:
     )
 
 
-def _numbers(text: str, what: str) -> tuple[float, ...]:
-    try:
-        return tuple(float(word) for word in text.split(","))
-    except ValueError:
-        raise InputError(f"{what} is '{text}', expected numbers separated by commas") from None
-
-
 @app.command()
+@of_scenario("robot", "preset", "gait", "controller")
 def poincare(
-    robot: Robot = "rabbit",
-    preset: RobotPreset = None,
-    gait: Annotated[
-        str, typer.Option(help="A stored gait by name, or a .json file.")
-    ] = "published",
-    controller: Annotated[
-        str | None, typer.Option(help="NPD (default) or ADRC; passive for robots without motors.")
-    ] = None,
+    given: dict[str, Any],
     slope: Annotated[
         float | None, typer.Option(help="Of the ground [rad], positive downhill.")
     ] = None,
+    sets: Sets = None,
     observer_states: Annotated[
         bool, typer.Option(help="Count the observer's states among the coordinates.")
     ] = True,
@@ -245,23 +204,22 @@ def poincare(
         int, typer.Option(help="Impacts of the walk for the paper's regression; 0 leaves it out.")
     ] = 25,
 ) -> None:
-    """Fixed point of the return map, and its multipliers by every method beside each other."""
+    """Fixed point of the return map, and its multipliers by every method beside each other; NPD by default."""
+    from biped_adrc.scenario.scenario import Scenario
     from biped_adrc.studies.cycle_stability import (
-        PASSIVE,
+        cycle_of,
         cycle_stability,
-        find_cycle,
         nominal_step,
     )
 
-    known = {"npd": "NPD", "adrc": "ADRC", PASSIVE: PASSIVE}
-    name = None if controller is None else known.get(controller.lower(), controller)
-    cycle = find_cycle(robot, preset, gait, name, observer_states, slope)
+    s = Scenario(**{"controller": usual(given, "NPD")} | values_of(given, None, sets))
+    cycle = cycle_of(s, observer_states, slope)
     with console.status("Newton on the return map"):
         found = cycle_stability(cycle, samples)
     walker, o = cycle.P.walker, found.orbit
     law = type(walker.controller).__name__.removesuffix("Controller")
     lines = (
-        f"{robot}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}",
+        f"{s.robot}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}",
         "x- = " + " ".join(f"{value:.6f}" for value in o.x_minus[: 2 * walker.plant.n]),
         _nominal(nominal_step(cycle, o)),
         f"residual {o.residual:.1e}; |lambda| by every method:",

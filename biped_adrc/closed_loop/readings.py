@@ -37,29 +37,6 @@ class Reading(NamedTuple):
     hip: Any
 
 
-def shapes(n: int, p: int) -> Reading:
-    """The shape of each part at one instant."""
-    of_n, of_p, plane = (n,), (p,), (2,)
-    return Reading(
-        a=of_n,
-        q_d=of_p,
-        dq_d=of_p,
-        u=of_p,
-        zeta=of_n,
-        xi=of_p,
-        xi_estimate=of_p,
-        xi_external=of_p,
-        xi_matched=of_p,
-        xi_nominal=of_p,
-        zeta_estimate=of_p,
-        ground_reaction=plane,
-        kinetic=(),
-        potential=(),
-        swing_foot=plane,
-        hip=plane,
-    )
-
-
 def reading(
     loop: Loop,
     t: float,

@@ -31,7 +31,6 @@ from biped_adrc.hardware.motors import Line, acting, limited, mean_torque, sent
 from biped_adrc.hardware.sensors import sense
 from biped_adrc.linear import solve_positive
 from biped_adrc.model.reduction import BodyTerms, Reduction, unknown_force
-from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array
 
 
@@ -78,17 +77,6 @@ class WalkingPlant(Plant, Protocol):
         """(x, z) from the stance foot [m]."""
 
 
-class Law(Protocol):
-    """A controller in its time base, as `control.base.Controller`."""
-
-    def output(self, s: Array, m: Measurement) -> Array: ...
-    def flow(self, s: Array, m: Measurement, u: Array) -> Array: ...
-    def correct(self, s: Array, m: Measurement) -> Array: ...
-    def predict(self, s: Array, m: Measurement, u: Array) -> Array: ...
-    def jump(self, s: Array, after: Measurement, swap: Array) -> Array: ...
-    def estimate(self, s: Array, m: Measurement) -> Estimate | None: ...
-
-
 class Loop(Protocol):
     """The parts of a closed loop, and what acts on it from outside."""
 
@@ -105,7 +93,9 @@ class Loop(Protocol):
         """Whether the nominal model is the plant, without friction that it does not know."""
 
     @property
-    def law(self) -> Law: ...
+    def law(self) -> Any:
+        """The controller in its time base, with the methods of `control.base.Controller`."""
+
     @property
     def held(self) -> HeldParameters | None:
         """Of what is held between ticks; None in continuous time."""
@@ -284,6 +274,19 @@ def landed(
     return np.concatenate((q_plus, v_plus, s, tail))
 
 
-def clearance(tan_slope: float, foot: Array) -> Any:
-    """Height of the swing foot (x, z) above the slope through the stance foot, along the vertical [m]."""
-    return foot[1] + tan_slope * foot[0]
+def clearance(tan_slope: float, drop: float, foot: Array) -> Any:
+    """Height of the swing foot (x, z) above the ground, along the vertical [m]; 0 at touchdown.
+
+    The ground is a slope through the stance foot, and `drop` [m] lower where this single support ends.
+    """
+    return foot[1] + tan_slope * foot[0] + drop
+
+
+def hip_margin(lowest: float, hip: Array) -> Any:
+    """Height of the hip (x, z) above the lowest that is no fall [m]."""
+    return hip[1] - lowest
+
+
+def time_left(longest: float, start: float, t: float) -> Any:
+    """Of the longest single support, for one that began at `start` [s]."""
+    return start + longest - t

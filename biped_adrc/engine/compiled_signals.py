@@ -11,14 +11,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.closed_loop.readings import Reading, reading, shapes
+from biped_adrc.closed_loop.readings import Reading, reading
 from biped_adrc.control.base import Measurement
-from biped_adrc.engine.compiled_biped import pointer_call
+from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.equations import Equations, Function, Make, Numbers, count
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.kernels.layout import OUTSIDE
-from biped_adrc.engine.machine import Machine, Text, machine
+from biped_adrc.engine.machine import Machine, Text, remembered
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.symbols import Untraceable, Vector, floats, run
 from biped_adrc.errors import ModelError
@@ -54,7 +54,7 @@ class Observation:
         at, h = self.equations.at(), self.h
 
         def tracked(s: Any, m: Measurement) -> Any:
-            return run(at.loop.trace, h.point, h.parameters, m.t, m.q, m.v)
+            return run(at.trace, h.point, h.parameters, m.t, m.q, m.v)
 
         parts = at.does(reading, tracked)
         return self.equations.made(at.inp, *parts)
@@ -75,13 +75,15 @@ def compiled_readings(
     except (NotCompiled, Untraceable, ModelError):
         return None
     K = np.array([*floats(watched), 0.0])
-    sizes = shapes(walker.plant.n, walker.plant.p)
-    ends = np.cumsum([prod(shape) for shape in sizes])
+    first = trajectory.arcs[0]
+    example = reading(
+        walker, first.t[0], first.x[0], first.mode, lambda s, m: reference(m.t, m.q, m.v)
+    )
+    shapes = [np.shape(part) for part in example]
     inp = np.vstack([_inputs(walker, arc) for arc in trajectory.arcs])
-    out = np.empty((len(inp), ends[-1]))
+    out = np.empty((len(inp), sum(map(prod, shapes))))
     pointer_call(code, "observe", K, inp, out)
-    parts = zip(np.split(out, ends[:-1], axis=1), sizes, strict=True)
-    return Reading(*(part.reshape(len(inp), *shape) for part, shape in parts))
+    return Reading(*parts_of(out, shapes))
 
 
 def _inputs(walker: Walker, arc: Arc) -> Array:
@@ -93,16 +95,11 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
     return np.hstack((*head, arc.x, np.array(zeta), np.zeros((len(arc.t), OUTSIDE))))
 
 
-_CODES: dict[str, Machine] = {}
-
-
 def _code(make: Make, watched: Watched, h: ReferenceLaws) -> Machine:
     laws = "\n".join(law_text(law) for law in (*make.laws[1:], h.point))
     key = hash_of(
         *("observe", skeleton(make.robot), laws, make.size, make.held),
         *(skeleton(watched), versions_text()),
     )
-    if key not in _CODES:
-        observe = Observation.of(make, watched, h).observe
-        _CODES[key] = machine(key, ["observe"], lambda: Text(module_text({"observe": observe()})))
-    return _CODES[key]
+    observe = Observation.of(make, watched, h).observe
+    return remembered(key, ["observe"], lambda: Text(module_text({"observe": observe()})))

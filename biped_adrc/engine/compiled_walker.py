@@ -89,7 +89,7 @@ def _plan(
     return plan(
         Code(*(program.address(name) for name in Code._fields)),
         Sizes(n, nx, p, nx - stiff * p, stiff, _moving(walker, nx)),
-        Scene(walker.lowest_hip, walker.max_step_time, LEAST_STEP, drops),
+        Scene(LEAST_STEP, drops),
         _push(walker.disturbance, n),
         clock,
         method,

@@ -12,7 +12,7 @@ from biped_adrc.disturbances.base import DisturbanceLaw
 from biped_adrc.engine.equations import Function, count
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
 from biped_adrc.engine.ir import module_text
-from biped_adrc.engine.machine import Machine, Text, machine
+from biped_adrc.engine.machine import Machine, Text, remembered
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.symbols import Tracer, Untraceable, Vector, column, run
 
@@ -31,7 +31,6 @@ rest:
   ret void
 }}
 """
-_CODES: dict[str, Machine] = {}
 
 
 def disturbance_code(law: DisturbanceLaw, n: int) -> Machine:
@@ -41,14 +40,10 @@ def disturbance_code(law: DisturbanceLaw, n: int) -> Machine:
     texts = [law_text(part[0]) for part in given.values()]
     texts += [law_text(law.active), skeleton(law.parameters), versions_text()]
     key = hash_of("disturbance", n, *given, *texts)
-    if key not in _CODES:
-        try:
-            _CODES[key] = machine(key, list(given), lambda: _text(law, given, n))
-        except Untraceable as error:
-            raise NotCompiled(
-                f"{error}; the run goes on in Python on the compiled plant"
-            ) from error
-    return _CODES[key]
+    try:
+        return remembered(key, list(given), lambda: _text(law, given, n))
+    except Untraceable as error:
+        raise NotCompiled(f"{error}; the run goes on in Python on the compiled plant") from error
 
 
 def _text(law: DisturbanceLaw, parts: dict[str, Any], n: int) -> Text:

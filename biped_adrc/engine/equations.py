@@ -3,7 +3,7 @@
     flow    (t, step, t_start, x, zeta) -> x'            (10); between ticks the torque is held
     tick    (t, step, t_start, x, zeta, outside) -> x, q''   sensors, controller, motors and meter at a tick
     strike  (t, step, x) -> x+                           (7), (8), relabelling, and the controller's jump
-    watch   (q) -> clearance, x of the swing foot, height of the hip
+    watch   (t, t_start, drop, q) -> what the guards look at, x of the swing foot
 
 `outside`, for the meter: forces [N], impulse since the last tick [N s], drop of the ground [m]. flow, tick and
 strike add, after x, the least pivot of the matrices that the controller inverts.
@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -51,6 +51,10 @@ class Numbers(NamedTuple):
     torque_limit: float
     """[N m], infinite without."""
     tan_slope: float
+    lowest_hip: float
+    """[m]"""
+    longest: float
+    """Single support [s]."""
     friction: tuple[Array, Array] | tuple[()]
     """Viscous [N m s] and static [N m] of the coordinates, empty without."""
     held: HeldParameters | tuple[()] = ()
@@ -94,83 +98,38 @@ class Function(NamedTuple):
     out: Any
 
 
-@dataclass(frozen=True)
-class Laws:
-    """A controller's laws on symbols, as its methods; what it has not leaves its state as it is."""
+def laws_on(trace: Tracer, laws: ControllerLaws, k: Any) -> ControllerLaws:
+    """The laws for symbols, without their parameters k; one that is not there leaves the state as it is."""
 
-    make: Make
-    k: Any
-    trace: Tracer
+    def said(law: Any) -> Any:
+        return partial(run, trace, law, k) if law is not None else lambda s, *rest: s
 
-    def output(self, s: Any, m: Measurement) -> Any:
-        return self.said("output", s, m)
-
-    def flow(self, s: Any, m: Measurement, u: Any) -> Any:
-        return self.said("flow", s, m, u)
-
-    def correct(self, s: Any, m: Measurement) -> Any:
-        return self.said("correct", s, m)
-
-    def predict(self, s: Any, m: Measurement, u: Any) -> Any:
-        return self.said("predict", s, m, u)
-
-    def jump(self, s: Any, after: Measurement, swap: Any) -> Any:
-        return self.said("jump", s, after, swap)
-
-    def estimate(self, s: Any, m: Measurement) -> Any:
-        return None if self.make.laws.estimate is None else self.said("estimate", s, m)
-
-    def said(self, name: str, s: Any, *rest: Any) -> Any:
-        """The law on symbols. Raises Untraceable, with the law's name."""
-        law = getattr(self.make.laws, name)
-        return s if law is None else run(self.trace, law, self.k, s, *rest)
+    made = laws._replace(**{name: said(getattr(laws, name)) for name in LAWS})
+    return made if laws.estimate is not None else made._replace(estimate=lambda s, m: None)
 
 
-@dataclass(frozen=True)
-class SymbolicLoop:
+LAWS = ("output", "flow", "jump", "correct", "predict", "estimate")
+
+
+class SymbolicLoop(NamedTuple):
     """A `semantics.Loop` of one make; zeta (n,) and `given` (OUTSIDE,) are symbols too."""
 
-    make: Make
-    numbers: Numbers
-    trace: Tracer
-    zeta: Any = None
-    given: Any = None
-
-    @cached_property
-    def plant(self) -> PlanarRobot:
-        return PlanarRobot.of(self.make.robot, self.numbers.plant, self.numbers.friction)
-
-    @cached_property
-    def nominal(self) -> PlanarRobot:
-        model = self.numbers.model
-        return PlanarRobot.of(self.make.robot, self.numbers.plant if model is None else model)
-
-    @property
-    def exact(self) -> bool:
-        return self.numbers.model is None and not self.numbers.friction
-
-    @property
-    def law(self) -> Laws:
-        return Laws(self.make, self.numbers.k, self.trace)
-
-    @property
-    def held(self) -> HeldParameters | None:
-        return self.numbers.held or None
-
-    @property
-    def swap(self) -> Any:
-        return self.make.robot.swap
-
-    @property
-    def gain(self) -> Any:
-        return self.numbers.impact_gain
+    plant: PlanarRobot
+    nominal: PlanarRobot
+    exact: bool
+    law: Any
+    held: HeldParameters | None
+    swap: Any
+    gain: Any
+    limit: Any
+    zeta: Any
+    given: Any
 
     def measure(self, t: Any, q: Any, v: Any, mode: Mode) -> Measurement:
         return semantics.measurement(self, t, q, v, mode, body=True)
 
     def saturate(self, u: Any) -> Any:
-        limit = self.numbers.torque_limit
-        return np.array([minimum(maximum(x, -limit), limit) for x in u], dtype=object)
+        return np.array([minimum(maximum(x, -self.limit), self.limit) for x in u], dtype=object)
 
     def external(self, t: Any, q: Any, v: Any, mode: Mode) -> Any:
         return self.zeta
@@ -183,6 +142,7 @@ class At(NamedTuple):
     """The symbols of one instant, and the loop that they are given to."""
 
     inp: Vector
+    trace: Tracer
     loop: SymbolicLoop
     t: Any
     x: Any
@@ -190,7 +150,7 @@ class At(NamedTuple):
 
     def does(self, function: Callable[..., Any], *more: Any) -> Any:
         """A function of `semantics` here."""
-        return self.loop.trace(function)(self.loop, self.t, self.x, self.mode, *more)
+        return self.trace(function)(self.loop, self.t, self.x, self.mode, *more)
 
 
 def count(example: Any) -> int:
@@ -217,22 +177,35 @@ class Equations:
         """Numbers in a state."""
         return self.make.nx
 
-    def functions(self) -> dict[str, Callable[[], Function]]:
-        """By name, those that this make has."""
-        found = {"flow": self.flow, "strike": self.strike, "watch": self.watch}
-        if self.make.sampled:
-            found |= {"tick": self.tick}
-        if self.make.split is not None:
-            found |= {"to": self.to, "back": self.back, "remainder": self.remainder}
-        return found
+    @staticmethod
+    def names(make: Make) -> list[str]:
+        """Of the functions that this make has."""
+        split = [] if make.split is None else ["to", "back", "remainder"]
+        return ["flow", "strike", "watch", *(["tick"] if make.sampled else []), *split]
+
+    def loop(self, trace: Tracer, zeta: Any = None, given: Any = None) -> SymbolicLoop:
+        """The closed loop."""
+        K, make = self.numbers, self.make
+        model = K.plant if K.model is None else K.model
+        return SymbolicLoop(
+            plant=PlanarRobot.of(make.robot, K.plant, K.friction),
+            nominal=PlanarRobot.of(make.robot, model),
+            exact=K.model is None and not K.friction,
+            law=laws_on(trace, make.laws, K.k),
+            held=K.held or None,
+            swap=make.robot.swap,
+            gain=K.impact_gain,
+            limit=K.torque_limit,
+            zeta=zeta,
+            given=given,
+        )
 
     def at(self) -> At:
         """The symbols (t, step, t_start, x, zeta, outside)."""
-        n = self.make.robot.n
+        n, trace = self.make.robot.n, Tracer()
         inp = Vector("inp", 3 + self.nx + n + OUTSIDE)
         t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.nx)
-        zeta, outside = inp.take(n), inp.take(OUTSIDE)
-        return At(inp, SymbolicLoop(self.make, self.numbers, Tracer(), zeta, outside), t, x, mode)
+        return At(inp, trace, self.loop(trace, inp.take(n), inp.take(OUTSIDE)), t, x, mode)
 
     def made(self, inp: Vector, *parts: Any) -> Function:
         """The function of these inputs."""
@@ -241,32 +214,31 @@ class Equations:
     def flow(self) -> Function:
         """x' between events."""
         at = self.at()
-        trace = at.loop.trace
-        return self.made(at.inp, at.does(semantics.flow), trace.solver.least)
+        return self.made(at.inp, at.does(semantics.flow), at.trace.solver.least)
 
     def tick(self) -> Function:
         """x after the controller has acted, and q'' there."""
-        at = self.at()
-        trace, n = at.loop.trace, self.make.robot.n
+        at, n = self.at(), self.make.robot.n
         x = at.does(semantics.tick)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
-        return self.made(at.inp, x, trace.solver.least, a)
+        return self.made(at.inp, x, at.trace.solver.least, a)
 
     def strike(self) -> Function:
         """x after impact, relabelling and the controller's jump; `step` is the one that begins."""
         inp, trace = Vector("inp", 2 + self.nx), Tracer()
         t, step, x = inp.take(), inp.take(), inp.take(self.nx)
-        loop = SymbolicLoop(self.make, self.numbers, trace)
-        x = trace(semantics.struck)(loop, t, x, Mode(step, t))
+        x = trace(semantics.struck)(self.loop(trace), t, x, Mode(step, t))
         return self.made(inp, x, trace.solver.least)
 
     def watch(self) -> Function:
         """What the guards look at."""
-        inp, trace = Vector("inp", self.make.robot.n), Tracer()
-        q, plant = inp.take(self.make.robot.n), SymbolicLoop(self.make, self.numbers, trace).plant
-        foot, hip = plant.swing_foot(q), plant.hip(q)
-        clearance = semantics.clearance(self.numbers.tan_slope, foot)
-        return self.made(inp, clearance, foot[0], hip[1])
+        K, plant = self.numbers, self.loop(Tracer()).plant
+        inp = Vector("inp", 3 + plant.n)
+        t, start, drop, q = inp.take(), inp.take(), inp.take(), inp.take(plant.n)
+        foot = plant.swing_foot(q)
+        clearance = semantics.clearance(K.tan_slope, drop, foot)
+        hip = semantics.hip_margin(K.lowest_hip, plant.hip(q))
+        return self.made(inp, clearance, hip, semantics.time_left(K.longest, start, t), foot[0])
 
     def _split(self, trace: Tracer) -> SplitLaws:
         """The split's laws, for symbols."""
@@ -296,8 +268,6 @@ class Equations:
     def remainder(self) -> Function:
         """N_w, and N_E in its forced rows, at y = (w, E) in place of x."""
         at = self.at()
-        trace = at.loop.trace
         w, E = self._coordinates(at.x)
-        laws = self._split(trace)
-        N = trace(split.remainder)(at.loop, laws, at.t, w, E, at.mode)
-        return self.made(at.inp, *N, trace.solver.least)
+        N = at.trace(split.remainder)(at.loop, self._split(at.trace), at.t, w, E, at.mode)
+        return self.made(at.inp, *N, at.trace.solver.least)

@@ -31,6 +31,10 @@ class Machine:
     owner: Any
 
 
+_LOADED: dict[str, Machine] = {}
+"""By key, what is in memory."""
+
+
 class Text(NamedTuple):
     """A module in LLVM's language."""
 
@@ -47,6 +51,13 @@ def machine(key: str, names: Sequence[str], text: Callable[[], Text]) -> Machine
             code = compiled(*text())
             keep(key, code)
         return loaded(code, names)
+
+
+def remembered(key: str, names: Sequence[str], text: Callable[[], Text]) -> Machine:
+    """As `machine`, once per process."""
+    if key not in _LOADED:
+        _LOADED[key] = machine(key, names, text)
+    return _LOADED[key]
 
 
 def processor() -> str:

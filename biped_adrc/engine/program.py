@@ -16,7 +16,7 @@ from biped_adrc.control.base import Controller, ControllerLaws, controller_laws
 from biped_adrc.engine.equations import Equations, Make, Numbers
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
 from biped_adrc.engine.ir import module_text
-from biped_adrc.engine.machine import Machine, Text, machine
+from biped_adrc.engine.machine import Machine, Text, remembered
 from biped_adrc.engine.product import product
 from biped_adrc.engine.robot import Robot, robot_of
 from biped_adrc.engine.symbols import floats
@@ -109,14 +109,13 @@ def _numbers(
         laws.parameters,
         limit,
         math.tan(walker.slope),
+        float(walker.lowest_hip),
+        float(walker.max_step_time),
         biped.friction_coefficients if biped.friction else (),
         () if walker.held is None else walker.held,
         np.array(walker.impact_gain, dtype=float) if walker.impact_gain else (),
         () if split is None else split.parameters,
     )
-
-
-_MACHINES: dict[str, Machine] = {}
 
 
 def _machine(make: Make, numbers: Numbers) -> Machine:
@@ -133,17 +132,14 @@ def _machine(make: Make, numbers: Numbers) -> Machine:
         skeleton(numbers),
         versions_text(),
     )
-    if key not in _MACHINES:
-        names = list(Equations.of(make, numbers).functions())
-
-        try:
-            _MACHINES[key] = machine(key, names, lambda: traced(make, numbers))
-        except InputError as reason:
-            raise NotCompiled(f"{reason}; it runs in Python on the compiled plant") from reason
-    return _MACHINES[key]
+    names = Equations.names(make)
+    try:
+        return remembered(key, names, lambda: traced(make, numbers))
+    except InputError as reason:
+        raise NotCompiled(f"{reason}; it runs in Python on the compiled plant") from reason
 
 
 def traced(make: Make, numbers: Numbers) -> Text:
     """Every function run on symbols."""
-    functions = Equations.of(make, numbers).functions()
-    return Text(module_text({name: function() for name, function in functions.items()}))
+    made = Equations.of(make, numbers)
+    return Text(module_text({name: getattr(made, name)() for name in made.names(make)}))

@@ -23,6 +23,7 @@ from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.kernels.run import arc
 from biped_adrc.engine.kernels.tables import STATUS
 from biped_adrc.engine.told import Point, Told
 from biped_adrc.errors import NotFiniteError, SingularError
@@ -64,7 +65,7 @@ def run_ticks(
     plant = CompiledWalker.held(walker, method)
     assert walker.held is not None
     sizes = walker.held.sizes
-    system: HybridSystem = Ticked(walker, plant, Places.of(sizes, len(x0)))
+    system: HybridSystem = Ticked(walker, plant, flowing(sizes, len(x0)))
     if sizes.total == sizes.p and not sizes.rate:
         told = Told(walker.nominal, points[0] if points else None)
         system = Bare(walker, plant, told, options.t0)
@@ -92,59 +93,29 @@ def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> Found | 
     return Found(Event(TERMINAL[status], t, x, None), None, status)
 
 
-class Moving:
-    """The run of a held plant over one arc: its vector s, and rows (t, x, x') of nodes, which grow."""
-
-    def __init__(
-        self, plant: CompiledWalker, x: Array, t: float, mode: Mode, end: float, fired: str | None
-    ):
-        self.plan, self.K, self.work = plant.plan, plant.K, plant.plan.work()
-        self.s = self.plan.start(x, t, mode.step, mode.start, end)
-        self.s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
-        self.rows = np.empty((0, 1 + 2 * self.plan.nx))
-        self.grow(ROOM)
-
-    def grow(self, rows: int) -> None:
-        """Room for so many nodes; those that there are stay."""
-        more = np.empty((rows, self.rows.shape[1]))
-        more[: len(self.rows)] = self.rows
-        self.rows, self.s[layout.ROOM] = more, rows
-
-    @property
-    def kept(self) -> Array:
-        """The nodes so far."""
-        return self.rows[: int(self.s[layout.COUNT])]
-
-    def on(self) -> int:
-        """Go on to the end asked for, or to an event; a code."""
-        plan = self.plan
-        while True:
-            code: int = kernels().arc(plan.P, plan.F, self.K, self.work, self.s, self.rows)
-            if code != layout.FULL:
-                return code
-            self.grow(2 * len(self.rows))
+def start(
+    plant: CompiledWalker, x: Array, t: float, mode: Mode, end: float, fired: str | None, every: int
+) -> Array:
+    """The vector s of a held plant's run over one arc."""
+    s = plant.plan.start(x, t, mode.step, mode.start, end)
+    s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
+    s[layout.EVERY] = every
+    return s
 
 
-@dataclass(frozen=True)
-class Places:
-    """Where in x what flows between ticks is, and where the rest."""
+# -- with hardware ---------------------------------------------------------------------------------
+def flowing(sizes: HeldSizes, length: int) -> NDArray[np.int_]:
+    """Where in a state of `length` numbers what flows between ticks is: q, q', with lag u_m, and u."""
+    motors = length - sizes.p * (sizes.waiting + 2)
+    lagging = range(motors, motors + sizes.p) if sizes.lag else ()
+    return np.array([*range(2 * sizes.n), *lagging, *range(length - sizes.p, length)])
 
-    flowing: NDArray[np.int_]
-    kept: NDArray[np.int_]
 
-    @classmethod
-    def of(cls, sizes: HeldSizes, length: int) -> Places:
-        """For states of `length` numbers."""
-        motors = length - sizes.p * (sizes.waiting + 2) if sizes.lag else length
-        parts = (range(2 * sizes.n), range(motors, min(motors + sizes.p, length)))
-        flowing = np.array([*parts[0], *parts[1], *range(length - sizes.p, length)])
-        return cls(flowing, np.setdiff1d(np.arange(length), flowing))
-
-    def whole(self, flowing: Array, kept: Any) -> Array:
-        """x, or rows of them, from rows of what flows and the rest, which may be one for all."""
-        x = np.empty((*flowing.shape[:-1], len(self.flowing) + len(self.kept)))
-        x[..., self.flowing], x[..., self.kept] = flowing, kept
-        return x
+def whole(x: Array, at: NDArray[np.int_], rows: Array) -> Array:
+    """x with other numbers at these places, in as many rows as there are."""
+    out = np.tile(x, (*rows.shape[:-1], 1)) if rows.ndim > 1 else x.copy()
+    out[..., at] = rows
+    return out
 
 
 @dataclass(frozen=True)
@@ -153,7 +124,7 @@ class Ticked(HybridSystem):
 
     walker: Walker
     plant: CompiledWalker
-    places: Places
+    flowing: NDArray[np.int_]
 
     def clocks(self) -> tuple[Clock, ...]:
         return self.walker.clocks()
@@ -167,22 +138,20 @@ class Between:
 
     def __init__(self, system: Ticked, fired: str | None):
         self.system, self.fired = system, fired
-        self.moving: Moving | None = None
+        self.s: Array | None = None
 
     def __call__(
         self, t: float, x: Array, mode: Mode, until: float, record: Record
     ) -> tuple[float, Array, Found | None]:
-        plant, places = self.system.plant, self.system.places
-        if self.moving is None:
-            self.moving = Moving(plant, x[places.flowing], t, mode, until, self.fired)
-        s, kept, nx = self.moving.s, x[places.kept], plant.plan.nx
-        s[layout.HEAD :], s[layout.END] = x[places.flowing], until
-        s[layout.EVERY], s[layout.COUNT] = record.every, 0.0
-        code, nodes = self.moving.on(), self.moving.kept
-        at, slopes = nodes[:, 1 : 1 + nx], nodes[:, 1 + nx :]
-        record.add(nodes[:, 0].copy(), places.whole(at, kept), places.whole(slopes, 0.0))
-        t, x = float(s[layout.TIME]), places.whole(s[layout.HEAD :], kept)
-        return t, x, ended(self.system.walker, code, t, x, mode)
+        plant, at = self.system.plant, self.system.flowing
+        if self.s is None:
+            self.s = start(plant, x[at], t, mode, until, self.fired, record.every)
+        self.s[layout.HEAD :], self.s[layout.END] = x[at], until
+        found = arc(plant.plan, plant.K, self.s, record.every, room=16)
+        self.s = found.s
+        record.add(found.t.copy(), whole(x, at, found.x), whole(0.0 * x, at, found.dx))
+        t, x = float(self.s[layout.TIME]), whole(x, at, self.s[layout.HEAD :])
+        return t, x, ended(self.system.walker, found.code, t, x, mode)
 
 
 # -- without hardware ------------------------------------------------------------------------------
@@ -210,21 +179,20 @@ class Bare(HybridSystem):
     ) -> tuple[float, Array, Found | None]:
         """Over all ticks of an arc, as `system.Mover`."""
         n, end = self.walker.plant.n, len(x) - self.walker.plant.p
-        flowing = np.concatenate((x[: 2 * n], x[end:]))
-        moving = Moving(self.plant, flowing, t, mode, until, fired)
-        moving.s[layout.EVERY] = record.every
-        states, ends = [x[2 * n : end]], [0]
+        held = np.concatenate((x[: 2 * n], x[end:]))
+        s = start(self.plant, held, t, mode, until, fired, record.every)
+        seen, states, ends = Seen(self.plant, self.told, s), [x[2 * n : end]], [0]
         try:
-            code = self.ticks(moving, t, mode, until, states, ends)
+            code = self.ticks(seen, t, mode, until, states, ends)
         finally:
-            self.keep(moving, states, ends, record)
-        x = moving.s[layout.HEAD :]
-        t, x = float(moving.s[layout.TIME]), np.concatenate((x[: 2 * n], states[-1], x[2 * n :]))
+            self.keep(seen.kept, states, ends, record)
+        x = s[layout.HEAD :]
+        t, x = float(s[layout.TIME]), np.concatenate((x[: 2 * n], states[-1], x[2 * n :]))
         return t, x, ended(self.walker, code, t, x, mode)
 
     def ticks(
         self,
-        moving: Moving,
+        seen: Seen,
         t: float,
         mode: Mode,
         until: float,
@@ -240,12 +208,12 @@ class Bare(HybridSystem):
         assert isinstance(time, SampledTime)
         origin, period, s = t if time.restart else self.t_first, time.period, states[0]
         body = walker.nominal.body_terms if law.needs_body else None
-        run, u_at, size = moving.s, layout.HEAD + 2 * k.sizes.n, len(s)
+        run, u_at, size = seen.s, layout.HEAD + 2 * k.sizes.n, len(s)
         line = Line(NONE, NONE, NONE, run[u_at:].copy())
         count = max(0, math.floor((t - origin) / period))
         while origin + count * period < t:
             count += 1
-        seen, told = Seen(moving, self.told), self.told.point or Unasked()
+        told = self.told.point or Unasked()
         for q, v, terms, point in seen:
             told.now = q, v, point
             if t == origin + count * period:
@@ -264,9 +232,9 @@ class Bare(HybridSystem):
                 return code
         raise AssertionError
 
-    def keep(self, moving: Moving, states: list[Array], ends: list[int], record: Record) -> None:
+    def keep(self, nodes: Array, states: list[Array], ends: list[int], record: Record) -> None:
         """The nodes, with the state of the controller at each of them."""
-        n, nx, nodes = self.walker.plant.n, self.plant.plan.nx, moving.kept
+        n, nx = self.walker.plant.n, self.plant.plan.nx
         s = np.zeros((len(nodes), 0))
         if len(states[0]):
             s = np.repeat(np.array(states), np.diff([*ends, len(nodes)]), axis=0)
@@ -286,25 +254,35 @@ class Unasked:
 class Seen:
     """(q, v, terms, point) at one tick after the other, as `move` takes the plant on; all read only."""
 
-    def __init__(self, moving: Moving, told: Told):
-        self.moving, self.told, self.n = moving, told, told.robot.structure.n
+    def __init__(self, plant: CompiledWalker, told: Told, s: Array):
+        self.plan, self.K, self.work, self.s = plant.plan, plant.K, plant.plan.work(), s
+        self.told, self.n = told, told.robot.structure.n
         self.shapes = [(), (self.n,), (self.n,), *told.shapes]
+        self.next, self.width = 0, sum(map(math.prod, self.shapes))
         self.hold = _HOLD(kernels().ADDRESSES["hold"])
         self.given = np.zeros(8, dtype=np.int64)
-        self.at, self.next, self.width = self.given.ctypes.data, 0, sum(map(math.prod, self.shapes))
+        self.rows = np.empty((0, 1 + 2 * self.plan.nx))
+        self.grow(ROOM)
+        self.at = self.given.ctypes.data
 
-    def point(self) -> None:
-        """At the arrays of the run, which may have grown."""
-        m, plan = self.moving, self.moving.plan
-        arrays = (plan.P, plan.F, m.K, m.work, m.s, m.rows)
+    def grow(self, rows: int) -> None:
+        """Room for so many nodes; those that there are stay."""
+        more = np.empty((rows, self.rows.shape[1]))
+        more[: len(self.rows)] = self.rows
+        self.rows, self.s[layout.ROOM] = more, rows
+        arrays = (self.plan.P, self.plan.F, self.K, self.work, self.s, self.rows)
         addresses = [array.ctypes.data for array in arrays]
         self.given[:] = *addresses, self.told.address, self.told.K.ctypes.data
 
+    @property
+    def kept(self) -> Array:
+        """The nodes so far."""
+        return self.rows[: int(self.s[layout.COUNT])]
+
     def __iter__(self) -> Iterator[Any]:
-        self.point()
         last = np.empty((1, self.width))
-        last[0, 0] = self.moving.s[layout.TIME]
-        last[0, 1 : 1 + 2 * self.n] = self.moving.s[layout.HEAD : layout.HEAD + 2 * self.n]
+        last[0, 0] = self.s[layout.TIME]
+        last[0, 1 : 1 + 2 * self.n] = self.s[layout.HEAD : layout.HEAD + 2 * self.n]
         pointer_call(self.told.machine, "told", self.told.K, last, last[:, 1 + 2 * self.n :])
         while True:
             block = np.empty((BLOCK + 1, self.width))
@@ -321,7 +299,6 @@ class Seen:
         self.next += 8 * self.width
         code: int = self.hold(self.at, self.next)
         while code == layout.FULL:
-            self.moving.grow(2 * len(self.moving.rows))
-            self.point()
+            self.grow(2 * len(self.rows))
             code = self.hold(self.at, self.next)
         return code

@@ -18,15 +18,13 @@ from biped_adrc.engine.compiled_biped import Call, CompiledBiped, parts_of
 from biped_adrc.engine.equations import Function, count
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
 from biped_adrc.engine.ir import module_text
-from biped_adrc.engine.machine import Machine, Text, machine
+from biped_adrc.engine.machine import Machine, Text, remembered
 from biped_adrc.engine.mechanics import PlanarRobot
 from biped_adrc.engine.symbols import Tracer, Untraceable, Vector, column, floats, run
 from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlantArrays
 from biped_adrc.types import Array
-
-_CODES: dict[str, Machine] = {}
 
 
 class Point:
@@ -124,8 +122,4 @@ class Told:
 
 
 def _machine(key: tuple[Any, ...], name: str, function: Callable[[], Function]) -> Machine:
-    hashed = hash_of(*key)
-    if hashed not in _CODES:
-        made = machine(hashed, [name], lambda: Text(module_text({name: function()})))
-        _CODES[hashed] = made
-    return _CODES[hashed]
+    return remembered(hash_of(*key), [name], lambda: Text(module_text({name: function()})))

@@ -13,8 +13,11 @@ exchange the two first.
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from importlib.resources import files
+from typing import Any
 
 import numpy as np
 
@@ -114,106 +117,36 @@ def between(source: Convention, target: Convention) -> AngleMap:
 
 def convention(name: str, knees: bool = True) -> Convention:
     """A convention by name, for a walker with knees or without. Raises InputError with the names there are."""
-    if name not in _DEFINITIONS:
+    if name not in CONVENTIONS:
         raise InputError(
             f"there is no angle convention '{name}'; choose one of {list(CONVENTIONS)}"
         )
-    d = _DEFINITIONS[name]
+    d = _definitions()[name]
     paper = [i for i in range(5) if knees or i not in _KNEES]
-    own = [i for i in range(5) if knees or i not in d.knees]
-    rows = [r for r in d.outputs if r in own]
-    to_paper = AngleMap(np.array(d.A)[np.ix_(paper, own)], np.pi * np.array(d.half_turns)[paper])
+    own = [i for i in range(5) if knees or i not in d["knees"]]
+    rows = [r for r in d["outputs"] if r in own]
+    to_paper = AngleMap(
+        np.array(d["A"])[np.ix_(paper, own)], np.pi * np.array(d["half_turns"])[paper]
+    )
     R = np.eye(5)[list(_RELABELLING)][np.ix_(paper, paper)]
     swap = to_paper.inverse @ AngleMap(R, np.zeros(len(R))) @ to_paper
     return Convention(
         name,
-        tuple(d.coordinates[i] for i in own),
+        tuple(d["coordinates"][i] for i in own),
         to_paper,
         np.eye(5)[np.ix_(rows, own)],
-        d.sense,
+        d["sense"],
         np.array(_PHASE)[paper],
         swap,
-        d.source,
+        " ".join(d["source"].split()),
     )
 
 
-@dataclass(frozen=True)
-class _Definition:
-    """A (5, 5) and b [half turns] of q = A q' + b; `knees`, `outputs`: indices of q'."""
-
-    coordinates: tuple[str, ...]
-    A: tuple[tuple[int, ...], ...]
-    half_turns: tuple[int, ...]
-    knees: tuple[int, int]
-    outputs: tuple[int, ...]
-    sense: float
-    source: str
+@cache
+def _definitions() -> dict[str, dict[str, Any]]:
+    """The file conventions.toml."""
+    return tomllib.loads(files("biped_adrc.gait").joinpath("conventions.toml").read_text("utf-8"))
 
 
-_IDENTITY = ((1, 0, 0, 0, 0), (0, 1, 0, 0, 0), (0, 0, 1, 0, 0), (0, 0, 0, 1, 0), (0, 0, 0, 0, 1))
-
-_DEFINITIONS = {
-    "paper": _Definition(
-        ("q1", "q2", "q3", "q4", "q5"),
-        _IDENTITY,
-        (0, 0, 0, 0, 0),
-        knees=(2, 3),
-        outputs=(0, 1, 2, 3),
-        sense=1.0,
-        source="Arcos-Legarda, Cortes-Romero, Tovar; decoded from its printed fixed point x*.",
-    ),
-    # The angles are the paper's; only the phase, -q31 - q41 / 2 - q1, has the other sign.
-    "tac2003": _Definition(
-        ("q31", "q32", "q41", "q42", "q1"),
-        _IDENTITY,
-        (0, 0, 0, 0, 0),
-        knees=(2, 3),
-        outputs=(0, 1, 2, 3),
-        sense=-1.0,
-        source="Westervelt, Grizzle, Koditschek, IEEE TAC 48(1), 2003, with q = (q31, q32, q41, q42, q1), "
-        "H0 = [I 0] and c = (-1, 0, -1/2, 0, -1). Zeros and signs of the angles are those of the model "
-        "script of Westervelt and Grizzle, 2001 (hips from the torso, knees from the thigh, absolute angles "
-        "in the trigonometric sense from the vertical, links at zero point up); they were not read off the "
-        "figure of the article, whose arrows may be drawn otherwise.",
-    ),
-    # phi right-handed about +y is -a; hips near pi rather than -pi: a whole turn.
-    "frost": _Definition(
-        ("BaseRotY", "q1_right", "q2_right", "q1_left", "q2_left"),
-        (
-            (0, -1, 0, 0, 0),
-            (0, 0, 0, -1, 0),
-            (0, 0, -1, 0, 0),
-            (0, 0, 0, 0, -1),
-            (-1, 0, 0, 0, 0),
-        ),
-        (2, 2, 0, 0, 0),
-        knees=(2, 4),
-        outputs=(1, 2, 3, 4),
-        sense=-1.0,
-        source="FROST (Hereid, Ames, IROS 2017), its RABBIT example: every axis 0 1 0, links along +z, x = "
-        "(BasePosX, BasePosZ, BaseRotY, q1_right, q2_right, q1_left, q2_left) without the base's position; "
-        "hips near pi, knees positive. That example runs its Bezier curves over time; the phase here is the "
-        "virtual leg, which grows while the robot walks.",
-    ),
-    # A leg is measured from the foot up to the hip: half a turn from the paper's.
-    "optimtraj": _Definition(
-        ("q1", "q2", "q3", "q4", "q5"),
-        (
-            (0, 1, -1, 0, 0),
-            (0, 0, -1, 1, 0),
-            (1, -1, 0, 0, 0),
-            (0, 0, 0, -1, 1),
-            (0, 0, 1, 0, 0),
-        ),
-        (1, 1, 0, 0, 0),
-        knees=(0, 4),
-        outputs=(0, 1, 2, 3, 4),
-        sense=1.0,
-        source="Kelly, SIAM Review 59(4), 2017, and the five-link biped of OptimTraj: absolute angles of "
-        "stance tibia, stance femur, torso, swing femur, swing tibia, counter-clockwise, all zero when the "
-        "robot stands upright.",
-    ),
-}
-
-CONVENTIONS: tuple[str, ...] = tuple(_DEFINITIONS)
+CONVENTIONS: tuple[str, ...] = tuple(_definitions())
 """Names for `convention`."""

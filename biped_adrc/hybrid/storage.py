@@ -8,7 +8,7 @@ from __future__ import annotations
 import io
 import json
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,8 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 
 FORMAT = "biped_adrc run 1"
+BESIDE = "beside."
+"""Before the names of arrays that are no part of the trajectory."""
 
 
 def run_files(path: Path | str) -> tuple[Path, Path]:
@@ -46,11 +48,17 @@ def check_beside(path: Path) -> None:
         )
 
 
-def save(trajectory: Trajectory, path: Path | str, settings: dict[str, Any] | None = None) -> None:
-    """Write `path` (.npz) and the same name with .json. Modes are stored as tuples of numbers.
+def save(
+    trajectory: Trajectory,
+    path: Path | str,
+    settings: dict[str, Any] | None = None,
+    beside_it: Mapping[str, Any] | None = None,
+) -> Path:
+    """Write `path` (.npz) and the same name with .json; returns it. Modes are stored as tuples of numbers.
 
-    Raises InputError for a name of another kind, and OutputError when the files cannot be written or
-    the .json would take the place of something else.
+    beside_it: arrays by name that `load_beside` gives back, such as the walker's record. Raises InputError for
+    a name of another kind, and OutputError when the files cannot be written or the .json would take the place
+    of something else.
     """
     path, beside = run_files(path)
     check_beside(beside)
@@ -66,6 +74,7 @@ def save(trajectory: Trajectory, path: Path | str, settings: dict[str, Any] | No
     }
     text = json.dumps(meta, indent=2)
     arrays: dict[str, Any] = {"meta": np.array(text)}
+    arrays |= {f"{BESIDE}{name}": np.asarray(x) for name, x in (beside_it or {}).items()}
     for i, arc in enumerate(trajectory.arcs):
         arrays |= {f"t{i}": arc.t, f"x{i}": arc.x, f"dx{i}": arc.dx}
         arrays |= {f"read{i}_{name}": rows for name, rows in arc.read.items()}
@@ -78,6 +87,7 @@ def save(trajectory: Trajectory, path: Path | str, settings: dict[str, Any] | No
     np.savez_compressed(buffer, **arrays)
     write_bytes(path, buffer.getvalue())
     write_text(beside, text + "\n")
+    return path
 
 
 def load(path: Path | str, mode: Callable[..., Any] = lambda *numbers: numbers) -> Trajectory:
@@ -99,6 +109,13 @@ def load(path: Path | str, mode: Callable[..., Any] = lambda *numbers: numbers) 
             raise
         raise InputError(f"run '{path}' cannot be read: {error}") from error
     return Trajectory(arcs, Status[meta["status"]], meta["detail"], meta["settings"])
+
+
+def load_beside(path: Path | str) -> dict[str, Any]:
+    """The arrays beside the trajectory in a file that `load` has read."""
+    with np.load(Path(path), allow_pickle=False) as data:
+        names = [name for name in data.files if name.startswith(BESIDE)]
+        return {name.removeprefix(BESIDE): data[name] for name in names}
 
 
 def _arc(data: Any, i: int, event: dict[str, Any] | None, mode: Callable[..., Any]) -> Arc:

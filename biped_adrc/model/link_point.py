@@ -1,11 +1,9 @@
 """A point fixed to a link, in closed form: the generalised force of a force and a moment there.
 
-With a = A q the absolute angles and the point c = sum_i d_i exp(i a_i), written as x + i z from the stance
-foot, as in `biped_adrc.model.planar`, and the link's own absolute angle b q,
+With J(q) the Jacobian of the point, a sum of turned vectors as in `biped_adrc.model.planar`, and the link's own
+absolute angle b q,
 
-    zeta = A' [(-Re d o sin a - Im d o cos a) F_x + (Re d o cos a - Im d o sin a) F_z] + b' M
-
-The vectors d are fitted to the positions that Pinocchio's floating model gives, where the fit is exact.
+    zeta = J' (F_x, F_z) + b' M
 """
 
 from __future__ import annotations
@@ -19,6 +17,7 @@ import pinocchio as pin
 from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.pinned import frame_index
+from biped_adrc.model.planar import fitted, jacobian, turned
 from biped_adrc.types import Array
 
 EXACT = 1e-10
@@ -40,11 +39,7 @@ class LinkPoint(NamedTuple):
 
 def wrench_torque(k: LinkPoint, q: Array, f: Array) -> Array:
     """zeta (n,) [N m] of f = (F_x, F_z, M) [N, N, N m], M counter-clockwise with x to the right and z up."""
-    a = k.A @ q
-    c, s = np.cos(a), np.sin(a)
-    zeta: Array = ((k.re * c - k.im * s) * f[1] - (k.re * s + k.im * c) * f[0]) @ k.A + k.turn * f[
-        2
-    ]
+    zeta: Array = f[:2] @ jacobian(k, turned(k, q), k.re, k.im) + k.turn * f[2]
     return zeta
 
 
@@ -87,16 +82,12 @@ def _moves(biped: Biped, link: str) -> bool:
 
 def _fitted(biped: Biped, place: Callable[[Array], Array], turn: Array, name: str) -> LinkPoint:
     """d of a point whose place (x, z) is a function of q. Raises ModelError where the fit is not exact."""
-    n, (_, _, A) = biped.n, biped.pinned.bodies()
-    q = np.random.default_rng(1).uniform(-np.pi, np.pi, (2 * n + 3, n))
-    turns = np.exp(1j * q @ A.T)
-    there = np.array([place(x) for x in q]) @ np.array([1.0, 1.0j])
-    d = np.linalg.lstsq(turns, there, rcond=None)[0]
-    gap, size = np.max(np.abs(turns @ d - there)), np.max(np.abs(there))
+    _, _, A = biped.pinned.bodies()
+    (d,), gap, size = fitted(A, place, EXACT)
     if not gap <= EXACT * size:
         raise ModelError(
             f"robot '{biped.description.name}': '{name}' is no point of a planar tree; its place is off by "
             f"{gap:.1e} m at random angles, expected less than {EXACT * size:.1e} m"
         )
-    re, im = (np.where(np.abs(x) > EXACT * size, x, 0.0) for x in (d.real, d.imag))
-    return LinkPoint(np.ascontiguousarray(A), re, im, turn)
+    A, re, im = map(np.ascontiguousarray, (A, d.real, d.imag))
+    return LinkPoint(A, re, im, turn)

@@ -19,6 +19,7 @@ numbers and object arrays of symbols alike: NumPy asks each symbol for its `cos`
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
@@ -64,7 +65,7 @@ class Joined(Protocol):
     """How links are joined."""
 
     @property
-    def A(self) -> NDArray[np.int_]:
+    def A(self) -> NDArray[Any]:
         """a = A q (n, n)."""
 
 
@@ -79,16 +80,10 @@ class PlanarTree:
     @classmethod
     def of(cls, biped: Biped) -> PlanarTree:
         """Read off the model of a robot. Raises ModelError when it is not a planar tree of rigid links."""
-        pinned, n = biped.pinned, biped.n
-        mass, inertia, A = pinned.bodies()
-        q = np.random.default_rng(1).uniform(-np.pi, np.pi, (3 * n + 3, n))
-        turns = np.exp(1j * q @ A.T)
-        where = np.array([pinned.points(x) for x in q])
-        fitted = np.linalg.lstsq(turns, where[..., 0] + 1j * where[..., 1], rcond=None)[0]
-        rotor = np.zeros(n)
+        n, (mass, inertia, A) = biped.n, biped.pinned.bodies()
+        d, _, _ = fitted(A, biped.pinned.points, EXACT)
+        com, rotor = d[:n], np.zeros(n)
         rotor[: biped.p] = biped.armature
-        d = np.asarray((_clean(fitted.real) + 1j * _clean(fitted.imag)).T, dtype=np.complex128)
-        com = d[:n]
         W = com.conj().T @ (mass[:, np.newaxis] * com)
         w, foot, hip = (_parts(z) for z in (mass @ com, d[n], d[n + 1]))
         total, gravity = float(np.sum(mass)), biped.description.gravity
@@ -135,9 +130,22 @@ def _parts(z: ComplexArray) -> tuple[Array, Array]:
     return np.ascontiguousarray(z.real), np.ascontiguousarray(z.imag)
 
 
-def _clean(x: Any) -> Any:
-    """Round-off of the fit taken off."""
-    return np.where(np.abs(x) < EXACT, 0.0, x)
+def fitted(
+    A: Array, places: Callable[[Array], Array], exact: float
+) -> tuple[ComplexArray, float, float]:
+    """Vectors d (points, n) of points fixed to links, from their places (points, 2) at angles q [m].
+
+    Then the largest gap of the fit and the farthest place [m]; parts below `exact` of that, or of 1 m where
+    nothing is so far, are round-off and 0.
+    """
+    n = len(A)
+    q = np.random.default_rng(1).uniform(-np.pi, np.pi, (3 * n + 3, n))
+    turns = np.exp(1j * q @ A.T)
+    there = np.array([np.atleast_2d(places(x)) for x in q]) @ np.array([1.0, 1.0j])
+    d = np.linalg.lstsq(turns, there, rcond=None)[0]
+    gap, size = float(np.max(np.abs(turns @ d - there))), float(np.max(np.abs(there)))
+    re, im = (np.where(np.abs(x) < exact * max(1.0, size), 0.0, x) for x in (d.real, d.imag))
+    return (re + 1j * im).T, gap, size
 
 
 # -- laws, for numbers and symbols -----------------------------------------------------------------

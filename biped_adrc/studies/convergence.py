@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.checks import Check, at_most
-from biped_adrc.studies.runs import Outcome
+from biped_adrc.scenario.outcome import Outcome
 
 AGREE = 0.01
 """Largest relative difference of two values that agree."""

@@ -7,8 +7,9 @@ before the impacts of a walk that starts beside the cycle.
 
 from __future__ import annotations
 
-import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -25,33 +26,20 @@ from biped_adrc.analysis.stability import (
     stability_table,
 )
 from biped_adrc.analysis.variational import periodic_orbit
-from biped_adrc.control.passive import Passive
 from biped_adrc.errors import InputError, SimulationError
-from biped_adrc.gait.gait import load_gait
-from biped_adrc.gait.passive_cycle import passive_cycle
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.exponential import Exponential
-from biped_adrc.hybrid.integrators import RK4, Adaptive
+from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
-from biped_adrc.model.biped import Biped
 from biped_adrc.model.limits import Limits
-from biped_adrc.studies.runs import Run
+from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.passive import SETTLES, Cycle, known_cycle
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.walker import FOOT_STRIKE, Mode
 
-PASSIVE = "passive"
 DIFFERENCE = 1e-4  # [rad, rad/s], of differences that are extrapolated
-LIGHT_FEET = 5e-4  # [rad, rad/s], the same where round-off of 1e-10 in P asks for wider ones
 BESIDE = 1e-3  # how much faster than on the cycle the regression's walk starts, dimensionless
-_SETTLES = 1e-9  # [rad, rad/s], residual of Newton: feet of 1e-7 of the hip's mass leave a round-off of 1e-10
-
-
-@dataclass(frozen=True)
-class Cycle:
-    """A return map and a pre-impact state from which Newton finds its fixed point."""
-
-    P: ReturnMap
-    guess: Array
 
 
 @dataclass(frozen=True)
@@ -63,33 +51,20 @@ class CycleStability:
     table: StabilityTable
 
 
-def gait_cycle(run: Run, observer_states: bool = True, slope: float | None = None) -> Cycle:
-    """A stored gait under the controller of `run`, its pushes left out, on its own or another slope [rad].
+def gait_cycle(s: Scenario, observer_states: bool = True, slope: float | None = None) -> Cycle:
+    """A stored gait under the controller of a scenario, its pushes left out, on its own or another slope [rad].
 
     RK4 at 0.5 ms is within 2e-7 of delta^2 on the published gaits; ADRC takes the exponential method at 1 ms.
     """
-    biped = run.biped()
-    gait = load_gait(run.gait, biped)
-    walker = replace(run, pushes=()).build(biped, gait)
+    scene = Scene.of(s)
+    walker = build(replace(s, pushes=()), scene)
     if slope is not None:
         walker = replace(walker, slope=slope)
     has_states = walker.split(Mode()) is not None
     method = Exponential(1e-3) if has_states else RK4(5e-4)
     P = ReturnMap(walker, method, observer_states, 1e-5 if has_states else DIFFERENCE)
+    gait = scene.walked
     return Cycle(P, walker.initial_state(gait.q_minus, gait.v_minus))
-
-
-def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
-    """The stored cycle of a robot without motors, on its own slope or another one [rad] nearby.
-
-    Raises GaitError when none is stored, SimulationError when the robot does not come to a first impact.
-    """
-    known = passive_cycle(biped)
-    angle = known.slope if slope is None else slope
-    walker = Walker(biped, Passive(), slope=angle, max_step_time=known.max_step_time)
-    P = ReturnMap(walker, Adaptive(1e-12, 1e-12), difference=LIGHT_FEET, pitch=math.pi)
-    start = walker.initial_state(known.q_plus, known.v_plus)
-    return Cycle(P, P.next_strike(walker, start, Mode()).x_minus)
 
 
 def find_cycle(
@@ -99,23 +74,24 @@ def find_cycle(
     controller: str | None = None,
     observer_states: bool = True,
     slope: float | None = None,
+    own: Mapping[str, Any] | None = None,
 ) -> Cycle:
-    """The cycle of a robot by name: of a stored gait under NPD (or ADRC), or passive without motors.
+    """The cycle of a robot by name: of a gait under a controller, NPD without, or passive without motors.
 
-    Raises InputError for a controller that does not fit the robot, and as Biped.load, load_gait, known_cycle.
+    own: values of the controller's. Raises InputError for a controller that does not fit the robot, and as
+    Biped.load, load_gait, known_cycle.
     """
-    biped = Biped.load(robot, preset)
-    fitting = ("NPD", "ADRC") if biped.p else (PASSIVE,)
-    name = fitting[0] if controller is None else controller
-    if name not in fitting:
-        raise InputError(
-            f"controller '{name}' does not fit robot '{robot}' with {biped.p} motors; choose one of "
-            f"{list(fitting)}"
-        )
-    if name == PASSIVE:
-        return known_cycle(biped, slope)
-    run = Run(name, robot, biped.preset, gait)
-    return gait_cycle(run, observer_states, slope)
+    s = Scenario(robot=robot, preset=preset, gait=gait, own=dict(own or {}))
+    usual = "NPD" if Scene.of(s).gait else "passive"
+    return cycle_of(replace(s, controller=controller or usual), observer_states, slope)
+
+
+def cycle_of(s: Scenario, observer_states: bool = True, slope: float | None = None) -> Cycle:
+    """The cycle of a scenario, its pushes left out. Raises as `find_cycle`."""
+    scene = Scene.of(s)
+    if scene.gait:
+        return gait_cycle(s, observer_states, slope)
+    return known_cycle(build(replace(s, gait=Scenario.gait), scene).plant, slope)
 
 
 def cycle_stability(
@@ -137,7 +113,7 @@ def cycle_stability(
         rows = [Row(Method.CENTRAL, orbit.multipliers)]
         rows += [] if regression is None else [regression_row(regression)]
         return CycleStability(cycle, orbit, StabilityTable(tuple(rows), t))
-    orbit, step = periodic_orbit(P, cycle.guess, _SETTLES)
+    orbit, step = periodic_orbit(P, cycle.guess, SETTLES)
     table = stability_table(P, step, _regression(P, orbit, samples), t)
     return CycleStability(cycle, orbit, table)
 

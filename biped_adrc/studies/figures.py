@@ -9,7 +9,7 @@ import numpy as np
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.errors import InputError
-from biped_adrc.studies.recording import Recording
+from biped_adrc.scenario.recording import Walk
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")
 
 
-def draw(name: str, walks: Mapping[str, Recording]) -> Figure:
+def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
     """One of `NAMES`; of the first walk, or of all for "phase" and "comparison". Raises InputError."""
     from biped_adrc.viz import figures
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from biped_adrc.analysis.legality import OUTCOMES
+from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.studies.plan import BOTH, RISE, Plan
 from biped_adrc.studies.push_map import Cell, certain, counts
 from biped_adrc.studies.results import Results
-from biped_adrc.studies.runs import Outcome
 from biped_adrc.studies.verdicts import distance
 
 

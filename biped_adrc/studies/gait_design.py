@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate
+from biped_adrc.columns import columns
 from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.design.ipopt import Progress
@@ -18,7 +19,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import Adaptive
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.limits import KnownLimits
-from biped_adrc.studies.walk import walk
+from biped_adrc.scenario.walk import walk
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Walker
 
@@ -53,21 +54,24 @@ class DesignedGait:
         """What was found, one line per figure."""
         c, o = self.certificate, self.request.objective
         unit = {"torque": " N^2 m s", "transport": "", "peak": " N m"}[o.value]
-        lines = [
-            f"speed                {self.speed:.6f} m/s",
-            f"step length          {c.step_length:.6f} m",
-            f"period               {self.gait.period:.6f} s",
-            f"least {o.value:14s} {self.objective:.6g}{unit}",
-            f"delta^2              {self.multiplier:.6f}",
-            f"peak torque          {c.peak_torque:.2f} N m",
-            f"friction             {c.friction:.3f}, of the impulse {c.impulse_ratio:.3f}",
-            f"least F_N            {c.least_normal_force:.1f} N",
-            f"foot clearance       {1e3 * c.clearance:.1f} mm, between the first and the last 3 % of the step",
-            f"cost of transport    {c.cost_of_transport:.4f}",
-            f"walked {STEPS} steps under NPD, back within {self.gap:.1e}",
-            f"designed in {self.seconds:.1f} s, {self.iterations} iterations",
+        rows = [
+            ("speed", f"{self.speed:.6f} m/s"),
+            ("step length", f"{c.step_length:.6f} m"),
+            ("period", f"{self.gait.period:.6f} s"),
+            (f"least {o.value}", f"{self.objective:.6g}{unit}"),
+            ("delta^2", f"{self.multiplier:.6f}"),
+            ("peak torque", f"{c.peak_torque:.2f} N m"),
+            ("friction", f"{c.friction:.3f}, of the impulse {c.impulse_ratio:.3f}"),
+            ("least F_N", f"{c.least_normal_force:.1f} N"),
+            (
+                "foot clearance",
+                f"{1e3 * c.clearance:.1f} mm, between the first and the last 3 % of the step",
+            ),
+            ("cost of transport", f"{c.cost_of_transport:.4f}"),
+            (f"walked {STEPS} steps under NPD, back within {self.gap:.1e}",),
+            (f"designed in {self.seconds:.1f} s, {self.iterations} iterations",),
         ]
-        return "\n".join(lines)
+        return "\n".join(columns(rows, 19))
 
 
 def design_gait(

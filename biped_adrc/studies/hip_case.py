@@ -15,22 +15,18 @@ import numpy as np
 from biped_adrc.analysis.forced_steps import stopping_force
 from biped_adrc.analysis.legality import Legality, outcome_of
 from biped_adrc.analysis.stride_directions import STANCE_KNEE
-from biped_adrc.analysis.stride_gain import stride_response
-from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Controller
-from biped_adrc.control.npd import NPDController
 from biped_adrc.control.stride import StridePI
-from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.errors import InputError
-from biped_adrc.gait.gait import Gait, load_gait
-from biped_adrc.hybrid.exponential import Exponential
-from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies.walk import Walk, walk
-from biped_adrc.walker import FOOT_STRIKE, Walker
-
-TRACKING = ("NPD", "ADRC")
+from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.registry import find
+from biped_adrc.scenario.run import walk_scenario
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.walker import FOOT_STRIKE
 
 
 class Parts(NamedTuple):
@@ -46,7 +42,7 @@ class HipCase:
     """One walker to be pushed. h [s]: of RK4 under NPD, of the exponential method under ADRC.
 
     stride: whether the PI goes around the tracking; limit [rad]: its bound on |beta|.
-    Raises InputError for an unknown law, less than one step, or a resolution [N] or h that is not positive.
+    Raises InputError for what no scenario is, or a resolution [N] that is not positive.
     """
 
     tracking: str
@@ -60,36 +56,41 @@ class HipCase:
     h: float = 1e-3
 
     def __post_init__(self) -> None:
-        if self.tracking not in TRACKING:
-            raise InputError(f"tracking law '{self.tracking}' is unknown, choose one of {TRACKING}")
-        if self.steps < 1:
-            raise InputError(f"a walk of {self.steps} steps was asked for, expected at least 1")
-        for name, value, unit in (("resolution", self.resolution, "N"), ("step", self.h, "s")):
-            if not (math.isfinite(value) and value > 0):
-                raise InputError(f"the {name} is {value} {unit}, expected a positive number")
+        self.scenario(0.0)
+        find("controller", self.tracking)
+        if not (math.isfinite(self.resolution) and self.resolution > 0):
+            raise InputError(f"the resolution is {self.resolution} N, expected a positive number")
 
     @property
     def name(self) -> str:
         """Of the controller."""
         return f"{self.tracking} with PI" if self.stride else self.tracking
 
+    def scenario(self, force: float) -> Scenario:
+        """The walk from the gait's orbit under a rearward force [N], which acts from its first instant on."""
+        around = {"inner": self.tracking, "direction": self.direction, "limit": self.limit}
+        return Scenario(
+            controller="stride PI" if self.stride else self.tracking,
+            own=around if self.stride else {},
+            preset=self.preset,
+            gait=self.gait,
+            impacts=self.steps,
+            h=self.h,
+            push="hip force",
+            pushed_step=1,
+            force=force,
+            direction=math.pi,
+        )
+
     def parts(self) -> Parts:
         """What walks; the gains of the PI are those of the triple pole."""
-        biped = Biped.load("rabbit", self.preset)
-        gait = load_gait(self.gait, biped)
-        h = gait.constraint
-        law: Controller = NPDController(h) if self.tracking == "NPD" else ADRCController(h)
-        if self.stride:
-            gains = stride_response(gait, biped, self.direction).gains(self.limit)
-            law = StridePI.on_gait(law, gait, biped, gains, direction=self.direction)
-        return Parts(biped, gait, law)
+        scene = Scene.of(self.scenario(0.0))
+        walker = build(self.scenario(0.0), scene)
+        return Parts(scene.biped, scene.walked, walker.controller)
 
     def walk(self, force: float) -> Walk:
-        """The walk from the gait's orbit under a rearward force [N], which acts from its first instant on."""
-        biped, gait, law = self.parts()
-        walker = Walker(biped, law, HipForce(biped, (-force, 0.0)))
-        method = RK4(self.h) if self.tracking == "NPD" else Exponential(self.h)
-        return walk(walker, gait, self.steps, method)
+        """The walk under this force [N]."""
+        return walk_scenario(self.scenario(force))
 
     def predicted(self) -> float:
         """The force [N] that stops it according to the quadratures."""

@@ -17,7 +17,8 @@ import numpy as np
 
 from biped_adrc.analysis.stride_directions import DirectionMerit, direction_merits
 from biped_adrc.errors import InputError, SimulationError
-from biped_adrc.studies.hip_case import TRACKING, HipCase, PushedWalk
+from biped_adrc.studies.hip_case import HipCase, PushedWalk
+from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.studies.pool import Task, TaskProgress, run_tasks
 
 MOST = 1000
@@ -142,7 +143,7 @@ def hip_push(
     cases = [
         replace(base, preset=preset, tracking=law, stride=stride)
         for preset in presets
-        for law in TRACKING
+        for law in CONTROLLERS
         for stride in (False, True)
     ]
     tasks = [Task(f"{c.preset}, {c.name}", hip_limit, (c,)) for c in cases]

@@ -14,7 +14,6 @@ from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.engine.choice import COMPILED, simulate_by
-from biped_adrc.gait.gait import load_gait
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
@@ -25,7 +24,11 @@ from biped_adrc.model.contact import Impact
 from biped_adrc.model.momentum import LinkMotion
 from biped_adrc.model.reduction import reduce
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
-from biped_adrc.studies.runs import FullOutcome, Outcome, Run, execute_fully
+from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.run import walk_scenario
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE
 from biped_adrc.walker import Mode as StepMode
@@ -91,7 +94,7 @@ def impact_momenta(b: Biped, q: Array, v: Array, hit: Impact) -> Array:
     return np.array([whole, leg, b.mass * float(np.max(np.abs(pinned - after.com_velocity)))])
 
 
-def walk_laws(name: str, full: FullOutcome) -> list[Check]:
+def walk_laws(name: str, full: Walk) -> list[Check]:
     """Foot on the ground at located impacts; power balance over the pushed step, or the first one."""
     b, o = full.walker.plant, full.outcome
     heights = [abs(float(b.swing_foot(x[: b.n])[1])) for x in o.x_minus]
@@ -161,11 +164,11 @@ def held_joint(
     return amplitude, corrected, printed
 
 
-def sampling_order(run: Run, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4)) -> float:
+def sampling_order(run: Scenario, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4)) -> float:
     """Order in T with which sampled control approaches continuous control, at the first impact."""
 
-    def end(r: Run) -> Array:
-        return execute_fully(r).trajectory.before(FOOT_STRIKE)[-1][:10]
+    def end(r: Scenario) -> Array:
+        return walk_scenario(r).trajectory.before(FOOT_STRIKE)[-1][:10]
 
     exact = end(replace(run, impacts=1, h=2.5e-4))
     gaps = [
@@ -179,12 +182,10 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
     """Observed order of ETD-RK4 from 0.25 to 0.125 ms over 0.1 s of walking with Table I times `factor`,
     and its error at 0.5 ms [rad]. With longer steps the fast joints of a robot without rotors are not resolved.
     """
-    run = Run("ADRC", preset=preset, poles=tuple(factor * pole for pole in TABLE_I))
-    biped = run.biped()
-    gait = load_gait(run.gait, biped)
-    walker = run.build(biped, gait)
-    q, v = gait.start(biped)
-    x0 = walker.initial_state(q, v)
+    run = Scenario("ADRC", preset=preset, poles=tuple(factor * pole for pole in TABLE_I))
+    scene = Scene.of(run)
+    walker = build(run, scene)
+    x0 = walker.initial_state(*scene.walked.start(scene.biped))
 
     def end(h: float) -> Array:
         return simulate_by(COMPILED, walker, x0, StepMode(), Exponential(h), t_end=0.1).final_state[
@@ -200,7 +201,7 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
 def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
     """(23) on a held joint, the order in the sampling period, the order of the exponential method."""
     (simulated, corrected, printed), (half, *_) = held_joint(), held_joint(h=0.5 * HELD_STEP)
-    order = sampling_order(Run("NPD", preset=preset, engine=COMPILED))
+    order = sampling_order(Scenario("NPD", preset=preset, engine=COMPILED))
     etd, _ = exponential_order(preset, 0.05)
     etd_table, error = exponential_order(preset, 1.0)
     gap = abs(simulated - corrected) / corrected

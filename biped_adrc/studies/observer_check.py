@@ -30,7 +30,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.studies.walk import walk
+from biped_adrc.scenario.walk import walk
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
 from biped_adrc.walker import Walker

@@ -12,20 +12,17 @@ from biped_adrc.gait.gait import load_gait
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.scenario.build import Scene
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.push import Push, joints_push
+from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenario
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.claims.gathered import claim_tasks
 from biped_adrc.studies.laws import model_laws, numerics_laws, walk_laws
+from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.studies.poincare import poincare_twice, return_map_samples
 from biped_adrc.studies.pool import Task
-from biped_adrc.studies.push import Push, joints_push
 from biped_adrc.studies.push_map import PATTERNS, push_map, pushes
-from biped_adrc.studies.runs import (
-    CONTROLLERS,
-    Outcome,
-    Run,
-    execute,
-    execute_fully,
-    execute_twice,
-)
 
 BOTH = CONTROLLERS
 MOTORS = ("q1", "q2", "q3", "q4")
@@ -97,31 +94,31 @@ class Headline:
     signals: Signals
 
 
-def headline(run: Run) -> tuple[Headline, list[Any]]:
+def headline(run: Scenario) -> tuple[Headline, list[Any]]:
     """A run that is kept whole, and its laws.
 
     Its figures are there at half of its steps too, and at a quarter for the single supports from the push on.
     """
-    full = execute_fully(run)
+    full = walk_scenario(run)
     laws = walk_laws(f"{run.controller}, {run.preset}", full)
-    half = run.halved()
-    quarter = execute(replace(half.halved(), first_step=run.pushes[0].step, impacts=2))
-    outcome = replace(full.outcome, half=replace(execute(half), half=quarter))
-    return Headline(outcome, full.trajectory, full.signals), laws
+    half = halved(run)
+    quarter = execute(replace(halved(half), first_step=run.pushes[0].step, impacts=2))
+    found = replace(full.outcome, half=replace(execute(half), half=quarter))
+    return Headline(found, full.trajectory, full.signals), laws
 
 
-def engines(run: Run) -> Outcome:
+def engines(run: Scenario) -> Outcome:
     """The pushed step of a run with Pinocchio's dynamics at `ENGINES_STEP`, and compiled in `half`."""
     pushed = run.pushes[0].step
     one = replace(run, first_step=pushed, impacts=1, h=ENGINES_STEP, fine=None, engine=PINOCCHIO)
     return replace(execute(one), half=execute(replace(one, engine=COMPILED)))
 
 
-def base_runs(plan: Plan) -> dict[str, Run]:
+def base_runs(plan: Plan) -> dict[str, Scenario]:
     """Runs by name; each returns an Outcome. Names end in the controller."""
-    runs: dict[str, Run] = {}
+    runs: dict[str, Scenario] = {}
     for c in BOTH:
-        run = stepped(Run(c, preset=plan.preset))
+        run = stepped(Scenario(c, preset=plan.preset))
         for preset in plan.presets:
             runs[f"nominal {preset} {c}"] = replace(run, preset=preset)
         rising = tuple(replace(push, rise=RISE) for push in plan.pushes)
@@ -129,7 +126,9 @@ def base_runs(plan: Plan) -> dict[str, Run]:
         runs[f"rising push {c}"] = replace(run, pushes=rising, first_step=first, impacts=2)
         runs[f"sine {c}"] = replace(run, pushes=(SINE,), first_step=17, impacts=9)
         runs[f"torso {c}"] = replace(run, pushes=(TORSO,), first_step=17, impacts=9)
-        runs[f"1 kHz {c}"] = Run(c, preset=plan.preset, pushes=plan.pushes, period=1e-3, h=1e-3)
+        runs[f"1 kHz {c}"] = Scenario(
+            c, preset=plan.preset, pushes=plan.pushes, period=1e-3, h=1e-3
+        )
         heavier = replace(run, mass=HEAVIER, impacts=8, fine=None)
         runs[f"heavier, masses {c}"] = heavier
         runs[f"heavier, masses and inertias {c}"] = replace(heavier, inertia=HEAVIER)
@@ -138,28 +137,28 @@ def base_runs(plan: Plan) -> dict[str, Run]:
     return {name: replace(run, engine=COMPILED) for name, run in runs.items()}
 
 
-def stepped(run: Run) -> Run:
+def stepped(run: Scenario) -> Scenario:
     """With the steps of the reproduction; ADRC with its feedback in the linear part of the method."""
     h, fine = STEPS[run.controller]
     return replace(run, method="feedback" if run.controller == "ADRC" else "rk4", h=h, fine=fine)
 
 
-def pushed_run(plan: Plan, controller: str) -> Run:
+def pushed_run(plan: Plan, controller: str) -> Scenario:
     """A headline run: the paper's, with its push."""
-    run = Run(controller, preset=plan.preset, pushes=plan.pushes, engine=COMPILED)
+    run = Scenario(controller, preset=plan.preset, pushes=plan.pushes, engine=COMPILED)
     return stepped(run)
 
 
-def literal_runs(plan: Plan) -> dict[str, Run]:
+def literal_runs(plan: Plan) -> dict[str, Scenario]:
     """(20) as printed, and every reset policy with and without RABBIT's torque limit."""
     runs = {}
     for c in BOTH:
-        printed = stepped(Run(c, preset=plan.preset, solve_theta=False, impacts=8))
+        printed = stepped(Scenario(c, preset=plan.preset, solve_theta=False, impacts=8))
         runs[f"as printed {c}"] = printed
     for policy in POLICIES:
         for limit in (None, 150.0):
             name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
-            run = Run(preset=plan.preset, reset=policy, torque_limit=limit, impacts=2)
+            run = Scenario(preset=plan.preset, reset=policy, torque_limit=limit, impacts=2)
             diverges = policy == "none" and limit is None
             h = DIVERGING_STEP if diverges else RESET_STEP
             runs[name] = replace(run, method="exponential", h=h)
@@ -181,42 +180,42 @@ class RecipeResult:
 
 def recipe_result(preset: str, controller: str) -> RecipeResult:
     """Walk gait (b) and look for its fixed point, at two steps; whatever comes out is reported."""
-    run = replace(stepped(Run(controller, preset=preset, gait="recipe", impacts=8)), fine=None)
+    run = replace(stepped(Scenario(controller, preset=preset, gait="recipe", impacts=8)), fine=None)
     run = replace(run, engine=COMPILED)
-    biped = run.biped()
+    biped = Scene.of(run).biped
     record: dict[str, Any] = {}
-    outcome = None
+    found = None
     try:
         gait = load_gait("recipe", biped)
-        outcome = execute_twice(run)
+        found = execute_twice(run)
         record = {
-            "status": outcome.status,
-            "impacts": outcome.impacts,
-            "peak_error": outcome.peak_error,
-            "peak_torque": outcome.peak_torque,
+            "status": found.status,
+            "impacts": found.impacts,
+            "peak_error": found.peak_error,
+            "peak_torque": found.peak_torque,
             "impact_rate_jump": impact_smoothness(gait, biped).tolist(),
         }
-        if outcome.certificates:
-            last = outcome.certificates[-1]
+        if found.certificates:
+            last = found.certificates[-1]
             record |= {"certificate": last.record(), "violations": list(last.violations())}
         cycle = poincare_twice(replace(run, h=1e-3))
-        found = cycle.orbit
-        gap = found.x_minus[: 2 * biped.n] - X_STAR
+        orbit = cycle.orbit
+        gap = orbit.x_minus[: 2 * biped.n] - X_STAR
         record |= {
-            "x_minus": found.x_minus[: 2 * biped.n].tolist(),
+            "x_minus": orbit.x_minus[: 2 * biped.n].tolist(),
             "distance_to_x_star": gap.tolist(),
-            "multipliers": abs(found.multipliers).tolist(),
+            "multipliers": abs(orbit.multipliers).tolist(),
             "multipliers_change": cycle.gap,
-            "stable": found.stable,
+            "stable": orbit.stable,
         }
     except BipedError as error:
-        return RecipeResult(preset, controller, False, str(error), record, outcome)
-    return RecipeResult(preset, controller, True, "", record, outcome)
+        return RecipeResult(preset, controller, False, str(error), record, found)
+    return RecipeResult(preset, controller, True, "", record, found)
 
 
 def tasks(plan: Plan) -> dict[str, Task]:
     """Everything to compute, by name, the longest first; each in its own process."""
-    adrc, npd = Run("ADRC", preset=plan.preset), Run("NPD", preset=plan.preset)
+    adrc, npd = Scenario("ADRC", preset=plan.preset), Scenario("NPD", preset=plan.preset)
     pushed = {c: pushed_run(plan, c) for c in BOTH}
     out: dict[str, Task] = {}
     for c in reversed(BOTH):
@@ -252,7 +251,7 @@ def map_tasks(plan: Plan) -> dict[str, Task]:
         f"map {preset}, {limit}, {pattern}": Task(
             f"map of pushes, {preset}, {pattern}",
             push_map,
-            (Run(preset=preset), pushes(MAP_ONSETS, MAP_AMPLITUDES, (pattern,), (limit,))),
+            (Scenario(preset=preset), pushes(MAP_ONSETS, MAP_AMPLITUDES, (pattern,), (limit,))),
         )
         for preset in plan.presets
         for limit in (None, 150.0)

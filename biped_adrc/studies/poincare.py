@@ -10,12 +10,12 @@ import numpy as np
 
 from biped_adrc.analysis.regression import Regression, regress_multipliers
 from biped_adrc.analysis.return_map import Mapper, PeriodicOrbit, ReturnMap
-from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.hybrid.exponential import Exponential
-from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies.runs import Outcome, Run
+from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.run import method_of
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array
 
 
@@ -58,21 +58,19 @@ class PoincareResult:
         }
 
 
-def poincare_twice(run: Run) -> PoincareResult:
+def poincare_twice(run: Scenario) -> PoincareResult:
     """As `poincare` at the run's step, or 1 ms, and at half of it."""
     h = run.h or 1e-3
     found = poincare(replace(run, h=h))
     return replace(found, half=poincare(replace(run, h=0.5 * h)))
 
 
-def poincare(run: Run, with_states: bool = True, mapper: Mapper = map) -> PoincareResult:
+def poincare(run: Scenario, with_states: bool = True, mapper: Mapper = map) -> PoincareResult:
     """Fixed point by Newton and multipliers by central differences, without disturbances."""
     run = replace(run, pushes=())
-    biped = run.biped()
-    gait = load_gait(run.gait, biped)
-    walker = run.build(biped, gait)
-    adrc = run.controller == "ADRC" and run.period is None
-    method = Exponential(run.h or 1e-3) if adrc else RK4(run.h or 1e-3)
+    scene = Scene.of(run)
+    walker, biped, gait = build(run, scene), scene.biped, scene.walked
+    method = method_of(replace(run, h=run.h or 1e-3, method=None), walker)
     # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
     P = ReturnMap(walker, method, with_states)
     q, v = gait.q_minus, gait.v_minus
@@ -80,7 +78,7 @@ def poincare(run: Run, with_states: bool = True, mapper: Mapper = map) -> Poinca
     orbit = P.fixed_point(start if with_states else start[: 2 * biped.n])
     return PoincareResult(
         run.controller,
-        run.preset,
+        biped.preset,
         run.reset,
         with_states,
         orbit,
@@ -111,21 +109,21 @@ class RegressionTest:
 def regression_of(outcome: Outcome) -> RegressionTest:
     """(26), (27) over the impacts of a (disturbed) walk, about the gait's fixed point."""
     run = outcome.run
-    gait = load_gait(run.gait, run.biped())
+    gait = Scene.of(run).walked
     x_star = np.concatenate((gait.q_minus, gait.v_minus))
     x_minus = outcome.x_minus[:, : len(x_star)]
     return RegressionTest(regress_multipliers(x_minus, x_star), run.controller)
 
 
-def return_map_samples(run: Run, size: float = 0.05, count: int = 21) -> tuple[Array, Array]:
+def return_map_samples(run: Scenario, size: float = 0.05, count: int = 21) -> tuple[Array, Array]:
     """theta' before one impact against theta' before the next, for scaled speeds of the fixed point.
 
     Returns both (count,) [rad/s]; NaN where the walker does not come back.
     """
-    biped = run.biped()
-    gait: Gait = load_gait(run.gait, biped)
-    walker = replace(run, pushes=()).build(biped, gait)
-    P = ReturnMap(walker, run.one_step_method(), controller_states=False)
+    scene = Scene.of(run)
+    biped, gait = scene.biped, scene.walked
+    walker = build(replace(run, pushes=()), scene)
+    P = ReturnMap(walker, method_of(run, walker), controller_states=False)
     before = np.linspace(1.0 - size, 1.0 + size, count)
     after = np.full(count, np.nan)
     c = biped.phase

@@ -15,8 +15,11 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from biped_adrc.engine.choice import COMPILED
-from biped_adrc.studies.push import Push
-from biped_adrc.studies.runs import CONTROLLERS, Outcome, Run, execute_twice
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.push import Push
+from biped_adrc.scenario.run import execute_twice
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.studies.pair import CONTROLLERS
 
 PATTERNS: dict[str, dict[str, float]] = {
     "all +": {"q1": 1.0, "q2": 1.0, "q3": 1.0, "q4": 1.0},
@@ -120,7 +123,7 @@ class Tried:
     pattern: str
     torque_limit: float | None
 
-    def run(self, base: Run, controller: str) -> Run:
+    def run(self, base: Scenario, controller: str) -> Scenario:
         """The walk under it."""
         factors = PATTERNS[self.pattern].items()
         torque = {joint: self.amplitude * factor for joint, factor in factors}
@@ -139,14 +142,14 @@ class Tried:
 
 
 def push_map(
-    base: Run, tried: Sequence[Tried], progress: Callable[[int], None] | None = None
+    base: Scenario, tried: Sequence[Tried], progress: Callable[[int], None] | None = None
 ) -> list[Cell]:
     """Both controllers under every push, at two steps each, on the compiled engine."""
     cells: list[Cell] = []
     for found in tried:
         npd, adrc = (Fate.of(execute_twice(found.run(base, c))) for c in CONTROLLERS)
         place = (found.onset, found.amplitude, found.pattern, found.torque_limit)
-        cells.append(Cell(base.preset, *place, npd, adrc))
+        cells.append(Cell(str(base.preset), *place, npd, adrc))
         if progress is not None:
             progress(len(cells))
     return cells

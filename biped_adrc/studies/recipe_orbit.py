@@ -11,7 +11,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.recipe import RecipeParameters, design_recipe_gait
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies.walk import walk
+from biped_adrc.scenario.walk import walk
 from biped_adrc.walker import FOOT_STRIKE, Walker
 
 SETTLE = 25

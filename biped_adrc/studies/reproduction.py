@@ -16,9 +16,9 @@ from biped_adrc.checks import Check
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.errors import OutputError
 from biped_adrc.files import plain, write_text
-from biped_adrc.hybrid.storage import save
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import TABLE_I
+from biped_adrc.scenario.stored import replay
 from biped_adrc.studies import verdicts
 from biped_adrc.studies.claims.gathered import gathered
 from biped_adrc.studies.claims.table import claims
@@ -32,7 +32,6 @@ from biped_adrc.studies.plan import BOTH, Headline, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.pool import TaskProgress, run_tasks
 from biped_adrc.studies.results import Results
-from biped_adrc.studies.runs import replay
 from biped_adrc.studies.tables import tables
 from biped_adrc.versions import versions
 from biped_adrc.viz.meshcat import animation_html
@@ -70,7 +69,7 @@ def reproduce(
     }
     summary: dict[str, Any] = plain(made)
     for c, head in r.heads.items():
-        save(_stored(head), out / f"walk-{c.lower()}.npz", _run_settings(head))
+        _save(head, out / f"walk-{c.lower()}.npz")
     pictures = draw_all(plan, r, out, workers)
     animation = _animate(r)
     write_text(out / "walk.html", animation)
@@ -165,6 +164,10 @@ STORED_APART = 1e-3
 """[s] between the stored nodes of a headline run, but for the single supports with fine steps."""
 
 
+def _save(head: Headline, path: Path) -> None:
+    replay(head.outcome.run, _stored(head)).save(path)
+
+
 def _stored(head: Headline) -> Trajectory:
     """The trajectory without nodes that no picture needs: where nothing switches the solution is smooth."""
     pushed = {push.step + k for push in head.outcome.run.pushes for k in (0, 1)}
@@ -173,10 +176,6 @@ def _stored(head: Headline) -> Trajectory:
         for arc in head.trajectory.arcs
     )
     return replace(head.trajectory, arcs=tuple(arcs))
-
-
-def _run_settings(head: Headline) -> dict[str, Any]:
-    return {"run": head.outcome.run.record(), "versions": versions()}
 
 
 def _notes() -> list[str]:

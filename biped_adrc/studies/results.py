@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from biped_adrc.checks import Check
+from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.studies.plan import BOTH, Headline, Plan, RecipeResult
 from biped_adrc.studies.poincare import PoincareResult, RegressionTest, regression_of
 from biped_adrc.studies.push_map import Cell
-from biped_adrc.studies.runs import Outcome
 from biped_adrc.types import Array
 
 

@@ -9,10 +9,11 @@ import numpy as np
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.observers.gpi import TABLE_I
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.studies.plan import BOTH, POLICIES, Plan
 from biped_adrc.studies.push_map import WORDS, counts
 from biped_adrc.studies.results import Results
-from biped_adrc.studies.runs import CONTROLLERS, Outcome
 from biped_adrc.studies.verdicts import distance
 
 PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)

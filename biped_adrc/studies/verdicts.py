@@ -6,6 +6,8 @@ import numpy as np
 
 from biped_adrc.checks import Check, at_least, at_most, below
 from biped_adrc.gait.published import X_STAR
+from biped_adrc.scenario.build import Scene
+from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.studies.convergence import (
     MULTIPLIER_ROUND_OFF,
     convergence_check,
@@ -13,7 +15,6 @@ from biped_adrc.studies.convergence import (
 )
 from biped_adrc.studies.plan import BOTH, Plan
 from biped_adrc.studies.results import Results
-from biped_adrc.studies.runs import Outcome
 from biped_adrc.types import Array
 
 
@@ -129,7 +130,7 @@ def engine_checks(r: Results) -> list[Check]:
         other = one.half
         assert other is not None
         same = one.x_minus.shape == other.x_minus.shape and len(one.x_minus) > 0
-        n = one.run.biped().n
+        n = Scene.of(one.run).biped.n
         gap = np.abs(one.x_minus - other.x_minus)[:, : 2 * n] if same else np.array([np.inf])
         name = f"{c} over the pushed step: compiled against Pinocchio, (q, q') at the impact [rad, rad/s]"
         checks.append(at_most(name, "law", float(np.max(gap)), 1e-6))

@@ -29,6 +29,7 @@ from biped_adrc.viz.moving import (
     Forces,
     follow,
     ground,
+    picture,
 )
 from biped_adrc.viz.placement import Recorded, Scene, ending, is_wheel
 from biped_adrc.viz.plots.over_time import angle_unit
@@ -73,9 +74,7 @@ def frames_apart(
         for panel in panels:
             panel.show(t)
         errors.show(t)
-        canvas.draw()  # type: ignore[no-untyped-call]
-        picture = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
-        out.append(picture[:, :, :3].copy())
+        out.append(picture(canvas))
     return out
 
 

@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
-from biped_adrc.viz.style import PALETTE, label, new_figure, style
+from biped_adrc.viz.style import PALETTE, label, named_cells, new_figure, style
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
 GREYS = LinearSegmentedColormap.from_list("legal", ["0.62", "1.0"])
@@ -49,7 +49,7 @@ def legal_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
                 axes.text(x, y + down, text, ha="center", va="center", fontsize=size, color="black")
         edges = [np.arange(len(names) + 1) - 0.5 for names in (columns, rows)]
         axes.pcolormesh(*edges, shares, cmap=GREYS, vmin=0.0, vmax=1.0, ec="black", lw=0.4)
-        _grid(axes, rows, columns)
+        named_cells(axes, rows, columns, 20)
         label(
             axes, "", "", "walks that are legal, 95 % intervals;\nbelow, those that make all steps"
         )
@@ -190,11 +190,3 @@ def _names(rows: Sequence[Mapping[str, Any]], key: str) -> list[str]:
     if not rows:
         raise InputError("the comparison has no cells to draw; expected at least one")
     return list(dict.fromkeys(row[key] for row in rows))
-
-
-def _grid(axes: Axes, rows: list[str], columns: list[str]) -> None:
-    axes.set_xlim(-0.5, len(columns) - 0.5)
-    axes.set_ylim(len(rows) - 0.5, -0.5)
-    axes.set_xticks(range(len(columns)), columns, rotation=20, ha="right")
-    axes.set_yticks(range(len(rows)), rows)
-    axes.grid(False)

@@ -29,6 +29,7 @@ from biped_adrc.viz.moving import (
     Trail,
     follow,
     ground,
+    picture,
 )
 from biped_adrc.viz.placement import Recorded, Scene, ending
 from biped_adrc.viz.side_view import SideView
@@ -153,9 +154,7 @@ def _frames(scenes: Mapping[str, Scene], times: Array, width: int, speed: str) -
             forces.show(t)
         over = [f"\n{n} {ending(s.trajectory)}" for n, s in scenes.items() if _is_over(s, t)]
         text.set_text(f"{caption}\nt = {t:.2f} s, step {last.step(t)}{speed}{''.join(over)}")
-        canvas.draw()  # type: ignore[no-untyped-call]
-        picture = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
-        out.append(picture[:, :, :3].copy())
+        out.append(picture(canvas))
     return out
 
 

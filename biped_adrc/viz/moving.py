@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 
 from biped_adrc.types import Array
@@ -19,6 +20,12 @@ SOLE, HEADROOM = 0.12, 1.2
 """[m] of ground below the foot, and the height of the picture above it as a multiple of the robot's."""
 EDGE = 0.04
 """[m] that arrows keep from the edge of the picture."""
+
+
+def picture(canvas: FigureCanvasAgg) -> Array:
+    """The figure as it is now (height, width, 3)."""
+    canvas.draw()  # type: ignore[no-untyped-call]
+    return np.asarray(canvas.buffer_rgba())[:, :, :3].copy()  # type: ignore[no-untyped-call]
 
 
 def ground(axes: Axes, views: list[SideView]) -> None:

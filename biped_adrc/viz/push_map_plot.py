@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Polygon
 
 from biped_adrc.errors import InputError
-from biped_adrc.viz.style import label, new_figure, style
+from biped_adrc.viz.style import label, named_cells, new_figure, style
 
 FATES: dict[str, tuple[str, str, str]] = {
     "legal": ("walks on legally", "#FFFFFF", ""),
@@ -70,11 +70,8 @@ def _cells(
         for key, corners in (("npd_word", upper), ("adrc_word", lower)):
             _, colour, hatch = FATES[r[key]]
             axes.add_patch(Polygon(corners, fc=colour, ec="black", lw=0.4, hatch=hatch))
-    axes.set_xlim(-0.5, len(onsets) - 0.5)
-    axes.set_ylim(len(kinds) - 0.5, -0.5)
-    axes.set_xticks(range(len(onsets)), [f"{onset:g}" for onset in onsets])
-    axes.set_yticks(range(len(kinds)), [f"{pattern}, {size:g}" for pattern, size in kinds])
-    axes.grid(False)
+    names = [f"{pattern}, {size:g}" for pattern, size in kinds]
+    named_cells(axes, names, [f"{onset:g}" for onset in onsets])
 
 
 def _count(rows: Sequence[Mapping[str, Any]]) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -72,6 +72,18 @@ def label(axes: Axes, x: str, y: str, title: str = "") -> None:
     axes.set_ylabel(y)
     if title:
         axes.set_title(title, loc="left")
+
+
+def named_cells(
+    axes: Axes, rows: Sequence[str], columns: Sequence[str], rotation: float = 0.0
+) -> None:
+    """Axes of a table drawn in cells, one for each pair of a row, from the top, and a column."""
+    axes.set_xlim(-0.5, len(columns) - 0.5)
+    axes.set_ylim(len(rows) - 0.5, -0.5)
+    aligned: dict[str, Any] = {"rotation": rotation, "ha": "right"} if rotation else {}
+    axes.set_xticks(range(len(columns)), columns, **aligned)
+    axes.set_yticks(range(len(rows)), rows)
+    axes.grid(False)
 
 
 def render(figure: Figure, kind: str, dpi: float = 150.0) -> bytes:

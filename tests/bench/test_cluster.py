@@ -84,6 +84,15 @@ def test_walks_are_the_same_as_in_threads(tmp_path, address):
     assert there.statuses() == {"COMPLETED": 4}
 
 
+def test_a_controller_of_ones_own_is_found_by_its_name(tmp_path, address):
+    fixed = {"controller": "standin:StandinController", "impacts": 1}
+    study = read_study({"study": {"name": "own"}, "fixed": fixed, "grid": {"own.gain": [0.5, 1.0]}})
+    here = sweep(study, tmp_path / "here", Threads(1))
+    there = sweep(study, tmp_path / "there", Cluster(address), chunk=1)
+    assert list(there.rows()) == list(here.rows())
+    assert there.statuses() == {"COMPLETED": 2}
+
+
 def test_a_worker_that_is_killed_in_the_middle(tmp_path, address):
     marked = tmp_path / "died"
     given = [{**r, "once": str(marked)} if r["x"] == 40 else r for r in records(90)]

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from biped_adrc.errors import BipedError, InputError
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.bench import compare_study
-from biped_adrc.studies.bench.catalogue import CONTROLLERS
 from biped_adrc.studies.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS, Cell
 from biped_adrc.studies.bench.compare_study import RESULTS, run_comparison
 from biped_adrc.studies.bench.comparison import NOMINAL, compare
-from biped_adrc.studies.bench.conditions import CONDITIONS, record
+from biped_adrc.studies.bench.conditions import COMPARED, CONDITIONS, record
 from biped_adrc.studies.bench.equal_bandwidth import BANDWIDTH, OWN, equal_record
 from biped_adrc.studies.bench.largest_push import (
     DIRECTIONS,
@@ -37,7 +37,6 @@ from biped_adrc.studies.bench.statistics import (
     share,
     sign_test,
 )
-from biped_adrc.studies.bench.trial import Trial
 from biped_adrc.studies.bench.workers import Threads
 from biped_adrc.viz import comparison_text
 
@@ -57,12 +56,12 @@ def row(made, legal=None, status=None, **values):
 
 def test_every_condition_is_a_trial_that_any_controller_can_walk():
     for name in CONDITIONS:
-        for controller in CONTROLLERS:
+        for controller in COMPARED:
             given = record(name, controller, 3)
-            trial = Trial(**given)
+            trial = Scenario(**given)
             assert trial.controller == controller
-            assert Trial(**trial.record()) == trial
-            assert Trial(**json.loads(json.dumps(trial.record()))) == trial
+            assert Scenario(**trial.record()) == trial
+            assert Scenario(**json.loads(json.dumps(trial.record()))) == trial
 
 
 @pytest.mark.parametrize("threshold", [-1.0, 0.0, 3.0, 77.7, 160.0, 319.0, 1e9])
@@ -267,10 +266,10 @@ def test_a_walk_that_does_not_say_whether_it_was_legal_is_refused():
 
 
 def test_the_trial_of_the_gait_itself_is_disturbed_by_nothing():
-    trial = Trial(**NOMINAL)
+    trial = Scenario(**NOMINAL)
     assert (
         trial.record()
-        == Trial(controller="NPD", impacts=25, period=1e-3, torque_limit=150.0).record()
+        == Scenario(controller="NPD", impacts=25, period=1e-3, torque_limit=150.0).record()
     )
     found = compare_study.nominal(
         row(True, False, bad_friction=1, bad_impulse=1, mean_friction=9.65, impulse_ratio=0.85)
@@ -292,7 +291,7 @@ def test_equal_bandwidth_is_that_of_table_i():
     poles = [180.0 * 1.8**k for k in range(9)]
     assert pytest.approx(np.prod(poles) ** (1 / 9)) == BANDWIDTH
     for name in OWN:
-        trial = Trial(**equal_record("delay", name, 2))
+        trial = Scenario(**equal_record("delay", name, 2))
         assert (trial.bandwidth, trial.delay) == (BANDWIDTH, 2e-3)
         assert trial.order == (7 if name.startswith("ADRC") else None)
 
@@ -372,5 +371,5 @@ def test_walks_of_rabbit_are_judged_by_the_ground(tmp_path):
     assert (encoders["survived"][0], encoders["legal"][0]) == (1.0, 0.0)
     assert encoders["reasons"]["bad_friction"][0] == 1.0
     assert encoders["peak_error"] is None
-    rows = [run_trial(Trial(**record("nothing", "NPD", seed)).record()) for seed in range(2)]
+    rows = [run_trial(Scenario(**record("nothing", "NPD", seed)).record()) for seed in range(2)]
     assert nothing["peak_error"][0] == np.median([r["peak_error"] for r in rows])

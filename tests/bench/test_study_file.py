@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from biped_adrc.errors import InputError
+from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, UNITS, Scenario
 from biped_adrc.studies.bench import parameters
 from biped_adrc.studies.bench.run import run_trial
 from biped_adrc.studies.bench.samples import BLOCK, Draw, Range
 from biped_adrc.studies.bench.study import Study
 from biped_adrc.studies.bench.study_file import load_study, read_study
-from biped_adrc.studies.bench.trial import UNITS, Trial
 from biped_adrc.studies.bench.units import quantity, unit_of
 
 STUDY = """
@@ -60,7 +60,7 @@ def test_points_are_all_combinations_in_si_units(tmp_path):
         [100, 100 * 10**0.5, 1000], rel=1e-14
     )
     for p in points:
-        trial = Trial(**p.record)
+        trial = Scenario(**p.record)
         assert (trial.start["v5"], trial.noise, trial.seed) == tuple(p.at[k] for k in names[3:])
         pushed = p.at["case"] == "pushed"
         assert (trial.torque_limit, trial.amplitude) == ((None, 30.0) if pushed else (150.0, 0.0))
@@ -206,7 +206,10 @@ def test_what_is_wrong_has_no_web_address():
     with pytest.raises(InputError) as caught:
         read_study({"study": {"name": "a"}, "grid": {"controller": [5]}})
     row = run_trial({"K_p": -1.0})
-    assert (row["status"], row["detail"]) == ("REFUSED", "K_p: Input should be greater than 0")
+    assert (row["status"], row["detail"]) == (
+        "REFUSED",
+        "K_p: found -1.0, should be greater than 0",
+    )
     assert "http" not in str(caught.value)
 
 
@@ -215,9 +218,9 @@ def test_a_file_that_is_not_there(tmp_path):
         load_study(tmp_path / "none.toml")
 
 
-@pytest.mark.parametrize("name", [n for n in Trial.model_fields if n != "start"])
+@pytest.mark.parametrize("name", [n for n in FIELDS if n not in parameters.TABLES])
 def test_every_parameter_reads_its_own_default(name):
-    default = Trial.model_fields[name].default
+    default = DEFAULTS[name]
     assert parameters.read(name, "none" if default is None else default) == default
     unit_of(UNITS[name])
 
@@ -296,8 +299,8 @@ def test_samples_fill_their_ranges_evenly(kind):
 def test_tables_of_python_are_read_alike():
     study = read_study({"study": {"name": "a"}, "grid": {"K_p": [1.0, 2.0], "start.q1": [0.1]}})
     assert [p.record for p in study.points()] == [
-        {"K_p": 1.0, "start": {"q1": 0.1}},
-        {"K_p": 2.0, "start": {"q1": 0.1}},
+        {"K_p": 1.0, "hardware": "ideal", "start": {"q1": 0.1}},
+        {"K_p": 2.0, "hardware": "ideal", "start": {"q1": 0.1}},
     ]
     with pytest.raises(InputError, match=r"the study, grid.K_q: unknown parameter"):
         read_study({"study": {"name": "a"}, "grid": {"K_q": [1.0]}})

@@ -20,6 +20,7 @@ from biped_adrc.cli import app
 from biped_adrc.cli import sweep as _  # noqa: F401
 from biped_adrc.errors import InputError, OutputError
 from biped_adrc.resources import data_folder
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.bench.build import scene_of
 from biped_adrc.studies.bench.cluster import Cluster
 from biped_adrc.studies.bench.export import export
@@ -29,7 +30,6 @@ from biped_adrc.studies.bench.rehearsal import rehearse
 from biped_adrc.studies.bench.run import run_trials
 from biped_adrc.studies.bench.study_file import read_study
 from biped_adrc.studies.bench.sweep import Table, load_sweep, sweep
-from biped_adrc.studies.bench.trial import Trial
 from biped_adrc.studies.bench.workers import Processes, Threads
 from biped_adrc.viz.sweep_maps import MOST_LEVELS, Maps, cell_means, cut, sweep_map_figure
 
@@ -234,9 +234,9 @@ def test_a_file_that_is_named_belongs_to_the_numbers(tmp_path):
     study = read_study({"study": {"name": "a"}, "fixed": {"gait": str(gait), "impacts": 1}})
     sweep(study, out, Threads(1))
     assert sweep(study, out, Threads(1)).summary.fresh == 0
-    kept, before = scene_of(Trial(gait=str(gait))).gait.period, json.loads(gait.read_text())
+    kept, before = scene_of(Scenario(gait=str(gait))).walked.period, json.loads(gait.read_text())
     gait.write_text(json.dumps(before | {"period": 1.5 * kept}))
-    assert scene_of(Trial(gait=str(gait))).gait.period == 1.5 * kept
+    assert scene_of(Scenario(gait=str(gait))).walked.period == 1.5 * kept
     with pytest.raises(InputError, match=r"other versions.*file .*mine.json"):
         sweep(study, out, Threads(1))
     with pytest.raises(InputError, match="workers elsewhere"):

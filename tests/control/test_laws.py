@@ -33,6 +33,7 @@ from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.gpi_sampled import SampledGPIObserver
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.observers.momentum import MomentumObserver, SampledMomentumObserver
+from biped_adrc.scenario.registry import find, names
 from biped_adrc.types import Array
 from biped_adrc.walker import Mode
 
@@ -226,7 +227,8 @@ def test_a_force_on_a_link(biped, wave):
 
 
 def test_every_class_with_laws_is_tested_here():
-    import biped_adrc.studies.bench.catalogue  # noqa: F401  every controller of the package
+    for name in names("controller"):
+        find("controller", name).load()  # every controller of the package
 
     def below(cls):
         for child in cls.__subclasses__():

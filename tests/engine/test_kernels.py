@@ -22,7 +22,7 @@ from numba import types
 from biped_adrc.engine.kernels import layout, methods
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.plan import plan
-from biped_adrc.engine.kernels.run import arc, walk_plan
+from biped_adrc.engine.kernels.run import arc
 from biped_adrc.engine.kernels.tables import (
     STATUS,
     Clock,
@@ -40,13 +40,45 @@ from biped_adrc.hybrid.exponential import Exponential, phi_table
 from biped_adrc.hybrid.status import Status
 from biped_adrc.observers.gpi import GPIObserver
 
-GRAVITY, ALPHA, A0, A1, ZERO_PIVOT_AT, NAN_AT, BLOW, GAIN = range(8)
-NUMBERS = np.array([9.81, 0.3, 400.0, 50.0, math.inf, math.inf, 0.0, 0.5])
+GRAVITY, ALPHA, A0, A1, ZERO_PIVOT_AT, NAN_AT, BLOW, GAIN, LOWEST_HIP, LONGEST = range(10)
+NUMBERS = np.array([9.81, 0.3, 400.0, 50.0, math.inf, math.inf, 0.0, 0.5, 0.5, 3.0])
 STIFF = NUMBERS.copy()
 STIFF[A0], STIFF[A1] = 2e4 * 300.0, 2e4 + 300.0
 START = np.array([-0.3, 1.1, 0.02, 0.1])
 FAR = 10.0
 """[s], later than anything here."""
+
+
+class Walked(NamedTuple):
+    """How a walk ended."""
+
+    code: int
+    """Of `tables.STATUS`."""
+    impacts: int
+    t: float
+    """[s]"""
+    x: np.ndarray
+    """x+ after the last impact asked for, the last good state otherwise (nx,)."""
+    step: int
+    t_start: float
+    """[s]"""
+
+
+def walk_plan(made, K, x, t, step, t_start, t_end, impacts, x_minus, x_plus, times):
+    """A walk of a plan; strike i goes into row i of x_minus, x_plus and times."""
+    m, nx = len(times), made.nx
+    if x_minus.shape != (m, nx) or x_plus.shape != (m, nx):
+        raise InputError(
+            f"x- and x+ have shapes {x_minus.shape} and {x_plus.shape}, expected ({m}, {nx}) for {m} times"
+        )
+    if not (math.isfinite(t) and math.isfinite(t_end) and t_end > t):
+        raise InputError(f"the run would go from {t} s to {t_end} s; expected a positive duration")
+    s, strikes = made.start(x, t, step, t_start, t_end), np.zeros((m, 1 + 2 * nx))
+    status, count = kernels().stride(made.P, made.F, K, made.work(), s, impacts, strikes)
+    times[:count] = strikes[:count, 0]
+    x_minus[:count], x_plus[:count] = strikes[:count, 1 : 1 + nx], strikes[:count, 1 + nx :]
+    head = s[[layout.TIME, layout.STEP, layout.START]].tolist()
+    return Walked(status, count, head[0], s[layout.HEAD :].copy(), int(head[1]), head[2])
 
 
 # -- the system, as C functions and as Python -----------------------------------------------------
@@ -87,10 +119,12 @@ def strike(K, inp, out):
     out[4] = math.inf
 
 
-def watch(K, q, out):
-    out[0] = K[1] ** 2 - q[0] ** 2
-    out[1] = q[0]
-    out[2] = math.cos(q[0])
+def watch(K, inp, out):
+    t, start, drop, q = inp[0], inp[1], inp[2], inp[3]
+    out[0] = K[1] ** 2 - q**2 + drop
+    out[1] = math.cos(q) - K[8]
+    out[2] = start + K[9] - t
+    out[3] = q
 
 
 def to(K, x, y):
@@ -179,28 +213,26 @@ class Wheel(hybrid.HybridSystem):
         now = [p for p in self.pulses if p[0] in (0, mode[0])]
         return tuple((mode[1] if p[0] else 0.0) + s for p in now for s in p[1:3])
 
-    def seen(self, x):
-        out = np.zeros(3)
-        watch(self.K, x, out)
+    def seen(self, t, x, start, drop):
+        out = np.zeros(4)
+        watch(self.K, np.array([t, start, drop, x[0]]), out)
         return out
 
     def guards(self, mode):
         drop = sum(height for step, height in self.scene.drops if step == mode[0])
-        scene = self.scene
+
+        def witness(k):
+            return lambda t, x: self.seen(t, x, mode[1], drop)[k]
 
         def struck(t, x):
-            if self.seen(x)[1] <= scene.least_step:
+            if x[0] <= self.scene.least_step:
                 return None
             return self.call(strike, 4, t, mode[0] + 1, x), (mode[0] + 1, t)
 
         return (
-            hybrid.Guard("strike", lambda t, x: self.seen(x)[0] + drop, struck),
-            hybrid.Guard(
-                "low", lambda t, x: self.seen(x)[2] - scene.lowest_hip, terminal=Status.FELL
-            ),
-            hybrid.Guard(
-                "long", lambda t, x: mode[1] + scene.max_step_time - t, terminal=Status.STALLED
-            ),
+            hybrid.Guard("strike", witness(0), struck),
+            hybrid.Guard("low", witness(1), terminal=Status.FELL),
+            hybrid.Guard("long", witness(2), terminal=Status.STALLED),
         )
 
     def split(self, mode):
@@ -234,15 +266,13 @@ class Case(NamedTuple):
 
     K: np.ndarray = NUMBERS
     drops: tuple = ((2, 0.004),)
-    lowest_hip: float = 0.5
-    max_step_time: float = 3.0
     pulses: tuple = PULSES
     clock: Clock = continuous_time()
 
     @property
     def scene(self):
         drops = np.array(self.drops, dtype=float).reshape(-1, 2)
-        return Scene(self.lowest_hip, self.max_step_time, 1e-3, drops)
+        return Scene(1e-3, drops)
 
     def plan(self, address, method):
         names = ("flow" if self.clock.period == 0.0 else "held", *Code._fields[1:])
@@ -466,15 +496,15 @@ def test_a_landing_of_a_stiff_system(address):
 
 
 # -- how runs end --------------------------------------------------------------------------------
-def with_number(index, value):
-    K = NUMBERS.copy()
+def with_number(index, value, numbers=NUMBERS):
+    K = numbers.copy()
     K[index] = value
     return K
 
 
 ENDS = {
-    Status.FELL: (Case(lowest_hip=0.98), 0),
-    Status.STALLED: (Case(max_step_time=0.12345), 0),
+    Status.FELL: (Case(with_number(LOWEST_HIP, 0.98)), 0),
+    Status.STALLED: (Case(with_number(LONGEST, 0.12345)), 0),
     Status.NOT_FINITE: (Case(with_number(NAN_AT, 0.1)), 0),
     Status.SINGULAR: (Case(with_number(ZERO_PIVOT_AT, 0.1)), 0),
     Status.TIME_OUT: (Case(), 50),
@@ -504,7 +534,7 @@ def test_how_a_run_ends(address, status, name):
 
 def test_a_step_that_underflows(address):
     """v' = v^3 has no solution after 1 / (2 v^2)."""
-    case = Case(with_number(BLOW, 1.0), lowest_hip=-2.0)
+    case = Case(with_number(LOWEST_HIP, -2.0, with_number(BLOW, 1.0)))
     x = np.array([0.0, -3.0, 0.0, 0.0])
     end, _ = case.walk(address, methods.dop853(1e-9, 1e-9, 0.02), x=x)
     assert STATUS[end.code] in (Status.STEP_FAILED, Status.NOT_FINITE)

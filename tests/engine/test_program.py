@@ -32,12 +32,11 @@ def evaluator(program, name, inputs, outputs):
     import ctypes
 
     function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(program.address(name))
-    inp, out = np.zeros(inputs), np.zeros(outputs)
-    at = (program.K.ctypes.data, inp.ctypes.data, out.ctypes.data)
+    inp, out, K = np.zeros(inputs), np.zeros(outputs), program.K
 
     def call(*parts):
         np.concatenate([np.atleast_1d(x) for x in parts], out=inp)
-        function(*at)
+        function(K.ctypes.data, inp.ctypes.data, out.ctypes.data)
         return out.copy()
 
     return call
@@ -135,7 +134,7 @@ def check_walker(walker, gait, count):
             call = {
                 "flow": evaluator(program, "flow", 3 + nx + n, nx + 1),
                 "strike": evaluator(program, "strike", 2 + nx, nx + 1),
-                "watch": evaluator(program, "watch", n, 3),
+                "watch": evaluator(program, "watch", 3 + n, 4),
             }
             if walker.sampled:
                 call["tick"] = evaluator(program, "tick", 3 + nx + n, nx + 1 + n)
@@ -143,8 +142,9 @@ def check_walker(walker, gait, count):
         pushed = replace(walker, disturbance=ba.TorqueStep(zeta))
         close(call["flow"](0.1, 3.0, 0.05, x, zeta), pushed.flow(0.1, x, mode))
         q = x[:n]
-        seen = [walker.clearance(q), walker.plant.swing_foot(q)[0], walker.plant.hip(q)[1]]
-        close(call["watch"](q), np.array(seen))
+        witnesses = [guard.witness(0.1, x) for guard in walker.guards(Mode(3, 0.05))]
+        seen = [*witnesses, walker.plant.swing_foot(q)[0]]
+        close(call["watch"](0.1, 0.05, walker.drop(3), q), np.array(seen))
         if walker.sampled:
             close(call["tick"](0.1, 3.0, 0.05, x, zeta), pushed.tick(0.1, x, mode))
         struck = walker.strike(0.1, x, Mode(2, 0.0))

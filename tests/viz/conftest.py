@@ -8,7 +8,8 @@ from biped_adrc.gait.gait import load_gait
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies.walk import Walk, walk
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.walk import walk
 from biped_adrc.walker import Walker
 
 

@@ -18,7 +18,7 @@ from selenium.webdriver.support.ui import WebDriverWait
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies.walk import Walk
+from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.meshcat import write_animation
 from biped_adrc.viz.meshcat_scene import joint_path
 from biped_adrc.viz.placement import Scene

@@ -18,7 +18,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies.walk import Walk
+from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.export import Clip, export
 from biped_adrc.viz.gif import Motion, write_gif
 from biped_adrc.viz.moving import arrow, cut, ring
@@ -260,7 +260,7 @@ def test_every_option_of_the_command_reaches_the_picture(
     walks: dict[str, Walk], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked = []
-    monkeypatch.setattr("biped_adrc.studies.runs.load_walks", lambda paths: walks)
+    monkeypatch.setattr("biped_adrc.scenario.stored.load_walks", lambda paths: walks)
     monkeypatch.setattr("biped_adrc.viz.export.export", lambda *given: asked.append(given))
     words = "--from 0.1 --to 0.3 --fps 20 --view perspective --apart --magnify 30 --slower 5"
     command = ["animate", "a.npz", "--ghost", "b.npz", "-o", str(tmp_path / "w.gif")]

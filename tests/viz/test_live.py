@@ -20,8 +20,9 @@ import pytest
 from selenium.webdriver.common.by import By
 
 from biped_adrc.errors import InputError
-from biped_adrc.hybrid.storage import save
-from biped_adrc.studies.runs import Run, execute_fully, load_walk
+from biped_adrc.scenario.run import walk_scenario
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.stored import load_walk
 from biped_adrc.viz.live import play
 from biped_adrc.viz.meshcat import Look
 
@@ -33,9 +34,9 @@ SOON = 5.0
 
 @pytest.fixture(scope="module")
 def stored(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    run = Run("NPD", impacts=3, h=2e-3)
+    run = Scenario("NPD", impacts=3, h=2e-3)
     path = tmp_path_factory.mktemp("runs") / "walk.npz"
-    save(execute_fully(run).trajectory, path, {"run": run.record()})
+    walk_scenario(run).save(path)
     return path
 
 

@@ -17,8 +17,8 @@ from biped_adrc.gait.gait import load_gait
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.trajectory import hermite
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies.walk import Walk
-from biped_adrc.studies.walk import walk as walk_of
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.walk import walk as walk_of
 from biped_adrc.viz.meshcat import animation_html, node_names, write_animation
 from biped_adrc.viz.meshcat_scene import ring_mesh, visual_transform
 from biped_adrc.viz.placement import Scene

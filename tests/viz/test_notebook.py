@@ -11,7 +11,7 @@ from dataclasses import replace
 import pytest
 
 from biped_adrc.errors import InputError
-from biped_adrc.studies.walk import Walk
+from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.meshcat import animation_html
 
 

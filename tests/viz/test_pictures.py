@@ -14,9 +14,10 @@ import pytest
 from matplotlib.figure import Figure
 
 from biped_adrc.errors import InputError
+from biped_adrc.scenario.run import walk_scenario as execute
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.studies.push_map import Cell, Fate
-from biped_adrc.studies.runs import CONTROLLERS, Run
-from biped_adrc.studies.runs import execute_fully as execute
 from biped_adrc.viz.figures import comparison_figure
 from biped_adrc.viz.numbers import Numbers, as_text, numbers_of
 
@@ -82,7 +83,7 @@ def test_every_picture_of_a_run_is_checked(
     scripts: dict[str, ModuleType], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """All but the figures of a reproduction, which are taken from its folder, with two short walks."""
-    walks = {c: execute(Run(c, impacts=1, h=2e-3)) for c in CONTROLLERS}
+    walks = {c: execute(Scenario(c, impacts=1, h=2e-3)) for c in CONTROLLERS}
     made = scripts["make_pictures"]
     monkeypatch.setattr(made, "load", lambda out: walks)
     monkeypatch.setattr(made, "part", lambda walks: (0.1, 0.3))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies.walk import Walk
+from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.placement import Scene, joint_values, link_placements
 from biped_adrc.viz.robot_figure import direction
 

@@ -21,9 +21,9 @@ from biped_adrc.gait.gait import load_gait
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.walk import walk as walk_of
 from biped_adrc.studies.figures import NAMES, draw, push_window
-from biped_adrc.studies.walk import Walk
-from biped_adrc.studies.walk import walk as walk_of
 from biped_adrc.viz import plots
 from biped_adrc.viz.figures import (
     comparison_figure,

@@ -15,7 +15,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
-from biped_adrc.studies.walk import Walk
+from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.meshcat import animation_html
 from biped_adrc.viz.report import write_report
 

@@ -19,11 +19,10 @@ from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.constraint import continued
 from biped_adrc.ground import StepDown
-from biped_adrc.hybrid.storage import save
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.run import passive_walk
+from biped_adrc.scenario.stored import load_walk
 from biped_adrc.studies.figures import draw
-from biped_adrc.studies.passive_walk import passive_walk
-from biped_adrc.studies.recording import Recording
-from biped_adrc.studies.runs import load_walk
 from biped_adrc.viz.frames import pose
 from biped_adrc.viz.gif import Motion, write_gif
 from biped_adrc.viz.meshcat import animation_html
@@ -45,7 +44,7 @@ DROPS = {2: 0.015, 3: 0.01}
 
 
 @pytest.fixture(scope="module")
-def walks() -> dict[str, Recording]:
+def walks() -> dict[str, Walk]:
     """Passive ones, RABBIT on 0.02 rad, and RABBIT down two steps."""
     biped = ba.Biped.load("rabbit", "identified-bare")
     gait = ba.load_gait("published", biped)
@@ -60,21 +59,21 @@ def walks() -> dict[str, Recording]:
     }
 
 
-def feet(walk: Recording, i: int) -> tuple[str, str]:
+def feet(walk: Walk, i: int) -> tuple[str, str]:
     """Links of the stance and the swing foot in arc i: a wheel is drawn on the same spoke in every step."""
     d = walk.walker.plant.description
     one, other = d.stance_foot, d.swing_foot
     return (one, other) if i % 2 == 0 or d.name == "rimless_wheel" else (other, one)
 
 
-def ground(walk: Recording, i: int, x: float) -> float:
+def ground(walk: Walk, i: int, x: float) -> float:
     """z of the ground that single support i + 1 starts on, at x [m]."""
     fallen = sum(height for step, height in DROPS.items() if step <= i)
     return -math.tan(walk.walker.slope) * x - (fallen if walk.walker.ground_steps else 0.0)
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_links_are_where_pinocchio_puts_them(walks: dict[str, Recording], name: str) -> None:
+def test_links_are_where_pinocchio_puts_them(walks: dict[str, Walk], name: str) -> None:
     """And the stance foot stays where the swing foot came down, on the ground, from first to last."""
     walk, foothold = walks[name], np.zeros(2)
     scene, biped = Scene.of(walk), walk.walker.plant
@@ -93,7 +92,7 @@ def test_links_are_where_pinocchio_puts_them(walks: dict[str, Recording], name: 
     assert foothold[1] < -0.02
 
 
-def test_no_drawn_joint_jumps_at_impact(walks: dict[str, Recording]) -> None:
+def test_no_drawn_joint_jumps_at_impact(walks: dict[str, Walk]) -> None:
     for name in ("compass", "slope", "down"):
         scene = Scene.of(walks[name])
         for event in walks[name].trajectory.events("foot_strike")[:-1]:
@@ -101,7 +100,7 @@ def test_no_drawn_joint_jumps_at_impact(walks: dict[str, Recording]) -> None:
             assert max(abs(before[joint] - after[joint]) for joint in before) < 1e-6
 
 
-def test_the_spokes_of_a_wheel_pass_on_to_one_another(walks: dict[str, Recording]) -> None:
+def test_the_spokes_of_a_wheel_pass_on_to_one_another(walks: dict[str, Walk]) -> None:
     """Eight lines of 1 m at equal angles, in the same places before and after an impact."""
     view = SideView(Scene.of(walks["wheel"]))
     for event in walks["wheel"].trajectory.events("foot_strike")[:-1]:
@@ -115,7 +114,7 @@ def test_the_spokes_of_a_wheel_pass_on_to_one_another(walks: dict[str, Recording
         assert np.max(nearest) < 1e-6
 
 
-def test_the_compass_stands_on_legs_of_one_metre(walks: dict[str, Recording]) -> None:
+def test_the_compass_stands_on_legs_of_one_metre(walks: dict[str, Walk]) -> None:
     view = SideView(Scene.of(walks["compass"]))
     for t in np.linspace(0.0, walks["compass"].trajectory.t_end - 1e-9, 9):
         assert sorted(view.roles(float(t))) == ["stance", "swing"]
@@ -127,7 +126,7 @@ def test_the_compass_stands_on_legs_of_one_metre(walks: dict[str, Recording]) ->
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_ground_passes_through_all_footholds(walks: dict[str, Recording], name: str) -> None:
+def test_the_ground_passes_through_all_footholds(walks: dict[str, Walk], name: str) -> None:
     scene, slope = Scene.of(walks[name]), walks[name].walker.slope
     for i, x in enumerate(scene.footholds):
         z = scene.heights[i]
@@ -154,7 +153,7 @@ def test_a_torque_is_drawn_with_the_power_it_has() -> None:
         ba.TorquePulse(zeta, step=2, start=0.1, stop=0.3),
         slope=walk.walker.slope,
     )
-    scene = Scene.of(type(walk).of(pushed, walk.trajectory))
+    scene = Scene.of(type(walk)(pushed, None, walk.trajectory))
     arc = walk.trajectory.arcs[1]
     t = float(arc.t[0]) + 0.2
     shown, v = pose(scene, 1, t), arc(t)[2:]
@@ -176,7 +175,7 @@ def commands(page: str) -> dict[str, dict[str, dict]]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_footprints_lie_on_the_tiles_of_the_page(walks: dict[str, Recording], name: str) -> None:
+def test_footprints_lie_on_the_tiles_of_the_page(walks: dict[str, Walk], name: str) -> None:
     """The corners of every box: the balls of the feet touch the tops."""
     scene = Scene.of(walks[name])
     c = commands(animation_html({name: walks[name]}, fps=20.0))
@@ -199,7 +198,7 @@ def test_footprints_lie_on_the_tiles_of_the_page(walks: dict[str, Recording], na
         np.testing.assert_allclose(plate[[0, 2], 3], point - depth * normal, atol=1e-9)
 
 
-def test_walks_on_different_grounds_have_a_ground_each(walks: dict[str, Recording]) -> None:
+def test_walks_on_different_grounds_have_a_ground_each(walks: dict[str, Walk]) -> None:
     def widths(names: tuple[str, ...]) -> set[float]:
         made = commands(animation_html({n: walks[n] for n in names}, fps=5.0))["set_object"]
         boxes = [o["object"]["geometries"][0] for path, o in made.items() if "/ground/" in path]
@@ -210,7 +209,7 @@ def test_walks_on_different_grounds_have_a_ground_each(walks: dict[str, Recordin
 
 
 @needs_chromium
-def test_the_page_in_the_browser(walks: dict[str, Recording], tmp_path: Path) -> None:
+def test_the_page_in_the_browser(walks: dict[str, Walk], tmp_path: Path) -> None:
     """Links against Pinocchio; the camera goes down with the ground below the hip, as steep as it is."""
     walk = walks["compass"]
     scene, biped, fall = Scene.of(walk), walk.walker.plant, math.tan(walk.walker.slope)
@@ -231,7 +230,7 @@ def test_the_page_in_the_browser(walks: dict[str, Recording], tmp_path: Path) ->
         assert console(browser) == []
 
 
-def test_strip_and_gif(walks: dict[str, Recording], tmp_path: Path) -> None:
+def test_strip_and_gif(walks: dict[str, Walk], tmp_path: Path) -> None:
     scene = Scene.of(walks["down"])
     axes = strip(
         new_figure(6.0, 4.0).subplots(), walks["down"], 0.0, walks["down"].trajectory.t_end
@@ -251,7 +250,7 @@ def test_strip_and_gif(walks: dict[str, Recording], tmp_path: Path) -> None:
 
 # -- passive walks ---------------------------------------------------------------------------------
 @pytest.mark.parametrize("name", ["compass", "wheel"])
-def test_energy_of_a_passive_walk(walks: dict[str, Recording], name: str) -> None:
+def test_energy_of_a_passive_walk(walks: dict[str, Walk], name: str) -> None:
     """Constant in single support; impacts leave the potential energy and take the kinetic energy lost."""
     walk = walks[name]
     s = walk.signals
@@ -265,7 +264,7 @@ def test_energy_of_a_passive_walk(walks: dict[str, Recording], name: str) -> Non
     assert min(lost) > 0.5
 
 
-def test_a_wheel_needs_the_friction_of_its_spoke_angle(walks: dict[str, Recording]) -> None:
+def test_a_wheel_needs_the_friction_of_its_spoke_angle(walks: dict[str, Walk]) -> None:
     """With all mass at the hub the ground pushes along the spoke: |F_T| / F_N ends at tan(alpha)."""
     walk = walks["wheel"]
     axes = friction_cone(new_figure(4.0, 4.0).subplots(), walk.signals, slope=walk.walker.slope)
@@ -284,7 +283,7 @@ def test_a_passive_walk_is_its_cycle_on_other_slopes_too() -> None:
     assert -x[0, 1] == pytest.approx(after / math.cos(2.0 * ALPHA), rel=1e-7)
 
 
-def test_a_passive_walk_shows_itself(walks: dict[str, Recording], tmp_path: Path) -> None:
+def test_a_passive_walk_shows_itself(walks: dict[str, Walk], tmp_path: Path) -> None:
     walk = walks["compass"]
     assert walk.signals.u.shape == (len(walk.signals.t), 0)
     cell = walk._repr_html_()
@@ -293,7 +292,7 @@ def test_a_passive_walk_shows_itself(walks: dict[str, Recording], tmp_path: Path
     shown = {axes.get_ylabel() for axes in walk.trajectory.plot().axes}
     assert shown == {"angle [rad]", "energy [J]", r"$\dot\Theta$ [rad/s]"}
     walk.export(tmp_path / "walk.mat")
-    save(walk.trajectory, tmp_path / "walk.npz")
+    walk.save(tmp_path / "walk.npz")
     again = load_walk(tmp_path / "walk.npz")
     np.testing.assert_array_equal(again.signals.potential, walk.signals.potential)
     assert again.note == walk.note
@@ -323,4 +322,4 @@ def test_simulate_walks_a_robot_without_motors(tmp_path: Path) -> None:
     assert load_walk(tmp_path / "a.npz").walker.slope == 0.12
     wrong = CliRunner().invoke(app, ["simulate", "--robot", "compass", "--torque-limit", "9"])
     assert isinstance(wrong.exception, InputError)
-    assert "--torque-limit" in str(wrong.exception)
+    assert "torque_limit" in str(wrong.exception)

@@ -214,12 +214,10 @@ def jump(P: Ints, K: Array, W: Array, x: Array, out: Array) -> int:
 @unit
 def watch(P: Ints, F: Array, K: Array, W: Array, t: float, q: Array, out: Array) -> None:
     """The three witnesses at (t, q), and x of the swing foot."""
-    seen = row(P, W, OUT)
-    call(P[WATCH], K, q, seen)
-    out[FOOT_STRIKE] = seen[0] + W[DROP]
-    out[HIP_TOO_LOW] = seen[2] - F[LOWEST_HIP]
-    out[STEP_TOO_LONG] = W[START] + F[LONGEST] - t
-    out[FOOT_X] = seen[1]
+    inp = row(P, W, INP)
+    inp[0], inp[1], inp[2] = t, W[START], W[DROP]
+    copy(q, shift(inp, 3), P[COORDINATES])
+    call(P[WATCH], K, inp, out)
 
 
 @inner

@@ -27,19 +27,9 @@ PART_SIZE = (
 )
 OUTSIDE = 5  # numbers for the meter behind a tick's input: force, impulse, drop
 # F
-PERIOD, T_FIRST, LOWEST_HIP, LONGEST, LEAST_STEP, H, RTOL, ATOL, MAX_STEP = (
-    0,
-    1,
-    2,
-    3,
-    4,
-    5,
-    6,
-    7,
-    8,
-)
-PERIOD_PART = 9  # [s] after a tick, at which the waiting torque acts
-F_HEAD = 10
+PERIOD, T_FIRST, LEAST_STEP, H, RTOL, ATOL, MAX_STEP = 0, 1, 2, 3, 4, 5, 6
+PERIOD_PART = 7  # [s] after a tick, at which the waiting torque acts
+F_HEAD = 8
 
 # kinds of method
 RK4, DOP853, ETD = 0, 1, 2

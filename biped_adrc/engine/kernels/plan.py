@@ -60,7 +60,6 @@ def plan(code: Code, sizes: Sizes, scene: Scene, push: Push, clock: Clock, metho
     head = np.zeros(layout.F_HEAD)
     head[layout.PERIOD], head[layout.T_FIRST] = clock.period, clock.t_first
     head[layout.PERIOD_PART] = clock.part
-    head[layout.LOWEST_HIP], head[layout.LONGEST] = scene.lowest_hip, scene.max_step_time
     head[layout.LEAST_STEP], head[layout.H] = scene.least_step, method.h
     head[layout.RTOL], head[layout.ATOL] = method.rtol, method.atol
     head[layout.MAX_STEP] = method.max_step

@@ -40,7 +40,7 @@ class Code(NamedTuple):
     strike: int
     """(t, step, x) -> (x+, pivot); step is that of the new single support."""
     watch: int
-    """q -> (clearance without steps down, x of the swing foot, height of the hip) [m]."""
+    """(t, t_start, drop, q) -> witnesses of the guards, in `layout`'s order, and x of the swing foot [m]."""
     to: int = 0
     """x -> y = (w, E), E (k, p) row by row; the coordinates of the exponential method."""
     back: int = 0
@@ -66,10 +66,8 @@ class Sizes(NamedTuple):
 
 
 class Scene(NamedTuple):
-    """lowest_hip [m]; max_step_time [s]; least_step [m]; drops (m, 2): rows (single support, height [m])."""
+    """least_step [m]; drops (m, 2): rows (single support, height [m])."""
 
-    lowest_hip: float
-    max_step_time: float
     least_step: float
     drops: Array
 

@@ -18,20 +18,20 @@ from matplotlib.figure import Figure
 
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.model.limits import Limits
+from biped_adrc.scenario.registry import find, is_own, source_hash, words
 from biped_adrc.studies.bench.build import scene_of
-from biped_adrc.studies.bench.catalogue import CONTROLLERS
 from biped_adrc.studies.bench.cell import IMPULSE, Row, is_legal, number
 from biped_adrc.studies.bench.comparison import NOMINAL, Comparison, check, compare
-from biped_adrc.studies.bench.conditions import BASE, CONDITIONS
+from biped_adrc.studies.bench.conditions import BASE, COMPARED, CONDITIONS
 from biped_adrc.studies.bench.equal_bandwidth import NOT_ALIKE, OWN
 from biped_adrc.studies.bench.execute import LARGEST_CHUNK, Progress, run_study
 from biped_adrc.studies.bench.findings import answers, sentences
+from biped_adrc.studies.bench.parameters import trial
 from biped_adrc.studies.bench.points import Point, key_of, text_of
 from biped_adrc.studies.bench.run import run_trials
 from biped_adrc.studies.bench.store import About, Store
 from biped_adrc.studies.bench.store_open import open_store
 from biped_adrc.studies.bench.sweep import check_folder
-from biped_adrc.studies.bench.trial import Trial
 from biped_adrc.studies.bench.workers import Workers, workers_of
 from biped_adrc.versions import numerical_versions
 from biped_adrc.viz.comparison_figure import legal_figure, measure_figure, push_figure
@@ -78,13 +78,13 @@ class Stored:
 
 def _point(record: Mapping[str, Any]) -> Point:
     told = ("controller", "seed", "push", "on", "onset", "amplitude")
-    return Point(Trial(**record).record(), {k: record[k] for k in told if k in record})
+    return Point(trial(record).record(), {k: record[k] for k in told if k in record})
 
 
 def run_comparison(
     out: Path,
     command: str,
-    controllers: Sequence[str] = tuple(CONTROLLERS),
+    controllers: Sequence[str] = COMPARED,
     conditions: Sequence[str] = tuple(CONDITIONS),
     seeds: int = 20,
     pushes: bool = True,
@@ -105,7 +105,10 @@ def run_comparison(
         "pushes": pushes,
     }
     name = hashlib.sha256(json.dumps(asked, sort_keys=True).encode()).hexdigest()[:32]
-    about = About("comparison", name, asked, numerical_versions())
+    sources = {
+        f"source {c}": source_hash(find("controller", c).load()) for c in controllers if is_own(c)
+    }
+    about = About("comparison", name, asked, {**numerical_versions(), **sources})
     check_folder(out)
     workers_of(workers).prepare()
     with open_store(out / RESULTS, about, other_versions) as store:
@@ -124,7 +127,7 @@ def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, A
         "settings": NOT_ALIKE,
         "nominal": nominal(found.nominal),
         "findings": sentences(found_out),
-        "controllers": {name: CONTROLLERS[name].words for name in found.controllers},
+        "controllers": {name: words("controller", name) for name in found.controllers},
         "conditions": {name: CONDITIONS[name].words for name in found.conditions},
         "cells": [cell.row() for cell in found.cells],
         "equal_bandwidth": [
@@ -162,7 +165,7 @@ def nominal(row: Row) -> dict[str, Any]:
         "status": str(row["status"]),
         "legal": is_legal(row),
         "needs": needs,
-        "limits": dict(Limits().of(scene_of(Trial(**NOMINAL)).biped.description)._asdict()),
+        "limits": dict(Limits().of(scene_of(trial(NOMINAL)).biped.description)._asdict()),
         "broken": broken,
     }
 

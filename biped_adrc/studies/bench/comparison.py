@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from biped_adrc.errors import InputError
-from biped_adrc.studies.bench.catalogue import CONTROLLERS
+from biped_adrc.scenario.registry import find, is_own, names
 from biped_adrc.studies.bench.cell import Cell, Row
 from biped_adrc.studies.bench.chunk import NO_WALK
-from biped_adrc.studies.bench.conditions import BASE, CONDITIONS, record
+from biped_adrc.studies.bench.conditions import BASE, COMPARED, CONDITIONS, record
 from biped_adrc.studies.bench.equal_bandwidth import (
     BANDWIDTH,
     equal_record,
@@ -63,21 +63,27 @@ class Comparison:
 def check(controllers: Sequence[str], conditions: Sequence[str], seeds: int) -> None:
     """Raise InputError for a name that there is not, twice the same, or no seeds."""
     for kind, given, known in (
-        ("controller", controllers, CONTROLLERS),
-        ("condition", conditions, CONDITIONS),
+        ("controller", controllers, names("controller")),
+        ("condition", conditions, tuple(CONDITIONS)),
     ):
-        wrong = [name for name in given if name not in known]
+        wrong = [
+            name
+            for name in given
+            if name not in known and not (kind == "controller" and is_own(name))
+        ]
         if wrong or not given or len(set(given)) < len(given):
             raise InputError(
                 f"the comparison names the {kind}s {list(given)}, expected different ones of {list(known)}"
             )
+    for name in controllers:
+        find("controller", name).load()
     if seeds < 1:
         raise InputError(f"the comparison asks for {seeds} seeds, expected at least 1")
 
 
 def compare(
     carry: Carry,
-    controllers: Sequence[str] = tuple(CONTROLLERS),
+    controllers: Sequence[str] = COMPARED,
     conditions: Sequence[str] = tuple(CONDITIONS),
     seeds: int = 20,
     pushes: bool = True,

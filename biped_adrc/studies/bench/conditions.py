@@ -15,7 +15,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Condition:
-    """words: for a reader. values: of a `Trial`."""
+    """words: for a reader. values: of a scenario."""
 
     words: str
     values: Mapping[str, Any]
@@ -31,6 +31,8 @@ JOINTS = "q1,q2,q3,q4"
 AFTERWARDS = 3
 """Single support in which pulses come."""
 
+COMPARED = ("PD", "NPD", "ADRC", "ADRC output", "LESO", "DOB", "CLF-QP")
+"""Controllers, in the order of the tables."""
 CONDITIONS: dict[str, Condition] = {
     "nothing": Condition(
         "a start 2 % (rms) faster or slower than the gait, as everywhere below", {}

@@ -11,9 +11,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.studies.bench.catalogue import DOB_BANDWIDTH, LESO_BANDWIDTH
+from biped_adrc.scenario.registry import find
 from biped_adrc.studies.bench.conditions import record
 
+LESO_BANDWIDTH, DOB_BANDWIDTH = (
+    float(find("controller", name).defaults["bandwidth"]) for name in ("LESO", "DOB")
+)
+"""Of their own settings [rad/s]; LESO's walks with encoders at 1 kHz."""
 BANDWIDTH = math.exp(sum(math.log(abs(p)) for p in TABLE_I) / len(TABLE_I))
 """Geometric mean of the poles of Table I [rad/s]."""
 OWN = {

@@ -19,6 +19,7 @@ from biped_adrc.studies.bench.cell import Cell, is_legal, number
 from biped_adrc.studies.bench.comparison import Comparison
 from biped_adrc.studies.bench.conditions import record
 from biped_adrc.studies.bench.largest_push import MATCHED, PHASES, Largest, median_span
+from biped_adrc.studies.bench.parameters import trial
 from biped_adrc.studies.bench.statistics import (
     CONFIDENCE,
     Interval,
@@ -29,7 +30,6 @@ from biped_adrc.studies.bench.statistics import (
     paired_ratio,
     sign_test,
 )
-from biped_adrc.studies.bench.trial import Trial
 
 EQUAL = "equal_bandwidth"
 """The family of questions about observers at equal bandwidth."""
@@ -131,9 +131,9 @@ OPENINGS = {
 
 def bandwidth_decides(condition: str) -> bool:
     """Whether sensors or a delay limit the bandwidth: there another bandwidth or a filter reverses an order."""
-    trial = Trial(**record(condition, REFERENCE, 0))
-    noisy = trial.counts is not None or trial.noise + trial.pitch_noise + trial.rate_noise > 0.0
-    return noisy or trial.delay > 0.0 or trial.velocity != "measured"
+    s = trial(record(condition, REFERENCE, 0))
+    noisy = s.counts is not None or s.noise + s.pitch_noise + s.rate_noise > 0.0
+    return noisy or s.delay > 0.0 or s.velocity != "measured"
 
 
 def _questions(c: Comparison) -> Iterable[Question]:

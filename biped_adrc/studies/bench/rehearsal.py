@@ -11,12 +11,9 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from pydantic import ValidationError
-
 from biped_adrc.errors import BipedError, InputError
-from biped_adrc.studies.bench.parameters import Value, nested
+from biped_adrc.studies.bench.parameters import Value, trial
 from biped_adrc.studies.bench.study import CASE, SEED, Named, Study
-from biped_adrc.studies.bench.trial import Trial, reason
 
 MOST_LEVELS = 200
 """Numbers of one axis that are looked at."""
@@ -37,15 +34,15 @@ def rehearse(study: Study, spread: int = 100) -> None:
     seen = set()
     for values, at in some_points(study, spread):
         try:
-            trial = Trial.model_validate(nested(values))
-            if trial.key not in seen:
-                seen.add(trial.key)
-                case(trial)
-        except (BipedError, ValidationError) as error:
+            s = trial(values)
+            if s.key not in seen:
+                seen.add(s.key)
+                case(s)
+        except BipedError as error:
             name = f", case '{at[CASE]}'" if CASE in at else ""
             rest = {k: x for k, x in at.items() if k != CASE}
             where = f"study '{study.name}'{name}" + (f", at {rest}" if rest else "")
-            raise InputError(f"{where}: {reason(error)}") from error
+            raise InputError(f"{where}: {error}") from error
 
 
 def some_points(study: Study, spread: int) -> Iterator[tuple[At, At]]:

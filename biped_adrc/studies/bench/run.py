@@ -1,6 +1,6 @@
-"""Trials carried out: a row of plain numbers from each, whatever becomes of it.
+"""Scenarios carried out: a row of plain numbers from each, whatever becomes of it.
 
-A trial whose values do not fit is a row with the status REFUSED, one whose controller raises with RAISED; what
+One whose values do not fit is a row with the status REFUSED, one whose controller raises with RAISED; what
 has no value is None, and no number is a NaN.
 """
 
@@ -12,16 +12,16 @@ from threading import Lock
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
 from biped_adrc.analysis.legality import outcome_of
 from biped_adrc.engine.batch import Case, Walked, run_case
 from biped_adrc.errors import BipedError
 from biped_adrc.hardware.meter import LARGEST_RATIO, Reading, reading
 from biped_adrc.hybrid.status import Status
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.bench.build import case, scene_of
 from biped_adrc.studies.bench.chunk import NO_WALK, REFUSED
-from biped_adrc.studies.bench.trial import Trial, reason
+from biped_adrc.studies.bench.parameters import trial
 
 Row = dict[str, float | int | str | None]
 
@@ -77,16 +77,16 @@ def run_trials(records: Sequence[Mapping[str, Any]]) -> list[Row]:
 def run_trial(record: Mapping[str, Any]) -> Row:
     """The row of one trial, by its record."""
     try:
-        trial = Trial(**record)
+        s = trial(record)
         with _PREPARING:
-            made = case(trial)
+            made = case(s)
             run = run_case(made)
-    except (BipedError, ValidationError) as error:
-        return _row({"status": REFUSED, "detail": reason(error), "impacts": 0})
-    return _row(measured(trial, made, run()))
+    except BipedError as error:
+        return _row({"status": REFUSED, "detail": str(error), "impacts": 0})
+    return _row(measured(s, made, run()))
 
 
-def measured(trial: Trial, made: Case, walked: Walked) -> Row:
+def measured(s: Scenario, made: Case, walked: Walked) -> Row:
     """The numbers of a walk."""
     status = walked.status.name
     row: Row = {
@@ -100,20 +100,20 @@ def measured(trial: Trial, made: Case, walked: Walked) -> Row:
     if status not in NO_WALK:
         row |= {"outcome": outcome_of(walked.status, legal=False), "legal": 0}
     with _PREPARING:
-        row |= _pace(trial, made, walked)
+        row |= _pace(s, made, walked)
     if len(walked.final_state) > 2 * made.walker.plant.n + made.walker.behind - 1:
-        row |= _meter(trial, made, walked, row)
+        row |= _meter(made, walked, row)
     return row
 
 
-def _pace(trial: Trial, made: Case, walked: Walked) -> Row:
+def _pace(s: Scenario, made: Case, walked: Walked) -> Row:
     """How far and how fast."""
     if walked.impacts == 0:
         return {"distance": 0.0}
-    plant, gait = made.walker.plant, scene_of(trial).gait
+    plant, gait = made.walker.plant, scene_of(s).walked
     steps = [float(plant.swing_foot(x[: plant.n])[0]) for x in walked.x_minus]
     speed = sum(steps) / float(walked.times[-1] - walked.t_start)
-    usual = float(scene_of(trial).biped.swing_foot(gait.q_minus)[0]) / gait.period
+    usual = float(scene_of(s).biped.swing_foot(gait.q_minus)[0]) / gait.period
     last = sum(steps[-2:]) / float(np.sum(walked.durations[-2:]))
     return {
         "distance": sum(steps),
@@ -123,7 +123,7 @@ def _pace(trial: Trial, made: Case, walked: Walked) -> Row:
     }
 
 
-def _meter(trial: Trial, made: Case, walked: Walked, row: Row) -> Row:
+def _meter(made: Case, walked: Walked, row: Row) -> Row:
     """What the ticks counted."""
     w = made.walker
     g, distance = reading(w.held_at(walked.final_state).g), row["distance"]

@@ -13,12 +13,12 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
-from biped_adrc.studies.bench.parameters import Value, nested
+from biped_adrc.errors import InputError
+from biped_adrc.studies.bench.parameters import Value, nested, trial
 from biped_adrc.studies.bench.points import Point
 from biped_adrc.studies.bench.samples import Draw
-from biped_adrc.studies.bench.trial import Trial
 
 CASE, SEED = "case", "seed"
 MOST_POINTS = 10**9
@@ -109,9 +109,8 @@ def too_many(study: Study) -> str:
 
 
 def record_of(values: dict[str, Value]) -> dict[str, Any]:
-    """The trial's record of values by name, or the values themselves where no trial has them together."""
-    made = nested(values)
+    """The trial's record of values by name, or the values themselves where no scenario has them together."""
     try:
-        return Trial.model_validate(made).record()
-    except ValidationError:
-        return dict(sorted(made.items()))
+        return trial(values).record()
+    except InputError:
+        return dict(sorted(nested(values).items()))

@@ -21,20 +21,21 @@ from typing import Any
 from pydantic import ValidationError
 
 from biped_adrc.errors import InputError
+from biped_adrc.scenario.scenario import MOST_SEED
+from biped_adrc.scenario.values import reason
 from biped_adrc.studies.bench.parameters import (
-    START,
     Refused,
     Value,
     check_name,
+    flat,
     is_number,
     is_whole,
-    nested,
     read,
+    trial,
 )
 from biped_adrc.studies.bench.rehearsal import some_points
 from biped_adrc.studies.bench.samples import Draw, Range
 from biped_adrc.studies.bench.study import MOST_POINTS, SEED, Named, Study, too_many
-from biped_adrc.studies.bench.trial import MOST_SEED, Trial, reason
 
 TABLES = ("study", "fixed", "grid", "random", "sobol", "cases")
 MOST = 1_000_000
@@ -95,7 +96,7 @@ class _Reader:
         try:
             return read()
         except (Refused, ValidationError) as error:
-            self.wrong(key, error if isinstance(error, Refused) else reason(error))
+            self.wrong(key, reason(error))
             return None
 
     def known(self, key: str, names: tuple[str, ...], where: str) -> None:
@@ -110,7 +111,7 @@ class _Reader:
         if not isinstance(found, Mapping):
             self.wrong(name, f"found {found!r}, expected a table [{name}]")
             return {}
-        return _joined(found)
+        return flat(found)
 
     def text(self, table: Mapping[str, Any], key: str, where: str, default: Any = None) -> Any:
         found = table.get(key, default)
@@ -136,17 +137,6 @@ class _Reader:
             name: self.attempt(f"grid.{name}", lambda n=name, x=x: _levels(n, x)) or ()  # type: ignore[misc]
             for name, x in table.items()
         }
-
-
-def _joined(table: Mapping[str, Any]) -> dict[str, Any]:
-    """TOML reads start.v5 = .. as a table in a table."""
-    made: dict[str, Any] = {}
-    for name, x in table.items():
-        if name == START and isinstance(x, Mapping):
-            made |= {f"{START}.{key}": inner for key, inner in x.items()}
-        else:
-            made[name] = x
-    return made
 
 
 def _levels(name: str, given: Any) -> tuple[Value, ...]:
@@ -232,7 +222,7 @@ def _cases(r: _Reader, given: Any) -> tuple[Named, ...]:
     for i, case in enumerate(given, 1):
         where = f"cases[{i}]."
         name = r.text(case, "name", where)
-        rest = _joined({key: x for key, x in case.items() if key != "name"})
+        rest = flat({key: x for key, x in case.items() if key != "name"})
         cases.append(Named(name=str(name), values=r.values(rest, where)))
     names = [case.name for case in cases]
     if len(set(names)) < len(names):
@@ -268,9 +258,9 @@ def _look(r: _Reader, study: Study) -> None:
         alone = study.model_copy(update={"cases": () if case is None else (case,)})
         for values, at in some_points(alone, SPREAD // max(len(study.cases), 1)):
             try:
-                Trial.model_validate(nested(values))
-            except ValidationError as error:
-                r.wrong(f"at {at}", reason(error))
+                trial(values)
+            except InputError as error:
+                r.wrong(f"at {at}", error)
                 break
 
 

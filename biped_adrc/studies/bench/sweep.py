@@ -18,15 +18,15 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from biped_adrc.errors import InputError
+from biped_adrc.scenario.values import reason
 from biped_adrc.studies.bench.chunk import Function
 from biped_adrc.studies.bench.execute import Progress, Summary, run_study
-from biped_adrc.studies.bench.named_files import files_of_study, hashes
+from biped_adrc.studies.bench.named_files import files_of_study, hashes, own_of_study
 from biped_adrc.studies.bench.rehearsal import rehearse
 from biped_adrc.studies.bench.store import About, Result
 from biped_adrc.studies.bench.store_open import open_store, read_store
 from biped_adrc.studies.bench.study import MOST_POINTS, Study, too_many
 from biped_adrc.studies.bench.study_file import load_study
-from biped_adrc.studies.bench.trial import reason
 from biped_adrc.studies.bench.workers import Workers, workers_of
 from biped_adrc.versions import numerical_versions
 
@@ -167,7 +167,7 @@ def about_study(study: Study, crew: Workers) -> About:
             f"study '{study.name}' names the files {[str(path) for path in files]}, which workers elsewhere "
             "may not have, or have others; run it with processes or threads of this machine"
         )
-    versions = {**numerical_versions(), **hashes(files)}
+    versions = {**numerical_versions(), **hashes(files), **own_of_study(study)}
     return About(study.name, study.hash, study.configuration(), versions, study.count)
 
 

@@ -9,8 +9,8 @@ from importlib.resources import files
 from typing import Any
 
 from biped_adrc.engine.choice import COMPILED
-from biped_adrc.studies.push import Push, joints_push
-from biped_adrc.studies.runs import Run
+from biped_adrc.scenario.push import Push, joints_push
+from biped_adrc.scenario.scenario import Scenario
 
 
 @cache
@@ -55,9 +55,9 @@ class Member:
         window = {"step": k["step"], "start": self.onset, "stop": stop, "rise": self.rise}
         return joints_push(self.amplitude, self.joints, **window)
 
-    def run(self, controller: str, h: float, impacts: int = 1) -> Run:
+    def run(self, controller: str, h: float, impacts: int = 1) -> Scenario:
         """From the pushed step on, compiled."""
-        return Run(
+        return Scenario(
             controller,
             preset=self.preset,
             gait=self.gait,
@@ -65,7 +65,7 @@ class Member:
             first_step=self.push.step,
             impacts=impacts,
             solve_theta=self.theta == "solved",
-            reset="model" if self.start == "model" else "measured",
+            reset="measured" if self.start == "zero" and controller == "ADRC" else "model",
             method=method(controller),
             h=h,
             engine=COMPILED,

@@ -14,13 +14,14 @@ from biped_adrc.engine.choice import COMPILED
 from biped_adrc.errors import BipedError
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.scenario.push import Push
+from biped_adrc.scenario.recording import watched
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.claims.admissible import Member, declared, method
 from biped_adrc.studies.claims.walks import MemberOutcome, nominal, prepared, tracks, tried
 from biped_adrc.studies.claims.words import Figure
+from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.studies.poincare import poincare
-from biped_adrc.studies.push import Push
-from biped_adrc.studies.runs import CONTROLLERS, Run
-from biped_adrc.studies.walk import watched
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE
 
@@ -53,7 +54,7 @@ def cycles(preset: str) -> tuple[Cycle, ...]:
 
 def _cycle(preset: str, gait: str, controller: str, theta: str) -> Cycle:
     h = declared()["steps"]["plain"]
-    run = Run(
+    run = Scenario(
         controller,
         preset=preset,
         gait=gait,
@@ -107,7 +108,7 @@ def needs(preset: str) -> tuple[Needs, ...]:
 
 def _needs(preset: str, gait: str) -> Needs:
     h = declared()["steps"]["needs"]
-    run = Run("NPD", preset=preset, gait=gait, engine=COMPILED)
+    run = Scenario("NPD", preset=preset, gait=gait, engine=COMPILED)
     steps: list[Certificate] = []
     made = prepared(run)
     for step in (h, 0.5 * h):
@@ -150,7 +151,7 @@ class Pair(NamedTuple):
     """Whether both walks make as many at half of the step."""
 
 
-def _pair(name: str, runs: dict[str, Run]) -> Pair:
+def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
     peak, delay = {}, {}
     made: dict[str, bool] = {}
     same = True
@@ -170,8 +171,8 @@ def _pair(name: str, runs: dict[str, Run]) -> Pair:
     return Pair(name, peak, delay, made, same)
 
 
-def _both(**settings: Any) -> dict[str, Run]:
-    return {c: Run(c, method=method(c), engine=COMPILED, **settings) for c in CONTROLLERS}
+def _both(**settings: Any) -> dict[str, Scenario]:
+    return {c: Scenario(c, method=method(c), engine=COMPILED, **settings) for c in CONTROLLERS}
 
 
 def torso_push(torque: float) -> Push:
@@ -239,11 +240,11 @@ def basin(preset: str) -> tuple[Start, ...]:
     return tuple(found)
 
 
-def _strikes(run: Run, speed: float, h: float, impacts: int) -> int:
+def _strikes(run: Scenario, speed: float, h: float, impacts: int) -> int:
     return len(prepared(run, speed=speed).simulate(h, impacts).events(FOOT_STRIKE))
 
 
-def least_speed(run: Run) -> float:
+def least_speed(run: Scenario) -> float:
     """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact."""
     biped, gait = nominal(run.preset, run.gait)
     zero = ZeroDynamics.of(biped, gait.constraint, nodes=120)
@@ -269,7 +270,7 @@ class Jumps(NamedTuple):
 
 def jumps(preset: str) -> tuple[Jumps, ...]:
     """Of xi on gait (a)."""
-    run = Run("NPD", preset=preset)
+    run = Scenario("NPD", preset=preset)
     biped, gait = nominal(run.preset, run.gait)
     before = biped.reduction(gait.q_minus, gait.v_minus)
     after = biped.reduction(*gait.start(biped))

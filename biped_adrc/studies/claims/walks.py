@@ -12,13 +12,16 @@ from scipy.interpolate import CubicHermiteSpline
 from biped_adrc.analysis.quadrature import largest
 from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.engine.choice import simulate_by
-from biped_adrc.gait.gait import Gait, load_gait
+from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
+from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.recording import watched
+from biped_adrc.scenario.run import method_of
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.claims.admissible import Member, declared
 from biped_adrc.studies.claims.words import Figure
-from biped_adrc.studies.runs import CONTROLLERS, Run
-from biped_adrc.studies.walk import watched
+from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
@@ -74,7 +77,7 @@ def quotient(one: Figure, other: Figure) -> Figure:
 class Prepared(NamedTuple):
     """A run, ready to be integrated with one step or another."""
 
-    run: Run
+    run: Scenario
     gait: Gait
     walker: Walker
     x0: Array
@@ -87,29 +90,29 @@ class Prepared(NamedTuple):
             self.walker,
             self.x0,
             mode,
-            replace(self.run, h=h).one_step_method(),
+            method_of(replace(self.run, h=h), self.walker),
             t_end=impacts * self.walker.max_step_time,
             impacts=impacts,
         )
 
 
 @lru_cache(maxsize=16)
-def nominal(preset: str, gait: str) -> tuple[Biped, Gait]:
+def nominal(preset: str | None, gait: str) -> tuple[Biped, Gait]:
     """RABBIT in a preset and one of its gaits."""
-    biped = Run(preset=preset).biped()
-    found = load_gait(gait, biped)
+    scene = Scene.of(Scenario(preset=preset, gait=gait))
+    biped, found = scene.biped, scene.walked
     for shared in (found.q_minus, found.v_minus):
         shared.flags.writeable = False
     return biped, found
 
 
-def prepared(run: Run, zero: bool = False, speed: float = 1.0) -> Prepared:
+def prepared(run: Scenario, zero: bool = False, speed: float = 1.0) -> Prepared:
     """At the impact of the gait's orbit; with `zero` the observer starts at xi^ = 0.
 
     speed: factor on the rates after impact, which leaves the gait's orbit along its constraint.
     """
     biped, gait = nominal(run.preset, run.gait)
-    walker = run.build(biped, gait)
+    walker = build(run, Scene(biped, gait))
     q, v = gait.start(biped)
     x = walker.initial_state(q, speed * v, Mode(run.first_step))
     if zero and run.controller == "ADRC":
@@ -175,7 +178,7 @@ def _undisturbed(
     return found
 
 
-def walked(run: Run, start: str = "model") -> Walked:
+def walked(run: Scenario, start: str = "model") -> Walked:
     """The pushed step with run.h and half of it, and all impacts with the step for what comes later."""
     steps = declared()["steps"]
     made = prepared(run, start == "zero")

@@ -23,9 +23,10 @@ from biped_adrc.gait.gait import Gait, gait_names, load_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.studies.cycle_stability import Cycle, find_cycle, gait_cycle
+from biped_adrc.scenario.passive import Cycle
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.studies.cycle_stability import find_cycle, gait_cycle
 from biped_adrc.studies.gait_design import design_gait
-from biped_adrc.studies.runs import Run
 from biped_adrc.studies.verification.passive import simplest
 from biped_adrc.studies.verification.row import Row, at_most
 from biped_adrc.types import Array
@@ -64,7 +65,7 @@ def _work_row(biped: Biped, gait: Gait) -> Row:
 
 def multiplier_rows(preset: str, gait: str) -> tuple[Row, ...]:
     """delta^2 against the simulated walk, twice."""
-    cycle = gait_cycle(Run("NPD", preset=preset, gait=gait))
+    cycle = gait_cycle(Scenario("NPD", preset=preset, gait=gait))
     biped = cycle.P.walker.plant
     delta2 = ZeroDynamics.of(biped, load_gait(gait, biped).constraint).delta ** 2
     _, step = periodic_orbit(cycle.P, cycle.guess, 1e-7)

@@ -14,8 +14,8 @@ from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.gpi import TABLE_I
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import gait_cycle
-from biped_adrc.studies.runs import Run
 from biped_adrc.studies.tables import PRINTED_TABLE_I
 from biped_adrc.studies.verification.row import Measure, Row
 
@@ -33,7 +33,7 @@ def poles_row() -> tuple[Row, ...]:
 def fixed_point_rows(preset: str) -> tuple[Row, ...]:
     """The published gait under NPD: x* within half a unit of its last printed digits, and its multiplier."""
     biped, (q, v) = Biped.load("rabbit", preset), np.split(X_STAR, 2)
-    cycle = gait_cycle(Run("NPD", preset=preset))
+    cycle = gait_cycle(Scenario("NPD", preset=preset))
     _, step = periodic_orbit(cycle.P, cycle.guess, 1e-8)
     gap = np.abs(cycle.P.lift(step.image) - X_STAR)
     name = f"RABBIT {preset}, published gait"

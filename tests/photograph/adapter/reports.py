@@ -12,10 +12,7 @@ import numpy as np
 
 import biped_adrc as ba
 from biped_adrc.analysis.observer_design import observer_report
-from biped_adrc.hybrid.storage import save
-from biped_adrc.studies.passive_walk import passive_walk
-from biped_adrc.studies.push import parse_push
-from biped_adrc.studies.runs import Run, execute_fully
+from biped_adrc.scenario.push import parse_push
 from biped_adrc.studies.verification.groups import groups
 from tests.photograph import files
 from tests.photograph.adapter import walkers
@@ -106,21 +103,18 @@ def stored(name: str) -> Plain:
     """A run, written and read again."""
     given = {"engine": "compiled", "impacts": 3, **STORED[name]}
     given["pushes"] = tuple(parse_push(text) for text in given.get("pushes", ()))
-    run = Run(**given)
-    return reread(execute_fully(run).trajectory, {"run": run.record()})
+    return reread(ba.walk_scenario(ba.Scenario(**given)))
 
 
 def stored_passive(robot: str) -> Plain:
     """The same of a robot without motors."""
-    return reread(passive_walk(robot, 2).trajectory, {})
+    return reread(ba.passive_walk(robot, 2))
 
 
-def reread(trajectory: Any, settings: Plain) -> Plain:
+def reread(walk: ba.Walk) -> Plain:
     """What `load_walk` makes of a run."""
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "run.npz"
-        save(trajectory, path, settings)
-        return walk_report(ba.load_walk(path))
+        return walk_report(ba.load_walk(walk.save(Path(folder) / "run.npz")))
 
 
 def made(name: str) -> Plain:

@@ -15,12 +15,14 @@ import numpy as np
 import biped_adrc as ba
 from biped_adrc.engine.batch import run_case
 from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.scenario import build as scenario
+from biped_adrc.scenario.push import parse_push
+from biped_adrc.scenario.run import parts_of
+from biped_adrc.scenario.stored import values_of_0_1
+from biped_adrc.scenario.walk import Part, default_parts, walk_in_parts
 from biped_adrc.studies.bench import build
+from biped_adrc.studies.bench.parameters import trial
 from biped_adrc.studies.bench.run import measured, run_trial
-from biped_adrc.studies.bench.trial import Trial
-from biped_adrc.studies.push import parse_push
-from biped_adrc.studies.runs import FullOutcome, Run
-from biped_adrc.studies.walk import Part, default_parts, walk_in_parts
 from tests.photograph.adapter import walkers
 
 ENGINES = ("pinocchio", "compiled")
@@ -63,28 +65,26 @@ def _walker(s: Plain) -> Ready:
 
 
 def _trial(s: Plain) -> Ready:
-    t = Trial(**s["fields"])
+    t = trial(s["fields"])
     case = build.case(t)
     parts = (Part(case.impacts, case.method),)
-    g = build.scene_of(t).gait
+    g = build.scene_of(t).walked
     return Ready(case.walker, g, case.q, case.v, lambda engine: parts)
 
 
 def _run(s: Plain) -> Ready:
     pushes = tuple(parse_push(text) for text in s["pushes"])
-    fields = {k: tuple(x) if k == "poles" else x for k, x in s["fields"].items()}
-    run = Run(pushes=pushes, **fields)
-    biped = run.biped()
-    g = run.gait_of(biped)
-    w = run.build(biped, g)
+    run = ba.Scenario(pushes=pushes, **values_of_0_1(s["fields"]))
+    scene = scenario.Scene.of(run)
+    g, w = scene.walked, scenario.build(run, scene)
     q, v = g.start(w.nominal)
 
     def more(walk: Any) -> Numbers:
-        o = FullOutcome(walk.walker, g, walk.trajectory, run).outcome
+        o = ba.Walk(walk.walker, g, walk.trajectory, run).outcome
         return {"outcome": [o.peak_error, o.rms_error, o.peak_torque]}
 
     def parts(engine: str) -> Any:
-        return replace(run, engine=engine).parts(w)
+        return parts_of(replace(run, engine=engine), w)
 
     return Ready(w, g, q, v, parts, run.first_step, more)
 
@@ -214,7 +214,7 @@ def rows(s: Plain) -> Plain:
     numbers = {name: [float(x)] for name, x in row.items() if isinstance(x, int | float)}
     if row["status"] in ("REFUSED", "RAISED"):
         return {"words": words, "numbers": numbers, "deviation": None}
-    t = Trial(**s["fields"])
+    t = trial(s["fields"])
     case = build.case(t)
     q, v = moved(s, case.q, case.v)
     case = replace(case, q=q, v=v)

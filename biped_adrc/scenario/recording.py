@@ -2,46 +2,69 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate, certificates, supports
-from biped_adrc.analysis.legality import Legality
+from biped_adrc.analysis.legality import Legality, until_illegal
 from biped_adrc.analysis.signals import Signals, signals
-from biped_adrc.gait.reference import Reference
+from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.reference import Reference, TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.limits import Limits
-from biped_adrc.studies.edges import edge_remarks, step_remarks
+from biped_adrc.scenario.edges import edge_remarks, step_remarks
+from biped_adrc.scenario.outcome import Outcome, outcome_of
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Walker
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-class Recording(ABC):
-    """A walker and its trajectory; what they were asked for is said by those who implement it."""
+def _nothing(t: float) -> tuple[Array, Array, Array]:
+    return np.zeros(0), np.zeros(0), np.zeros(0)
+
+
+@dataclass(frozen=True)
+class Walk:
+    """A walker, the gait it was asked to follow, what it did, and the scenario that asked for it.
+
+    gait: None for a robot without motors. scenario: None for a walker made in Python.
+    """
 
     walker: Walker
+    gait: Gait | None
     trajectory: Trajectory
+    scenario: Scenario | None = None
+    recorded: Signals | None = None
+    """Of a stored walk whose controller is not there."""
+    said: tuple[str, ...] = ()
+    """What to know of it beside `remarks`."""
 
     @property
-    @abstractmethod
     def reference(self) -> Reference:
-        """What the actuated joints were to follow."""
+        """The gait's constraint; nothing (0,) where no joint is driven."""
+        return TimeReference(_nothing) if self.gait is None else self.gait.constraint
 
     @property
-    @abstractmethod
     def note(self) -> str:
-        """One line that says what this is a walk of."""
+        """Controller, gait, robot and preset; of a robot without motors the slope."""
+        plant, gait = self.walker.plant, self.gait
+        if gait is None:
+            return f"{plant.description.name} {plant.preset} without motors, slope {self.walker.slope:g} rad"
+        return f"{self.controller_name} on gait '{gait.name}', {gait.robot} {gait.preset}"
 
     @cached_property
     def signals(self) -> Signals:
         """References, errors, torques, estimates and forces over time."""
+        if self.recorded is not None:
+            return self.recorded
         return signals(self.walker, self.trajectory, self.reference)
 
     @cached_property
@@ -69,15 +92,31 @@ class Recording(ABC):
             limits.of(self.walker.plant.description),
         )
 
+    @cached_property
+    def outcome(self) -> Outcome:
+        """What is left of the walk of a scenario for another process."""
+        return outcome_of(self)
+
+    def until_illegal(self, limits: Limits | None = None) -> Self:
+        """The walk up to the first instant at which ground or motors could not have carried it.
+
+        Its status is then ILLEGAL and its detail says which limit, when, and by how much. None: the limits
+        of the robot's record.
+        """
+        cut = until_illegal(self.walker, self.trajectory, self.signals, limits)
+        return self if cut is self.trajectory else replace(self, trajectory=cut)
+
     @property
     def remarks(self) -> tuple[str, ...]:
         """What to know before using its numbers: a push that an impact cut off, too long a step at an edge."""
         walker, trajectory = self.walker, self.trajectory
-        return (*edge_remarks(walker, trajectory), *step_remarks(walker, trajectory))
+        return (*self.said, *edge_remarks(walker, trajectory), *step_remarks(walker, trajectory))
 
     @property
     def controller_name(self) -> str:
-        """Name of the controller's class without "Controller"."""
+        """Its name in the scenario, or of its class without "Controller"."""
+        if self.scenario is not None and self.gait is not None:
+            return self.scenario.controller.rpartition(":")[2]
         return type(self.walker.controller).__name__.removesuffix("Controller")
 
     def plot(self, title: str = "", push: tuple[float, float] | None = None) -> Figure:
@@ -100,6 +139,15 @@ class Recording(ABC):
 
         export(Path(path), {self.controller_name: self}, Clip(view=view))
 
+    def save(self, path: Path | str, settings: Mapping[str, Any] | None = None) -> Path:
+        """Write the run (.npz) with robot, gait, controller and torques inside; `load_walk` reads it anywhere.
+
+        settings: more plain values beside them. Raises InputError and OutputError.
+        """
+        from biped_adrc.scenario.stored import save_walk
+
+        return save_walk(self, path, settings)
+
     def export(self, path: Path | str) -> None:
         """Write all signals for MATLAB (.mat), one array per name. Raises InputError and OutputError."""
         from biped_adrc.gait.exchange.runs import export_run
@@ -118,26 +166,33 @@ class Recording(ABC):
         return inline(summary, animation_html({self.controller_name: self}), [self.plot()])
 
 
-class Recorder(Protocol):
-    """Makes a recording of a trajectory."""
-
-    def __call__(self, trajectory: Trajectory) -> Recording: ...
-
-
 @dataclass(frozen=True)
-class RecordingViewer:
-    """Draws trajectories as the recordings that `record` makes of them."""
+class Viewer:
+    """Draws trajectories as walks of the same walker."""
 
-    record: Recorder
+    walker: Walker
+    gait: Gait | None
+    scenario: Scenario | None
+
+    def _of(self, trajectory: Trajectory) -> Walk:
+        return Walk(self.walker, self.gait, trajectory, self.scenario)
 
     def animate(self, trajectory: Trajectory, path: Path | str) -> None:
-        """As `Recording.animate`."""
-        self.record(trajectory).animate(path)
+        """As `Walk.animate`."""
+        self._of(trajectory).animate(path)
 
     def plot(self, trajectory: Trajectory) -> Figure:
-        """As `Recording.plot`."""
-        return self.record(trajectory).plot()
+        """As `Walk.plot`."""
+        return self._of(trajectory).plot()
 
     def html(self, trajectory: Trajectory) -> str:
-        """As a recording in a notebook."""
-        return self.record(trajectory)._repr_html_()
+        """As a walk in a notebook."""
+        return self._of(trajectory)._repr_html_()
+
+
+def watched(
+    walker: Walker, gait: Gait | None, trajectory: Trajectory, scenario: Scenario | None = None
+) -> Walk:
+    """The walk whose trajectory can draw itself."""
+    viewer = Viewer(walker, gait, scenario)
+    return Walk(walker, gait, replace(trajectory, viewer=viewer), scenario)

@@ -1,62 +1,26 @@
-"""One walk from a gait's periodic orbit, with its signals, pictures and certificates at hand."""
+"""One walk from a gait's periodic orbit, by one method or by several one after the other."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import groupby
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
-from biped_adrc.analysis.legality import until_illegal
-from biped_adrc.engine.choice import COMPILED, PINOCCHIO, simulate_by
+from biped_adrc.engine.choice import COMPILED, simulate_by
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.gait import Gait
-from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.limits import Limits
-from biped_adrc.studies.recording import Recording, RecordingViewer
+from biped_adrc.scenario.recording import Walk, watched
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array
 from biped_adrc.walker import Mode, Walker
-
-
-@dataclass(frozen=True)
-class Walk(Recording):
-    """A walker, the gait it was asked to follow, and what it did."""
-
-    walker: Walker
-    gait: Gait
-    trajectory: Trajectory
-
-    @property
-    def reference(self) -> Reference:
-        """The gait's constraint."""
-        return self.gait.constraint
-
-    @property
-    def note(self) -> str:
-        """Controller, gait, robot and preset."""
-        gait = self.gait
-        return f"{self.controller_name} on gait '{gait.name}', {gait.robot} {gait.preset}"
-
-    def until_illegal(self, limits: Limits | None = None) -> Self:
-        """The walk up to the first instant at which ground or motors could not have carried it.
-
-        Its status is then ILLEGAL and its detail says which limit, when, and by how much. None: the limits
-        of the robot's record.
-        """
-        cut = until_illegal(self.walker, self.trajectory, self.signals, limits)
-        return self if cut is self.trajectory else replace(self, trajectory=cut)
-
-
-def watched(walker: Walker, gait: Gait, trajectory: Trajectory) -> Walk:
-    """The walk whose trajectory can draw itself."""
-    viewer = RecordingViewer(lambda bare: Walk(walker, gait, bare))
-    return Walk(walker, gait, replace(trajectory, viewer=viewer))
 
 
 class Part(NamedTuple):
@@ -116,15 +80,16 @@ def walk(
     start: tuple[Array, Array] | None = None,
     first_step: int = 1,
     progress: Progress | None = None,
-    engine: str = PINOCCHIO,
+    engine: str = COMPILED,
     legal: Limits | None = None,
 ) -> Walk:
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
 
-    method: by default `default_parts`. engine: "pinocchio" or "compiled"; the trajectory's settings say what
-    ran. Under ADRC and a push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an
-    edge (ten times too large under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every
-    step of the method is kept, so that peaks and certificates miss none. A fall is a status of the trajectory.
+    method: by default `default_parts`. engine: "compiled", whose place Pinocchio takes where it cannot run, or
+    "pinocchio"; the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under
+    ADRC and a push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten
+    times too large under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every step of the
+    method is kept, so that peaks and certificates miss none. A fall is a status of the trajectory.
     legal: the walk ends, with the status ILLEGAL, where it would leave these limits; without, they are looked
     up in `Walk.legality` alone. Raises InputError for parts that do not fit together.
     """
@@ -142,13 +107,14 @@ def walk(
 
 def walk_in_parts(
     walker: Walker,
-    gait: Gait,
+    gait: Gait | None,
     parts: Sequence[Part],
     *,
+    scenario: Scenario | None = None,
     start: tuple[Array, Array] | None = None,
     first_step: int = 1,
     progress: Progress | None = None,
-    engine: str = PINOCCHIO,
+    engine: str = COMPILED,
 ) -> Walk:
     """As `walk`, by several methods one after the other; each begins after the last impact of the one before.
 
@@ -161,8 +127,10 @@ def walk_in_parts(
         )
     check_count(first_step, f"the walk begins in single support {first_step}")
     mode = Mode(first_step)
-    q, v = gait.start(walker.nominal) if start is None else start
-    x, runs = walker.initial_state(q, v, mode), list[Trajectory]()
+    if start is None:
+        assert gait is not None
+        start = gait.start(walker.nominal)
+    x, runs = walker.initial_state(*start, mode), list[Trajectory]()
     for part in parts:
         done = sum(len(run.arcs) for run in runs)
         run = simulate_by(
@@ -181,7 +149,7 @@ def walk_in_parts(
         if not run.status.ok or event is None or event.x_plus is None:
             break
         x, mode = event.x_plus, Mode(run.arcs[-1].mode.step + 1, event.t)
-    return watched(walker, gait, _joined(runs))
+    return watched(walker, gait, _joined(runs), scenario)
 
 
 def _later(progress: Progress, done: int, t: float, events: int) -> None:

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import groupby
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
+from pydantic import ConfigDict
+from pydantic.dataclasses import dataclass
 
-from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.disturbances.pulse import TorquePulse
-from biped_adrc.disturbances.sine import TorqueSine
-from biped_adrc.disturbances.step import TorqueStep
 from biped_adrc.errors import InputError
-from biped_adrc.model.biped import Biped
+from biped_adrc.scenario.registry import find
+from biped_adrc.scenario.values import clear
+
+if TYPE_CHECKING:
+    from biped_adrc.disturbances.base import Disturbance
+    from biped_adrc.model.biped import Biped
 
 _PUSH = re.compile(
     r"(?P<joints>[^@]+)@(?P<step>\d+):(?P<start>[0-9.eE+]+)-(?P<stop>[0-9.eE+]*)"
@@ -23,11 +25,13 @@ _PUSH = re.compile(
 )
 
 
-@dataclass(frozen=True)
+@clear()
+@dataclass(frozen=True, config=ConfigDict(extra="forbid"))
 class Push:
     """A disturbance by name: torques [N m] on joints in single support `step`, [start, stop) s.
 
-    kind: pulse (with edges of `rise` [s]), sine (with `frequency` [Hz]) or step (from `start` on, for good).
+    kind: of the registry, such as pulse (with edges of `rise` [s]), sine (with `frequency` [Hz]) or step (from
+    `start` on, for good).
     """
 
     torque: dict[str, float]
@@ -38,20 +42,18 @@ class Push:
     frequency: float = 5.0
     rise: float = 0.0
 
+    def __post_init__(self) -> None:
+        find("disturbance", self.kind)
+        if self.kind == "step":
+            object.__setattr__(self, "stop", math.inf)
+
     def disturbance(self, biped: Biped) -> Disturbance:
         """The disturbance for this robot. Raises InputError for an unknown kind or joint."""
-        amplitude = np.zeros(biped.n)
-        for joint, value in self.torque.items():
-            amplitude[biped.description.joint_index(joint)] += value
-        if self.rise and self.kind != "pulse":
-            raise InputError(f"a push of kind '{self.kind}' has no rise; only a pulse has one")
-        if self.kind == "pulse":
-            return TorquePulse(amplitude, self.step, self.start, self.stop, rise=self.rise)
-        if self.kind == "sine":
-            return TorqueSine(amplitude, self.step, self.start, self.stop, self.frequency)
-        if self.kind == "step":
-            return TorqueStep(amplitude, self.step, self.start)
-        raise InputError(f"push kind '{self.kind}' is unknown; choose pulse, sine or step")
+        from biped_adrc.scenario.disturbances import on_joints
+
+        values = {"step": self.step, "start": self.start, "stop": self.stop, "rise": self.rise}
+        values["frequency"] = self.frequency
+        return on_joints(self.kind, biped, self.torque, values)
 
     def in_words(self) -> str:
         """For a reader."""
@@ -99,7 +101,7 @@ def parse_push(text: str) -> Push:
         if waiting:
             raise ValueError(f"no torque for {waiting}")
         start = float(match["start"])
-        stop = float(match["stop"]) if match["stop"] else float("inf")
+        stop = float(match["stop"]) if match["stop"] else math.inf
         frequency = float(match["f"]) if match["f"] else 5.0
         rise = float(match["rise"]) if match["rise"] else 0.0
         if rise and not match["stop"]:

@@ -1,0 +1,119 @@
+"""Options that are fields of a scenario: name, unit, default and text come from the record."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import wraps
+from inspect import Parameter, signature
+from typing import Annotated, Any, get_args
+
+import typer
+
+from biped_adrc.errors import InputError
+from biped_adrc.scenario.push import parse_push
+from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, UNITS
+
+Pushes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--push",
+        help="Torque [N m] on joints in one single support, JOINTS=TORQUE@STEP:START-STOP [s]; e.g. "
+        "'q1,q2=30@19:0.1-0.3'. End with ':sine=5' for a sine of 5 Hz, ':rise=0.01' for edges of 10 ms, or "
+        "give 'START-' for one that stays. "
+        "Joints are q1..q5 or names of the URDF; q5 is the unactuated torso. May be repeated; "
+        "several joints with different torques: 'q1=30,q3=-20@19:0.1-0.3'.",
+    ),
+]
+Sets = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        help="NAME=VALUE: any other value of a scenario, with its unit as in a study ('delay=2 ms'), or what "
+        "the controller itself takes ('gain=3'). May be repeated.",
+    ),
+]
+
+
+def of_scenario(*names: str, **flags: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Options for fields by name, or by a flag of another name, put in front of a command's own.
+
+    The command gets as `given` those that are on the command line.
+    """
+    shown = {**{name: "--" + name.replace("_", "-") for name in names}, **flags}
+
+    def decorate(command: Callable[..., None]) -> Callable[..., None]:
+        @wraps(command)
+        def with_given(context: typer.Context, **values: Any) -> None:
+            given = {name: values.pop(name) for name in shown}
+            command({name: x for name, x in given.items() if _told(context, name)}, **values)
+
+        own = [
+            p for p in signature(command, eval_str=True).parameters.values() if p.name != "given"
+        ]
+        first = Parameter("context", Parameter.KEYWORD_ONLY, annotation=typer.Context)
+        options = [first, *(_option(*pair) for pair in shown.items()), *own]
+        options = [p.replace(kind=Parameter.KEYWORD_ONLY) for p in options]
+        with_given.__signature__ = signature(with_given).replace(parameters=options)  # type: ignore[attr-defined]
+        with_given.__annotations__ = {}
+        return with_given
+
+    return decorate
+
+
+def _option(name: str, flag: str) -> Parameter:
+    field, default = FIELDS[name], DEFAULTS[name]
+    kinds = [
+        kind
+        for kind in (*get_args(field.annotation), field.annotation)
+        if kind in (bool, int, float)
+    ]
+    kind: Any = kinds[0] if kinds else str
+    unit = "" if UNITS[name] == "1" else f" [{UNITS[name]}]"
+    help_text = f"{field.description.removesuffix('.')}{unit}."
+    kind = kind if default is not None else kind | None
+    option = Annotated[kind, typer.Option(flag, help=help_text)]
+    return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=option)
+
+
+def _told(context: typer.Context, name: str) -> bool:
+    """Whether an option was on the command line."""
+    source = context.get_parameter_source(name)
+    return source is not None and source.name == "COMMANDLINE"
+
+
+def values_of(
+    given: dict[str, Any], push: list[str] | None, sets: list[str] | None
+) -> dict[str, Any]:
+    """The values of a scenario that options, pushes and --set name. Raises InputError."""
+    from biped_adrc.studies.bench.parameters import TABLES, Refused, nested, read
+
+    values = dict(given)
+    if push:
+        values["pushes"] = tuple(parse_push(text) for text in push)
+    for text in sets or ():
+        name, equals, said = (word.strip() for word in text.partition("="))
+        if not equals or not name:
+            raise InputError(f"--set is '{text}', expected NAME=VALUE, such as 'delay=2 ms'")
+        table = name.partition(".")[0]
+        known = table in TABLES or (name in FIELDS and name not in TABLES)
+        name = name if known else f"own.{name}"
+        if name in values:
+            raise InputError(f"'{name}' is given twice, as --set {text} too; leave one of them out")
+        try:
+            values[name] = read(name, _plain(name, said))
+        except Refused as error:
+            raise InputError(f"--set {text}: {error}") from None
+    return nested(values)
+
+
+def _plain(name: str, text: str) -> Any:
+    """A number, a truth value or a list where the text is one; lists of numbers without brackets too."""
+    if not name.startswith("own.") and DEFAULTS.get(name) not in (True, False):
+        return text
+    for candidate in (text, f"[{text}]"):
+        try:
+            return json.loads(candidate)
+        except ValueError:
+            continue
+    return text

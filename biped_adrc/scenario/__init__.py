@@ -1,0 +1,1 @@
+"""A walk in plain values, what its names stand for, and what carries it out."""

@@ -1,0 +1,184 @@
+"""A scenario made into a walker: robot and its errors, controller, hardware, pushes, ground and start."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from biped_adrc.control.passive import Passive
+from biped_adrc.errors import InputError
+from biped_adrc.gait.constraint import continued
+from biped_adrc.gait.gait import Gait, load_gait
+from biped_adrc.gait.passive_cycle import PassiveCycle, passive_cycle
+from biped_adrc.ground import StepDown, StepUp, uneven_ground
+from biped_adrc.hardware.meter import Meter
+from biped_adrc.hardware.motors import Motors
+from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.errors import ModelErrors, impact_error
+from biped_adrc.model.limits import ENDS, Limits
+from biped_adrc.scenario.construct import construct
+from biped_adrc.scenario.controllers import controller
+from biped_adrc.scenario.disturbances import disturbances, taken
+from biped_adrc.scenario.draw import drawn
+from biped_adrc.scenario.registry import own
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.timing import ContinuousTime, SampledTime
+from biped_adrc.types import Array
+from biped_adrc.walker import Walker
+
+WALKED = ("robot", "preset", "controller", "impacts", "slope", "friction_limit", "force_window")
+WITHOUT_MOTORS = (*WALKED, "method", "h", "tolerance", "engine")
+"""Values of a scenario that mean something for a robot without motors."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """The nominal robot, and the gait that it walks; a robot without motors has a known cycle instead."""
+
+    biped: Biped
+    gait: Gait | None = None
+    cycle: PassiveCycle | None = None
+
+    @classmethod
+    def of(cls, s: Scenario) -> Scene:
+        """Of a scenario. Raises InputError for a robot or a gait that there is not."""
+        made = own("robot", s.robot)
+        values = {"preset": s.preset, "friction": s.friction}
+        biped: Biped = (
+            Biped.load(s.robot, **values)  # type: ignore[arg-type]
+            if made is None
+            else construct(f"robot '{s.robot}'", made, values, Biped)
+        )
+        if biped.p == 0:
+            return cls(biped, cycle=passive_cycle(biped))
+        found = own("gait", s.gait)
+        gait: Gait = (
+            load_gait(s.gait, biped)
+            if found is None
+            else construct(f"gait '{s.gait}'", found, {"biped": biped}, Gait).check(biped)
+        )
+        if s.continued:
+            gait = replace(gait, constraint=continued(gait.constraint))
+        return cls(biped, gait)
+
+    @property
+    def walked(self) -> Gait:
+        """The gait. Raises InputError for a robot without motors."""
+        if self.gait is None:
+            raise InputError(
+                f"robot '{self.biped.description.name}' has 0 motors and walks no gait; choose one with motors"
+            )
+        return self.gait
+
+
+def build(s: Scenario, scene: Scene | None = None, metered: bool = False) -> Walker:
+    """The walker of a scenario; metered: with what counts torques and forces at the ticks.
+
+    Raises InputError for what does not fit together.
+    """
+    scene = Scene.of(s) if scene is None else scene
+    if scene.cycle is not None:
+        return _passive(s, scene.biped, scene.cycle)
+    biped, gait = scene.biped, scene.walked
+    if s.controller == "passive":
+        raise InputError(
+            f"controller 'passive' does not fit robot '{s.robot}' with {biped.p} motors; choose another one, "
+            "such as 'NPD'"
+        )
+    plant = plant_of(s, biped)
+    return Walker(
+        plant,
+        controller(s, gait, biped, taken(s)),
+        disturbances(s, biped, gait, plant),
+        ContinuousTime()
+        if s.period is None
+        else SampledTime(s.period, delay=s.delay, delay_known=s.delay_known),
+        model=None if plant is biped else biped,
+        torque_limit=s.torque_limit,
+        max_step_time=s.max_step_time,
+        slope=gait.slope + s.slope,
+        ground_steps=ground(s),
+        sensors=sensors(s),
+        motors=Motors(s.rate_limit, s.lag) if s.rate_limit or s.lag else None,
+        meter=Meter(gait.constraint, limits(s), ENDS * gait.period) if metered else None,
+        impact_gain=_gain(s, biped.n),
+    )
+
+
+def _passive(s: Scenario, biped: Biped, known: PassiveCycle) -> Walker:
+    if s.controller != "passive":
+        raise InputError(
+            f"controller '{s.controller}' does not fit robot '{s.robot}' with 0 motors; choose 'passive'"
+        )
+    idle = [name for name in s.record() if name not in WITHOUT_MOTORS]
+    if idle:
+        raise InputError(
+            f"robot '{s.robot}' has no motors, so it takes no {', '.join(idle)}; leave that out, or take a "
+            "robot with motors ('biped-adrc robot list')"
+        )
+    return Walker(biped, Passive(), slope=known.slope + s.slope, max_step_time=known.max_step_time)
+
+
+def limits(s: Scenario) -> Limits:
+    """Within which the walk is legal; torque is the robot's own."""
+    return Limits(s.friction_limit, None, s.force_window)
+
+
+def start(s: Scenario, scene: Scene) -> tuple[Array, Array]:
+    """(q, v) after the impact of the gait's orbit, with what the scenario adds. Raises InputError."""
+    q, v = scene.walked.start(scene.biped)
+    random = np.random.default_rng(drawn(s, "start"))
+    q = q + s.start_spread * random.standard_normal(len(q))
+    v = v + s.start_rate_spread * random.standard_normal(len(v))
+    v = v * (1.0 + s.start_speed + s.start_speed_spread * random.standard_normal())
+    for name, added in s.start.items():
+        place = int(name[1:]) - 1
+        if not 0 <= place < len(q):
+            raise InputError(
+                f"start names '{name}', but robot '{s.robot}' has the coordinates 1 to {len(q)}"
+            )
+        (q if name[0] == "q" else v)[place] += added
+    return q, v
+
+
+def plant_of(s: Scenario, biped: Biped) -> Biped:
+    """The robot that walks: the nominal one itself where nothing is wrong with the model."""
+    plant = biped
+    if s.mass or s.inertia:
+        plant = plant.with_errors(mass=s.mass, inertia=s.inertia)
+    if s.trunk_load != 0.0:
+        plant = ModelErrors(mass={biped.description.trunk: s.trunk_load}).apply(plant)
+    widths = (s.mass_error, s.com_error, s.inertia_error, s.friction_error)
+    if any(widths):
+        plant = ModelErrors.drawn(plant, drawn(s, "model"), *widths).apply(plant)
+    return plant
+
+
+def _gain(s: Scenario, n: int) -> tuple[float, ...]:
+    if s.impact_error == 0.0:
+        return ()
+    return tuple(float(e) for e in impact_error(drawn(s, "impact"), s.impact_error, n))
+
+
+def sensors(s: Scenario) -> Sensors | None:
+    """None where all is exact."""
+    exact = s.counts is None and s.velocity == "measured"
+    if exact and s.noise == s.pitch_noise == s.rate_noise == 0.0:
+        return None
+    noise = (s.noise, s.pitch_noise, s.rate_noise)
+    return Sensors(s.counts, None, *noise, s.velocity, s.filter_time, drawn(s, "sensors"))
+
+
+def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:
+    """Uneven, and with a step down or up."""
+    steps: tuple[StepDown | StepUp, ...] = ()
+    if s.ground_rms > 0.0:
+        last = s.first_step + s.impacts - 1
+        steps = uneven_ground(drawn(s, "ground"), s.ground_rms, last)
+    if s.ground_step > 0.0:
+        steps = (*steps, StepDown(s.pushed_step, s.ground_step))
+    elif s.ground_step < 0.0:
+        steps = (*steps, StepUp(s.pushed_step, -s.ground_step))
+    return steps

@@ -1,0 +1,172 @@
+"""The registry: what may be named in a scenario, a line of registry.toml for each thing.
+
+A name is one of these, one that `register` added, or `package.module:Class` of the user's own, in Python, on
+the command line and in the files of studies alike. What is one's own is imported when a walk is built, by its
+name and also from the working directory, so that worker processes find it too; reading a file imports nothing.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import os
+import re
+import sys
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from importlib import import_module
+from importlib.resources import files
+from typing import Any
+
+from biped_adrc.errors import InputError
+from biped_adrc.resources import data_folder
+
+_OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
+"""package.module:Class."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """What a name stands for: `module:name`, words for a reader, and values where a scenario has none."""
+
+    home: str
+    words: str = ""
+    defaults: Mapping[str, Any] = field(default_factory=dict)
+    given: Callable[..., Any] | None = None
+    """Where it was handed over and not named."""
+
+    def load(self) -> Callable[..., Any]:
+        """The class or function itself. Raises InputError where the user's own cannot be imported."""
+        return _imported(self.home) if self.given is None else self.given
+
+
+def _read() -> dict[str, dict[str, Entry]]:
+    text = files("biped_adrc.scenario").joinpath("registry.toml").read_text("utf-8")
+    return {
+        kind: {name: Entry(**values) for name, values in entries.items()}
+        for kind, entries in tomllib.loads(text).items()
+    }
+
+
+REGISTRY = {**_read(), "curve": {}, "robot": {}, "gait": {}}
+"""By kind and name, from registry.toml and `register`; `names` has curves and files of robots and gaits too."""
+
+
+def names(kind: str) -> tuple[str, ...]:
+    """Of one kind."""
+    return tuple(dict.fromkeys((*_stored(kind), *REGISTRY[kind])))
+
+
+def _stored(kind: str) -> Iterable[str]:
+    if kind == "curve":
+        from biped_adrc.gait.curves import CURVES
+
+        return CURVES
+    if kind == "robot":
+        return sorted(path.parent.name for path in data_folder("urdf").glob("*/robot.toml"))
+    return sorted({p.stem for p in data_folder("gaits").glob("*/*.json")}) if kind == "gait" else ()
+
+
+def register(kind: str, name: str, thing: Callable[..., Any], words: str = "") -> None:
+    """Make a class or function of one's own known by a name, in this process.
+
+    Raises InputError for an unknown kind, and for a name that is taken or reads as `module:Class`.
+    """
+    if kind not in REGISTRY:
+        raise InputError(f"there is no kind '{kind}' of things; choose one of {list(REGISTRY)}")
+    if not callable(thing):
+        raise InputError(f"'{name}' is registered as {thing!r}, expected a class or a function")
+    taken = {_plain(known) for known in names(kind)}
+    if _plain(name) in taken or is_own(name) or not name.strip():
+        raise InputError(
+            f"the {kind} '{name}' cannot be registered: that name is taken or reads as module:Class; there are "
+            f"{list(names(kind))}, choose another name"
+        )
+    home = f"{thing.__module__}:{getattr(thing, '__qualname__', name)}"
+    REGISTRY[kind][name] = Entry(home, words, given=thing)
+    if kind == "curve":
+        from biped_adrc.gait.curves import CURVES
+
+        CURVES[name] = thing  # type: ignore[assignment]
+
+
+def registered(home: str) -> Callable[..., Any] | None:
+    """What `register` was given that is `module:Class`, or None."""
+    entries = (entry for of_kind in REGISTRY.values() for entry in of_kind.values())
+    return next((entry.given for entry in entries if entry.given and entry.home == home), None)
+
+
+def own(kind: str, name: str) -> Callable[..., Any] | None:
+    """A robot or a gait that the user brought by this name; None for a file. Raises InputError."""
+    return find(kind, name).load() if is_own(name) or name in REGISTRY[kind] else None
+
+
+def is_own(name: str) -> bool:
+    """Whether a name reads as `package.module:Class`."""
+    return _OWN.fullmatch(name) is not None
+
+
+def spelled(kind: str, name: str) -> str:
+    """The name as the registry spells it, whatever its capitals; others as they are."""
+    return next((known for known in names(kind) if _plain(known) == _plain(name)), name)
+
+
+def find(kind: str, name: str) -> Entry:
+    """What a name stands for. Raises InputError with the names there are, the nearest first."""
+    known = spelled(kind, name)
+    if known in REGISTRY[kind]:
+        return REGISTRY[kind][known]
+    if is_own(name):
+        return Entry(name)
+    near = get_close_matches(name, names(kind), 1)
+    hint = f"did you mean '{near[0]}'? There are" if near else "choose one of"
+    raise InputError(
+        f"{kind} '{name}' is unknown; {hint} {list(names(kind))}, or give one of your own as "
+        "package.module:Class"
+    )
+
+
+def words(kind: str, name: str) -> str:
+    """For a reader; of one's own the first line of its docstring."""
+    found = find(kind, name)
+    return found.words or (found.load().__doc__ or name).strip().splitlines()[0]
+
+
+def source_hash(thing: Callable[..., Any]) -> str:
+    """Of the text of a class or function; "none" where there is no text."""
+    try:
+        return hashlib.sha256(inspect.getsource(thing).encode()).hexdigest()[:12]
+    except (OSError, TypeError):
+        return "none"
+
+
+def _plain(name: str) -> str:
+    return name.casefold().replace("-", " ").replace("_", " ").strip()
+
+
+def _imported(home: str) -> Callable[..., Any]:
+    """A class by its name, from the path of Python or the working directory. Raises InputError."""
+    module, _, name = home.partition(":")
+    here = os.getcwd()
+    if not home.startswith("biped_adrc.") and here not in sys.path and "" not in sys.path:
+        sys.path.append(here)
+    try:
+        found = import_module(module)
+    except ModuleNotFoundError as error:
+        raise InputError(
+            f"'{home}': there is no module '{error.name}' in '{here}' or on the path of Python; "
+            "expected package.module:Class, in the working directory or installed, here and where workers run"
+        ) from error
+    except Exception as error:  # whatever a module of the user's may raise
+        raise InputError(
+            f"'{home}': importing '{module}' failed with {type(error).__name__}: {error}; run "
+            f"python -c 'import {module}' to see where"
+        ) from error
+    if not callable(thing := getattr(found, name, None)):
+        there = [key for key, x in vars(found).items() if isinstance(x, type)]
+        near = get_close_matches(name, there, 1) or there
+        raise InputError(f"'{home}': module '{module}' has no class '{name}'; it has {near}")
+    made: Callable[..., Any] = thing
+    return made

@@ -1,0 +1,130 @@
+"""A scenario carried out, and what a walk leaves that is small enough to come from another process."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+from biped_adrc.engine.choice import COMPILED
+from biped_adrc.errors import InputError, check_count
+from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
+from biped_adrc.hybrid.simulator import Progress
+from biped_adrc.model.biped import Biped
+from biped_adrc.scenario.build import Scene, build, start
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.passive import cycle_start
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.scenario import FREE, Scenario
+from biped_adrc.scenario.walk import (
+    FINE_STEP,
+    Part,
+    default_method,
+    default_parts,
+    refined,
+    walk_in_parts,
+)
+from biped_adrc.walker import Walker
+
+METHODS: dict[str, Callable[..., OneStepMethod]] = {
+    "rk4": RK4,
+    "exponential": Exponential,
+    "feedback": partial(Exponential, feedback=True),
+    "adaptive": Adaptive,
+    "stiff": Stiff,
+}
+
+
+def method_of(s: Scenario, walker: Walker) -> OneStepMethod:
+    """The method asked for, with its step; what fits the walker where none is."""
+    if s.method in FREE:
+        return METHODS[s.method](s.tolerance, s.tolerance)
+    method = default_method(walker) if s.method is None else METHODS[s.method]()
+    return method if s.h is None else replace(method, h=s.h)  # type: ignore[type-var]
+
+
+def parts_of(s: Scenario, walker: Walker) -> tuple[Part, ...]:
+    """How the walk is integrated: with `fine` where a push switches, with h elsewhere."""
+    if s.fine is not None:
+        usual, fine = (method_of(replace(s, h=h), walker) for h in (s.h, s.fine))
+        return refined(walker, s.impacts, s.first_step, usual, fine)
+    if s.h is None and s.method is None:
+        return default_parts(walker, s.impacts, s.first_step, s.engine)
+    return (Part(s.impacts, method_of(s, walker)),)
+
+
+def halved(s: Scenario, walker: Walker | None = None) -> Scenario:
+    """The same with every step half as long.
+
+    A method that chooses its steps gets a hundredth of the tolerance, and is the explicit one.
+    """
+    if s.method in FREE:
+        return replace(s, method="adaptive", tolerance=1e-2 * s.tolerance)
+    h, fine = s.h, s.fine
+    if h is None:
+        usual = method_of(s, build(s) if walker is None else walker)
+        assert isinstance(usual, RK4 | Exponential)
+        h = usual.h
+        if fine is None and s.method is None and s.engine == COMPILED:
+            fine = FINE_STEP if isinstance(usual, Exponential) else None
+    return replace(s, h=0.5 * h, fine=None if fine is None else 0.5 * fine)
+
+
+def walk_scenario(
+    s: Scenario, progress: Progress | None = None, method: OneStepMethod | None = None
+) -> Walk:
+    """Walk from the impact of the gait's periodic orbit, or of a passive robot's cycle.
+
+    method: in place of the scenario's. A fall is a status of the trajectory. Raises InputError.
+    """
+    scene = Scene.of(s)
+    walker = build(s, scene)
+    return walk_in_parts(
+        walker,
+        scene.gait,
+        parts_of(s, walker) if method is None else (Part(s.impacts, method),),
+        start=start(s, scene) if scene.gait else cycle_start(scene.biped, walker.slope),
+        first_step=s.first_step,
+        progress=progress,
+        engine=s.engine,
+        scenario=s,
+    )
+
+
+def passive_walk(
+    robot: str | Path = "compass",
+    impacts: int = 10,
+    slope: float | None = None,
+    preset: str | None = None,
+    method: OneStepMethod | None = None,
+    progress: Progress | None = None,
+) -> Walk:
+    """Walk on the cycle of a robot without motors, on its stored slope or another one nearby [rad].
+
+    method: RK4 at 1 ms if None. A fall is a status of the trajectory. Raises InputError for a robot with
+    motors or a number of impacts that is no walk, GaitError when no cycle is stored, and SimulationError when
+    there is none on this slope.
+    """
+    check_count(impacts, f"the walk asks for {impacts} impacts")
+    biped = Biped.load(robot, preset)
+    if biped.p:
+        raise InputError(
+            f"robot '{biped.description.name}' has {biped.p} motors, a passive walk needs a robot without; "
+            "take 'compass', 'rimless_wheel' or 'simplest', or walk a gait with biped_adrc.walk"
+        )
+    beside = 0.0 if slope is None else slope - passive_cycle(biped).slope
+    s = Scenario("passive", robot=str(robot), preset=preset, impacts=int(impacts), slope=beside)
+    return walk_scenario(s, progress, method)
+
+
+def execute(s: Scenario) -> Outcome:
+    """Carry out a scenario."""
+    return walk_scenario(s).outcome
+
+
+def execute_twice(s: Scenario) -> Outcome:
+    """Carry out a scenario, and the same with every step half as long, which is in `Outcome.half`."""
+    return replace(execute(s), half=execute(halved(s)))

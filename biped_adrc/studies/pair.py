@@ -1,0 +1,3 @@
+"""The two controllers that the paper compares."""
+
+CONTROLLERS = ("NPD", "ADRC")

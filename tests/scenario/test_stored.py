@@ -1,0 +1,223 @@
+"""Runs on disk: complete in themselves, readable without their author's classes, and those of version 0.1."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import sys
+from dataclasses import fields, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.cli import app
+from biped_adrc.errors import InputError
+from biped_adrc.hybrid.storage import load, load_beside, save
+from biped_adrc.resources import data_folder
+from biped_adrc.scenario import registry
+from biped_adrc.scenario.plain import Reader, Writer
+
+OLD = Path(__file__).parents[1] / "data"
+FAST = {"engine": "compiled", "impacts": 1}
+
+
+def same(one: ba.Walk, other: ba.Walk) -> None:
+    """Signals to the last bit, limits, certificates."""
+    for f in fields(Signals):
+        a, b = getattr(one.signals, f.name), getattr(other.signals, f.name)
+        np.testing.assert_array_equal(a, b, err_msg=f.name)
+    assert repr(one.certificates) == repr(other.certificates)
+    assert repr(one.legality) == repr(other.legality)
+    assert one.remarks == other.remarks
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"controller": "NPD", "pushes": "q1,q2=10@1:0.1-0.2"},
+        {"controller": "LESO", "hardware": "rabbit", "noise": 1e-4, "lag": 2e-3},
+        {"controller": "ADRC", "continued": True, "mass": {"torso": 1.1}, "slope": 0.01},
+        {"controller": "stride PI", "own": {"inner": "DOB"}, "push": "step", "on": "link torso"}
+        | {"force": 3.0, "pushed_step": 1, "onset": 0.0},
+        {"controller": "NPD", "period": 1e-3, "push": "noise", "amplitude": 5.0, "pushed_step": 1}
+        | {"ground_rms": 2e-3, "impact_error": 0.02, "mass_error": 0.1},
+        {"controller": "passive", "robot": "compass"},
+    ],
+)
+def test_a_walk_comes_back(values: dict, tmp_path: Path) -> None:
+    walk = ba.walk_scenario(ba.Scenario(**{**FAST, **values}))
+    path = walk.save(tmp_path / "walk")
+    again = ba.load_walk(path)
+    same(walk, again)
+    assert again.scenario == walk.scenario
+    assert again.note == walk.note
+    np.testing.assert_array_equal(load_beside(path)["signal.u"], walk.signals.u)
+
+
+def test_a_walk_of_python_goes_on_where_it_was_stored(biped, gait, tmp_path: Path) -> None:
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint), torque_limit=120.0)
+    again = ba.load_walk(ba.walk(walker, gait, 1, engine="compiled").save(tmp_path / "a.npz"))
+    assert again.scenario is None
+    assert again.walker.model is None
+    ends = [
+        ba.walk(w, gait, 2, engine="compiled").trajectory.final_state
+        for w in (walker, again.walker)
+    ]
+    np.testing.assert_array_equal(*ends)
+
+
+def test_neither_the_folder_nor_the_urdf_matters(tmp_path: Path, monkeypatch) -> None:
+    """The robot of a stored run is as it was: from elsewhere, heavier, or gone."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(data_folder("urdf") / "rabbit", "own")
+    shutil.copy(data_folder("gaits") / "rabbit" / "published-identified.json", "gait.json")
+    s = ba.Scenario("NPD", robot="own/robot.toml", gait="gait.json", **FAST)
+    walk = ba.walk_scenario(s)
+    path = walk.save("run.npz").resolve()
+    record = Path("own/robot.toml")
+    record.write_text(re.sub(r"mass = [0-9.]+", "mass = 25.0", record.read_text()))
+    assert ba.Biped.load("own/robot.toml").mass != walk.walker.plant.mass
+    same(walk, ba.load_walk(path))
+    Path("elsewhere").mkdir()
+    monkeypatch.chdir("elsewhere")
+    shutil.rmtree(tmp_path / "own")
+    (tmp_path / "gait.json").unlink()
+    same(walk, ba.load_walk(path))
+    done = CliRunner().invoke(app, ["plot", str(path), "-o", "figure.png"], catch_exceptions=False)
+    assert done.exit_code == 0
+
+
+def stored(own: str) -> ba.Walk:
+    """Of a controller of one's own, which is forgotten then."""
+    s = ba.Scenario(f"{own}:Mine", own={"gain": 0.8}, period=1e-3, **FAST)
+    walk = ba.walk_scenario(s)
+    walk.save("mine.npz")
+    del sys.modules[own]
+    return walk
+
+
+def test_an_own_controller_is_read_without_it(own: str, tmp_path: Path) -> None:
+    walk = stored(own)
+    again = ba.load_walk("mine.npz")
+    assert own not in sys.modules, "reading a file imports nothing"
+    same(walk, again)
+    assert again.controller_name == "Mine"
+    assert again.plot().axes
+    again.animate(tmp_path / "walk.html")
+    for out in ("again.html", "figure.png"):
+        line = ["animate" if out.endswith("html") else "plot", "mine.npz", "-o", out]
+        assert CliRunner().invoke(app, line, catch_exceptions=False).exit_code == 0
+    assert own not in sys.modules
+    with pytest.raises(InputError, match=rf"cannot go on without.*'{own}:Mine'.*load_walk\(path"):
+        ba.walk(again.walker, again.gait, 1)
+
+
+def test_and_walks_on_when_it_is_given(own: str, monkeypatch) -> None:
+    walk = stored(own)
+    Mine = registry.own("controller", f"{own}:Mine")
+    given = ba.load_walk("mine.npz", controller=Mine)
+    assert given.walker.controller == Mine(given.gait.constraint, 0.8)
+    assert given.remarks == walk.remarks
+    again = ba.walk(given.walker, given.gait, 1, engine="compiled")
+    np.testing.assert_array_equal(again.trajectory.final_state, walk.trajectory.final_state)
+    as_object = ba.load_walk("mine.npz", controller=Mine(given.gait.constraint, 0.8))
+    assert isinstance(as_object.walker.controller, Mine)
+    monkeypatch.setattr(registry, "REGISTRY", {k: dict(v) for k, v in registry.REGISTRY.items()})
+    ba.register("controller", "mine", Mine)
+    assert isinstance(ba.load_walk("mine.npz").walker.controller, Mine)
+    with pytest.raises(InputError, match="expected a Controller or its class"):
+        ba.load_walk("mine.npz", controller=Path)
+
+
+def test_a_source_that_changed_is_named(own: str, tmp_path: Path) -> None:
+    stored(own)
+    path = tmp_path / f"{own}.py"
+    path.write_text(path.read_text().replace("5000.0", "4000.0"))
+    changed = ba.load_walk("mine.npz", controller=registry.own("controller", f"{own}:Mine"))
+    assert changed.remarks == (f"the source of {own}:Mine has changed since this walk",)
+
+
+def test_what_is_in_the_file(own: str) -> None:
+    stored(own)
+    settings = json.loads(Path("mine.json").read_text())["settings"]
+    assert settings["own"] == [f"{own}:Mine"]
+    assert settings["scenario"]["own"] == {"gain": 0.8}
+    parts = json.loads(str(load_beside("mine.npz")["walker"]))["parts"]
+    (mine,) = [part for part in parts if part["class"] == f"{own}:Mine"]
+    assert mine["values"]["gain"] == 0.8
+    assert len(mine["source"]) == 12
+    assert any(part["class"] == "biped_adrc.model.urdf:Tree" for part in parts)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"class": "os:system"},
+        {"class": "biped_adrc.cli.__main__:main"},
+        {"class": "biped_adrc.control.npd:nothing"},
+        {"class": "biped_adrc.model.biped:Path"},
+        {"values": {"colour": 3}},
+        {"values": {}},
+    ],
+)
+def test_a_file_makes_nothing_but_parts_of_a_walker(change, biped, gait, tmp_path) -> None:
+    path = ba.walk(
+        ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1, engine="compiled"
+    ).save(tmp_path / "a.npz")
+    beside = load_beside(path)
+    record = json.loads(str(beside["walker"]))
+    walker = record["parts"][record["walker"]]["values"]
+    record["parts"][walker["plant"]["part"]] |= change
+    save(load(path), path, None, {**beside, "walker": json.dumps(record)})
+    with pytest.raises(InputError, match=r"a\.npz"):
+        ba.load_walk(path)
+
+
+def test_plain_values_come_back() -> None:
+    values = {
+        "a": (1, [2.5, None]),
+        "b": np.arange(6.0).reshape(2, 3),
+        "c": 1 + 2j,
+        "d": Path("x/y"),
+    }
+    values |= {"e": ba.ResetPolicy.MODEL, "f": np.float64(0.1), "g": np.zeros((0, 4)), "h": ba.RK4}
+    del values["h"]
+    writer = Writer()
+    record = json.loads(json.dumps(writer.plain(values)))
+    again = Reader(writer.records, {}).made(record)
+    assert again.keys() == values.keys()
+    for name, x in values.items():
+        np.testing.assert_array_equal(again[name], x) if isinstance(x, np.ndarray) else None
+        assert isinstance(x, np.ndarray) or again[name] == x
+    assert again["g"].shape == (0, 4)
+
+
+# -- version 0.1 -------------------------------------------------------------------------------------
+def test_a_run_of_version_0_1_is_read() -> None:
+    walk = ba.load_walk(OLD / "run_0_1.npz")
+    assert walk.scenario.controller == "NPD"
+    assert walk.scenario.pushes[0].torque == {"q1": 10.0, "q2": 10.0}
+    again = ba.walk_scenario(replace(walk.scenario, engine="pinocchio"))
+    np.testing.assert_allclose(again.trajectory.final_state, walk.trajectory.final_state, atol=1e-9)
+    assert walk.signals.peak_error == pytest.approx(again.signals.peak_error, rel=1e-6)
+    passive = ba.load_walk(OLD / "passive_0_1.npz")
+    assert passive.gait is None
+    assert passive.certificates[0].duration > 0.1
+
+
+def test_one_that_cannot_be_read_says_what_to_do(tmp_path: Path) -> None:
+    path = shutil.copy(OLD / "run_0_1.npz", tmp_path / "a.npz")
+    old = load(path)
+    for change in ({"gait": "gone.json"}, {"controller": "a.b:C"}, {"colour": 3}):
+        settings = {"run": {**old.settings["run"], **change}}
+        save(replace(old, settings=settings), path)
+        with pytest.raises(InputError, match=r"of version 0\.1 and cannot be read.*walk it again"):
+            ba.load_walk(path)
+    save(replace(old, settings={}), path)
+    with pytest.raises(InputError, match="does not say which robot"):
+        ba.load_walk(path)
