@@ -50,8 +50,8 @@ def regress_multipliers(x_minus: Array, x_star: Array, tolerance: float = 1e-8) 
         raise InputError(f"found samples of shape {x_minus.shape}, expected (k, n) with k >= 3")
     chi = x_minus - x_star
     before, after = chi[:-1], chi[1:]
-    singular = np.linalg.svd(before, compute_uv=False)
-    solution = np.asarray(np.linalg.lstsq(before, after, rcond=None)[0], dtype=np.float64)
+    found, _, _, singular = np.linalg.lstsq(before, after, rcond=None)
+    solution = np.asarray(found, dtype=np.float64)
     magnitudes = np.sort(np.abs(np.linalg.eigvals(solution.T)))[::-1]
     rank = int(np.sum(singular > tolerance * singular[0]))
     smallest = float(singular[-1]) if len(singular) == x_minus.shape[1] else 0.0

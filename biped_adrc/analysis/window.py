@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from biped_adrc.types import Array
 
@@ -26,8 +27,7 @@ def window_means(t: Array, y: Array, window: float) -> tuple[Array, Array]:
 def integral(t: Array, y: Array, s: Array) -> Array:
     """The integral of y (K, m), linear between nodes, from t[0] to each of the times s (M,): (M, m)."""
     h = np.diff(t)
-    pieces = 0.5 * h[:, np.newaxis] * (y[1:] + y[:-1])
-    whole = np.concatenate((np.zeros((1, y.shape[1])), np.cumsum(pieces, axis=0)))
+    whole = cumulative_trapezoid(y, t, axis=0, initial=0.0)
     i = np.clip(np.searchsorted(t, s, side="right") - 1, 0, len(t) - 2)
     past = np.clip(s - t[i], 0.0, h[i])[:, np.newaxis]
     slope = (y[i + 1] - y[i]) / np.where(h[i] > 0.0, h[i], 1.0)[:, np.newaxis]

@@ -72,27 +72,21 @@ def position(tree: Tree, link: str) -> Array:
 
 def _chain(body: PlanarBase, link: str) -> list[Joint]:
     """Revolute joints between `link` and the trunk, from the trunk outwards. Raises ModelError."""
-    path: list[Joint] = []
-    for joint in body.tree.path_to_root(link):
-        if joint.child == body.trunk:
-            return path[::-1]
-        if joint.type == "revolute":
-            path.append(joint)
-    raise ModelError(
-        f"URDF '{body.tree.source}': link '{link}' does not hang on the trunk '{body.trunk}'; foot and hip "
-        "must"
-    )
+    path = body.tree.path_below(link, body.trunk)
+    if path is None:
+        raise ModelError(
+            f"URDF '{body.tree.source}': link '{link}' does not hang on the trunk '{body.trunk}'; foot and "
+            "hip must"
+        )
+    return [joint for joint in reversed(path) if joint.type == "revolute"]
 
 
 # -- feet ------------------------------------------------------------------------------------------
 def _leaves(body: PlanarBase) -> list[str]:
     """Links at the ends of the tree, in the order of the file."""
-    return [
-        link
-        for link in body.tree.links
-        if not body.tree.joints_below(link)
-        and any(joint.child == body.trunk for joint in body.tree.path_to_root(link))
-    ]
+    tree = body.tree
+    ends = (link for link in tree.links if not tree.joints_below(link))
+    return [link for link in ends if tree.path_below(link, body.trunk) is not None]
 
 
 def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], tuple[str, ...]]:

@@ -8,11 +8,10 @@ permutation.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 from biped_adrc.errors import ModelError
 from biped_adrc.model.relabelling import twins
-from biped_adrc.model.urdf import Inertial, Joint, Link, Tree
+from biped_adrc.model.urdf import Inertial, Joint, Tree
 
 _ALIKE = 1e-9  # relative to the numbers compared
 
@@ -21,11 +20,12 @@ def check_alike(tree: Tree, feet: tuple[str, str], pitch: str, actuated: tuple[s
     """Raises ModelError that names the two bodies or joints, and what differs."""
     for one, other in pairs(tree, feet):
         where = f"URDF '{tree.source}': the legs differ:"
-        for what, a, b in _of_body(tree.links[one], tree.links[other]):
-            if not _close(a, b):
+        a, b = (_numbers(tree.links[link].inertial) for link in (one, other))
+        for what in a:
+            if not _close(a[what], b[what]):
                 raise ModelError(
-                    f"{where} {what} is {_text(a)} of '{one}' and {_text(b)} of '{other}'; the legs change "
-                    "over at impact, so make them equal, with equal zeros of their joints"
+                    f"{where} {what} is {_text(a[what])} of '{one}' and {_text(b[what])} of '{other}'; the "
+                    "legs change over at impact, so make them equal, with equal zeros of their joints"
                 )
         joints = tree.joint_above(one), tree.joint_above(other)
         if joints[0] is not None and joints[1] is not None:
@@ -39,16 +39,15 @@ def pairs(tree: Tree, feet: tuple[str, str]) -> tuple[tuple[str, str], ...]:
     return tuple((link, found[link]) for link in stance if link in found)
 
 
-def _of_body(one: Link, other: Link) -> Iterator[tuple[str, tuple[float, ...], tuple[float, ...]]]:
-    a, b = (_numbers(link.inertial) for link in (one, other))
-    for what, part in (("mass [kg]", 0), ("COM (x, z) [m]", 1), ("inertia iyy [kg m^2]", 2)):
-        yield what, a[part], b[part]
-
-
-def _numbers(inertial: Inertial | None) -> tuple[tuple[float, ...], ...]:
-    if inertial is None:
-        return (0.0,), (0.0, 0.0), (0.0,)
-    return (inertial.mass,), (inertial.com[0], inertial.com[2]), (inertial.inertia[3],)
+def _numbers(inertial: Inertial | None) -> dict[str, tuple[float, ...]]:
+    """What twins have alike, by its name."""
+    body = inertial or Inertial(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    com = body.com[0], body.com[2]
+    return {
+        "mass [kg]": (body.mass,),
+        "COM (x, z) [m]": com,
+        "inertia iyy [kg m^2]": body.inertia[3:4],
+    }
 
 
 def _check_joints(

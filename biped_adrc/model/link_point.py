@@ -77,8 +77,7 @@ def hip_point(biped: Biped) -> LinkPoint:
 
 
 def _moves(biped: Biped, link: str) -> bool:
-    path = [joint.child for joint in biped.tree.path_to_root(link)]
-    return biped.description.trunk in path
+    return biped.tree.path_below(link, biped.description.trunk) is not None
 
 
 def _fitted(biped: Biped, place: Callable[[Array], Array], turn: Array, name: str) -> LinkPoint:

@@ -56,11 +56,9 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
 
 def _chain(tree: Tree, foot: str, torso: str) -> tuple[Joint, ...]:
     """Joints from `foot` up to `torso`."""
-    path = tree.path_to_root(foot)
-    ends = [k for k, joint in enumerate(path) if joint.child == torso]
-    if not ends:
+    chain = tree.path_below(foot, torso)
+    if chain is None:
         raise ModelError(f"URDF '{tree.source}': foot '{foot}' does not hang below '{torso}'")
-    chain = path[: ends[0]]
     for joint in chain:
         if joint.type == "prismatic":
             raise ModelError(

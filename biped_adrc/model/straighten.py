@@ -21,12 +21,18 @@ import numpy as np
 import pinocchio as pin
 
 from biped_adrc.errors import ModelError
-from biped_adrc.model.urdf import GEOMETRY_SIZES, JOINT_TYPES, numbers
+from biped_adrc.model.urdf import (
+    GEOMETRY_SIZES,
+    JOINT_TYPES,
+    MOMENTS,
+    SYMMETRIC,
+    moments_of,
+    numbers,
+)
 from biped_adrc.types import Array
 
 _ROUND_OFF = 1e-15  # entries of a turn below this are the round-off of pi, dimensionless
 _UPRIGHT = 1e-6  # how far a shape's axes may be from the frame's, dimensionless
-_MOMENTS = (("ixx", "ixy", "ixz"), ("ixy", "iyy", "iyz"), ("ixz", "iyz", "izz"))
 
 
 class Straightened(NamedTuple):
@@ -141,16 +147,9 @@ def _turn_link(link: ET.Element, turns: Mapping[str, Array], source: str) -> boo
 
 
 def _turn_moments(moments: ET.Element, R: Array, where: str) -> None:
-    matrix = np.array(
-        [
-            [numbers(moments, key, "0" if key[1] != key[2] else "", 1, where)[0] for key in row]
-            for row in _MOMENTS
-        ]
-    )
-    turned = R @ matrix @ R.T
-    for i, row in enumerate(_MOMENTS):
-        for j, key in enumerate(row):
-            moments.set(key, repr(float(0.5 * (turned[i, j] + turned[j, i]))))
+    turned = R @ moments_of(moments, where)[SYMMETRIC] @ R.T
+    for key, value in zip(MOMENTS, (0.5 * (turned + turned.T))[np.triu_indices(3)], strict=True):
+        moments.set(key, repr(float(value)))
 
 
 def _fill_moments(link: ET.Element, source: str) -> bool:
@@ -159,11 +158,9 @@ def _fill_moments(link: ET.Element, source: str) -> bool:
     if moments is None:
         return False
     where = f"{place_of(link, source)} <inertia>"
-    iyy, *others = (
-        numbers(moments, key, "0", 1, where)[0]
-        for key in ("iyy", "ixx", "izz", "ixy", "ixz", "iyz")
-    )
-    if not iyy > 0.0 or any(abs(other) > _ROUND_OFF * iyy for other in others):
+    found = moments_of(moments, where, "0")
+    iyy, others = float(found[3]), np.delete(found, 3)
+    if not iyy > 0.0 or np.any(np.abs(others) > _ROUND_OFF * iyy):
         return False
     moments.attrib.update(ixx=repr(iyy), izz=repr(0.05 * iyy), ixy="0", ixz="0", iyz="0")
     return True

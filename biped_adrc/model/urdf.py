@@ -19,12 +19,15 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import ModelError
+from biped_adrc.types import Array
 
 Vector = tuple[float, float, float]
 
 JOINT_TYPES = ("revolute", "prismatic", "fixed")
 GEOMETRY_SIZES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length")}
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
+"""The matrix of inertia by the numbers of its MOMENTS."""
 LARGEST = 1e100
 """Of the numbers in a URDF, in any unit; products of more overflow."""
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
@@ -103,6 +106,12 @@ class Tree:
             path.append(joint)
             joint = self.joint_above(joint.parent)
         return tuple(path)
+
+    def path_below(self, link: str, top: str) -> tuple[Joint, ...] | None:
+        """Joints from `link` up to link `top`, None where it does not hang there."""
+        path = self.path_to_root(link)
+        ends = [k for k, joint in enumerate(path) if joint.child == top]
+        return path[: ends[0]] if ends else None
 
     def with_inertials(self, inertials: Mapping[str, Inertial]) -> Tree:
         """The same tree with the inertials of some links replaced."""
@@ -247,12 +256,15 @@ def _read_link(element: ET.Element, source: str) -> Link:
 
 def _read_inertial(element: ET.Element, where: str) -> Inertial:
     mass = numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
-    moments = _required(element, "inertia", where)
-    values = [
-        numbers(moments, n, "" if n[1] == n[2] else "0", 1, f"{where} <inertia>")[0]
-        for n in MOMENTS
-    ]
-    return Inertial(mass, _origin(element, f"{where} <inertial>"), tuple(values))  # type: ignore[arg-type]
+    values = moments_of(_required(element, "inertia", where), f"{where} <inertia>")
+    return Inertial(mass, _origin(element, f"{where} <inertial>"), tuple(values.tolist()))
+
+
+def moments_of(inertia: ET.Element, where: str, default: str = "") -> Array:
+    """xx, xy, xz, yy, yz, zz (6,) of an <inertia>; default: of xx, yy and zz, which a file has to give."""
+    defaults = (default if key[1] == key[2] else "0" for key in MOMENTS)
+    read = zip(MOMENTS, defaults, strict=True)
+    return np.array([numbers(inertia, key, text, 1, where)[0] for key, text in read])
 
 
 def _read_visual(element: ET.Element, where: str) -> Visual:
@@ -347,11 +359,10 @@ def _check_inertial(inertial: Inertial, where: str) -> None:
         raise ModelError(
             f"{where}: the moments of inertia are {inertial.inertia}, expected finite ones"
         )
-    ixx, ixy, ixz, iyy, iyz, izz = (moment / size for moment in inertial.inertia)
-    J = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
+    J = np.array(inertial.inertia)[SYMMETRIC] / size
     if min(np.linalg.det(J[:k, :k]) for k in (1, 2, 3)) <= 0:
         raise ModelError(f"{where}: the inertia matrix is not positive definite")
-    if any(2 * moment > (ixx + iyy + izz) * (1 + 1e-9) for moment in (ixx, iyy, izz)):
+    if np.any(2 * np.diag(J) > np.trace(J) * (1 + 1e-9)):
         xx, _, _, yy, _, zz = inertial.inertia
         raise ModelError(
             f"{where}: inertia ({xx:g}, {yy:g}, {zz:g}) kg m^2 breaks the triangle inequality; "
