@@ -379,6 +379,9 @@ class Tied(ba.OnLink):
     def laws(self):
         return tuple(law._replace(resultant=None) for law in super().laws)
 
+    def resultant(self, t, step, t_start):
+        return np.array([1.0, 2.0])
+
 
 def test_a_resultant_without_a_law_does_not_compile(biped, gait):
     wave = ba.TorquePulse([-80.0, 40.0, 5.0], step=1, start=0.1, stop=0.2)
