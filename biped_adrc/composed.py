@@ -12,6 +12,16 @@ from functools import cached_property, partial
 from typing import Any, ClassVar
 
 
+def written_over(part: Any, given: str, methods: frozenset[str]) -> str:
+    """The first of `methods` that a class below that with `given` writes anew; empty for none."""
+    for cls in type(part).__mro__:
+        if given in vars(cls):
+            break
+        if written := methods.intersection(vars(cls)):
+            return min(written)
+    return ""
+
+
 class Composed(ABC):
     """Base of what has laws: controllers, observers, references, disturbances."""
 
@@ -40,13 +50,8 @@ class Composed(ABC):
         name = f"{self._kind} {type(self).__name__}"
         if self._laws is None:
             return f"{name} has no laws of arrays"
-        for cls in type(self).__mro__:
-            if "laws" in vars(cls):
-                break
-            written = self._methods.intersection(vars(cls))
-            if written:
-                return f"{name} writes {min(written)} over the laws that it inherits"
-        return ""
+        written = written_over(self, "laws", self._methods)
+        return f"{name} writes {written} over the laws that it inherits" if written else ""
 
     def __getstate__(self) -> dict[str, Any]:
         """Without what is made again where it is needed."""

@@ -211,7 +211,7 @@ def loop_laws(law: Controller, n: int, p: int, inertia: Callable[[Array], Array]
     if error.feedback is None:
         raise _refused(f"{name} does not say what its feedback is (`ErrorSystem.feedback`)")
     h = error.feedback.reference
-    if type(h) is not VirtualConstraint:
+    if not isinstance(h, VirtualConstraint):
         raise _refused(
             f"{name} tracks a {type(h).__name__}, expected a VirtualConstraint such as gait.constraint, "
             "not corrected"

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from biped_adrc.composed import written_over
 from biped_adrc.control.passive import Passive
 from biped_adrc.disturbances.base import Disturbance, disturbance_laws
 from biped_adrc.engine.disturbance_code import disturbance_code
@@ -24,8 +26,8 @@ from biped_adrc.engine.kernels.tables import (
 )
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.symbols import floats
-from biped_adrc.hybrid.exponential import Exponential, no_coordinates
-from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
+from biped_adrc.hybrid.exponential import no_coordinates
+from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.split import SplitLaws
 from biped_adrc.timing import LONGEST_PERIOD, SampledTime
 from biped_adrc.types import Array
@@ -102,28 +104,35 @@ def _moving(walker: Walker, nx: int) -> int:
     return nx if flows else 2 * walker.plant.n
 
 
+FORMS: dict[str, Callable[[Any], Method] | None] = {
+    "rk4": lambda m: methods.rk4(m.h),
+    "dop853": lambda m: methods.dop853(m.rtol, m.atol, m.max_step),
+    "etd": None,
+}
+"""By `OneStepMethod.compiled_form`; None for the one that needs coordinates too."""
 _MATRICES: dict[tuple[Any, ...], Method] = {}
 """Of the exponential method, by its step and linear part; made once, by one thread."""
 
 
 def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Method]:
-    if type(method) is RK4:
-        return None, methods.rk4(method.h)
-    if type(method) is Adaptive:
-        return None, methods.dop853(method.rtol, method.atol, method.max_step)
-    if type(method) is not Exponential:
+    form: Any = method
+    written = written_over(method, "compiled_form", frozenset(("steps", "split")))
+    if written or method.compiled_form not in FORMS:
+        why = f"writes its own {written}" if written else "has no compiled form"
         raise NotCompiled(
-            f"method {type(method).__name__} has no compiled form; the run goes on in Python on the compiled "
-            "plant. Compiled are RK4, Adaptive and Exponential"
+            f"method {type(method).__name__} {why}; the run goes on in Python on the compiled plant. Compiled "
+            "are RK4, Adaptive and Exponential"
         )
-    split = walker.split_laws(method.feedback)
+    if (make := FORMS[method.compiled_form]) is not None:
+        return None, make(form)
+    split = walker.split_laws(form.feedback)
     if split is None:
         raise no_coordinates()
-    key = method.h, split.A.tobytes(), split.rows
+    key = form.h, split.A.tobytes(), split.rows
     if key not in _MATRICES:
         while len(_MATRICES) >= 64:
             _MATRICES.pop(next(iter(_MATRICES)))
-        _MATRICES[key] = methods.etd(method.h, split.A, np.array(split.rows, dtype=np.int64))
+        _MATRICES[key] = methods.etd(form.h, split.A, np.array(split.rows, dtype=np.int64))
     return split, _MATRICES[key]
 
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from scipy.linalg import expm
@@ -89,6 +89,8 @@ class Exponential(OneStepMethod):
     at its limit the linear part is wrong, the remainder has to undo it, and the other coordinates are better.
     Raises InputError for a system without these coordinates.
     """
+
+    compiled_form: ClassVar[str] = "etd"
 
     h: float = 5e-4
     feedback: bool = False

@@ -10,6 +10,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from scipy.integrate import DOP853, RK45, OdeSolver, Radau
@@ -41,6 +42,9 @@ class Step:
 
 class OneStepMethod(ABC):
     """Yields the steps of a smooth segment."""
+
+    compiled_form: ClassVar[str] = ""
+    """Name of the same method in the compiled loops; empty for one that runs in Python only."""
 
     def split(self, system: HybridSystem, mode: Mode) -> Split | None:
         """The coordinates of `system` that the method steps in; None for x itself."""
@@ -75,6 +79,8 @@ def check_step(h: float, what: str) -> None:
 @dataclass(frozen=True)
 class RK4(OneStepMethod):
     """The classical explicit Runge-Kutta method of order 4 with fixed step h [s]."""
+
+    compiled_form: ClassVar[str] = "rk4"
 
     h: float = 1e-3
 
@@ -159,6 +165,7 @@ class _SciPy(OneStepMethod):
 class Adaptive(_SciPy):
     """The explicit pair of Dormand and Prince of order 8(5, 3), with step control."""
 
+    compiled_form: ClassVar[str] = "dop853"
     _solver = DOP853
 
 
