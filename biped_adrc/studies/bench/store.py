@@ -24,6 +24,7 @@ from filelock import FileLock
 from biped_adrc.errors import InputError, OutputError
 from biped_adrc.studies.bench.chunk import CRASHED, NO_WALK
 from biped_adrc.studies.bench.points import text_of
+from biped_adrc.studies.bench.workers import undisturbed
 
 
 class About(NamedTuple):
@@ -155,17 +156,18 @@ class Store:
                 yield Result(position, key, self._plain(key, at), self._plain(key, row))
 
     def close(self) -> None:
-        """Leave one file behind, and let go of the lock."""
-        try:
-            if self.lock is not None:
-                self.connection.execute("PRAGMA journal_mode = DELETE")
-        except sqlite3.Error:
-            pass  # somebody reads it: the log stays beside the file
-        finally:
-            self.connection.close()
-            if self.lock is not None:
-                Path(self.lock.lock_file).unlink(missing_ok=True)
-                self.lock.release()
+        """Leave one file behind, and let go of the lock; a second Ctrl-C does not come between."""
+        with undisturbed():
+            try:
+                if self.lock is not None:
+                    self.connection.execute("PRAGMA journal_mode = DELETE")
+            except sqlite3.Error:
+                pass  # somebody reads it: the log stays beside the file
+            finally:
+                self.connection.close()
+                if self.lock is not None:
+                    Path(self.lock.lock_file).unlink(missing_ok=True)
+                    self.lock.release()
 
     def __enter__(self) -> Store:
         return self
