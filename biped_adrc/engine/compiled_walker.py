@@ -117,8 +117,9 @@ _MATRICES: dict[tuple[Any, ...], Method] = {}
 def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Method]:
     form: Any = method
     written = written_over(method, "compiled_form", frozenset(("steps", "split")))
-    if written or method.compiled_form not in FORMS:
-        why = f"writes its own {written}" if written else "has no compiled form"
+    known = method.compiled_form in FORMS
+    if written or not known:
+        why = f"writes its own {written}" if known else "has no compiled form"
         raise NotCompiled(
             f"method {type(method).__name__} {why}; the run goes on in Python on the compiled plant. Compiled "
             "are RK4, Adaptive and Exponential"
