@@ -66,6 +66,8 @@ def compare(given: argparse.Namespace) -> int:
     print(
         f"{found.sensitive} walks end otherwise from a start moved by 1e-14; {unjudged} groups unjudged"
     )
+    if found.left_out:
+        print(f"not compared, as only one of them has it: {', '.join(found.left_out)}")
     print("differs" if found.broken else "the same, but for what is allowed")
     return 1 if found.broken else 0
 

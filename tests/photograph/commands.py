@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shlex
@@ -22,8 +23,11 @@ SUMMARY = "summary.json"
 ALIKE = (
     (re.compile(r"\d+:\d\d:\d\d"), "<clock>"),
     (re.compile(r"designed in [\d.]+ s"), "designed in <seconds> s"),
-    (re.compile(r"in [\d.]+ s\b"), "in <seconds> s"),
-    (re.compile(r"(?m)^.*\d+/\d+ <clock>.*$"), "<progress>"),
+    (re.compile(r"(?m)^.*\d+/(?:\d+|\?) <clock>.*$"), "<progress>"),
+    (re.compile(r"(?m)^(│ \d\.\d{3} │ \d\.\d{3} │.*│) +[\d.]+ +│$"), r"\1 <seconds> │"),
+    (re.compile(r"It took \d+ s"), "It took <seconds> s"),
+    (re.compile(r"Time by task .*"), "Time by task <seconds>"),
+    (re.compile(r"Linux-\S+"), "<platform>"),
     (re.compile(r"(source of biped-adrc\W+)[0-9a-f]{12}"), r"\1<hash>"),
     (re.compile(r"[ \t]+(?=\n|$)"), ""),
 )
@@ -107,7 +111,9 @@ def called(call: Call, folder: Path, seen: dict[str, tuple[int, int]]) -> Plain:
     }
     for path in new:
         if path.endswith(f"out/{SUMMARY}"):
-            record[SUMMARY] = files.stable(files.json.loads((folder / path).read_text()))
+            record[SUMMARY] = files.stable(
+                json.loads((folder / path).read_text(encoding="utf-8")), clean
+            )
             record["files"][path] = "in full in the summary of the photograph"
     return record
 

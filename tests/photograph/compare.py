@@ -45,6 +45,8 @@ class Comparison:
     findings: list[Finding] = field(default_factory=list)
     shares: list[float] = field(default_factory=list)
     sensitive: int = 0
+    left_out: list[str] = field(default_factory=list)
+    """Files that one of the two has not."""
 
     def add(self, kind: str, key: str, word: str, text: str = "") -> None:
         """One more."""
@@ -166,7 +168,8 @@ def short(x: Any) -> str:
 
 def diff(a: Any, b: Any) -> str:
     """What was and what is; of long texts their differing lines."""
-    if isinstance(a, str) and isinstance(b, str) and "\n" in a + b:
+    if isinstance(a, str) and isinstance(b, str) and ("\n" in a + b or len(a + b) > 300):
+        a, b = (re.sub(r"([.;:]) ", r"\1\n", x) if "\n" not in x else x for x in (a, b))
         lines = difflib.unified_diff(a.splitlines(), b.splitlines(), "before", "after", "", "", 1)
         return "\n".join(line.rstrip("\n") for line in lines)
     return f"before: {short(a)}\nafter:  {short(b)}"
@@ -242,29 +245,28 @@ KINDS = {
 
 
 def compared(before: Path, after: Path) -> Comparison:
-    """Two folders. What one of them has not recorded is left out; scenarios that one has not, too."""
+    """Two folders. Raises ValueError where there is nothing that both have recorded."""
     c = Comparison()
-    old, new = (
-        {p.stem: json.loads(p.read_text()) for p in folder.glob("*.json")}
-        for folder in (before, after)
-    )
-    if "scenarios" in old and "scenarios" in new:
-        scenario_words(c, old["scenarios"], new["scenarios"])
-    for name, kind in KINDS.items():
-        if name in old and name in new:
-            for k in dict.fromkeys((*old[name], *new[name])):
-                part = f"{kind}: {detail(name, k)}" if name in ("reports",) else kind
-                a, b = ({k: tree[name][k]} if k in tree[name] else {} for tree in (old, new))
-                if name == "commands":
-                    call_words(c, k, a.get(k, {}), b.get(k, {}))
-                else:
-                    tree_words(c, part, name, a, b)
+    old, new = ({p.stem: p for p in folder.glob("*.json")} for folder in (before, after))
+    both = [name for name in ("scenarios", *KINDS) if name in old and name in new]
+    if not both:
+        raise ValueError(
+            f"'{before}' has {sorted(old)}, '{after}' has {sorted(new)}: nothing in common"
+        )
+    for name in both:
+        a, b = (json.loads(files[name].read_text(encoding="utf-8")) for files in (old, new))
+        if name == "scenarios":
+            scenario_words(c, a, b)
+            continue
+        for k in dict.fromkeys((*a, *b)):
+            x, y = ({k: tree[k]} if k in tree else {} for tree in (a, b))
+            if name == "commands":
+                call_words(c, k, x.get(k, {}), y.get(k, {}))
+            else:
+                kind = KINDS[name] + (f": {k.partition('/')[0]}" if name == "reports" else "")
+                tree_words(c, kind, name, x, y)
+    c.left_out = sorted({*old, *new} - {*both, "about"})
     return c
-
-
-def detail(name: str, key: str) -> str:
-    """The first word of a report's name."""
-    return key.partition("/")[0]
 
 
 def call_words(c: Comparison, key: str, a: Any, b: Any) -> None:

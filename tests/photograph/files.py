@@ -16,7 +16,7 @@ VOLATILE = frozenset(
     ("versions", "seconds", "wall_time_s", "seconds_writing", "command", "platform", "date")
 )
 """Keys and columns that no two runs have in common."""
-LONGEST = 6_000
+LONGEST = 60_000
 """Characters of a text that is stored in full."""
 TAGS = re.compile(r"<(script|style)\b.*?</\1>|<[^>]*>|data:[\w/+;=,.-]*", re.DOTALL)
 
@@ -43,11 +43,13 @@ def text_of(text: str) -> Any:
     return {"begins": text[:2000], "characters": len(text), "hash": hashed(text)}
 
 
-def stable(tree: Any) -> Any:
-    """Without what is volatile."""
+def stable(tree: Any, clean: Any = str) -> Any:
+    """Without what is volatile, its texts made alike by `clean`."""
     if isinstance(tree, dict):
-        return {str(k): stable(x) for k, x in tree.items() if k not in VOLATILE}
-    return [stable(x) for x in tree] if isinstance(tree, list | tuple) else tree
+        return {str(k): stable(x, clean) for k, x in tree.items() if k not in VOLATILE}
+    if isinstance(tree, list | tuple):
+        return [stable(x, clean) for x in tree]
+    return clean(tree) if isinstance(tree, str) else tree
 
 
 def digest(tree: Any) -> Any:
@@ -75,7 +77,7 @@ def array(a: Any) -> dict[str, Any]:
 
 # -- by kind ---------------------------------------------------------------------------------------
 def _json(path: Path, clean: Any) -> Any:
-    return digest(stable(json.loads(clean(path.read_text(encoding="utf-8")))))
+    return digest(stable(json.loads(path.read_text(encoding="utf-8")), clean))
 
 
 def _text(path: Path, clean: Any) -> Any:
@@ -89,7 +91,7 @@ def _npz(path: Path, clean: Any) -> Any:
     arrays = {name: array(a) for name, a in joined(found).items()}
     if meta is None:
         return arrays
-    return {"meta": digest(stable(json.loads(clean(str(meta))))), "arrays": arrays}
+    return {"meta": digest(stable(json.loads(str(meta)), clean)), "arrays": arrays}
 
 
 def joined(arrays: dict[str, Any]) -> dict[str, Any]:
@@ -146,7 +148,7 @@ def _table(base: sqlite3.Connection, name: str, clean: Any) -> Any:
 
 def _cell(x: Any, clean: Any) -> Any:
     if isinstance(x, str) and x[:1] in "{[":
-        return stable(json.loads(clean(x)))
+        return stable(json.loads(x), clean)
     return {"bytes": len(x)} if isinstance(x, bytes) else clean(x) if isinstance(x, str) else x
 
 

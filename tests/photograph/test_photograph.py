@@ -20,6 +20,9 @@ from .compare import (
     scenario_words,
     text_word,
 )
+from .compare import (
+    compared as compared_folders,
+)
 from .scenarios import scenario
 from .take import scenario_record
 
@@ -91,3 +94,8 @@ def test_an_allowed_difference_needs_a_reason(tmp_path: Path) -> None:
     path.write_text("scenarios/*/why\n", encoding="utf-8")
     with pytest.raises(ValueError, match="has no reason"):
         allowed_in(path)
+
+
+def test_what_is_not_there_is_not_the_same(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="nothing in common"):
+        compared_folders(HERE / "before", tmp_path)
