@@ -32,7 +32,7 @@ UNITS = {
     "noise": "rad",
 }
 PICTURES = {
-    "basin": ("sweep.toml", Maps("start.q5", "start.v5", "controller", "survived", UNITS)),
+    "basin": ("sweep.toml", Maps("start.q5", "start.v5", "case", "survived", UNITS)),
     "robustness": (
         "robustness.toml",
         Maps("bandwidth", "period", "noise", "survived", UNITS, frozenset({"bandwidth"})),

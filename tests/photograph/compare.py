@@ -23,6 +23,8 @@ from tests.photograph.adapter.walks import apart
 
 FACTOR = 100.0
 FLOOR = 1e-11
+MOST = 0.1
+"""Where more than this would be allowed, a walk says nothing: a change of round-off ends elsewhere."""
 RELATIVE, SMALL = 1e-7, 1e-9
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?")
 EQUAL, WITHIN, UNJUDGED, ALLOWED, DIFFERS = "equal", "within", "unjudged", "allowed", "differs"
@@ -186,12 +188,19 @@ def walk_words(c: Comparison, key: str, a: Any, b: Any) -> None:
         x, y = a["words"].get(name), b["words"].get(name)
         word = leaf_word(x, y)
         text = "" if word in (EQUAL, WITHIN) else diff(x, y)
+        if word == DIFFERS and name == "detail" and vague(a["deviation"]):
+            word = UNJUDGED
         c.add(f"scenarios: {name if name in NAMED else 'row, words'}", f"{key}/{name}", word, text)
     if a["deviation"] is None:
         c.sensitive += 1
     same = all(a["words"].get(name) == b["words"].get(name) for name in ("status", "impacts"))
     if same:
         number_words(c, key, a, b)
+
+
+def vague(deviation: dict[str, float] | None) -> bool:
+    """Whether round-off decides how a walk ends."""
+    return deviation is None or not FACTOR * max(deviation.values(), default=0.0) < MOST
 
 
 NAMED = ("status", "detail", "impacts", "method", "engine", "why")
@@ -210,7 +219,7 @@ def number_words(c: Comparison, key: str, a: Any, b: Any) -> None:
         gap = apart(x, y)
         if gap == 0.0:
             c.add(kind, at, EQUAL)
-        elif deviation is None or not math.isfinite(deviation[name]):
+        elif deviation is None or not FACTOR * deviation[name] < MOST:
             c.add(kind, at, UNJUDGED, f"apart by {gap:.1e}; a change of 1e-14 ends otherwise")
         else:
             allowed = max(FLOOR, FACTOR * deviation[name])
