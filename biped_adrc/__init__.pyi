@@ -5,6 +5,7 @@ from biped_adrc.analysis.stride_gain import stride_response as stride_response
 from biped_adrc.analysis.to_ss import to_ss as to_ss
 from biped_adrc.analysis.zero_report import zero_report as zero_report
 from biped_adrc.arm import ArmSystem as ArmSystem
+from biped_adrc.closed_loop.semantics import Mode as Mode
 from biped_adrc.control.adrc import ADRCController as ADRCController
 from biped_adrc.control.base import Controller as Controller
 from biped_adrc.control.base import ControllerLaws as ControllerLaws
@@ -81,7 +82,6 @@ from biped_adrc.studies.gait_design import design_gait as design_gait
 from biped_adrc.studies.gait_library import GaitLibrary as GaitLibrary
 from biped_adrc.timing import ContinuousTime as ContinuousTime
 from biped_adrc.timing import SampledTime as SampledTime
-from biped_adrc.walker import Mode as Mode
 from biped_adrc.walker import Walker as Walker
 
 __version__: str

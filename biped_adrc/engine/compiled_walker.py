@@ -18,7 +18,7 @@ from biped_adrc.engine.kernels.tables import (
     Clock,
     Code,
     Method,
-    Push,
+    PushCode,
     Scene,
     Sizes,
     continuous_time,
@@ -137,7 +137,7 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Me
     return split, _MATRICES[key]
 
 
-def _push(disturbance: Disturbance | None, n: int) -> Push:
+def _push(disturbance: Disturbance | None, n: int) -> PushCode:
     if disturbance is None:
         return no_push()
     laws = disturbance_laws(disturbance)
@@ -146,7 +146,7 @@ def _push(disturbance: Disturbance | None, n: int) -> Push:
             raise NotCompiled(f"{law.obstacle}; the run goes on in Python on the compiled plant")
     codes = [disturbance_code(law, n) for law in laws]
     numbers = [np.array([*floats(law.parameters), 0.0]) for law in laws]
-    return Push(
+    return PushCode(
         np.array([code.addresses["torque"] for code in codes], dtype=np.int64),
         np.concatenate([np.zeros(0), *numbers]),
         np.cumsum([0, *(len(k) for k in numbers)]),

@@ -27,7 +27,7 @@ from biped_adrc.engine.kernels.tables import (
     STATUS,
     Clock,
     Code,
-    Push,
+    PushCode,
     Scene,
     Sizes,
     continuous_time,
@@ -281,7 +281,7 @@ class Case(NamedTuple):
         push = (
             no_push()
             if not pulses
-            else Push(
+            else PushCode(
                 np.array([address["pulse"]] * len(pulses)),
                 np.ravel(pulses).astype(float),
                 4 * np.arange(len(pulses) + 1),

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from biped_adrc.engine.kernels import layout
-from biped_adrc.engine.kernels.tables import Clock, Code, Ints, Method, Push, Scene, Sizes
+from biped_adrc.engine.kernels.tables import Clock, Code, Ints, Method, PushCode, Scene, Sizes
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
@@ -45,7 +45,9 @@ class Plan:
         return s
 
 
-def plan(code: Code, sizes: Sizes, scene: Scene, push: Push, clock: Clock, method: Method) -> Plan:
+def plan(
+    code: Code, sizes: Sizes, scene: Scene, push: PushCode, clock: Clock, method: Method
+) -> Plan:
     """Raises InputError for parts that do not fit together."""
     _check(code, sizes, push, clock, method)
     P = np.zeros(layout.P_HEAD, dtype=np.int64)
@@ -76,7 +78,7 @@ def plan(code: Code, sizes: Sizes, scene: Scene, push: Push, clock: Clock, metho
     return Plan(P, F, sizes.nx, _width(sizes))
 
 
-def _check(code: Code, sizes: Sizes, push: Push, clock: Clock, method: Method) -> None:
+def _check(code: Code, sizes: Sizes, push: PushCode, clock: Clock, method: Method) -> None:
     if len(push.offsets) != len(push.addresses) + 1 or push.offsets[-1] > len(push.K):
         raise InputError(
             f"{len(push.addresses)} parts of a disturbance with {len(push.K)} parameters have offsets "

@@ -72,7 +72,7 @@ class Scene(NamedTuple):
     drops: Array
 
 
-class Push(NamedTuple):
+class PushCode(NamedTuple):
     """zeta as a sum of parts, each a function (t, step, t_start, q, v) -> zeta (n,).
 
     Part i has the parameters K[offsets[i]:offsets[i + 1]]. switches (m, 2): rows (step, s); the torque is not
@@ -114,9 +114,9 @@ class Method(NamedTuple):
     rows: Ints
 
 
-def no_push() -> Push:
+def no_push() -> PushCode:
     """zeta = 0."""
-    return Push(
+    return PushCode(
         np.zeros(0, dtype=np.int64), np.zeros(0), np.zeros(1, dtype=np.int64), np.zeros((0, 2))
     )
 
