@@ -41,7 +41,10 @@ class ObservingParameters(NamedTuple):
 
 
 class Sight(NamedTuple):
-    """What a controller makes of its observer; r is None where `of_reference` is False."""
+    """How a controller uses its observer: what the observer is given, and what is made of its estimates.
+
+    r is the reference's point; for `seen`, `fed` and `told` it is None where `of_reference` is False.
+    """
 
     seen: Callable[[ReferencePoint, Measurement], Estimate]
     """seen(r, m) -> y and y', and the disturbance that the nominal model expects."""
