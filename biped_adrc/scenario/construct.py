@@ -31,7 +31,7 @@ def construct(
     if missing:
         raise InputError(
             f"{what} needs {', '.join(missing)}; give --set {missing[0]}=VALUE, `own.{missing[0]} = VALUE` "
-            f"in a study, or Scenario(own={{'{missing[0]}': VALUE}})"
+            f"in a study, or Scenario(own={{'{missing[0]}': VALUE}}); given by themselves are {sorted(values)}"
         )
     try:
         made = make(**{name: x for name, x in values.items() if name in takes(make)})
