@@ -125,6 +125,13 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
         ({"controller": "OWN:Mine", "own": {"gian": 1.0}}, "'gian'.*did you mean 'gain'"),
         ({"controller": "OWN:Mine", "K_p": 3.0}, "takes no K_p: this would do nothing"),
         ({"controller": "NPD", "bandwidth": 3.0}, "takes no bandwidth: this would do nothing"),
+        ({"delay": 1e-3}, "delay without a period: this would do nothing"),
+        ({"lag": 1e-3}, "lag without a period: this would do nothing"),
+        ({"frequency": 3.0}, "frequency without a push: this would do nothing"),
+        (
+            {"push": "pulse", "amplitude": 9.0, "frequency": 3.0},
+            "'pulse' on 'q1,q2,q3,q4' takes no frequency: this would do nothing",
+        ),
         ({"controller": "NPD", "own": {"bandwith": 3}}, "own value 'bandwith'"),
         ({"controller": "CLF-QP", "solve_theta": False}, "takes no solve_theta"),
         ({"controller": "ADRC", "order": 3}, "m = 3 has 5 poles, found 9"),
