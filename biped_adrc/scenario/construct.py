@@ -40,5 +40,7 @@ def construct(
     except Exception as error:  # whatever a class of the user's may raise
         raise InputError(f"{what} could not be made: {type(error).__name__}: {error}") from error
     if not isinstance(made, kind):
-        raise InputError(f"{what} made a {type(made).__name__}, expected one of class {kind.__name__}")
+        raise InputError(
+            f"{what} made a {type(made).__name__}, expected one of class {kind.__name__}"
+        )
     return made

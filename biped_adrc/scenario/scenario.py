@@ -155,7 +155,7 @@ class Scenario:
         try:
             return tuple(float(word) for word in given.split(","))
         except ValueError:
-            raise ValueError("expected numbers separated by commas") from None
+            raise ValueError(f"found {given!r}, expected numbers separated by commas") from None
 
     @field_validator("start")
     @classmethod
