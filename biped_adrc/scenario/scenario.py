@@ -17,7 +17,7 @@ from pydantic import ConfigDict, field_validator, model_validator
 from pydantic.dataclasses import dataclass
 
 from biped_adrc.scenario.push import Push, parse_push
-from biped_adrc.scenario.registry import find, spelled
+from biped_adrc.scenario.registry import find, portable, spelled
 from biped_adrc.scenario.values import clear, described
 
 HARDWARE: dict[str, dict[str, Any]] = {
@@ -220,11 +220,17 @@ class Scenario:
         return bool(getattr(self, name) != DEFAULTS[name])
 
     def record(self) -> dict[str, Any]:
-        """The values that differ from the defaults and from what `hardware` fills in, by name, plain."""
+        """The values that differ from the defaults and from what `hardware` fills in, by name, plain.
+
+        What was registered in this process is written as module:Class, by which any other finds it.
+        """
         usual = {**DEFAULTS, **HARDWARE[self.hardware]}
         found = {name: x for name, x in sorted(asdict(self).items()) if x != usual[name]}
         if self.pushes:
             found["pushes"] = [_told(push) for push in found["pushes"]]
+        for name, kind in {**NAMED, "robot": "robot", "gait": "gait"}.items():
+            if name in found:
+                found[name] = portable(kind, found[name])
         return found | ({} if self.poles is None else {"poles": list(self.poles)})
 
     @property
