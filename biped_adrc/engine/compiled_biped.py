@@ -1,28 +1,33 @@
 """A robot whose dynamics are compiled, for controllers in plain Python.
 
 Kinematics, contact and everything that is not asked for at every instant stay Pinocchio's.
+
+The equations of a robot by itself on symbols, for controllers in plain Python.
+
+terms (q, v) -> D, Omega, kappa, xi, ... of (11)-(15),   body (q, v) -> G, C' q', F_a, F_0
+accelerate (q, v, force) -> q'',   ground (q, v, a) -> F
 """
 
 from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 
+from biped_adrc.engine.equations import Function, count
 from biped_adrc.engine.fingerprint import hash_of, skeleton, versions_text
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import Machine, Text, machine
-from biped_adrc.engine.plant_equations import PlantEquations
-from biped_adrc.engine.robot import REMEMBERED, Robot, robot_of
-from biped_adrc.engine.symbols import floats
+from biped_adrc.engine.mechanics import REMEMBERED, PlanarRobot, Robot, Structure, robot_of
+from biped_adrc.engine.symbols import Vector, column, floats
 from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import EXACT
+from biped_adrc.model.planar import EXACT, PlantArrays
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.types import Array
 
@@ -166,3 +171,35 @@ class CompiledBiped(Biped):
         call, n = self._calls["ground"], self.n
         call.inp[:n], call.inp[n : 2 * n], call.inp[2 * n :] = self._angles(q), self._angles(v), a
         return call()
+
+
+@dataclass(frozen=True)
+class PlantEquations:
+    """The functions of a robot by itself; K is CasADi's column of the symbols in it."""
+
+    robot: PlanarRobot
+    K: Any
+
+    @classmethod
+    def of(cls, structure: Structure, example: PlantArrays) -> PlantEquations:
+        """With symbols for the floats of an example."""
+        K = Vector("K", count(example))
+        return cls(PlanarRobot.of(structure, K.like(example)), K.symbol)
+
+    def functions(self) -> dict[str, Callable[[], Function]]:
+        """By name; `terms` and `body` give the parts of their tuples one after the other."""
+        robot = self.robot
+        found: dict[str, tuple[Callable[..., Any], int]] = {
+            "terms": (robot.reduction, 2),
+            "body": (robot.body_terms, 2),
+            "accelerate": (robot.acceleration, 3),
+            "ground": (robot.ground_reaction, 3),
+        }
+        return {name: partial(self._made, *how) for name, how in found.items()}
+
+    def _made(self, law: Callable[..., Any], count: int) -> Function:
+        """The function of `count` vectors (n,)."""
+        inp = Vector("inp", count * self.robot.n)
+        given = (inp.take(self.robot.n) for _ in range(count))
+        parts = law(*given)
+        return Function(self.K, inp.symbol, column(*parts))

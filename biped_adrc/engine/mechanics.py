@@ -11,6 +11,8 @@ the impulse F_2 out of (7):
     N' D_e N q+' = N' D_e (q-'; 0) = (D_s - J_2' J_m) q-'
 
 N' D_e N is the inertia about the swing foot; D_e itself is singular for a robot whose mass is in one point.
+
+A robot's make and its numbers, as generated code takes them.
 """
 
 from __future__ import annotations
@@ -22,8 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.engine.symbols import Tracer, solve_positive, tanh
-from biped_adrc.model.biped import STICTION_SPEED
+from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.model.planar import (
+    PlanarTree,
     PlantArrays,
     gravity_and_turning,
     ground_reaction,
@@ -144,3 +147,45 @@ class PlanarRobot:
         v_plus = solve_positive(after, before @ v, "N' D_e N")
         F_2 = J_m @ (v_plus - v) - K.mass * (J_2 @ v_plus)
         return Impact(R @ q + self.structure.offset, R @ v_plus, F_2)
+
+
+REMEMBERED = 64
+"""Robots kept in memory."""
+
+
+@dataclass(frozen=True)
+class Robot:
+    """`structure` decides the code, `arrays` are given to it at run time."""
+
+    structure: Structure
+    arrays: PlantArrays
+
+
+_ROBOTS: dict[int, tuple[Biped, Robot]] = {}
+
+
+def robot_of(biped: Biped) -> Robot:
+    """Read off a robot, or remembered. Raises ModelError when it is no planar tree of rigid links."""
+    found = _ROBOTS.get(id(biped))
+    if found is None or found[0] is not biped:
+        while len(_ROBOTS) >= REMEMBERED:
+            _ROBOTS.pop(next(iter(_ROBOTS)))
+        found = biped, _read(biped)
+        _ROBOTS[id(biped)] = found
+    return found[1]
+
+
+def _read(biped: Biped) -> Robot:
+    tree = PlanarTree.of(biped)
+    arrays = tree.K
+    swap: Any = biped.relabelling[: biped.p] if biped.p else np.zeros(0, dtype=int)
+    structure = Structure(
+        biped.n,
+        biped.p,
+        tree.A,
+        biped.R.astype(int),
+        biped.relabel(np.zeros(biped.n)),
+        swap,
+        tuple(np.asarray(x) != 0.0 for x in arrays),
+    )
+    return Robot(structure, arrays)

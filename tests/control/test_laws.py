@@ -18,7 +18,7 @@ from biped_adrc.disturbances.base import Disturbance, disturbance_laws
 from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.noise import TorqueNoise
-from biped_adrc.engine.disturbance_code import disturbance_code
+from biped_adrc.engine.compiled_walker import disturbance_code
 from biped_adrc.engine.equations import Function
 from biped_adrc.engine.fingerprint import hash_of
 from biped_adrc.engine.ir import module_text

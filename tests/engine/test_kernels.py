@@ -21,7 +21,6 @@ from numba import types
 
 from biped_adrc.engine.kernels import layout, methods
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.plan import plan
 from biped_adrc.engine.kernels.run import arc
 from biped_adrc.engine.kernels.tables import (
     STATUS,
@@ -32,6 +31,7 @@ from biped_adrc.engine.kernels.tables import (
     Sizes,
     continuous_time,
     no_push,
+    plan,
 )
 from biped_adrc.errors import InputError, NotFiniteError, SingularError
 from biped_adrc.hybrid import integrators, simulator
