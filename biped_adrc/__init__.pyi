@@ -51,9 +51,9 @@ from biped_adrc.ground import StepUp as StepUp
 from biped_adrc.ground import uneven_ground as uneven_ground
 from biped_adrc.hardware.motors import Motors as Motors
 from biped_adrc.hardware.sensors import Sensors as Sensors
-from biped_adrc.hybrid.exponential import Exponential as Exponential
 from biped_adrc.hybrid.integrators import RK4 as RK4
 from biped_adrc.hybrid.integrators import Adaptive as Adaptive
+from biped_adrc.hybrid.integrators import Exponential as Exponential
 from biped_adrc.hybrid.integrators import Stiff as Stiff
 from biped_adrc.hybrid.simulator import simulate as simulate
 from biped_adrc.hybrid.status import Status as Status

@@ -36,8 +36,7 @@ from biped_adrc.engine.kernels.tables import (
 from biped_adrc.engine.machine import Machine, Text, remembered
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.symbols import Tracer, Untraceable, Vector, column, floats, run
-from biped_adrc.hybrid.exponential import no_coordinates
-from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.hybrid.integrators import OneStepMethod, no_coordinates
 from biped_adrc.split import SplitLaws
 from biped_adrc.timing import LONGEST_PERIOD, SampledTime
 from biped_adrc.types import Array

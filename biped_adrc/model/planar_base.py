@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass, replace
 
 from biped_adrc.errors import ModelError
-from biped_adrc.model.reroot import PIN_JOINT
+from biped_adrc.model.pinned import PIN_JOINT
 from biped_adrc.model.urdf import Joint, Link, Tree, Vector
 
 PLANAR = 1e-4  # how far a rounded rpy may turn an axis out of the plane, dimensionless

@@ -25,7 +25,7 @@ from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import Text, machine
 from biped_adrc.engine.symbols import Tracer, Vector, column, floats, run
 from biped_adrc.errors import InputError
-from biped_adrc.gait.corrected import CorrectedConstraint
+from biped_adrc.gait.constraint import CorrectedConstraint
 from biped_adrc.gait.reference import Reference, ReferenceLaws
 from biped_adrc.observers.base import Estimate, Observer, ObserverLaws
 from biped_adrc.observers.chain import chain_estimate, chain_reset, chain_state

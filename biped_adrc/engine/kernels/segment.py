@@ -8,21 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from biped_adrc.engine.kernels.call import Ints, inner, shift, unit
-from biped_adrc.engine.kernels.dop853 import adaptive, initial_step
 from biped_adrc.engine.kernels.events import event, pieces, retake
-from biped_adrc.engine.kernels.laws import (
-    broken,
-    copy,
-    finite,
-    flow,
-    join,
-    regular,
-    remainder,
-    row,
-    split,
-)
+from biped_adrc.engine.kernels.laws import *
 from biped_adrc.engine.kernels.layout import *
-from biped_adrc.engine.kernels.steps import classical, exponential, halve
+from biped_adrc.engine.kernels.steps import adaptive, classical, exponential, halve, initial_step
 from biped_adrc.types import Array
 
 
