@@ -10,7 +10,7 @@ from biped_adrc.control.passive import Passive
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait
-from biped_adrc.gait.passive_cycle import PassiveCycle, passive_cycle
+from biped_adrc.gait.published import PassiveCycle, passive_cycle
 from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.hardware.meter import Meter
 from biped_adrc.hardware.motors import Motors

@@ -150,7 +150,7 @@ class Walk:
 
     def export(self, path: Path | str) -> None:
         """Write all signals for MATLAB (.mat), one array per name. Raises InputError and OutputError."""
-        from biped_adrc.gait.exchange.runs import export_run
+        from biped_adrc.gait.exchange.files import export_run
 
         export_run(vars(self.signals), path, note=self.note)
 

@@ -21,7 +21,7 @@ from biped_adrc.engine.mechanics import robot_of
 from biped_adrc.engine.symbols import Untraceable, Vector
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import virtual_constraint
-from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import simulator
 from biped_adrc.linear import solve
 from biped_adrc.versions import NEVER_TRACED, source_text
