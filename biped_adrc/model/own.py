@@ -33,10 +33,10 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.legs import check_alike, pairs
 from biped_adrc.model.own_checks import checks
 from biped_adrc.model.planar_base import PlanarBase, on_planar_base
-from biped_adrc.model.reading import Reading, read, tip_of
 from biped_adrc.model.robots import GRAVITY, description_of
 from biped_adrc.model.sticks import drawable
 from biped_adrc.model.urdf import Joint, Tree, to_xml
+from biped_adrc.model.urdf_reader import Reading, read, tip_of
 
 PRESET = "urdf"
 FRICTION = 0.6

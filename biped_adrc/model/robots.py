@@ -15,7 +15,8 @@ from typing import Any
 
 from biped_adrc.errors import ModelError, check_positive
 from biped_adrc.files import reading
-from biped_adrc.model.urdf import Inertial, Tree, load_tree
+from biped_adrc.model.urdf import Inertial, Tree
+from biped_adrc.model.urdf_reader import load_tree
 from biped_adrc.resources import data_folder
 
 
