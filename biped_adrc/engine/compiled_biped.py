@@ -21,9 +21,9 @@ import numpy as np
 
 from biped_adrc.engine.equations import Function, count
 from biped_adrc.engine.fingerprint import hash_of, skeleton, versions_text
-from biped_adrc.engine.ir import module_text
-from biped_adrc.engine.machine import Machine, Text, machine
-from biped_adrc.engine.mechanics import REMEMBERED, PlanarRobot, Robot, Structure, robot_of
+from biped_adrc.engine.ir import generated
+from biped_adrc.engine.machine import Machine
+from biped_adrc.engine.mechanics import PlanarRobot, Robot, Structure, once_each, robot_of
 from biped_adrc.engine.symbols import Vector, column, floats
 from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
@@ -63,12 +63,12 @@ class Call:
         self._function = _C(machine.addresses[name])
         self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
 
-    def __call__(self) -> Array:
+    def __call__(self, *given: Array) -> Array:
+        """The outputs of what is in `inp`, or of these inputs."""
+        if given:
+            np.concatenate(given, out=self.inp)
         self._function(*self._at)
         return self.out.copy()
-
-
-_MADE: dict[int, tuple[Biped, CompiledBiped]] = {}
 
 
 @dataclass(frozen=True)
@@ -84,14 +84,7 @@ class CompiledBiped(Biped):
         Raises ModelError for a robot that is no planar tree of rigid links, or where the code differs from
         Pinocchio by more than 1e-11 relative.
         """
-        found = _MADE.get(id(biped))
-        if found is None or found[0] is not biped:
-            while len(_MADE) >= REMEMBERED:
-                _MADE.pop(next(iter(_MADE)))
-            given = {f.name: getattr(biped, f.name) for f in fields(Biped)}
-            found = biped, cls(**given, robot=robot_of(biped)).checked(biped)
-            _MADE[id(biped)] = found
-        return found[1]
+        return _compiled(biped)
 
     def checked(self, biped: Biped, samples: int = SAMPLES) -> CompiledBiped:
         """Itself, when its terms are Pinocchio's at random states and q'' obeys (1). Raises ModelError."""
@@ -121,10 +114,7 @@ class CompiledBiped(Biped):
         robot = self.robot
         assert robot is not None
         key = hash_of("plant", skeleton(robot.structure), skeleton(robot.arrays), versions_text())
-        functions = PlantEquations.of(robot.structure, robot.arrays).functions()
-        code = machine(
-            key, list(functions), lambda: Text(module_text({k: f() for k, f in functions.items()}))
-        )
+        code = generated(key, plant_functions(robot.structure, robot.arrays))
         K, n = np.array([*floats(robot.arrays), 0.0]), self.n
         sizes = {
             "terms": (2 * n, self.size),
@@ -146,60 +136,46 @@ class CompiledBiped(Biped):
         return sum(map(math.prod, self.shapes))
 
     def reduction(self, q: Array, v: Array) -> Reduction:
-        call, n = self._calls["terms"], self.n
-        call.inp[:n], call.inp[n:] = self._angles(q), self._angles(v)
-        return Reduction(*parts_of(call(), self.shapes))
+        terms = self._calls["terms"](self._angles(q), self._angles(v))
+        return Reduction(*parts_of(terms, self.shapes))
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
-        call, n = self._calls["body"], self.n
-        call.inp[:n], call.inp[n:] = self._angles(q), self._angles(v)
-        out = call()
+        out, n = self._calls["body"](self._angles(q), self._angles(v)), self.n
         return BodyTerms(out[:n], out[n : 2 * n], out[2 * n : 4 * n].reshape(2, n), out[4 * n :])
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
-        call, n = self._calls["accelerate"], self.n
         if self.friction:
             force = force + self.friction_torque(v)
-        call.inp[:n], call.inp[n : 2 * n], call.inp[2 * n :] = (
-            self._angles(q),
-            self._angles(v),
-            force,
-        )
-        return call()
+        return self._calls["accelerate"](self._angles(q), self._angles(v), force)
 
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
-        call, n = self._calls["ground"], self.n
-        call.inp[:n], call.inp[n : 2 * n], call.inp[2 * n :] = self._angles(q), self._angles(v), a
-        return call()
+        return self._calls["ground"](self._angles(q), self._angles(v), a)
 
 
-@dataclass(frozen=True)
-class PlantEquations:
-    """The functions of a robot by itself; K is CasADi's column of the symbols in it."""
+@once_each
+def _compiled(biped: Biped) -> CompiledBiped:
+    given = {f.name: getattr(biped, f.name) for f in fields(Biped)}
+    return CompiledBiped(**given, robot=robot_of(biped)).checked(biped)
 
-    robot: PlanarRobot
-    K: Any
 
-    @classmethod
-    def of(cls, structure: Structure, example: PlantArrays) -> PlantEquations:
-        """With symbols for the floats of an example."""
-        K = Vector("K", count(example))
-        return cls(PlanarRobot.of(structure, K.like(example)), K.symbol)
+def plant_functions(
+    structure: Structure, example: PlantArrays
+) -> dict[str, Callable[[], Function]]:
+    """By name; `terms` and `body` give the parts of their tuples one after the other.
 
-    def functions(self) -> dict[str, Callable[[], Function]]:
-        """By name; `terms` and `body` give the parts of their tuples one after the other."""
-        robot = self.robot
-        found: dict[str, tuple[Callable[..., Any], int]] = {
-            "terms": (robot.reduction, 2),
-            "body": (robot.body_terms, 2),
-            "accelerate": (robot.acceleration, 3),
-            "ground": (robot.ground_reaction, 3),
-        }
-        return {name: partial(self._made, *how) for name, how in found.items()}
+    K has symbols for the floats of the example.
+    """
+    K = Vector("K", count(example))
+    robot = PlanarRobot.of(structure, K.like(example))
 
-    def _made(self, law: Callable[..., Any], count: int) -> Function:
-        """The function of `count` vectors (n,)."""
-        inp = Vector("inp", count * self.robot.n)
-        given = (inp.take(self.robot.n) for _ in range(count))
-        parts = law(*given)
-        return Function(self.K, inp.symbol, column(*parts))
+    def function(law: Callable[..., Any], given: int) -> Function:
+        inp = Vector("inp", given * robot.n)
+        parts = law(*(inp.take(robot.n) for _ in range(given)))
+        return Function(K.symbol, inp.symbol, column(*parts))
+
+    return {
+        "terms": partial(function, robot.reduction, 2),
+        "body": partial(function, robot.body_terms, 2),
+        "accelerate": partial(function, robot.acceleration, 3),
+        "ground": partial(function, robot.ground_reaction, 3),
+    }

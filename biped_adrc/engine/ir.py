@@ -7,12 +7,13 @@ and no operations are fused, so the numbers are the same whatever runs beside.
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import casadi as ca
 
 from biped_adrc.engine.equations import Function
+from biped_adrc.engine.machine import Machine, Text, remembered
 from biped_adrc.errors import InputError
 
 Line = Callable[[list[str]], str]
@@ -75,6 +76,17 @@ DECLARATIONS = "\n".join(
     + [f"declare double @{name}(double, double) #0" for name in TWO]
     + ["attributes #0 = { nounwind readnone willreturn }"]
 )
+
+
+def generated(
+    key: str, functions: Mapping[str, Callable[[], Function]], vectors: bool = False
+) -> Machine:
+    """These functions in memory, traced where none are stored under `key`; vectors: as of `Text`."""
+
+    def text() -> Text:
+        return Text(module_text({name: f() for name, f in functions.items()}), vectors)
+
+    return remembered(key, list(functions), text)
 
 
 def module_text(functions: dict[str, Function]) -> str:

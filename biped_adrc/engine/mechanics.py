@@ -17,8 +17,9 @@ A robot's make and its numbers, as generated code takes them.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -149,6 +150,7 @@ class PlanarRobot:
         return Impact(R @ q + self.structure.offset, R @ v_plus, F_2)
 
 
+T = TypeVar("T")
 REMEMBERED = 64
 """Robots kept in memory."""
 
@@ -161,21 +163,23 @@ class Robot:
     arrays: PlantArrays
 
 
-_ROBOTS: dict[int, tuple[Biped, Robot]] = {}
+def once_each(make: Callable[[Biped], T]) -> Callable[[Biped], T]:
+    """`make`, with what it made of the last REMEMBERED robots; a robot is known by its identity."""
+    made: dict[int, tuple[Biped, T]] = {}
+
+    def found(biped: Biped) -> T:
+        if id(biped) not in made or made[id(biped)][0] is not biped:
+            while len(made) >= REMEMBERED:
+                made.pop(next(iter(made)))
+            made[id(biped)] = biped, make(biped)
+        return made[id(biped)][1]
+
+    return found
 
 
+@once_each
 def robot_of(biped: Biped) -> Robot:
-    """Read off a robot, or remembered. Raises ModelError when it is no planar tree of rigid links."""
-    found = _ROBOTS.get(id(biped))
-    if found is None or found[0] is not biped:
-        while len(_ROBOTS) >= REMEMBERED:
-            _ROBOTS.pop(next(iter(_ROBOTS)))
-        found = biped, _read(biped)
-        _ROBOTS[id(biped)] = found
-    return found[1]
-
-
-def _read(biped: Biped) -> Robot:
+    """Read off a robot. Raises ModelError when it is no planar tree of rigid links."""
     tree = PlanarTree.of(biped)
     arrays = tree.K
     swap: Any = biped.relabelling[: biped.p] if biped.p else np.zeros(0, dtype=int)
