@@ -29,8 +29,6 @@ from biped_adrc.engine.kernels.tables import (
     PushCode,
     Scene,
     Sizes,
-    continuous_time,
-    no_push,
     plan,
 )
 from biped_adrc.engine.machine import Machine, Text, remembered
@@ -68,7 +66,7 @@ class CompiledWalker:
         split, made = _method(walker, method)
         program = Program.of(walker, size, split)
         time = walker.timing
-        clock = continuous_time()
+        clock = Clock()
         if isinstance(time, SampledTime):
             assert walker.held is not None
             part = walker.held.motors.fraction * time.period if walker.held.sizes.waiting else 0.0
@@ -88,7 +86,7 @@ class CompiledWalker:
         )
         split, made = _method(bare, method)
         program = Program.of(bare, 0, split)
-        return cls(bare, program, _plan(bare, program, split, continuous_time(), made))
+        return cls(bare, program, _plan(bare, program, split, Clock(), made))
 
 
 def _plan(
@@ -148,7 +146,7 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Me
 
 def _push(disturbance: Disturbance | None, n: int) -> PushCode:
     if disturbance is None:
-        return no_push()
+        return PushCode()
     laws = disturbance_laws(disturbance)
     for law in laws:
         if law.obstacle:

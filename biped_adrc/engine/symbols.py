@@ -117,10 +117,7 @@ FUNCTIONS = {
 
 
 def _function(name: str) -> Callable[[Any], Any]:
-    def of_scalar(x: Any) -> Any:
-        return Scalar(getattr(ca, name)(expression(x)))
-
-    return of_scalar
+    return lambda x: Scalar(getattr(ca, name)(expression(x)))
 
 
 def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -144,10 +141,7 @@ class _Substitute:
 
 
 def _filled(value: float) -> Callable[..., Any]:
-    def make(shape: Any, *_: Any, **__: Any) -> Any:
-        return np.full(shape, value, dtype=object)
-
-    return make
+    return lambda shape, *_, **__: np.full(shape, value, dtype=object)
 
 
 def minimum(a: Any, b: Any) -> Any:
@@ -228,15 +222,10 @@ def _pairs(one: list[Any], other: list[Any]) -> Iterator[tuple[int, tuple[Any, A
 
 def _larger_first(one: list[Any], other: list[Any], j: int) -> tuple[list[Any], list[Any]]:
     """The two rows, that with the larger entry in column j first."""
-    swap = expression(abs(Scalar(ca.SX(expression(other[j]))))) > expression(
-        abs(Scalar(ca.SX(expression(one[j]))))
-    )
-
-    def choose(a: Any, b: Any) -> Any:
-        return Scalar(ca.if_else(swap, expression(a), expression(b)))
-
-    first = [choose(b, a) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
-    second = [choose(a, b) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
+    a, b = (ca.fabs(ca.SX(expression(row[j]))) for row in (one, other))
+    swap = Scalar(b > a)
+    first = [where(swap, b, a) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
+    second = [where(swap, a, b) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
     return first, second
 
 

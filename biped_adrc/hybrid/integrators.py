@@ -29,7 +29,7 @@ import numpy as np
 from scipy.integrate import DOP853, RK45, OdeSolver, Radau
 from scipy.linalg import expm
 
-from biped_adrc.errors import InputError, NotFiniteError, SingularError
+from biped_adrc.errors import InputError, NotFiniteError, SingularError, check_positive
 from biped_adrc.hybrid.system import HybridSystem, Mode, Split
 from biped_adrc.types import Array
 
@@ -84,12 +84,6 @@ def step_ends(t: float, t_end: float, h: float) -> Iterator[float]:
     yield t_end
 
 
-def check_step(h: float, what: str) -> None:
-    """Raise InputError unless h is positive and finite."""
-    if not (math.isfinite(h) and h > 0):
-        raise InputError(f"{what} is {h}, expected a positive number")
-
-
 @dataclass(frozen=True)
 class RK4(OneStepMethod):
     """The classical explicit Runge-Kutta method of order 4 with fixed step h [s]."""
@@ -99,7 +93,7 @@ class RK4(OneStepMethod):
     h: float = 1e-3
 
     def __post_init__(self) -> None:
-        check_step(self.h, "step h [s]")
+        check_positive(self.h, f"step h [s] is {self.h}")
 
     @property
     def label(self) -> str:
@@ -140,7 +134,7 @@ class _SciPy(OneStepMethod):
 
     def __post_init__(self) -> None:
         for name in ("rtol", "atol", "max_step"):
-            check_step(getattr(self, name), name)
+            check_positive(getattr(self, name), f"{name} is {getattr(self, name)}")
 
     @property
     def label(self) -> str:
@@ -260,7 +254,7 @@ class Exponential(OneStepMethod):
     feedback: bool = False
 
     def __post_init__(self) -> None:
-        check_step(self.h, "step h [s]")
+        check_positive(self.h, f"step h [s] is {self.h}")
 
     @property
     def label(self) -> str:

@@ -61,15 +61,8 @@ class Arc:
         i = min(max(i, 0), len(self.t) - 2) if len(self.t) > 1 else 0
         if len(self.t) == 1:
             return self.x[0].copy()
-        return hermite(
-            self.t[i],
-            self.t[i + 1],
-            self.x[i],
-            self.x[i + 1],
-            self.dx[i],
-            self.dx[i + 1],
-            t,
-        )
+        at, x, dx = self.t, self.x, self.dx
+        return hermite(at[i], at[i + 1], x[i], x[i + 1], dx[i], dx[i + 1], t)
 
 
 def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, t: float) -> Array:

@@ -15,12 +15,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.integrate import DOP853
 
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.tables import Ints, Method
-from biped_adrc.errors import InputError
-from biped_adrc.hybrid.integrators import check_step
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.types import Array
 
 TERMS = 24
@@ -32,20 +30,20 @@ Phi = tuple[Array, Array, Array, Array]
 
 def rk4(h: float) -> Method:
     """The classical method with step h [s]. Raises InputError."""
-    check_step(h, "step h [s]")
-    return _method(layout.RK4, h=h)
+    check_positive(h, f"step h [s] is {h}")
+    return Method(layout.RK4, h=h)
 
 
 def dop853(rtol: float, atol: float, max_step: float) -> Method:
     """Dormand and Prince 8(5, 3) with step control; max_step [s]. Raises InputError."""
     for name, value in (("rtol", rtol), ("atol", atol), ("max_step [s]", max_step)):
-        check_step(value, name)
+        check_positive(value, f"{name} is {value}")
     least = 100.0 * np.finfo(float).eps
     if rtol < least:
         raise InputError(
             f"rtol is {rtol:g}, expected at least {least:.1e}, the round-off of a step"
         )
-    return _method(layout.DOP853, rtol=rtol, atol=atol, max_step=max_step)
+    return Method(layout.DOP853, rtol=rtol, atol=atol, max_step=max_step)
 
 
 def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> Method:
@@ -54,7 +52,7 @@ def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> Method:
     levels: the shortest sub-step of a landing is h 2^-(levels - 1). Raises InputError, also where the classical
     step below it would not be stable.
     """
-    check_step(h, "step h [s]")
+    check_positive(h, f"step h [s] is {h}")
     A, rows = np.array(A, dtype=float), np.array(rows, dtype=np.int64)
     if A.ndim != 2 or A.shape[0] != A.shape[1] or not np.all(np.isfinite(A)):
         raise InputError(f"A has shape {A.shape}, expected a square matrix of finite numbers")
@@ -71,16 +69,7 @@ def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> Method:
             f"the fastest pole is {fastest:.3g} rad/s and the shortest sub-step {shortest:.2e} s; "
             f"their product has to be below {STABLE}: give more levels or a shorter h"
         )
-    return _method(layout.ETD, h=h, phi=phi_levels(A, h, levels), rows=rows)
-
-
-def _method(kind: int, **given: float | Array | Ints) -> Method:
-    values: dict[str, float | Array | Ints] = dict.fromkeys(("h", "rtol", "atol", "max_step"), 1.0)
-    values |= {
-        name: np.ascontiguousarray(getattr(DOP853, name)) for name in ("A", "B", "C", "E3", "E5")
-    }
-    values |= {"phi": np.zeros((0, layout.MATRICES, 0, 0)), "rows": np.zeros(0, dtype=np.int64)}
-    return Method(kind, **(values | given))  # type: ignore[arg-type]
+    return Method(layout.ETD, h=h, phi=phi_levels(A, h, levels), rows=rows)
 
 
 def _times(A: Array, B: Array) -> Array:

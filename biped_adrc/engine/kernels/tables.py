@@ -8,10 +8,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import DOP853
 
 from biped_adrc.engine.kernels import layout
 from biped_adrc.errors import InputError
@@ -81,16 +82,16 @@ class Scene(NamedTuple):
 
 
 class PushCode(NamedTuple):
-    """zeta as a sum of parts, each a function (t, step, t_start, q, v) -> zeta (n,).
+    """zeta as a sum of parts, each a function (t, step, t_start, q, v) -> zeta (n,); 0 without any.
 
     Part i has the parameters K[offsets[i]:offsets[i + 1]]. switches (m, 2): rows (step, s); the torque is not
     smooth s [s] after that single support began, or for step 0 at the time s.
     """
 
-    addresses: Ints
-    K: Array
-    offsets: Ints
-    switches: Array
+    addresses: Ints = np.zeros(0, dtype=np.int64)
+    K: Array = np.zeros(0)
+    offsets: Ints = np.zeros(1, dtype=np.int64)
+    switches: Array = np.zeros((0, 2))
     resultants: tuple[int, ...] = ()
     """Addresses of (t, step, t_start, q, v) -> force (2,) [N] on the robot as a whole, 0 for none."""
 
@@ -98,42 +99,27 @@ class PushCode(NamedTuple):
 class Clock(NamedTuple):
     """Ticks every `period` [s], 0 for continuous time, from the arc's start or, without restart, t_first."""
 
-    period: float
-    restart: int
-    t_first: float
+    period: float = 0.0
+    restart: int = 1
+    t_first: float = 0.0
     part: float = 0.0
     """[s] after each tick at which the waiting torque acts, 0 for none."""
 
 
 class Method(NamedTuple):
-    """Step or tolerances, the tableau of DOP853, and for ETD-RK4 phi (levels, 6, k, k) and the forced rows."""
+    """Step or tolerances, and for ETD-RK4 phi (levels, 6, k, k) and the forced rows."""
 
     kind: int
-    h: float
-    rtol: float
-    atol: float
-    max_step: float
-    A: Array
-    B: Array
-    C: Array
-    E3: Array
-    E5: Array
-    phi: Array
-    rows: Ints
+    h: float = 1.0
+    rtol: float = 1.0
+    atol: float = 1.0
+    max_step: float = 1.0
+    phi: Array = np.zeros((0, layout.MATRICES, 0, 0))
+    rows: Ints = np.zeros(0, dtype=np.int64)
 
 
-def no_push() -> PushCode:
-    """zeta = 0."""
-    return PushCode(
-        np.zeros(0, dtype=np.int64), np.zeros(0), np.zeros(1, dtype=np.int64), np.zeros((0, 2))
-    )
-
-
-def continuous_time() -> Clock:
-    """No ticks."""
-    return Clock(0.0, 1, 0.0)
-
-
+TABLEAU = np.concatenate([getattr(DOP853, name).ravel() for name in ("A", "B", "C", "E3", "E5")])
+"""Of `scipy.integrate.DOP853`."""
 LEAST_PERIOD = 1e-9
 """[s]; what is shorter cannot be counted in floats."""
 
@@ -186,15 +172,15 @@ def plan(
     head[layout.LEAST_STEP], head[layout.H] = scene.least_step, method.h
     head[layout.RTOL], head[layout.ATOL] = method.rtol, method.atol
     head[layout.MAX_STEP] = method.max_step
-    weights = method.phi if method.kind == layout.ETD else _tableau(method)
+    weights = method.phi if method.kind == layout.ETD else TABLEAU
     P[layout.WIDTH] = _width(sizes)
-    F, at = _joined([head, scene.drops, push.switches, push.K, weights])
+    F, at = _joined([head, scene.drops, push.switches, push.K, weights], np.float64)
     P[layout.DROPS_AT], P[layout.SWITCHES_AT], P[layout.WEIGHTS_AT] = at[1], at[2], at[4]
     resultants = push.resultants or (0,) * len(push.addresses)
     P[layout.RESULTANTS] = np.count_nonzero(resultants)
     given = zip(push.addresses, push.offsets[:-1], resultants, strict=True)
     parts = [(a, at[3] + o, r) for a, o, r in given]
-    P, where = _integers([P, method.rows, np.array(parts, dtype=np.int64)])
+    P, where = _joined([P, method.rows, np.array(parts, dtype=np.int64)], np.int64)
     P[layout.ROWS_AT], P[layout.PARTS_AT] = where[1], where[2]
     return Plan(P, F, sizes.nx, _width(sizes))
 
@@ -221,19 +207,9 @@ def _check(code: Code, sizes: Sizes, push: PushCode, clock: Clock, method: Metho
         raise InputError(f"no address of {', '.join(missing)}, which this method and clock call")
 
 
-def _tableau(method: Method) -> Array:
-    return np.concatenate([a.ravel() for a in (method.A, method.B, method.C, method.E3, method.E5)])
-
-
-def _joined(parts: Sequence[Array]) -> tuple[Array, list[int]]:
+def _joined(parts: Sequence[Array | Ints], dtype: Any) -> tuple[Any, list[int]]:
     """All in one vector, and where each begins."""
-    flat = [np.asarray(part, dtype=np.float64).ravel() for part in parts]
-    ends = np.cumsum([len(part) for part in flat])
-    return np.concatenate(flat), [0, *ends[:-1].tolist()]
-
-
-def _integers(parts: Sequence[Ints]) -> tuple[Ints, list[int]]:
-    flat = [np.asarray(part, dtype=np.int64).ravel() for part in parts]
+    flat = [np.asarray(part, dtype=dtype).ravel() for part in parts]
     ends = np.cumsum([len(part) for part in flat])
     return np.concatenate(flat), [0, *ends[:-1].tolist()]
 
