@@ -89,13 +89,5 @@ def design_published_gait(biped: Biped, degree: int = 6, limits: GaitLimits | No
         f"{np.max(np.abs(q - X_STAR[: biped.n])):.2g} rad",
         "command": f"biped-adrc gait published --preset {biped.preset}",
     }
-    return Gait(
-        "published",
-        biped.description.name,
-        biped.preset,
-        constraint,
-        q,
-        v,
-        orbit.period,
-        provenance,
-    )
+    robot, preset = biped.description.name, biped.preset
+    return Gait("published", robot, preset, constraint, q, v, orbit.period, provenance)

@@ -123,23 +123,6 @@ class Hit(NamedTuple):
     """Of the ground on the foot that strikes (2,) [N s]."""
 
 
-class Loads(NamedTuple):
-    """Of the plant at a tick, forces as (x, z)."""
-
-    momentum: Array
-    """m v_com (2,) [N s]."""
-    force: Array
-    """Of the ground on the stance foot (2,) [N]."""
-    impulse: Array
-    """From outside since the last tick (2,) [N s]."""
-    resultant: Array
-    """Force from outside (2,) [N]."""
-    foot: Array
-    """Swing foot from the stance foot (2,) [m]."""
-    drop: float
-    """How far this single support ends below its stance foot [m]."""
-
-
 class Outside(NamedTuple):
     """What comes from outside at a tick, forces as (x, z)."""
 
@@ -151,11 +134,22 @@ class Outside(NamedTuple):
     """How far this single support ends below its stance foot [m]."""
 
 
+class Loads(NamedTuple):
+    """Of the plant at a tick, forces as (x, z)."""
+
+    momentum: Array
+    """m v_com (2,) [N s]."""
+    force: Array
+    """Of the ground on the stance foot (2,) [N]."""
+    foot: Array
+    """Swing foot from the stance foot (2,) [m]."""
+    outside: Outside
+
+
 def loads(plant: Any, given: Outside, q: Array, v: Array, a: Array) -> Loads:
     """What the plant, a `closed_loop.semantics.WalkingPlant`, asks of the ground at (q, v, q'')."""
-    ground = plant.ground_reaction(q, v, a) - given.force
-    foot = plant.swing_foot(q)
-    return Loads(plant.momentum(q, v), ground, given.impulse, given.force, foot, given.drop)
+    force = plant.ground_reaction(q, v, a) - given.force
+    return Loads(plant.momentum(q, v), force, plant.swing_foot(q), given)
 
 
 def metered(
@@ -212,12 +206,12 @@ def metered(
 def carried(k: MeterParameters, g: Array, loads: Loads, t: float) -> Array:
     """What is kept of this single support after a tick at t [s]; at its first one all P_k are the same."""
     first = g[0] < 1.0
-    J = g[3:5] + np.minimum(g[0], 1.0) * loads.impulse
+    J = g[3:5] + np.minimum(g[0], 1.0) * loads.outside.impulse
     P = loads.momentum - J
     out = np.zeros(len(g))
     out[0], out[1] = g[0] + 1.0, t
     out[2] = greater(g[2], np.where(height(k, loads) > 0.0, 1.0, 0.0))
-    out[3:5], out[5:7] = J, loads.resultant
+    out[3:5], out[5:7] = J, loads.outside.force
     for i in range(k.window):
         out[SUPPORT + 2 * i] = np.where(first, P[0], g[SUPPORT + 2 * i + 2])
         out[SUPPORT + 2 * i + 1] = np.where(first, P[1], g[SUPPORT + 2 * i + 3])
@@ -267,7 +261,7 @@ def outside(k: MeterParameters, F_T: Any, F_N: Any) -> Any:
 
 def height(k: MeterParameters, loads: Loads) -> Any:
     """Of the swing foot above the lower of the footholds, measured along the vertical [m]."""
-    return loads.foot[1] + k.tan_slope * loads.foot[0] + greater(loads.drop, 0.0)
+    return loads.foot[1] + k.tan_slope * loads.foot[0] + greater(loads.outside.drop, 0.0)
 
 
 def metered_impact(

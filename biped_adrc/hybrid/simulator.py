@@ -133,21 +133,14 @@ def simulate(
     x0: Array,
     mode: Mode,
     method: OneStepMethod,
-    *,
-    t_end: float,
-    t0: float = 0.0,
-    stop_after: tuple[str, int] | None = None,
-    max_events: int = 100_000,
-    store_every: int = 1,
-    progress: Progress | None = None,
+    **options: Any,
 ) -> Trajectory:
-    """Run `system` from (t0, x0, mode); the keywords are those of `RunOptions`.
+    """Run `system` from (t0, x0, mode); options are those of `RunOptions`, of which t_end has to be given.
 
     Raises InputError for a start that is not finite or a duration that is not positive. Whatever happens
     during the run is in the trajectory's status.
     """
-    options = RunOptions(t_end, t0, stop_after, max_events, store_every, progress)
-    return run(system, x0, mode, method, options)
+    return run(system, x0, mode, method, RunOptions(**options))
 
 
 def run(
