@@ -94,21 +94,16 @@ def _plan(
 ) -> Plan:
     n, p, nx = walker.plant.n, walker.plant.p, program.nx
     stiff = 0 if split is None else len(split.A)
+    flows = walker.held is None or walker.held.sizes.lag  # the torque of the motors, then all does
     drops = np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2)
     return plan(
         Code(*(program.address(name) for name in Code._fields)),
-        Sizes(n, nx, p, nx - stiff * p, stiff, _moving(walker, nx)),
+        Sizes(n, nx, p, nx - stiff * p, stiff, nx if flows else 2 * n),
         Scene(LEAST_STEP, drops),
         _push(walker.disturbance, n),
         clock,
         method,
     )
-
-
-def _moving(walker: Walker, nx: int) -> int:
-    """How many of the first states flow: all of them where the torque of the motors does."""
-    flows = walker.held is None or walker.held.sizes.lag
-    return nx if flows else 2 * walker.plant.n
 
 
 FORMS: dict[str, Callable[[Any], Method] | None] = {

@@ -33,6 +33,7 @@ from platformdirs import user_cache_path
 
 from biped_adrc.errors import OutputError
 from biped_adrc.files import write_bytes, write_text
+from biped_adrc.versions import packages
 
 CHECK = 32
 """Bytes of the checksum before the object code."""
@@ -84,9 +85,8 @@ def processor() -> str:
     return f"{binding.get_host_cpu_name()} {features} {binding.llvm_version_info}"
 
 
-@lru_cache(maxsize=1)
 def target() -> Any:
-    """LLVM's machine for this processor."""
+    """LLVM's machine for this processor, a new one each time: MCJIT owns the one that it is given."""
     from llvmlite import binding
 
     binding.initialize_native_target()
@@ -118,19 +118,11 @@ def loaded(code: bytes, names: Sequence[str]) -> Machine:
     """Object code in memory."""
     from llvmlite import binding
 
-    target()
-    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _another_target())
+    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
     addresses = {name: int(engine.get_function_address(name)) for name in names}
     return Machine(addresses, engine)
-
-
-def _another_target() -> Any:
-    """MCJIT owns the machine that it is given."""
-    from llvmlite import binding
-
-    return binding.Target.from_default_triple().create_target_machine(opt=3, jit=True)
 
 
 def _path(key: str) -> Path:
@@ -169,20 +161,9 @@ def cache_folder() -> Path:
 
 def key_of(source: str) -> str:
     """Hash of the source, of numba, llvmlite, NumPy and Python, and of the processor."""
-    import llvmlite
-    import numba
-    import numpy as np
-
-    parts = (
-        source,
-        numba.__version__,
-        llvmlite.__version__,
-        np.__version__,
-        platform.python_version(),
-        platform.machine(),
-        platform.processor(),
-    )
-    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:24]
+    made_by = packages(("numba", "llvmlite", "numpy")).values()
+    machine = platform.python_version(), platform.machine(), platform.processor()
+    return hashlib.sha256("\0".join((source, *made_by, *machine)).encode()).hexdigest()[:24]
 
 
 def load_source(source: str) -> ModuleType:

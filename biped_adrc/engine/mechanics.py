@@ -57,13 +57,6 @@ class Structure(NamedTuple):
     """Which of the numbers of `PlantArrays` are not zero by make, arrays of bool."""
 
 
-def without_zeros(robot: Structure, K: PlantArrays) -> PlantArrays:
-    """The numbers with a plain 0 for those that are zero by make, whose terms then vanish."""
-    pairs: Any = zip(K, robot.present, strict=True)
-    kept: Any = [np.where(mask, x, 0.0) if mask.ndim else x for x, mask in pairs]
-    return PlantArrays(*kept)
-
-
 class Impact(NamedTuple):
     """After the impact (7) and relabelling (8): q and v (n,), and the impulse F_2 (2,) [N s]."""
 
@@ -84,8 +77,10 @@ class PlanarRobot:
     def of(
         cls, structure: Structure, K: PlantArrays, friction: tuple[Any, ...] = ()
     ) -> PlanarRobot:
-        """Without the terms that are zero by make."""
-        return cls(structure, without_zeros(structure, K), friction)
+        """With a plain 0 for the numbers that are zero by make, whose terms then vanish."""
+        pairs: Any = zip(K, structure.present, strict=True)
+        kept: Any = [np.where(mask, x, 0.0) if mask.ndim else x for x, mask in pairs]
+        return cls(structure, PlantArrays(*kept), friction)
 
     @property
     def n(self) -> int:

@@ -12,6 +12,7 @@ import operator
 import traceback
 import types
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -317,13 +318,11 @@ LIBRARIES = (__file__, str(Path(np.__file__).parent), str(Path(ca.__file__).pare
 """Where the functions are that laws call, and that are no laws themselves."""
 
 
-def names_of(code: types.CodeType) -> set[str]:
+@lru_cache(maxsize=1024)
+def names_of(code: types.CodeType) -> frozenset[str]:
     """The names that a piece of code and what is defined inside it look up."""
-    found = set(code.co_names)
-    for constant in code.co_consts:
-        if isinstance(constant, types.CodeType):
-            found |= names_of(constant)
-    return found
+    inner = (names_of(x) for x in code.co_consts if isinstance(x, types.CodeType))
+    return frozenset(code.co_names).union(*inner)
 
 
 class Vector:

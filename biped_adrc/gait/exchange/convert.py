@@ -19,7 +19,7 @@ import numpy as np
 
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import AngleMap, convention
-from biped_adrc.gait.curves import CURVES, Bezier, Curve, ramp
+from biped_adrc.gait.curves import Bezier, Curve, ramp
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import Gait
 from biped_adrc.types import Array

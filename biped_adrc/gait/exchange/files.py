@@ -128,20 +128,16 @@ def read_record(
     if path.suffix.lower() == ".mat":
         found = read_mat(path)
     elif path.suffix.lower() == ".json":
-        found = _read_json(path)
+        found = read_json(path, "gait file")
+        if not isinstance(found, dict):
+            kind = type(found).__name__
+            raise InputError(f"gait file '{path}' holds a {kind}, expected an object")
     else:
         raise InputError(f"gait file '{path}' ends in '{path.suffix}', expected .json or .mat")
     if found.get("format") == FORMAT and "units" not in found:
         raise InputError(f"gait file '{path}' ends before its units: it is cut off; copy it again")
     with reading("gait file", path, GaitError):
         return _record(_ours(found, names or {}), convention)
-
-
-def _read_json(path: Path) -> dict[str, Any]:
-    found = read_json(path, "gait file")
-    if not isinstance(found, dict):
-        raise InputError(f"gait file '{path}' holds a {type(found).__name__}, expected an object")
-    return found
 
 
 def _ours(found: Mapping[str, Any], names: Mapping[str, str]) -> dict[str, Any]:
