@@ -61,8 +61,8 @@ from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
 from biped_adrc.model.arm import Arm as Arm
 from biped_adrc.model.biped import Biped as Biped
 from biped_adrc.model.errors import ModelErrors as ModelErrors
-from biped_adrc.model.limits import Limits as Limits
 from biped_adrc.model.own import biped_from_urdf as biped_from_urdf
+from biped_adrc.model.robots import Limits as Limits
 from biped_adrc.observers.base import Observer as Observer
 from biped_adrc.observers.base import ResetPolicy as ResetPolicy
 from biped_adrc.observers.gpi import TABLE_I as TABLE_I

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.closed_loop.readings import Reading, reading
+from biped_adrc.closed_loop.system import Reading, reading
 from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.equations import Equations, Function, Make, Numbers, count

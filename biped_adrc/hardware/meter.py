@@ -29,8 +29,8 @@ from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, virtual_constraint
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.limits import ROUND_OFF, Limits
 from biped_adrc.model.reduction import Reduction, disturbance_parts
+from biped_adrc.model.robots import ROUND_OFF, Limits
 from biped_adrc.types import Array
 
 READINGS = 18
@@ -174,7 +174,6 @@ def metered(
     p = len(u)
     e = q[:p] - virtual_constraint(k.h, q, v).q_d
     matched, unmatched = disturbance_parts(terms, unknown)
-    before = worked(g, q[:p])
     at = READINGS + 2 * p
     ground = carried(k, g[at:], loads, t)
     F_T, F_N = k.along @ loads.force, k.across @ loads.force
@@ -186,11 +185,10 @@ def metered(
     peak = largest(u)
     broken = greater(slides, np.where(peak > k.torque, 1.0, 0.0))
     broken = greater(broken, np.where(depth > 0.0, 1.0, 0.0))
-    out = np.zeros(READINGS)
+    out = worked(g, q[:p])
     out[0] = g[0] + 1.0
     out[1], out[2] = greater(g[1], largest(e)), g[2] + e @ e
     out[3], out[4] = greater(g[3], peak), g[4] + u @ u
-    out[5], out[6] = before[5], before[6]
     out[7] = greater(g[7], largest(matched))
     out[8] = greater(g[8], largest(unmatched))
     out[9] = np.where(g[0] > 0.0, -greater(-g[9], -F_N), F_N)
@@ -198,7 +196,6 @@ def metered(
     out[11] = g[11] + outside(k, F_T, F_N)
     judge(k, out, g, judged, means)
     out[15] = greater(g[15], depth)
-    out[16] = g[16]
     out[17] = np.where(g[17] > 0.0, g[17], broken * step)
     return np.concatenate((out, q[:p], mean, ground))
 

@@ -2,6 +2,14 @@
 
 The record names the actuated joints in the order q1, q2, ..., the unactuated pitch, the planar base,
 the feet, the phase variable, and parameter presets with their sources.
+
+What ground and motors can give: the limits within which a walk is legal.
+
+A walk makes a single support legally when the force of the ground, averaged over any window within it, lies in
+the friction cone (F_N > 0 and |F_T| <= mu F_N), every torque is within the motors' limit, and the swing foot
+does not scuff away from the ends of the step. The impulse at impact is not part of it. A mean and not an
+instant: the edge of a push breaks the cone for a millisecond and a foot does not move in it, while torques that
+chatter break it in the mean as well.
 """
 
 from __future__ import annotations
@@ -11,9 +19,9 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from biped_adrc.errors import ModelError, check_positive
+from biped_adrc.errors import InputError, ModelError, check_positive
 from biped_adrc.files import reading
 from biped_adrc.model.urdf import Inertial, Tree
 from biped_adrc.model.urdf_reader import load_tree
@@ -229,3 +237,57 @@ def _positive(value: object, what: str) -> float:
     number = float(value)  # type: ignore[arg-type]
     check_positive(number, f"{what} is {value}")
     return number
+
+
+WINDOW = 5e-3
+"""[s]"""
+ROUND_OFF = 1e-9
+"""By which a force on the friction cone may lie outside of it, relative."""
+ENDS = 0.03
+"""Share of a step at either end in which the swing foot may be at the ground."""
+
+
+class KnownLimits(NamedTuple):
+    """`Limits` of one robot."""
+
+    friction: float
+    """mu."""
+    torque: float
+    """[N m]"""
+    window: float
+    """[s]"""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """friction: mu of the ground; torque [N m]: of every motor; None is what the robot's record says.
+
+    window [s]: over which the force of the ground is averaged. Raises InputError for a friction that is not
+    above 0 and at most 1, or a torque or window that is not positive.
+    """
+
+    friction: float | None = None
+    torque: float | None = None
+    window: float = WINDOW
+
+    def __post_init__(self) -> None:
+        mu, torque = self.friction, self.torque
+        if mu is not None and not 0.0 < mu <= 1.0:
+            raise InputError(
+                f"the friction limit is {mu}, expected a number above 0 and at most 1, or None for the "
+                "robot's record"
+            )
+        if torque is not None and not torque > 0.0:
+            raise InputError(
+                f"the torque limit is {torque} N m, expected a positive number, or None for the robot's record"
+            )
+        check_positive(self.window, f"the force window is {self.window} s")
+
+    def of(self, robot: RobotDescription) -> KnownLimits:
+        """With what the robot's record says where None was given."""
+        mu, torque = self.friction, self.torque
+        return KnownLimits(
+            robot.friction_coefficient if mu is None else float(mu),
+            robot.peak_torque if torque is None else float(torque),
+            float(self.window),
+        )

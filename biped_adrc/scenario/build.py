@@ -17,7 +17,7 @@ from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.errors import ModelErrors, impact_error
-from biped_adrc.model.limits import ENDS, Limits
+from biped_adrc.model.robots import ENDS, Limits
 from biped_adrc.scenario.construct import construct
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances, taken

@@ -16,7 +16,7 @@ from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference, TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.limits import Limits
+from biped_adrc.model.robots import Limits
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
 from biped_adrc.scenario.scenario import Scenario

@@ -15,7 +15,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.integrators import RK4, Exponential, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.limits import Limits
+from biped_adrc.model.robots import Limits
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array
