@@ -23,7 +23,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from scipy.integrate import DOP853, RK45, OdeSolver, Radau
@@ -280,14 +280,9 @@ class Exponential(OneStepMethod):
             p1, E1 = etd_rk4(split, table, t, p, E, N, h)
             N1, x1, dx1 = node(t1, p1, E1)
 
-            def at(
-                s: float,
-                t: float = t,
-                p: Array = p,
-                E: Array = E,
-                N: tuple[Array, Array] = N,
-            ) -> Array:
-                return split.back(*etd_rk4(split, phi_table(A, s - t), t, p, E, N, s - t))
+            def at(s: float, start: tuple[Any, Any, Any, Any] = (t, p, E, N)) -> Array:
+                h = s - start[0]
+                return split.back(*etd_rk4(split, phi_table(A, h), *start, h))
 
             yield Step(t, t1, x, x1, dx, dx1, at)
             t, x, dx, p, E, N = t1, x1, dx1, p1, E1, N1

@@ -208,7 +208,8 @@ def _flow_arc(
     move = system.mover(fired)
     if move is None:
         assert method is not None
-        move = _Steps(system, method, mode, t, x, fired)
+        watch = _Watch(system.guards(mode), t, x, fired)
+        move = _Steps(system, method, method.split(system, mode), watch)
     try:
         while t < options.t_end and found is None:
             x = _tick(system.clocks(), t, t_arc, options.t0, x, mode)
@@ -223,20 +224,14 @@ def _flow_arc(
     return Flown(record.arc(mode, found.event), found.status, "", found.outcome)
 
 
+@dataclass(frozen=True)
 class _Steps:
     """Moves a system over one arc by the steps of a method, and watches its guards."""
 
-    def __init__(
-        self,
-        system: HybridSystem,
-        method: OneStepMethod,
-        mode: Mode,
-        t: float,
-        x: Array,
-        fired: str | None,
-    ):
-        self.system, self.method, self.split = system, method, method.split(system, mode)
-        self.watch = _Watch(system.guards(mode), t, x, fired)
+    system: HybridSystem
+    method: OneStepMethod
+    split: Split | None
+    watch: _Watch
 
     def __call__(
         self, t: float, x: Array, mode: Mode, until: float, record: Record

@@ -161,18 +161,17 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         return _description(data, path)
 
 
+_PLAIN = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
+
+
 def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
     friction = data.get("friction", {})
     description = RobotDescription(
-        name=data["name"],
+        **{key: data[key] for key in _PLAIN},
         urdf=path.parent / data["urdf"],
         actuated=tuple(data["actuated"]),
         passive=tuple(data.get("passive", ())),
-        unactuated=data["unactuated"],
         base=(data["base"][0], data["base"][1]),
-        stance_foot=data["stance_foot"],
-        swing_foot=data["swing_foot"],
-        hip=data["hip"],
         trunk=data.get("trunk", data["hip"]),
         phase=_numbers(data, "phase", data["phase"]),
         offset=_numbers(data, "offset", data.get("offset", [0.0] * _count(data))),
@@ -182,7 +181,6 @@ def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
         viscous=dict(friction.get("viscous", {})),
         static=dict(friction.get("static", {})),
         links={body: tuple(names) for body, names in data["links"].items()},
-        default_preset=data["default_preset"],
         presets={name: _preset(name, record, data) for name, record in data["presets"].items()},
         ranges={joint: _range(joint, ends) for joint, ends in data.get("ranges", {}).items()},
     )
