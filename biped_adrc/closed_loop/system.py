@@ -1,6 +1,6 @@
 """A closed loop in NumPy as a hybrid system; what `Walker` and `ArmSystem` have in common.
 
-What can be read off a closed loop at one instant; NumPy and compiled code share this source.
+`reading` is what can be read off any closed loop at one instant; NumPy and compiled code share its source.
 """
 
 from __future__ import annotations

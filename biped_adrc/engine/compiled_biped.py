@@ -2,8 +2,6 @@
 
 Kinematics, contact and everything that is not asked for at every instant stay Pinocchio's.
 
-The equations of a robot by itself on symbols, for controllers in plain Python.
-
 terms (q, v) -> D, Omega, kappa, xi, ... of (11)-(15),   body (q, v) -> G, C' q', F_a, F_0
 accelerate (q, v, force) -> q'',   ground (q, v, a) -> F
 """

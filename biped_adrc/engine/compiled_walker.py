@@ -1,9 +1,8 @@
 """A walker, a one-step method and a disturbance, ready for the compiled loops.
 
-The laws of disturbances as machine code: `void f(double* K, double* inp, double* out)`.
-
-inp is (t, step, t_start, q, v), out zeta (n,) or the force (2,). A law's `active` is looked at first: where it
-is not above 0, out is zero and the rest is not computed.
+The laws of disturbances are functions `void f(double* K, double* inp, double* out)` of their own: inp is (t,
+step, t_start, q, v), out zeta (n,) or the force (2,). A law's `active` is looked at first: where it is not
+above 0, out is zero and the rest is not computed.
 """
 
 from __future__ import annotations

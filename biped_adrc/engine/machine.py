@@ -1,13 +1,12 @@
-"""Machine code of generated functions, kept on disk with a checksum.
+"""Machine code of generated functions and modules, kept on disk with checksums.
 
-Object code is stored under a hash of what it was made from and of what makes it; a damaged file is made again,
-and where nothing can be written it is made in memory each time.
+Functions: object code is stored under a hash of what it was made from and of what makes it; a damaged file is
+made again, and where nothing can be written it is made in memory each time.
 
-Generated modules on disk: one folder per hash of the source and of what compiles it.
-
-Files are written beside and moved into place, so several processes may make the same one. What cannot be
-written is kept in a temporary folder; what is damaged is written again. numba keeps its machine code beside;
-`seal` adds a checksum to each of its files, and those without the right one are removed before they are read.
+Modules: one folder per hash of the source and of what compiles it. Files are written beside and moved into
+place, so several processes may make the same one. What cannot be written is kept in a temporary folder; what is
+damaged is written again. numba keeps its machine code beside; `seal` adds a checksum to each of its files, and
+those without the right one are removed before they are read.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ the impulse F_2 out of (7):
 
 N' D_e N is the inertia about the swing foot; D_e itself is singular for a robot whose mass is in one point.
 
-A robot's make and its numbers, as generated code takes them.
+`robot_of` reads a robot's make and its numbers off its model, as generated code takes them.
 """
 
 from __future__ import annotations

@@ -3,7 +3,8 @@
 One compilation serves every robot, gain and gait of the same make; a program is made in microseconds where its
 functions are in memory, in milliseconds where they are on disk.
 
-The product of the exponential method: `turn`, M E for a matrix M (k, k) in place of K and E (k, p).
+Beside them stands the product of the exponential method: `turn`, M E for a matrix M (k, k) in place of K and E
+(k, p).
 """
 
 from __future__ import annotations

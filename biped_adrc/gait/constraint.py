@@ -14,7 +14,7 @@ constraint goes on smoothly instead: at a distance y past an end with h_0, h_0',
 
 Two derivatives agree at the ends, and the curvature fades out over l = fade |Theta- - Theta+|.
 
-A virtual constraint with a correction added to it.
+A *corrected* constraint has a correction added to it:
 
     q_d   = h(Theta) + c(Theta)
     q_d'  = (h' + c') Theta'

@@ -1,12 +1,11 @@
-"""The published fixed point x*, and gait (a) through it.
+"""Published orbits: the fixed point x* with gait (a) through it, and cycles of robots without motors.
 
 As printed, x* puts the swing foot 0.13 mm under the ground. q1..q4 are moved onto the section by less than
 half a unit of their last printed digit; q5, printed with four decimals, and the rates are kept.
 
-Known walking cycles of robots without motors: a slope, and the state just after an impact on the cycle.
-
-Stored as a small readable TOML file `gaits/<robot>/<preset>.toml` with its source. The numbers are as they were
-published, a start for Newton on the return map and nothing more.
+A cycle of a robot without motors is a slope, and the state just after an impact on it. It is stored as a small
+readable TOML file `gaits/<robot>/<preset>.toml` with its source. The numbers are as they were published, a
+start for Newton on the return map and nothing more.
 """
 
 from __future__ import annotations

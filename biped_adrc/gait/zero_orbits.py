@@ -18,10 +18,8 @@ on the speed, the step after it begins with delta^2 zeta and is finished if that
 Theta+ to Theta-, whichever is larger. A slope changes neither gravity nor these formulas: it decides where
 the swing foot meets the ground, and so where the curve ends.
 
-How fast and how slow the zero dynamics may run before the ground or the motors say no.
-
-On the constraint the ground reaction and the torques are affine in Theta'^2, hence in zeta = sigma-^2 / 2
-before the last impact:
+`domain` says how fast and how slow they may run before the ground or the motors say no. On the constraint the
+ground reaction and the torques are affine in Theta'^2, hence in zeta = sigma-^2 / 2 before the last impact:
 
     F(Theta) = F_0 + F_1 Theta'^2,   Theta'^2 = 2 (delta^2 zeta - V_zero(Theta)) / I^2
 

@@ -9,7 +9,7 @@ keeps that value.
 
 The state w is (q^, v^, fresh, r): fresh is 1 where no difference can be taken, r the state of the noise.
 
-Random numbers as a pure function of a state: MRG32k3a, in doubles that hold whole numbers exactly.
+The noise is a pure function of its state: MRG32k3a, in doubles that hold whole numbers exactly.
 
     x_n = (1403580 x_(n-2) - 810728 x_(n-3)) mod m_1,   m_1 = 2^32 - 209
     y_n = (527612 y_(n-1) - 1370589 y_(n-3)) mod m_2,   m_2 = 2^32 - 22853

@@ -3,11 +3,9 @@
 A method yields steps over a smooth segment [t, t_end]. A step can give its own state at any time inside it
 (`at`), to the accuracy of the method; the loop locates events with that.
 
-The exponential Runge-Kutta method ETD-RK4 for a flow whose stiff part is linear.
-
-In the coordinates of `Split`, E' = A E + N_E(t, p, E) and p' = N_p(t, p, E). A is integrated exactly
-through the phi-functions; p sees the classical RK4 (Cox, Matthews, J. Comput. Phys. 176, 2002, eqs
-(26)-(29)):
+The exponential Runge-Kutta method ETD-RK4 is for a flow whose stiff part is linear. In the coordinates of
+`Split`, E' = A E + N_E(t, p, E) and p' = N_p(t, p, E). A is integrated exactly through the phi-functions; p
+sees the classical RK4 (Cox, Matthews, J. Comput. Phys. 176, 2002, eqs (26)-(29)):
 
     a = e^(hA/2) E + h/2 phi1(hA/2) N(E)
     b = e^(hA/2) E + h/2 phi1(hA/2) N(a)

@@ -9,7 +9,7 @@ p_e' and q_s' give its velocity through the stance-foot Jacobian, `v_float = J_e
 F_2 = (F_T, F_N) is the impulse of the ground on the swing foot [N s]. (5) in the paper has the
 sign of E_2' F_2 against (3), (4) and (7); (7) is right.
 
-Angular momentum of links from their own velocities, for laws that the matrices of (2) have to obey.
+`LinkMotion` has the angular momentum of links from their own velocities, for laws that these matrices obey:
 
     L = sum_k m_k (c_k - p) x c_k' + J_k omega_k        of some links, about a point p
 

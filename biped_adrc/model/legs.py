@@ -7,11 +7,9 @@ angles of the links, a = A q, and P the exchange of twins, R solves A R = P A. S
 that count from a torso, and a combination for a hip that counts from the other leg. r is not zero for robots
 with spokes.
 
-Two legs alike, body by body: what the exchange of the legs at impact, q+ = R q- + r, takes for granted.
-
-Twins are paired upwards from the feet. They must agree in mass, COM, inertia about y, place on their parent,
-in the sense of their joints and in having a motor; then r = 0 and, where hips count from a torso, R is a
-permutation.
+This takes two legs for granted that are alike, body by body, which `check_alike` checks. Twins are paired
+upwards from the feet. They must agree in mass, COM, inertia about y, place on their parent, in the sense of
+their joints and in having a motor; then r = 0 and, where hips count from a torso, R is a permutation.
 """
 
 from __future__ import annotations

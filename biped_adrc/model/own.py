@@ -9,16 +9,13 @@ The URDF describes a planar biped with point feet: revolute joints about y, equa
 tip. Frames may be turned, angles may run either way; q keeps the file's zeros and senses. The section of
 the return map is foot strike, the height of the swing foot, which follows from the feet.
 
-The record of a robot derived from its URDF, in the words of a robot.toml, and as TOML.
+Its record is in the words of a robot.toml, and written as TOML: `tomllib` reads and does not write. Strings,
+numbers, lists and tables are all a record holds, and JSON's strings are basic strings of TOML.
 
-`tomllib` reads and does not write. Strings, numbers, lists and tables are all a record holds, and JSON's
-strings are basic strings of TOML.
-
-Shapes for a robot whose URDF has none that can be drawn: sticks from joint to joint, and balls.
-
-A stick runs from the origin of a link to every joint below it, or to its COM where nothing lies below. It is a
-cylinder along z, a box along x, and a row of balls where it stands obliquely. At every COM lies a ball of
-steel that weighs as much as the body, r = (3 m / (4 pi rho))^(1/3).
+A robot whose URDF has no shape that can be drawn gets sticks from joint to joint, and balls. A stick runs from
+the origin of a link to every joint below it, or to its COM where nothing lies below. It is a cylinder along z,
+a box along x, and a row of balls where it stands obliquely. At every COM lies a ball of steel that weighs as
+much as the body, r = (3 m / (4 pi rho))^(1/3).
 """
 
 from __future__ import annotations

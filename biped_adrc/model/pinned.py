@@ -4,11 +4,9 @@ The pinned tree hangs from the stance foot: its first coordinate is the absolute
 stance shin. The paper's coordinates count from the torso. Both are angles of the same links, so
 `q_tree = T q_s` with a constant T, and `D_s = T' M T`, `Omega = T' nle(T q, T v)`.
 
-Re-rooting a floating biped at its stance foot: from floating.urdf to the pinned variant.
-
-All frames are parallel at zero angles, so turning the tree round only moves origins. A joint that
-is walked backwards keeps its coordinate when its axis is negated: if the child turns by `q` about
-`n`, the parent turns by `q` about `-n` seen from the child.
+`reroot` turns the tree of floating.urdf round at its stance foot. All frames are parallel at zero angles, so
+turning the tree round only moves origins. A joint that is walked backwards keeps its coordinate when its axis
+is negated: if the child turns by `q` about `n`, the parent turns by `q` about `-n` seen from the child.
 """
 
 from __future__ import annotations

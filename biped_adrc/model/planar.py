@@ -16,10 +16,8 @@ taken to the coordinates by A, with the rotors added. The vectors d are fitted t
 where the fit is exact, and the terms are compared to Pinocchio's before anything uses them. The functions take
 numbers and object arrays of symbols alike: NumPy asks each symbol for its `cos` and `sin`.
 
-A point fixed to a link, in closed form: the generalised force of a force and a moment there.
-
-With J(q) the Jacobian of the point, a sum of turned vectors as in `biped_adrc.model.planar`, and the link's own
-absolute angle b q,
+`wrench_torque` is the generalised force of a force and a moment at a point fixed to a link: with J(q) the
+Jacobian of the point, and the link's own absolute angle b q,
 
     zeta = J' (F_x, F_z) + b' M
 """

@@ -3,7 +3,8 @@
 A run is a vector s: the head of `layout`, then x. `arc` goes on from s; `strike`, or another END,
 makes it the next arc or the next stretch of the same one. Nodes (t, x, x') go into the rows of R.
 
-The whole walk in compiled code: arcs and strikes until enough of them, the end, or a terminal status.
+`stride` is the whole walk in compiled code: arcs and strikes until enough of them, the end, or a terminal
+status.
 """
 
 from __future__ import annotations

@@ -1,11 +1,10 @@
-"""One step of the classical Runge-Kutta method and of ETD-RK4, and landing by halving.
+"""One step of each method: the classical Runge-Kutta method, ETD-RK4 with landing by halving, and DOP853.
 
 ETD-RK4 in the coordinates y = (w, E), E (k, p) row by row, with N_E in the forced rows only; its equations are
 in `biped_adrc.hybrid.integrators`. A length that is not the step h is taken in sub-steps h 2^-level, and what
 is left below the last level by one classical step, which is stable there.
 
-The explicit pair of Dormand and Prince of order 8(5, 3), with SciPy's initial step and step control.
-
+DOP853 is the explicit pair of Dormand and Prince of order 8(5, 3), with SciPy's initial step and step control.
 Coefficients are those of `scipy.integrate.DOP853`; the initial step, the error's norm and the factors are as in
 Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.4 and II.10.
 """

@@ -1,6 +1,7 @@
-"""What a compiled walk is given, and what its codes mean.
+"""What a compiled walk is given, what its codes mean, and the plan of a run.
 
-What a run needs, flattened into the integers P and floats F of the kernels, once for any number of runs.
+The plan is what a run needs, flattened into the integers P and floats F of the kernels, once for any number of
+runs.
 """
 
 from __future__ import annotations

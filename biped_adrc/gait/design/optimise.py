@@ -4,7 +4,7 @@ IPOPT meets the equations to about 1e-9. The Gait handed back is built anew from
 coefficients alone: impact and zero dynamics are Pinocchio's, so that the constraint is hybrid-invariant
 and the orbit periodic to round-off.
 
-Whether a gait keeps its limits everywhere along the step, by Pinocchio, between the nodes too.
+It is audited: whether it keeps its limits everywhere along the step, by Pinocchio, between the nodes too.
 """
 
 from __future__ import annotations

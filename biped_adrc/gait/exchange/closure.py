@@ -4,7 +4,7 @@ The end of a step, relabelled, is the start of the next: q(0) = R q(1), every co
 robot dq/dTheta after the impact is the slope at s = 0 (the constraint is hybrid-invariant). Every failure is
 a GaitError that names the joint, what was found, what was expected, the likely cause and what to try.
 
-What can be wrong with a gait that comes from elsewhere, one check each; see `closure`.
+A `Misfit` is one thing that can be wrong, with one check each.
 """
 
 from __future__ import annotations

@@ -1,11 +1,10 @@
-"""Records of gaits on disk: JSON, and MATLAB files with a `units` struct.
+"""Records of gaits on disk, JSON or MATLAB files with a `units` struct, and runs as MATLAB files.
 
 The names are those of `docs/notation.md` and of the stored gaits; a stored gait of this package is such a
 record in this paper's convention.
 
-MATLAB files (version 5, read by MATLAB and Octave): plain arrays, text, and a `units` struct.
-
-Runs as MATLAB files: columns over time with the names of `docs/notation.md`, and their units.
+MATLAB files are of version 5, read by MATLAB and Octave: plain arrays, text, and the struct. A run is columns
+over time.
 """
 
 from __future__ import annotations
