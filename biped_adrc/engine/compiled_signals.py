@@ -1,4 +1,4 @@
-"""`closed_loop.readings` in compiled code, at every node of a run.
+"""`closed_loop.system.reading` in compiled code, at every node of a run.
 
 observe (t, step, t_start, x, zeta) -> the parts of a `Reading`, in its order
 """

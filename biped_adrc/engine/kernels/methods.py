@@ -101,7 +101,7 @@ def _doubled(phi: Phi) -> Phi:
 
 
 def phi_levels(A: Array, h: float, levels: int) -> Array:
-    """The six matrices of `hybrid.exponential.PhiTable` for h 2^-level, (levels, 6, k, k)."""
+    """The six matrices of `hybrid.integrators.PhiTable` for h 2^-level, (levels, 6, k, k)."""
     size = float(np.max(np.sum(np.abs(A), axis=1), initial=0.0)) * h
     short = max(0, math.ceil(math.log2(2.0 * size))) if size > 0.0 else 0
     phi = _series(A * (h * 0.5 ** max(short, levels)))
