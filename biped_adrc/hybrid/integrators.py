@@ -185,6 +185,10 @@ class Stiff(_SciPy):
 _SAME_STEP = 1e-9  # relative difference below which two steps share their phi-functions
 
 
+Phi = tuple[Array, Array, Array, Array]
+"""phi_0 to phi_3, each (k, k)."""
+
+
 class PhiTable(NamedTuple):
     """The matrices of one step h, each (k, k); h is inside the weights."""
 
@@ -195,8 +199,15 @@ class PhiTable(NamedTuple):
     middle: Array
     last: Array
 
+    @classmethod
+    def of(cls, half: Phi, phi: Phi, h: float) -> PhiTable:
+        """For a step h [s], from the functions of hA / 2 and of hA."""
+        p0, p1, p2, p3 = phi
+        first, middle = h * (p1 - 3.0 * p2 + 4.0 * p3), h * (2.0 * p2 - 4.0 * p3)
+        return cls(half[0], 0.5 * h * half[1], p0, first, middle, h * (4.0 * p3 - p2))
 
-def phi_functions(A: Array, h: float) -> tuple[Array, Array, Array, Array]:
+
+def phi_functions(A: Array, h: float) -> Phi:
     """e^(hA), phi1(hA), phi2(hA), phi3(hA), each (k, k), from one exponential of a (4k, 4k) matrix.
 
     phi_0 = e^z, phi_(j+1)(z) = (phi_j(z) - 1/j!) / z.
@@ -212,16 +223,7 @@ def phi_functions(A: Array, h: float) -> tuple[Array, Array, Array, Array]:
 
 def phi_table(A: Array, h: float) -> PhiTable:
     """The matrices of ETD-RK4 for step h [s]."""
-    half, half_phi1, _, _ = phi_functions(A, 0.5 * h)
-    full, phi1, phi2, phi3 = phi_functions(A, h)
-    return PhiTable(
-        half,
-        0.5 * h * half_phi1,
-        full,
-        h * (phi1 - 3 * phi2 + 4 * phi3),
-        h * (2 * phi2 - 4 * phi3),
-        h * (4 * phi3 - phi2),
-    )
+    return PhiTable.of(phi_functions(A, 0.5 * h), phi_functions(A, h), h)
 
 
 @lru_cache(maxsize=16)

@@ -19,13 +19,13 @@ import numpy as np
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.tables import Ints, Method
 from biped_adrc.errors import InputError, check_positive
+from biped_adrc.hybrid.integrators import Phi, PhiTable
 from biped_adrc.types import Array
 
 TERMS = 24
 """Of the series; |z|^24 / 24! < 1e-30."""
 STABLE = 0.1
 """Largest |lambda| h 2^-(levels - 1) for the classical step that ends a landing."""
-Phi = tuple[Array, Array, Array, Array]
 
 
 def rk4(h: float) -> Method:
@@ -109,19 +109,5 @@ def phi_levels(A: Array, h: float, levels: int) -> Array:
     for level in reversed(range(max(short, levels))):
         half, phi = phi, _doubled(phi) if level < short else _series(A * (h * 0.5**level))
         if level < levels:
-            table[level] = _weights(half, phi, h * 0.5**level)
+            table[level] = PhiTable.of(half, phi, h * 0.5**level)
     return table
-
-
-def _weights(half: Phi, phi: Phi, h: float) -> Array:
-    p0, p1, p2, p3 = phi
-    return np.array(
-        (
-            half[0],
-            0.5 * h * half[1],
-            p0,
-            h * (p1 - 3.0 * p2 + 4.0 * p3),
-            h * (2.0 * p2 - 4.0 * p3),
-            h * (4.0 * p3 - p2),
-        )
-    )

@@ -17,11 +17,11 @@ import numpy as np
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import Bezier, bezier_between
+from biped_adrc.gait.curves import Bezier
 from biped_adrc.gait.design.ipopt import Found, Progress, relaxed, solve
 from biped_adrc.gait.design.programme import transcribe
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
-from biped_adrc.gait.design.start import cold_start
+from biped_adrc.gait.design.start import bezier_through, cold_start
 from biped_adrc.gait.design.step import Unknowns
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.through_state import onto_section
@@ -253,11 +253,7 @@ def exact_gait(biped: Biped, request: GaitRequest, limits: RobotLimits, x: Unkno
     q = onto_section(biped, x.q.ravel(), request.slope)
     slope = x.slope.ravel()
     dq = np.append(slope, (1.0 - c[:p] @ slope) / c[p])
-    impact = biped.impact(q, dq)
-    theta_plus, theta_minus = float(c @ impact.q), float(c @ q)
-    span = theta_minus - theta_plus
-    slopes = impact.v[:p] / float(c @ impact.v) * span, slope * span
-    alpha = bezier_between(impact.q[:p], *slopes, q[:p], M)
+    _, theta_plus, theta_minus, alpha = bezier_through(biped, q, dq, M)
     alpha[:, 2:-2] = x.alpha[:, 2:-2]
     constraint = VirtualConstraint(Bezier(alpha), c, theta_plus, theta_minus)
     zero = ZeroDynamics.of(biped, constraint, NODES)
