@@ -51,9 +51,9 @@ from biped_adrc.ground import StepUp as StepUp
 from biped_adrc.ground import uneven_ground as uneven_ground
 from biped_adrc.hardware.motors import Motors as Motors
 from biped_adrc.hardware.sensors import Sensors as Sensors
-from biped_adrc.hybrid.exponential import Exponential as Exponential
 from biped_adrc.hybrid.integrators import RK4 as RK4
 from biped_adrc.hybrid.integrators import Adaptive as Adaptive
+from biped_adrc.hybrid.integrators import Exponential as Exponential
 from biped_adrc.hybrid.integrators import Stiff as Stiff
 from biped_adrc.hybrid.simulator import simulate as simulate
 from biped_adrc.hybrid.status import Status as Status
@@ -61,8 +61,8 @@ from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
 from biped_adrc.model.arm import Arm as Arm
 from biped_adrc.model.biped import Biped as Biped
 from biped_adrc.model.errors import ModelErrors as ModelErrors
-from biped_adrc.model.limits import Limits as Limits
 from biped_adrc.model.own import biped_from_urdf as biped_from_urdf
+from biped_adrc.model.robots import Limits as Limits
 from biped_adrc.observers.base import Observer as Observer
 from biped_adrc.observers.base import ResetPolicy as ResetPolicy
 from biped_adrc.observers.gpi import TABLE_I as TABLE_I

@@ -13,7 +13,7 @@ from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.quadrature import integrate, largest
 from biped_adrc.engine.choice import COMPILED
 from biped_adrc.errors import InputError
-from biped_adrc.model.limits import KnownLimits
+from biped_adrc.model.robots import KnownLimits
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.run import execute_twice, walk_scenario
 from biped_adrc.scenario.scenario import Scenario

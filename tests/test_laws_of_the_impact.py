@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from biped_adrc.model.momentum import LinkMotion
+from biped_adrc.model.contact import LinkMotion
 from biped_adrc.studies import laws
 from biped_adrc.studies.laws import impact_momenta, model_laws
 

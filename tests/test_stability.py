@@ -21,7 +21,7 @@ from biped_adrc.analysis.variational import (
 )
 from biped_adrc.errors import GaitError, InputError, SimulationError, SingularError
 from biped_adrc.gait.curves import Polynomial as PolynomialCurve
-from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.gait.published import passive_cycle
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import (

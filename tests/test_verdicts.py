@@ -17,7 +17,7 @@ from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.limits import KnownLimits
+from biped_adrc.model.robots import KnownLimits
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies import reproduction, verdicts

@@ -21,7 +21,7 @@ from typing import Any
 from cases import load
 from report import Table, arguments
 
-from biped_adrc.engine.store import VARIABLE
+from biped_adrc.engine.machine import VARIABLE
 
 FIRST_STEP = """
 import json, time

@@ -15,8 +15,7 @@ import numpy as np
 from cases import Setting, load, paper
 from report import Table, arguments
 
-from biped_adrc.hybrid.exponential import Exponential
-from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
+from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod
 from biped_adrc.walker import FOOT_STRIKE
 
 IN_PYTHON = {

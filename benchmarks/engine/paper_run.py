@@ -23,8 +23,7 @@ from cases import IMPACTS, Setting, load, paper, ready
 from report import Table, arguments, rounds
 
 import biped_adrc as ba
-from biped_adrc.hybrid.exponential import Exponential
-from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
+from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE
 

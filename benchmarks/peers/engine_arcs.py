@@ -14,8 +14,7 @@ from solvers import Flow
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.run import ArcRun, arc
 from biped_adrc.engine.program import Program
-from biped_adrc.hybrid.exponential import Exponential
-from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
+from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod
 from biped_adrc.types import Array
 from biped_adrc.walker import Walker
 

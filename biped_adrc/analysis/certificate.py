@@ -23,7 +23,7 @@ from biped_adrc.analysis.window import window_means
 from biped_adrc.errors import InputError
 from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.model.limits import ENDS, ROUND_OFF, KnownLimits, Limits
+from biped_adrc.model.robots import ENDS, ROUND_OFF, KnownLimits, Limits
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Walker
 

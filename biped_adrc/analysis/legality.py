@@ -22,7 +22,7 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.analysis.window import window_means
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.limits import KnownLimits, Limits
+from biped_adrc.model.robots import KnownLimits, Limits
 from biped_adrc.types import Array
 from biped_adrc.walker import Walker
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from biped_adrc.analysis.quadrature import largest
-from biped_adrc.closed_loop.readings import Reading, reading
+from biped_adrc.closed_loop.system import Reading, reading
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
 from biped_adrc.gait.reference import Reference, ReferencePoint

@@ -1,6 +1,6 @@
 """What the zero dynamics say of a gait before any simulation: does it walk, from where, how fast.
 
-Numbers of `biped_adrc.gait.zero_orbits` and `biped_adrc.gait.zero_limits` with their units. They hold for the
+Numbers of `biped_adrc.gait.zero_orbits` and `biped_adrc.gait.zero_orbits` with their units. They hold for the
 closed loop as far as it keeps to the constraint: exactly for a constraint that the impact does not leave
 (hybrid invariant), tracked without error.
 """
@@ -19,8 +19,7 @@ from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import CLOSES
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration
-from biped_adrc.gait.zero_limits import UNLIMITED, Bound, Domain, Limits, domain
-from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
+from biped_adrc.gait.zero_orbits import UNLIMITED, Bound, Domain, Limits, ZeroOrbits, domain, grid
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 

@@ -14,8 +14,7 @@ from biped_adrc.errors import InputError, ModelError
 
 if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped
-    from biped_adrc.model.own import Derived
-    from biped_adrc.model.record import Hints
+    from biped_adrc.model.own import Derived, Hints
 
 robot_app = typer.Typer(
     no_args_is_help=True,
@@ -138,7 +137,7 @@ def _hints(
     armature: float,
     tip: str | None,
 ) -> Hints:
-    from biped_adrc.model.record import Hints
+    from biped_adrc.model.own import Hints
 
     place = None if tip is None else _place(tip)
     return Hints(

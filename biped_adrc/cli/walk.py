@@ -17,7 +17,7 @@ from biped_adrc.cli.output import inputs, run_path, say_written
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
     from biped_adrc.analysis.legality import Legality
-    from biped_adrc.model.limits import Limits
+    from biped_adrc.model.robots import Limits
     from biped_adrc.scenario.outcome import Outcome
     from biped_adrc.scenario.recording import Walk
     from biped_adrc.scenario.scenario import Scenario

@@ -15,8 +15,7 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.errors import InputError
-from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.corrected import CorrectedConstraint, Correction
+from biped_adrc.gait.constraint import CorrectedConstraint, Correction, VirtualConstraint
 from biped_adrc.observers.base import ErrorSystem, Estimate
 from biped_adrc.types import Array
 

@@ -25,7 +25,7 @@ import numpy as np
 from biped_adrc.control.base import Measurement, measured
 from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
 from biped_adrc.errors import InputError
-from biped_adrc.gait.corrected import Correction
+from biped_adrc.gait.constraint import Correction
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.types import Array
 

@@ -29,7 +29,7 @@ import numpy as np
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
 from biped_adrc.errors import InputError, check_positive
-from biped_adrc.gait.corrected import Correction
+from biped_adrc.gait.constraint import Correction
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array

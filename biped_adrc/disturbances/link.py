@@ -17,7 +17,7 @@ import numpy as np
 from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, Windowed, disturbance_laws
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.link_point import LinkPoint, link_point, wrench_torque
+from biped_adrc.model.planar import LinkPoint, link_point, wrench_torque
 from biped_adrc.types import Array
 
 

@@ -112,24 +112,22 @@ def _in_order(
     kernels()  # here, so that no two threads compile at once
     with ThreadPoolExecutor(threads) as pool:
         try:
-            done = 0
-            for case in cases:
-                waiting.append(pool.submit(run_case(case)))
-                while len(waiting) >= AHEAD * threads or (waiting and waiting[0].done()):
-                    done += 1
-                    yield _told(waiting.popleft().result(), done, progress)
-            while waiting:
-                done += 1
-                yield _told(waiting.popleft().result(), done, progress)
+            done, more = 0, True
+            while more or waiting:
+                case = next(cases, None)
+                more = case is not None
+                if case is not None:
+                    waiting.append(pool.submit(run_case(case)))
+                while waiting and (
+                    not more or len(waiting) >= AHEAD * threads or waiting[0].done()
+                ):
+                    walked, done = waiting.popleft().result(), done + 1
+                    if progress is not None:
+                        progress(done)
+                    yield walked
         finally:
             for future in waiting:
                 future.cancel()
-
-
-def _told(walked: Walked, done: int, progress: Callable[[int], None] | None) -> Walked:
-    if progress is not None:
-        progress(done)
-    return walked
 
 
 def run_case(case: Case) -> Callable[[], Walked]:
@@ -170,10 +168,8 @@ def _ended(case: Case, status: Status, detail: str) -> Callable[[], Walked]:
 def _strides(compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impacts: int) -> Walked:
     """The walk from x at the start of the single support `mode`, in compiled code."""
     plan, nx = compiled.plan, len(x)
-    s, strikes = (
-        plan.start(x, mode.start, mode.step, mode.start, t_end),
-        np.zeros((impacts, 1 + 2 * nx)),
-    )
+    s = plan.start(x, mode.start, mode.step, mode.start, t_end)
+    strikes = np.zeros((impacts, 1 + 2 * nx))
     code, made = kernels().stride(plan.P, plan.F, compiled.K, plan.work(), s, impacts, strikes)
     return Walked(
         STATUS[code],

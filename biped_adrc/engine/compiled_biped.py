@@ -1,28 +1,31 @@
 """A robot whose dynamics are compiled, for controllers in plain Python.
 
 Kinematics, contact and everything that is not asked for at every instant stay Pinocchio's.
+
+terms (q, v) -> D, Omega, kappa, xi, ... of (11)-(15),   body (q, v) -> G, C' q', F_a, F_0
+accelerate (q, v, force) -> q'',   ground (q, v, a) -> F
 """
 
 from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 
+from biped_adrc.engine.equations import Function, count
 from biped_adrc.engine.fingerprint import hash_of, skeleton, versions_text
-from biped_adrc.engine.ir import module_text
-from biped_adrc.engine.machine import Machine, Text, machine
-from biped_adrc.engine.plant_equations import PlantEquations
-from biped_adrc.engine.robot import REMEMBERED, Robot, robot_of
-from biped_adrc.engine.symbols import floats
+from biped_adrc.engine.ir import generated
+from biped_adrc.engine.machine import Machine
+from biped_adrc.engine.mechanics import PlanarRobot, Robot, Structure, once_each, robot_of
+from biped_adrc.engine.symbols import Vector, column, floats
 from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import EXACT
+from biped_adrc.model.planar import EXACT, PlantArrays
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.types import Array
 
@@ -58,12 +61,12 @@ class Call:
         self._function = _C(machine.addresses[name])
         self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
 
-    def __call__(self) -> Array:
+    def __call__(self, *given: Array) -> Array:
+        """The outputs of what is in `inp`, or of these inputs."""
+        if given:
+            np.concatenate(given, out=self.inp)
         self._function(*self._at)
         return self.out.copy()
-
-
-_MADE: dict[int, tuple[Biped, CompiledBiped]] = {}
 
 
 @dataclass(frozen=True)
@@ -79,14 +82,7 @@ class CompiledBiped(Biped):
         Raises ModelError for a robot that is no planar tree of rigid links, or where the code differs from
         Pinocchio by more than 1e-11 relative.
         """
-        found = _MADE.get(id(biped))
-        if found is None or found[0] is not biped:
-            while len(_MADE) >= REMEMBERED:
-                _MADE.pop(next(iter(_MADE)))
-            given = {f.name: getattr(biped, f.name) for f in fields(Biped)}
-            found = biped, cls(**given, robot=robot_of(biped)).checked(biped)
-            _MADE[id(biped)] = found
-        return found[1]
+        return _compiled(biped)
 
     def checked(self, biped: Biped, samples: int = SAMPLES) -> CompiledBiped:
         """Itself, when its terms are Pinocchio's at random states and q'' obeys (1). Raises ModelError."""
@@ -116,10 +112,7 @@ class CompiledBiped(Biped):
         robot = self.robot
         assert robot is not None
         key = hash_of("plant", skeleton(robot.structure), skeleton(robot.arrays), versions_text())
-        functions = PlantEquations.of(robot.structure, robot.arrays).functions()
-        code = machine(
-            key, list(functions), lambda: Text(module_text({k: f() for k, f in functions.items()}))
-        )
+        code = generated(key, plant_functions(robot.structure, robot.arrays))
         K, n = np.array([*floats(robot.arrays), 0.0]), self.n
         sizes = {
             "terms": (2 * n, self.size),
@@ -141,28 +134,46 @@ class CompiledBiped(Biped):
         return sum(map(math.prod, self.shapes))
 
     def reduction(self, q: Array, v: Array) -> Reduction:
-        call, n = self._calls["terms"], self.n
-        call.inp[:n], call.inp[n:] = self._angles(q), self._angles(v)
-        return Reduction(*parts_of(call(), self.shapes))
+        terms = self._calls["terms"](self._angles(q), self._angles(v))
+        return Reduction(*parts_of(terms, self.shapes))
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
-        call, n = self._calls["body"], self.n
-        call.inp[:n], call.inp[n:] = self._angles(q), self._angles(v)
-        out = call()
+        out, n = self._calls["body"](self._angles(q), self._angles(v)), self.n
         return BodyTerms(out[:n], out[n : 2 * n], out[2 * n : 4 * n].reshape(2, n), out[4 * n :])
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
-        call, n = self._calls["accelerate"], self.n
         if self.friction:
             force = force + self.friction_torque(v)
-        call.inp[:n], call.inp[n : 2 * n], call.inp[2 * n :] = (
-            self._angles(q),
-            self._angles(v),
-            force,
-        )
-        return call()
+        return self._calls["accelerate"](self._angles(q), self._angles(v), force)
 
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
-        call, n = self._calls["ground"], self.n
-        call.inp[:n], call.inp[n : 2 * n], call.inp[2 * n :] = self._angles(q), self._angles(v), a
-        return call()
+        return self._calls["ground"](self._angles(q), self._angles(v), a)
+
+
+@once_each
+def _compiled(biped: Biped) -> CompiledBiped:
+    given = {f.name: getattr(biped, f.name) for f in fields(Biped)}
+    return CompiledBiped(**given, robot=robot_of(biped)).checked(biped)
+
+
+def plant_functions(
+    structure: Structure, example: PlantArrays
+) -> dict[str, Callable[[], Function]]:
+    """By name; `terms` and `body` give the parts of their tuples one after the other.
+
+    K has symbols for the floats of the example.
+    """
+    K = Vector("K", count(example))
+    robot = PlanarRobot.of(structure, K.like(example))
+
+    def function(law: Callable[..., Any], given: int) -> Function:
+        inp = Vector("inp", given * robot.n)
+        parts = law(*(inp.take(robot.n) for _ in range(given)))
+        return Function(K.symbol, inp.symbol, column(*parts))
+
+    return {
+        "terms": partial(function, robot.reduction, 2),
+        "body": partial(function, robot.body_terms, 2),
+        "accelerate": partial(function, robot.acceleration, 3),
+        "ground": partial(function, robot.ground_reaction, 3),
+    }

@@ -1,24 +1,23 @@
-"""`closed_loop.readings` in compiled code, at every node of a run.
+"""`closed_loop.system.reading` in compiled code, at every node of a run.
 
 observe (t, step, t_start, x, zeta) -> the parts of a `Reading`, in its order
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import prod
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.closed_loop.readings import Reading, reading
+from biped_adrc.closed_loop.system import Reading, reading
 from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.equations import Equations, Function, Make, Numbers, count
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
-from biped_adrc.engine.ir import module_text
+from biped_adrc.engine.ir import generated
 from biped_adrc.engine.kernels.layout import OUTSIDE
-from biped_adrc.engine.machine import Machine, Text, remembered
+from biped_adrc.engine.machine import Machine
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.symbols import Untraceable, Vector, floats, run
 from biped_adrc.errors import ModelError
@@ -35,29 +34,17 @@ class Watched(NamedTuple):
     h: Any
 
 
-@dataclass(frozen=True)
-class Observation:
-    """`observe` for one make of walker and reference, whose parameters are symbols."""
+def observe(make: Make, example: Watched, h: ReferenceLaws) -> Function:
+    """The function for one make of walker and reference, with symbols for the floats of an example."""
+    K = Vector("K", count(example))
+    watched = K.like(example)
+    equations = Equations(make, K.symbol, watched.walker)
+    at = equations.at()
 
-    equations: Equations
-    h: ReferenceLaws
+    def tracked(s: Any, m: Measurement) -> Any:
+        return run(at.trace, h.point, watched.h, m.t, m.q, m.v)
 
-    @classmethod
-    def of(cls, make: Make, example: Watched, h: ReferenceLaws) -> Observation:
-        """With symbols for the floats of an example."""
-        K = Vector("K", count(example))
-        watched = K.like(example)
-        return cls(Equations(make, K.symbol, watched.walker), h._replace(parameters=watched.h))
-
-    def observe(self) -> Function:
-        """The function."""
-        at, h = self.equations.at(), self.h
-
-        def tracked(s: Any, m: Measurement) -> Any:
-            return run(at.trace, h.point, h.parameters, m.t, m.q, m.v)
-
-        parts = at.does(reading, tracked)
-        return self.equations.made(at.inp, *parts)
+    return equations.made(at.inp, *at.does(reading, tracked))
 
 
 def compiled_readings(
@@ -101,5 +88,4 @@ def _code(make: Make, watched: Watched, h: ReferenceLaws) -> Machine:
         *("observe", skeleton(make.robot), laws, make.size, make.held),
         *(skeleton(watched), versions_text()),
     )
-    observe = Observation.of(make, watched, h).observe
-    return remembered(key, ["observe"], lambda: Text(module_text({"observe": observe()})))
+    return generated(key, {"observe": lambda: observe(make, watched, h)})

@@ -1,4 +1,9 @@
-"""A walker, a one-step method and a disturbance, ready for the compiled loops."""
+"""A walker, a one-step method and a disturbance, ready for the compiled loops.
+
+The laws of disturbances are functions `void f(double* K, double* inp, double* out)` of their own: inp is (t,
+step, t_start, q, v), out zeta (n,) or the force (2,). A law's `active` is looked at first: where it is not
+above 0, out is zero and the rest is not computed.
+"""
 
 from __future__ import annotations
 
@@ -10,24 +15,25 @@ import numpy as np
 
 from biped_adrc.composed import written_over
 from biped_adrc.control.passive import Passive
-from biped_adrc.disturbances.base import Disturbance, disturbance_laws
-from biped_adrc.engine.disturbance_code import disturbance_code
+from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, disturbance_laws
+from biped_adrc.engine.equations import Function, count
+from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
+from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.kernels import methods
-from biped_adrc.engine.kernels.plan import Plan, plan
 from biped_adrc.engine.kernels.tables import (
     Clock,
     Code,
     Method,
+    Plan,
     PushCode,
     Scene,
     Sizes,
-    continuous_time,
-    no_push,
+    plan,
 )
+from biped_adrc.engine.machine import Machine, Text, remembered
 from biped_adrc.engine.program import NotCompiled, Program
-from biped_adrc.engine.symbols import floats
-from biped_adrc.hybrid.exponential import no_coordinates
-from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.engine.symbols import Tracer, Untraceable, Vector, column, floats, run
+from biped_adrc.hybrid.integrators import OneStepMethod, no_coordinates
 from biped_adrc.split import SplitLaws
 from biped_adrc.timing import LONGEST_PERIOD, SampledTime
 from biped_adrc.types import Array
@@ -59,7 +65,7 @@ class CompiledWalker:
         split, made = _method(walker, method)
         program = Program.of(walker, size, split)
         time = walker.timing
-        clock = continuous_time()
+        clock = Clock()
         if isinstance(time, SampledTime):
             assert walker.held is not None
             part = walker.held.motors.fraction * time.period if walker.held.sizes.waiting else 0.0
@@ -79,7 +85,7 @@ class CompiledWalker:
         )
         split, made = _method(bare, method)
         program = Program.of(bare, 0, split)
-        return cls(bare, program, _plan(bare, program, split, continuous_time(), made))
+        return cls(bare, program, _plan(bare, program, split, Clock(), made))
 
 
 def _plan(
@@ -87,21 +93,16 @@ def _plan(
 ) -> Plan:
     n, p, nx = walker.plant.n, walker.plant.p, program.nx
     stiff = 0 if split is None else len(split.A)
+    flows = walker.held is None or walker.held.sizes.lag  # the torque of the motors, then all does
     drops = np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2)
     return plan(
         Code(*(program.address(name) for name in Code._fields)),
-        Sizes(n, nx, p, nx - stiff * p, stiff, _moving(walker, nx)),
+        Sizes(n, nx, p, nx - stiff * p, stiff, nx if flows else 2 * n),
         Scene(LEAST_STEP, drops),
         _push(walker.disturbance, n),
         clock,
         method,
     )
-
-
-def _moving(walker: Walker, nx: int) -> int:
-    """How many of the first states flow: all of them where the torque of the motors does."""
-    flows = walker.held is None or walker.held.sizes.lag
-    return nx if flows else 2 * walker.plant.n
 
 
 FORMS: dict[str, Callable[[Any], Method] | None] = {
@@ -139,7 +140,7 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Me
 
 def _push(disturbance: Disturbance | None, n: int) -> PushCode:
     if disturbance is None:
-        return no_push()
+        return PushCode()
     laws = disturbance_laws(disturbance)
     for law in laws:
         if law.obstacle:
@@ -153,3 +154,50 @@ def _push(disturbance: Disturbance | None, n: int) -> PushCode:
         np.array([switch for law in laws for switch in law.switches]).reshape(-1, 2),
         tuple(code.addresses.get("resultant", 0) for code in codes),
     )
+
+
+GUARDED = """
+define void @{name}(ptr %K, ptr %inp, ptr %out) nounwind {{
+  %flag = alloca double
+  call void @active(ptr %K, ptr %inp, ptr %flag)
+  %a = load double, ptr %flag
+  %acts = fcmp ogt double %a, 0.0
+  br i1 %acts, label %act, label %rest
+act:
+  call void @{name}_acting(ptr %K, ptr %inp, ptr %out)
+  ret void
+rest:
+  call void @llvm.memset.p0.i64(ptr %out, i8 0, i64 {bytes}, i1 false)
+  ret void
+}}
+"""
+
+
+def disturbance_code(law: DisturbanceLaw, n: int) -> Machine:
+    """With the functions `torque` and, where there is one, `resultant`. Raises NotCompiled."""
+    parts = {"torque": (law.torque, n), "resultant": (law.resultant, 2)}
+    given = {name: part for name, part in parts.items() if part[0] is not None}
+    texts = [law_text(part[0]) for part in given.values()]
+    texts += [law_text(law.active), skeleton(law.parameters), versions_text()]
+    key = hash_of("disturbance", n, *given, *texts)
+    try:
+        return remembered(key, list(given), lambda: _text(law, given, n))
+    except Untraceable as error:
+        raise NotCompiled(f"{error}; the run goes on in Python on the compiled plant") from error
+
+
+def _text(law: DisturbanceLaw, parts: dict[str, Any], n: int) -> Text:
+    if law.active is None:
+        return Text(module_text({name: _function(law, f, n) for name, (f, _) in parts.items()}))
+    functions = {"active": _function(law, law.active, n, timed=True)}
+    functions |= {f"{name}_acting": _function(law, f, n) for name, (f, _) in parts.items()}
+    guarded = [GUARDED.format(name=name, bytes=8 * size) for name, (_, size) in parts.items()]
+    clear = "declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)"
+    return Text("\n".join([module_text(functions), clear, *guarded]))
+
+
+def _function(law: DisturbanceLaw, part: Any, n: int, timed: bool = False) -> Function:
+    K, inp = Vector("K", count(law.parameters)), Vector("inp", 3 + 2 * n)
+    k, at = K.like(law.parameters), (inp.take(), inp.take(), inp.take())
+    state = () if timed else (inp.take(n), inp.take(n))
+    return Function(K.symbol, inp.symbol, column(run(Tracer(), part, k, *at, *state)))

@@ -80,11 +80,6 @@ class Make(NamedTuple):
     """With an error of the impact map."""
 
     @property
-    def sampled(self) -> bool:
-        """Whether torques are held between ticks."""
-        return self.held is not None
-
-    @property
     def nx(self) -> int:
         """Numbers in a state."""
         return 2 * self.robot.n + self.size + (0 if self.held is None else self.held.total)
@@ -172,16 +167,11 @@ class Equations:
         K = Vector("K", count(example))
         return cls(make, K.symbol, K.like(example))
 
-    @property
-    def nx(self) -> int:
-        """Numbers in a state."""
-        return self.make.nx
-
     @staticmethod
     def names(make: Make) -> list[str]:
         """Of the functions that this make has."""
         split = [] if make.split is None else ["to", "back", "remainder"]
-        return ["flow", "strike", "watch", *(["tick"] if make.sampled else []), *split]
+        return ["flow", "strike", "watch", *(["tick"] if make.held is not None else []), *split]
 
     def loop(self, trace: Tracer, zeta: Any = None, given: Any = None) -> SymbolicLoop:
         """The closed loop."""
@@ -203,8 +193,8 @@ class Equations:
     def at(self) -> At:
         """The symbols (t, step, t_start, x, zeta, outside)."""
         n, trace = self.make.robot.n, Tracer()
-        inp = Vector("inp", 3 + self.nx + n + OUTSIDE)
-        t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.nx)
+        inp = Vector("inp", 3 + self.make.nx + n + OUTSIDE)
+        t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.make.nx)
         return At(inp, trace, self.loop(trace, inp.take(n), inp.take(OUTSIDE)), t, x, mode)
 
     def made(self, inp: Vector, *parts: Any) -> Function:
@@ -225,8 +215,8 @@ class Equations:
 
     def strike(self) -> Function:
         """x after impact, relabelling and the controller's jump; `step` is the one that begins."""
-        inp, trace = Vector("inp", 2 + self.nx), Tracer()
-        t, step, x = inp.take(), inp.take(), inp.take(self.nx)
+        inp, trace = Vector("inp", 2 + self.make.nx), Tracer()
+        t, step, x = inp.take(), inp.take(), inp.take(self.make.nx)
         x = trace(semantics.struck)(self.loop(trace), t, x, Mode(step, t))
         return self.made(inp, x, trace.solver.least)
 
@@ -256,13 +246,13 @@ class Equations:
 
     def to(self) -> Function:
         """y = (w, E) of x."""
-        inp, trace = Vector("inp", self.nx), Tracer()
-        return self.made(inp, *self._split(trace).to(self.numbers.split, inp.take(self.nx)))
+        inp, trace = Vector("inp", self.make.nx), Tracer()
+        return self.made(inp, *self._split(trace).to(self.numbers.split, inp.take(self.make.nx)))
 
     def back(self) -> Function:
         """x of y = (w, E)."""
-        inp, trace = Vector("inp", self.nx), Tracer()
-        w, E = self._coordinates(inp.take(self.nx))
+        inp, trace = Vector("inp", self.make.nx), Tracer()
+        w, E = self._coordinates(inp.take(self.make.nx))
         return self.made(inp, self._split(trace).back(self.numbers.split, w, E))
 
     def remainder(self) -> Function:

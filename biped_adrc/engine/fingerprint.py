@@ -33,7 +33,7 @@ def law_text(law: Any, seen: set[Any] | None = None) -> str:
     if law in seen:
         return law.__qualname__
     seen.add(law)
-    names = _names(law.__code__)
+    names = sorted(names_of(law.__code__))
     used = {name: law.__globals__[name] for name in names if name in law.__globals__}
     closed = [cell.cell_contents for cell in law.__closure__ or ()]
     parts = [law.__qualname__, _code_text(law.__code__), constant_text(law.__defaults__)]
@@ -65,11 +65,6 @@ def _class_text(cls: type) -> str:
     laws = [x.fget if isinstance(x, property) else x for x in own]
     methods = (law_text(x) for x in laws if isinstance(x, types.FunctionType))
     return "\n".join([constant_text(cls), *methods])
-
-
-@lru_cache(maxsize=1024)
-def _names(code: types.CodeType) -> list[str]:
-    return sorted(names_of(code))
 
 
 @lru_cache(maxsize=1024)

@@ -7,74 +7,46 @@ and no operations are fused, so the numbers are the same whatever runs beside.
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import casadi as ca
 
 from biped_adrc.engine.equations import Function
+from biped_adrc.engine.machine import Machine, Text, remembered
 from biped_adrc.errors import InputError
 
-Line = Callable[[list[str]], str]
-
-
-def _call(name: str) -> Line:
-    arguments = ", ".join
-    return lambda a: f"call double @{name}({arguments(f'double {x}' for x in a)})"
-
-
-def _compare(how: str) -> Line:
-    return lambda a: f"fcmp {how} double {a[0]}, {a[1]}"
-
-
-OPERATIONS: dict[int, Line] = {
-    ca.OP_ADD: lambda a: f"fadd double {a[0]}, {a[1]}",
-    ca.OP_SUB: lambda a: f"fsub double {a[0]}, {a[1]}",
-    ca.OP_MUL: lambda a: f"fmul double {a[0]}, {a[1]}",
-    ca.OP_DIV: lambda a: f"fdiv double {a[0]}, {a[1]}",
-    ca.OP_NEG: lambda a: f"fneg double {a[0]}",
-    ca.OP_TWICE: lambda a: f"fadd double {a[0]}, {a[0]}",
-    ca.OP_SQ: lambda a: f"fmul double {a[0]}, {a[0]}",
-    ca.OP_INV: lambda a: f"fdiv double 1.0, {a[0]}",
-    ca.OP_FABS: _call("llvm.fabs.f64"),
-    ca.OP_SQRT: _call("llvm.sqrt.f64"),
-    ca.OP_FLOOR: _call("llvm.floor.f64"),
-    ca.OP_FMIN: _call("llvm.minimum.f64"),
-    ca.OP_FMAX: _call("llvm.maximum.f64"),
-    ca.OP_POW: _call("pow"),
-    ca.OP_CONSTPOW: _call("pow"),
-    **{
-        code: _call(name)
-        for code, name in (
-            *((ca.OP_SIN, "sin"), (ca.OP_COS, "cos"), (ca.OP_TAN, "tan"), (ca.OP_EXP, "exp")),
-            *((ca.OP_LOG, "log"), (ca.OP_SINH, "sinh"), (ca.OP_COSH, "cosh"), (ca.OP_TANH, "tanh")),
-            *((ca.OP_ASIN, "asin"), (ca.OP_ACOS, "acos"), (ca.OP_ATAN, "atan")),
-        )
-    },
+BINARY = {ca.OP_ADD: "fadd", ca.OP_SUB: "fsub", ca.OP_MUL: "fmul", ca.OP_DIV: "fdiv"}
+UNARY = {
+    ca.OP_NEG: "fneg double {0}",
+    ca.OP_TWICE: "fadd double {0}, {0}",
+    ca.OP_SQ: "fmul double {0}, {0}",
+    ca.OP_INV: "fdiv double 1.0, {0}",
 }
-COMPARISONS: dict[int, Line] = {
-    ca.OP_LT: _compare("olt"),
-    ca.OP_LE: _compare("ole"),
-    ca.OP_EQ: _compare("oeq"),
-    ca.OP_NE: _compare("une"),
+COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "une"}
+ONE = {ca.OP_FABS: "llvm.fabs.f64", ca.OP_SQRT: "llvm.sqrt.f64", ca.OP_FLOOR: "llvm.floor.f64"}
+ONE |= {
+    getattr(ca, f"OP_{name.upper()}"): name
+    for name in ["sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh", "asin", "acos", "atan"]
 }
-ONE: tuple[str, ...] = (
-    "llvm.fabs.f64",
-    "llvm.sqrt.f64",
-    "llvm.floor.f64",
-    "sin",
-    "cos",
-    "tan",
-    "exp",
-    "log",
-)
-ONE += ("sinh", "cosh", "tanh", "asin", "acos", "atan")
-TWO = ("llvm.minimum.f64", "llvm.maximum.f64", "pow")
+TWO = {ca.OP_FMIN: "llvm.minimum.f64", ca.OP_FMAX: "llvm.maximum.f64"}
+TWO |= {ca.OP_POW: "pow", ca.OP_CONSTPOW: "pow"}
 DECLARATIONS = "\n".join(
-    [f"declare double @{name}(double) #0" for name in ONE]
-    + [f"declare double @{name}(double, double) #0" for name in TWO]
+    [f"declare double @{name}(double) #0" for name in ONE.values()]
+    + [f"declare double @{name}(double, double) #0" for name in dict.fromkeys(TWO.values())]
     + ["attributes #0 = { nounwind readnone willreturn }"]
 )
+
+
+def generated(
+    key: str, functions: Mapping[str, Callable[[], Function]], vectors: bool = False
+) -> Machine:
+    """These functions in memory, traced where none are stored under `key`; vectors: as of `Text`."""
+
+    def text() -> Text:
+        return Text(module_text({name: f() for name, f in functions.items()}), vectors)
+
+    return remembered(key, list(functions), text)
 
 
 def module_text(functions: dict[str, Function]) -> str:
@@ -134,7 +106,7 @@ class _Writer:
 
     def value(self, code: int, a: list[str], f: Any) -> str:
         if code in COMPARISONS:
-            bit = self.new(COMPARISONS[code](a))
+            bit = self.new(f"fcmp {COMPARISONS[code]} double {a[0]}, {a[1]}")
             return self.new(f"uitofp i1 {bit} to double")
         if code == ca.OP_NOT:
             bit = self.new(f"fcmp oeq double {a[0]}, 0.0")
@@ -155,14 +127,17 @@ class _Writer:
             return self.new(f"select i1 {high}, double 1.0, double {negative}")
         if code == ca.OP_ASSIGN:
             return a[0]
-        if code not in OPERATIONS:
-            raise InputError(
-                f"CasADi's operation {code} has no line of machine code; use NumPy's basic ones"
-            )
-        unary = code in (ca.OP_TWICE, ca.OP_SQ, ca.OP_INV, ca.OP_NEG)
-        two = code in (ca.OP_ADD, ca.OP_SUB, ca.OP_MUL, ca.OP_DIV, ca.OP_FMIN, ca.OP_FMAX)
-        two = two or code in (ca.OP_POW, ca.OP_CONSTPOW)
-        return self.new(OPERATIONS[code](a[:1] if unary or not two else a))
+        if code in BINARY:
+            return self.new(f"{BINARY[code]} double {a[0]}, {a[1]}")
+        if code in UNARY:
+            return self.new(UNARY[code].format(a[0]))
+        if code in ONE:
+            return self.new(f"call double @{ONE[code]}(double {a[0]})")
+        if code in TWO:
+            return self.new(f"call double @{TWO[code]}(double {a[0]}, double {a[1]})")
+        raise InputError(
+            f"CasADi's operation {code} has no line of machine code; use NumPy's basic ones"
+        )
 
     def either(self, one: str, other: str) -> str | None:
         """A sum of two choices of which one is made: CasADi's if_else(condition, a, b), in one choice."""

@@ -1,22 +1,38 @@
-"""Machine code of generated functions, kept on disk with a checksum.
+"""Machine code of generated functions and modules, kept on disk with checksums.
 
-Object code is stored under a hash of what it was made from and of what makes it; a damaged file is made again,
-and where nothing can be written it is made in memory each time.
+Functions: object code is stored under a hash of what it was made from and of what makes it; a damaged file is
+made again, and where nothing can be written it is made in memory each time.
+
+Modules: one folder per hash of the source and of what compiles it. Files are written beside and moved into
+place, so several processes may make the same one. What cannot be written is kept in a temporary folder; what is
+damaged is written again. numba keeps its machine code beside; `seal` adds a checksum to each of its files, and
+those without the right one are removed before they are read.
 """
 
 from __future__ import annotations
 
+import atexit
 import hashlib
+import importlib.util
+import os
+import platform
+import shutil
+import sys
+import tempfile
 import threading
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from types import ModuleType
 from typing import Any, NamedTuple
 
-from biped_adrc.engine.store import cache_folder
+from platformdirs import user_cache_path
+
 from biped_adrc.errors import OutputError
-from biped_adrc.files import write_bytes
+from biped_adrc.files import write_bytes, write_text
+from biped_adrc.versions import packages
 
 CHECK = 32
 """Bytes of the checksum before the object code."""
@@ -68,9 +84,8 @@ def processor() -> str:
     return f"{binding.get_host_cpu_name()} {features} {binding.llvm_version_info}"
 
 
-@lru_cache(maxsize=1)
 def target() -> Any:
-    """LLVM's machine for this processor."""
+    """LLVM's machine for this processor, a new one each time: MCJIT owns the one that it is given."""
     from llvmlite import binding
 
     binding.initialize_native_target()
@@ -102,19 +117,11 @@ def loaded(code: bytes, names: Sequence[str]) -> Machine:
     """Object code in memory."""
     from llvmlite import binding
 
-    target()
-    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _another_target())
+    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
     addresses = {name: int(engine.get_function_address(name)) for name in names}
     return Machine(addresses, engine)
-
-
-def _another_target() -> Any:
-    """MCJIT owns the machine that it is given."""
-    from llvmlite import binding
-
-    return binding.Target.from_default_triple().create_target_machine(opt=3, jit=True)
 
 
 def _path(key: str) -> Path:
@@ -137,3 +144,88 @@ def keep(key: str, code: bytes) -> None:
         write_bytes(_path(key), hashlib.sha256(key.encode() + code).digest() + code)
     except (OSError, OutputError):
         return
+
+
+VARIABLE = "BIPED_ADRC_CACHE"
+"""Environment variable: the folder of generated modules, by default biped_adrc in the user's cache."""
+
+MARK = ".sha256"
+"""Ending of the file with the checksum of another."""
+
+
+def cache_folder() -> Path:
+    """Where generated modules are kept; an empty variable counts as none."""
+    return Path(os.environ.get(VARIABLE) or user_cache_path("biped_adrc", appauthor=False))
+
+
+def key_of(source: str) -> str:
+    """Hash of the source, of numba, llvmlite, NumPy and Python, and of the processor."""
+    made_by = packages(("numba", "llvmlite", "numpy")).values()
+    machine = platform.python_version(), platform.machine(), platform.processor()
+    return hashlib.sha256("\0".join((source, *made_by, *machine)).encode()).hexdigest()[:24]
+
+
+def load_source(source: str) -> ModuleType:
+    """The module with this source, from the disk if it is there and undamaged."""
+    key = key_of(source)
+    try:
+        path = _written(cache_folder() / key / "kernels.py", source)
+    except (OSError, OutputError):
+        path = _written(_temporary() / key / "kernels.py", source)
+    _remove_unsealed(path.parent)
+    spec = importlib.util.spec_from_file_location(f"biped_adrc_kernels_{key}", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module  # numba finds the module of its machine code by name
+    spec.loader.exec_module(module)
+    return module
+
+
+def seal(module: ModuleType) -> None:
+    """Note the checksums of what numba has written for a module, once it is compiled."""
+    for path in _machine_code(Path(str(module.__file__)).parent):
+        check = _checksum(path)
+        mark = path.with_name(path.name + MARK)
+        if not (mark.is_file() and mark.read_text() == check):
+            with suppress(OSError, OutputError):
+                write_text(mark, check)
+
+
+def _remove_unsealed(folder: Path) -> None:
+    for path in _machine_code(folder):
+        mark = path.with_name(path.name + MARK)
+        with suppress(OSError):
+            if not (mark.is_file() and mark.read_text() == _checksum(path)):
+                path.unlink()
+
+
+def _machine_code(folder: Path) -> list[Path]:
+    return [path for path in (folder / "__pycache__").glob("*.nb[ic]") if path.is_file()]
+
+
+def _checksum(path: Path) -> str:
+    return hashlib.sha256(path.name.encode() + path.read_bytes()).hexdigest()
+
+
+def forget(module: ModuleType) -> None:
+    """Remove the machine code numba keeps of a module, where it cannot be used."""
+    shutil.rmtree(Path(str(module.__file__)).parent / "__pycache__", ignore_errors=True)
+
+
+def _written(path: Path, source: str) -> Path:
+    """The file with this text; rewritten, without the machine code beside it, when it has another one."""
+    found = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else None
+    if found != source:
+        shutil.rmtree(path.parent / "__pycache__", ignore_errors=True)
+        write_text(path, source)
+    if not os.access(path.parent, os.W_OK):
+        raise OSError(f"'{path.parent}' is read-only")
+    return path
+
+
+@lru_cache(maxsize=1)
+def _temporary() -> Path:
+    folder = Path(tempfile.mkdtemp(prefix="biped_adrc-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder

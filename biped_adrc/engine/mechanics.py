@@ -11,19 +11,23 @@ the impulse F_2 out of (7):
     N' D_e N q+' = N' D_e (q-'; 0) = (D_s - J_2' J_m) q-'
 
 N' D_e N is the inertia about the swing foot; D_e itself is singular for a robot whose mass is in one point.
+
+`robot_of` reads a robot's make and its numbers off its model, as generated code takes them.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.engine.symbols import Tracer, solve_positive, tanh
-from biped_adrc.model.biped import STICTION_SPEED
+from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.model.planar import (
+    PlanarTree,
     PlantArrays,
     gravity_and_turning,
     ground_reaction,
@@ -53,13 +57,6 @@ class Structure(NamedTuple):
     """Which of the numbers of `PlantArrays` are not zero by make, arrays of bool."""
 
 
-def without_zeros(robot: Structure, K: PlantArrays) -> PlantArrays:
-    """The numbers with a plain 0 for those that are zero by make, whose terms then vanish."""
-    pairs: Any = zip(K, robot.present, strict=True)
-    kept: Any = [np.where(mask, x, 0.0) if mask.ndim else x for x, mask in pairs]
-    return PlantArrays(*kept)
-
-
 class Impact(NamedTuple):
     """After the impact (7) and relabelling (8): q and v (n,), and the impulse F_2 (2,) [N s]."""
 
@@ -80,8 +77,10 @@ class PlanarRobot:
     def of(
         cls, structure: Structure, K: PlantArrays, friction: tuple[Any, ...] = ()
     ) -> PlanarRobot:
-        """Without the terms that are zero by make."""
-        return cls(structure, without_zeros(structure, K), friction)
+        """With a plain 0 for the numbers that are zero by make, whose terms then vanish."""
+        pairs: Any = zip(K, structure.present, strict=True)
+        kept: Any = [np.where(mask, x, 0.0) if mask.ndim else x for x, mask in pairs]
+        return cls(structure, PlantArrays(*kept), friction)
 
     @property
     def n(self) -> int:
@@ -144,3 +143,48 @@ class PlanarRobot:
         v_plus = solve_positive(after, before @ v, "N' D_e N")
         F_2 = J_m @ (v_plus - v) - K.mass * (J_2 @ v_plus)
         return Impact(R @ q + self.structure.offset, R @ v_plus, F_2)
+
+
+T = TypeVar("T")
+REMEMBERED = 64
+"""Robots kept in memory."""
+
+
+@dataclass(frozen=True)
+class Robot:
+    """`structure` decides the code, `arrays` are given to it at run time."""
+
+    structure: Structure
+    arrays: PlantArrays
+
+
+def once_each(make: Callable[[Biped], T]) -> Callable[[Biped], T]:
+    """`make`, with what it made of the last REMEMBERED robots; a robot is known by its identity."""
+    made: dict[int, tuple[Biped, T]] = {}
+
+    def found(biped: Biped) -> T:
+        if id(biped) not in made or made[id(biped)][0] is not biped:
+            while len(made) >= REMEMBERED:
+                made.pop(next(iter(made)))
+            made[id(biped)] = biped, make(biped)
+        return made[id(biped)][1]
+
+    return found
+
+
+@once_each
+def robot_of(biped: Biped) -> Robot:
+    """Read off a robot. Raises ModelError when it is no planar tree of rigid links."""
+    tree = PlanarTree.of(biped)
+    arrays = tree.K
+    swap: Any = biped.relabelling[: biped.p] if biped.p else np.zeros(0, dtype=int)
+    structure = Structure(
+        biped.n,
+        biped.p,
+        tree.A,
+        biped.R.astype(int),
+        biped.relabel(np.zeros(biped.n)),
+        swap,
+        tuple(np.asarray(x) != 0.0 for x in arrays),
+    )
+    return Robot(structure, arrays)

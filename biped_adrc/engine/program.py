@@ -2,24 +2,27 @@
 
 One compilation serves every robot, gain and gait of the same make; a program is made in microseconds where its
 functions are in memory, in milliseconds where they are on disk.
+
+Beside them stands the product of the exponential method: `turn`, M E for a matrix M (k, k) in place of K and E
+(k, p).
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from biped_adrc.control.base import Controller, ControllerLaws, controller_laws
-from biped_adrc.engine.equations import Equations, Make, Numbers
+from biped_adrc.engine.equations import Equations, Function, Make, Numbers
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
-from biped_adrc.engine.ir import module_text
-from biped_adrc.engine.machine import Machine, Text, remembered
-from biped_adrc.engine.product import product
-from biped_adrc.engine.robot import Robot, robot_of
-from biped_adrc.engine.symbols import floats
+from biped_adrc.engine.ir import generated
+from biped_adrc.engine.machine import Machine
+from biped_adrc.engine.mechanics import Robot, robot_of
+from biped_adrc.engine.symbols import Vector, column, floats
 from biped_adrc.errors import InputError
 from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
@@ -132,14 +135,22 @@ def _machine(make: Make, numbers: Numbers) -> Machine:
         skeleton(numbers),
         versions_text(),
     )
-    names = Equations.names(make)
+
+    def traced(name: str) -> Function:
+        made: Function = getattr(Equations.of(make, numbers), name)()
+        return made
+
     try:
-        return remembered(key, names, lambda: traced(make, numbers))
+        return generated(key, {name: partial(traced, name) for name in Equations.names(make)})
     except InputError as reason:
         raise NotCompiled(f"{reason}; it runs in Python on the compiled plant") from reason
 
 
-def traced(make: Make, numbers: Numbers) -> Text:
-    """Every function run on symbols."""
-    made = Equations.of(make, numbers)
-    return Text(module_text({name: getattr(made, name)() for name in made.names(make)}))
+def product(k: int, p: int) -> Machine:
+    """With the function `turn`, straight-line code in vectors."""
+
+    def turn() -> Function:
+        M, E = Vector("M", k * k), Vector("E", k * p)
+        return Function(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
+
+    return generated(hash_of("turn", k, p, versions_text()), {"turn": turn}, vectors=True)

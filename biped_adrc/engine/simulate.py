@@ -53,22 +53,17 @@ def on_compiled_plant(
     walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
     """A run in Python with compiled dynamics. Raises as `run_compiled`."""
-    walker = with_compiled_plant(walker)
     points: list[Point] = []
     controller = compiled_references(walker.controller, walker.plant.n, points)
-    walker = replace(walker, controller=controller)
+    model = None if walker.model is None else CompiledBiped.of(walker.model)
+    plant = CompiledBiped.of(walker.plant)
+    walker = replace(walker, plant=plant, model=model, controller=controller)
     if walker.sampled:
         try:
             return run_ticks(walker, x0, mode, method, options, points)
         except NotCompiled:  # a disturbance or a method without a compiled form
             pass
     return simulator.run(walker, x0, mode, method, options)
-
-
-def with_compiled_plant(walker: Walker) -> Walker:
-    """The walker with compiled dynamics. Raises ModelError for a robot that is no planar tree."""
-    model = None if walker.model is None else CompiledBiped.of(walker.model)
-    return replace(walker, plant=CompiledBiped.of(walker.plant), model=model)
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ import operator
 import traceback
 import types
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -117,10 +118,7 @@ FUNCTIONS = {
 
 
 def _function(name: str) -> Callable[[Any], Any]:
-    def of_scalar(x: Any) -> Any:
-        return Scalar(getattr(ca, name)(expression(x)))
-
-    return of_scalar
+    return lambda x: Scalar(getattr(ca, name)(expression(x)))
 
 
 def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -144,10 +142,7 @@ class _Substitute:
 
 
 def _filled(value: float) -> Callable[..., Any]:
-    def make(shape: Any, *_: Any, **__: Any) -> Any:
-        return np.full(shape, value, dtype=object)
-
-    return make
+    return lambda shape, *_, **__: np.full(shape, value, dtype=object)
 
 
 def minimum(a: Any, b: Any) -> Any:
@@ -228,15 +223,10 @@ def _pairs(one: list[Any], other: list[Any]) -> Iterator[tuple[int, tuple[Any, A
 
 def _larger_first(one: list[Any], other: list[Any], j: int) -> tuple[list[Any], list[Any]]:
     """The two rows, that with the larger entry in column j first."""
-    swap = expression(abs(Scalar(ca.SX(expression(other[j]))))) > expression(
-        abs(Scalar(ca.SX(expression(one[j]))))
-    )
-
-    def choose(a: Any, b: Any) -> Any:
-        return Scalar(ca.if_else(swap, expression(a), expression(b)))
-
-    first = [choose(b, a) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
-    second = [choose(a, b) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
+    a, b = (ca.fabs(ca.SX(expression(row[j]))) for row in (one, other))
+    swap = Scalar(b > a)
+    first = [where(swap, b, a) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
+    second = [where(swap, a, b) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
     return first, second
 
 
@@ -328,13 +318,11 @@ LIBRARIES = (__file__, str(Path(np.__file__).parent), str(Path(ca.__file__).pare
 """Where the functions are that laws call, and that are no laws themselves."""
 
 
-def names_of(code: types.CodeType) -> set[str]:
+@lru_cache(maxsize=1024)
+def names_of(code: types.CodeType) -> frozenset[str]:
     """The names that a piece of code and what is defined inside it look up."""
-    found = set(code.co_names)
-    for constant in code.co_consts:
-        if isinstance(constant, types.CodeType):
-            found |= names_of(constant)
-    return found
+    inner = (names_of(x) for x in code.co_consts if isinstance(x, types.CodeType))
+    return frozenset(code.co_names).union(*inner)
 
 
 class Vector:

@@ -13,10 +13,19 @@ constraint goes on smoothly instead: at a distance y past an end with h_0, h_0',
     h = h_0 + h_0' y + h_0'' (l |y| - l^2 (1 - exp(-|y| / l)))
 
 Two derivatives agree at the ends, and the curvature fades out over l = fade |Theta- - Theta+|.
+
+A *corrected* constraint has a correction added to it:
+
+    q_d   = h(Theta) + c(Theta)
+    q_d'  = (h' + c') Theta'
+    q_d'' = (h'' + c'') Theta'^2 + (h' + c') c_q q''
+
+Theta = c_q q as in h; ' on h and c is d/dTheta. Corrections of corrections add up.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -124,3 +133,31 @@ class VirtualConstraint(Reference):
 def continued(h: VirtualConstraint) -> VirtualConstraint:
     """h between Theta+ and Theta-, and outside going on smoothly, as a step that ends late needs it."""
     return replace(h, fade=FADE)
+
+
+Correction = Callable[[float], tuple[Array, Array, Array]]
+"""c, dc/dTheta, d2c/dTheta2 at Theta [rad], each (p,)."""
+
+
+@dataclass(frozen=True)
+class CorrectedConstraint(Reference):
+    """base + correction, a function of the same phase."""
+
+    base: VirtualConstraint | CorrectedConstraint
+    correction: Correction
+
+    @property
+    def constraint(self) -> VirtualConstraint:
+        """h, without any correction."""
+        return self.base if isinstance(self.base, VirtualConstraint) else self.base.constraint
+
+    def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
+        r, phase = self.base(t, q, v), self.constraint.phase
+        rate = float(phase @ v)
+        c, dc, ddc = self.correction(float(phase @ q))
+        return ReferencePoint(
+            r.q_d + c,
+            r.dq_d + dc * rate,
+            r.drift + ddc * rate**2,
+            r.H + dc[:, np.newaxis] * phase,
+        )

@@ -1,18 +1,71 @@
-"""The published fixed point x*, and gait (a) through it.
+"""Published orbits: the fixed point x* with gait (a) through it, and cycles of robots without motors.
 
 As printed, x* puts the swing foot 0.13 mm under the ground. q1..q4 are moved onto the section by less than
 half a unit of their last printed digit; q5, printed with four decimals, and the rates are kept.
+
+A cycle of a robot without motors is a slope, and the state just after an impact on it. It is stored as a small
+readable TOML file `gaits/<robot>/<preset>.toml` with its source. The numbers are as they were published, a
+start for Newton on the return map and nothing more.
 """
 
 from __future__ import annotations
 
+import tomllib
+from dataclasses import dataclass
+
 import numpy as np
 
-from biped_adrc.gait.gait import Gait
+from biped_adrc.errors import GaitError
+from biped_adrc.files import reading
+from biped_adrc.gait.gait import Gait, finite_vector
 from biped_adrc.gait.through_state import GaitLimits, constraint_through, onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import read_only
+from biped_adrc.resources import data_folder
+from biped_adrc.types import Array, read_only
+
+
+@dataclass(frozen=True)
+class PassiveCycle:
+    """A cycle of a robot that only gravity drives; n coordinates."""
+
+    robot: str
+    preset: str
+    source: str
+    slope: float
+    """Of the ground [rad], positive downhill."""
+    max_step_time: float
+    """[s]: a longer single support is no step of this robot."""
+    q_plus: Array
+    """(n,) just after impact [rad]."""
+    v_plus: Array
+    """(n,) [rad/s]."""
+
+
+def passive_cycle(biped: Biped) -> PassiveCycle:
+    """The stored cycle of this robot and preset.
+
+    Raises GaitError that names the file, what was found and what was expected.
+    """
+    robot, preset = biped.description.name, biped.preset
+    path = data_folder("gaits") / robot / f"{preset}.toml"
+    if not path.is_file():
+        raise GaitError(
+            f"no walking cycle without motors is stored for robot '{robot}', preset '{preset}': there is no "
+            f"file '{path}'"
+        )
+    with reading("cycle", path, GaitError):
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+        return PassiveCycle(
+            robot,
+            preset,
+            str(data["source"]),
+            float(data["slope"]),
+            float(data["max_step_time"]),
+            finite_vector(data, "q_plus", biped.n),
+            finite_vector(data, "v_plus", biped.n),
+        )
+
 
 X_STAR = read_only([3.247, 3.672, -0.622, -0.644, -0.0104, -0.298, 0.340, -1.578, 1.370, -0.170])
 """x* of section VI, (q, q') just before impact [rad, rad/s]."""
@@ -35,13 +88,5 @@ def design_published_gait(biped: Biped, degree: int = 6, limits: GaitLimits | No
         f"{np.max(np.abs(q - X_STAR[: biped.n])):.2g} rad",
         "command": f"biped-adrc gait published --preset {biped.preset}",
     }
-    return Gait(
-        "published",
-        biped.description.name,
-        biped.preset,
-        constraint,
-        q,
-        v,
-        orbit.period,
-        provenance,
-    )
+    robot, preset = biped.description.name, biped.preset
+    return Gait("published", robot, preset, constraint, q, v, orbit.period, provenance)

@@ -126,7 +126,8 @@ def read(k: HeldSizes, tail: Array) -> Held:
     for size in (k.own, k.sensors, k.meter, *of_line):
         parts.append(tail[at : at + size])
         at += size
-    return Held(parts[1], parts[2], Line(parts[3], parts[4], parts[5], parts[6]), parts[0])
+    own, w, g, *line = parts
+    return Held(w, g, Line(*line), own)
 
 
 def written(held: Held) -> Array:

@@ -29,8 +29,8 @@ from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, virtual_constraint
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.limits import ROUND_OFF, Limits
 from biped_adrc.model.reduction import Reduction, disturbance_parts
+from biped_adrc.model.robots import ROUND_OFF, Limits
 from biped_adrc.types import Array
 
 READINGS = 18
@@ -123,23 +123,6 @@ class Hit(NamedTuple):
     """Of the ground on the foot that strikes (2,) [N s]."""
 
 
-class Loads(NamedTuple):
-    """Of the plant at a tick, forces as (x, z)."""
-
-    momentum: Array
-    """m v_com (2,) [N s]."""
-    force: Array
-    """Of the ground on the stance foot (2,) [N]."""
-    impulse: Array
-    """From outside since the last tick (2,) [N s]."""
-    resultant: Array
-    """Force from outside (2,) [N]."""
-    foot: Array
-    """Swing foot from the stance foot (2,) [m]."""
-    drop: float
-    """How far this single support ends below its stance foot [m]."""
-
-
 class Outside(NamedTuple):
     """What comes from outside at a tick, forces as (x, z)."""
 
@@ -151,11 +134,22 @@ class Outside(NamedTuple):
     """How far this single support ends below its stance foot [m]."""
 
 
+class Loads(NamedTuple):
+    """Of the plant at a tick, forces as (x, z)."""
+
+    momentum: Array
+    """m v_com (2,) [N s]."""
+    force: Array
+    """Of the ground on the stance foot (2,) [N]."""
+    foot: Array
+    """Swing foot from the stance foot (2,) [m]."""
+    outside: Outside
+
+
 def loads(plant: Any, given: Outside, q: Array, v: Array, a: Array) -> Loads:
     """What the plant, a `closed_loop.semantics.WalkingPlant`, asks of the ground at (q, v, q'')."""
-    ground = plant.ground_reaction(q, v, a) - given.force
-    foot = plant.swing_foot(q)
-    return Loads(plant.momentum(q, v), ground, given.impulse, given.force, foot, given.drop)
+    force = plant.ground_reaction(q, v, a) - given.force
+    return Loads(plant.momentum(q, v), force, plant.swing_foot(q), given)
 
 
 def metered(
@@ -180,7 +174,6 @@ def metered(
     p = len(u)
     e = q[:p] - virtual_constraint(k.h, q, v).q_d
     matched, unmatched = disturbance_parts(terms, unknown)
-    before = worked(g, q[:p])
     at = READINGS + 2 * p
     ground = carried(k, g[at:], loads, t)
     F_T, F_N = k.along @ loads.force, k.across @ loads.force
@@ -192,11 +185,10 @@ def metered(
     peak = largest(u)
     broken = greater(slides, np.where(peak > k.torque, 1.0, 0.0))
     broken = greater(broken, np.where(depth > 0.0, 1.0, 0.0))
-    out = np.zeros(READINGS)
+    out = worked(g, q[:p])
     out[0] = g[0] + 1.0
     out[1], out[2] = greater(g[1], largest(e)), g[2] + e @ e
     out[3], out[4] = greater(g[3], peak), g[4] + u @ u
-    out[5], out[6] = before[5], before[6]
     out[7] = greater(g[7], largest(matched))
     out[8] = greater(g[8], largest(unmatched))
     out[9] = np.where(g[0] > 0.0, -greater(-g[9], -F_N), F_N)
@@ -204,7 +196,6 @@ def metered(
     out[11] = g[11] + outside(k, F_T, F_N)
     judge(k, out, g, judged, means)
     out[15] = greater(g[15], depth)
-    out[16] = g[16]
     out[17] = np.where(g[17] > 0.0, g[17], broken * step)
     return np.concatenate((out, q[:p], mean, ground))
 
@@ -212,12 +203,12 @@ def metered(
 def carried(k: MeterParameters, g: Array, loads: Loads, t: float) -> Array:
     """What is kept of this single support after a tick at t [s]; at its first one all P_k are the same."""
     first = g[0] < 1.0
-    J = g[3:5] + np.minimum(g[0], 1.0) * loads.impulse
+    J = g[3:5] + np.minimum(g[0], 1.0) * loads.outside.impulse
     P = loads.momentum - J
     out = np.zeros(len(g))
     out[0], out[1] = g[0] + 1.0, t
     out[2] = greater(g[2], np.where(height(k, loads) > 0.0, 1.0, 0.0))
-    out[3:5], out[5:7] = J, loads.resultant
+    out[3:5], out[5:7] = J, loads.outside.force
     for i in range(k.window):
         out[SUPPORT + 2 * i] = np.where(first, P[0], g[SUPPORT + 2 * i + 2])
         out[SUPPORT + 2 * i + 1] = np.where(first, P[1], g[SUPPORT + 2 * i + 3])
@@ -267,7 +258,7 @@ def outside(k: MeterParameters, F_T: Any, F_N: Any) -> Any:
 
 def height(k: MeterParameters, loads: Loads) -> Any:
     """Of the swing foot above the lower of the footholds, measured along the vertical [m]."""
-    return loads.foot[1] + k.tan_slope * loads.foot[0] + greater(loads.drop, 0.0)
+    return loads.foot[1] + k.tan_slope * loads.foot[0] + greater(loads.outside.drop, 0.0)
 
 
 def metered_impact(

@@ -81,12 +81,7 @@ def mean_torque(k: MotorParameters, line: Line) -> Array:
 def relabelled(line: Line, swap: Array) -> Line:
     """The line after an impact; swap (p,) relabels the joints."""
     p = len(line.u)
-    queue = line.queue
-    if len(queue) > 0:
-        queue = queue.reshape(-1, p)[:, swap].ravel()
-    u_m = line.u_m[swap] if len(line.u_m) > 0 else line.u_m
-    waiting = line.waiting[swap] if len(line.waiting) > 0 else line.waiting
-    return Line(queue, u_m, waiting, line.u[swap])
+    return Line(*(x.reshape(-1, p)[:, swap].ravel() if len(x) > 0 else x for x in line))
 
 
 @dataclass(frozen=True)

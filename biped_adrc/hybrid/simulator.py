@@ -133,21 +133,14 @@ def simulate(
     x0: Array,
     mode: Mode,
     method: OneStepMethod,
-    *,
-    t_end: float,
-    t0: float = 0.0,
-    stop_after: tuple[str, int] | None = None,
-    max_events: int = 100_000,
-    store_every: int = 1,
-    progress: Progress | None = None,
+    **options: Any,
 ) -> Trajectory:
-    """Run `system` from (t0, x0, mode); the keywords are those of `RunOptions`.
+    """Run `system` from (t0, x0, mode); options are those of `RunOptions`, of which t_end has to be given.
 
     Raises InputError for a start that is not finite or a duration that is not positive. Whatever happens
     during the run is in the trajectory's status.
     """
-    options = RunOptions(t_end, t0, stop_after, max_events, store_every, progress)
-    return run(system, x0, mode, method, options)
+    return run(system, x0, mode, method, RunOptions(**options))
 
 
 def run(
@@ -215,7 +208,8 @@ def _flow_arc(
     move = system.mover(fired)
     if move is None:
         assert method is not None
-        move = _Steps(system, method, mode, t, x, fired)
+        watch = _Watch(system.guards(mode), t, x, fired)
+        move = _Steps(system, method, method.split(system, mode), watch)
     try:
         while t < options.t_end and found is None:
             x = _tick(system.clocks(), t, t_arc, options.t0, x, mode)
@@ -230,20 +224,14 @@ def _flow_arc(
     return Flown(record.arc(mode, found.event), found.status, "", found.outcome)
 
 
+@dataclass(frozen=True)
 class _Steps:
     """Moves a system over one arc by the steps of a method, and watches its guards."""
 
-    def __init__(
-        self,
-        system: HybridSystem,
-        method: OneStepMethod,
-        mode: Mode,
-        t: float,
-        x: Array,
-        fired: str | None,
-    ):
-        self.system, self.method, self.split = system, method, method.split(system, mode)
-        self.watch = _Watch(system.guards(mode), t, x, fired)
+    system: HybridSystem
+    method: OneStepMethod
+    split: Split | None
+    watch: _Watch
 
     def __call__(
         self, t: float, x: Array, mode: Mode, until: float, record: Record

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -61,15 +61,8 @@ class Arc:
         i = min(max(i, 0), len(self.t) - 2) if len(self.t) > 1 else 0
         if len(self.t) == 1:
             return self.x[0].copy()
-        return hermite(
-            self.t[i],
-            self.t[i + 1],
-            self.x[i],
-            self.x[i + 1],
-            self.dx[i],
-            self.dx[i + 1],
-            t,
-        )
+        at, x, dx = self.t, self.x, self.dx
+        return hermite(at[i], at[i + 1], x[i], x[i + 1], dx[i], dx[i + 1], t)
 
 
 def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, t: float) -> Array:
@@ -82,31 +75,19 @@ def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, 
     return r * r * (1 + 2 * s) * x0 + s * s * (3 - 2 * s) * x1 + h * s * r * (r * dx0 - s * dx1)
 
 
-class Viewer(Protocol):
-    """Makes pictures of a trajectory; given by the layer that knows the robot."""
-
-    def animate(self, trajectory: Trajectory, path: Path | str) -> None:
-        """Write an animation to `path`."""
-
-    def plot(self, trajectory: Trajectory) -> Any:
-        """A matplotlib Figure."""
-
-    def html(self, trajectory: Trajectory) -> str:
-        """What a notebook shows."""
-
-
 @dataclass(frozen=True)
 class Trajectory:
     """Arcs in order of time. Call it with t [s] for the state.
 
-    viewer: who draws it; not stored with a run and not sent to another process.
+    viewer: who draws it, by animate(trajectory, path), plot(trajectory) and html(trajectory), from the layer
+    that knows the robot; not stored with a run and not sent to another process.
     """
 
     arcs: tuple[Arc, ...]
     status: Status
     detail: str = ""
     settings: dict[str, Any] = field(default_factory=dict)
-    viewer: Viewer | None = field(default=None, compare=False, repr=False)
+    viewer: Any = field(default=None, compare=False, repr=False)
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "viewer": None}
@@ -173,7 +154,7 @@ class Trajectory:
     def _repr_html_(self) -> str | None:
         return None if self.viewer is None else self.viewer.html(self)
 
-    def _seen(self) -> Viewer:
+    def _seen(self) -> Any:
         if self.viewer is None:
             raise InputError(
                 "this trajectory does not know its robot, so it cannot be drawn; take it from "

@@ -21,8 +21,8 @@ from itertools import pairwise, zip_longest
 import numpy as np
 
 from biped_adrc.errors import ModelError
+from biped_adrc.model.legs import absolute_angles
 from biped_adrc.model.planar_base import PlanarBase
-from biped_adrc.model.relabelling import absolute_angles
 from biped_adrc.model.urdf import Joint, Tree
 from biped_adrc.types import Array
 

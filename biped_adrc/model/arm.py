@@ -24,8 +24,8 @@ from biped_adrc.errors import InputError, ModelError
 from biped_adrc.model.pinned import finite_angles, frame_index
 from biped_adrc.model.reduction import Reduction, reduce
 from biped_adrc.model.robots import GRAVITY
-from biped_adrc.model.straighten import place_of, straightened
-from biped_adrc.model.urdf import Vector, numbers, parse, tree_of
+from biped_adrc.model.urdf import Vector
+from biped_adrc.model.urdf_reader import numbers, parse, place_of, straightened
 from biped_adrc.types import Array
 
 UR5 = ("ur_description/urdf/ur5_robot.urdf", "tool0")
@@ -59,7 +59,7 @@ class Arm:
         """From a URDF and the link that is the tool. Raises ModelError that names the file and the place."""
         source, root = str(urdf), parse(urdf)
         _strip(root, source)
-        tree_of(straightened(root, source).robot, source)  # refuses what is not physical
+        straightened(root, source)  # refuses what is not physical
         moving = (joint for joint in root.findall("joint") if joint.get("type") != "fixed")
         efforts = {joint.get("name", ""): _effort(joint, source) for joint in moving}
         arm = cls(source, ET.tostring(root, encoding="unicode"), tool, np.zeros(0))

@@ -17,7 +17,7 @@ import numpy as np
 
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.relabelling import twins
+from biped_adrc.model.legs import twins
 from biped_adrc.types import Array
 
 KINDS = ("mass", "com", "inertia", "friction")

@@ -8,29 +8,187 @@
 The URDF describes a planar biped with point feet: revolute joints about y, equal legs, each with a link at its
 tip. Frames may be turned, angles may run either way; q keeps the file's zeros and senses. The section of
 the return map is foot strike, the height of the swing foot, which follows from the feet.
+
+Its record is in the words of a robot.toml, and written as TOML: `tomllib` reads and does not write. Strings,
+numbers, lists and tables are all a record holds, and JSON's strings are basic strings of TOML.
+
+A robot whose URDF has no shape that can be drawn gets sticks from joint to joint, and balls. A stick runs from
+the origin of a link to every joint below it, or to its COM where nothing lies below. It is a cylinder along z,
+a box along x, and a row of balls where it stands obliquely. At every COM lies a ball of steel that weighs as
+much as the body, r = (3 m / (4 pi rho))^(1/3).
 """
 
 from __future__ import annotations
 
+import json
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from biped_adrc.checks import Check
 from biped_adrc.errors import ModelError, OutputError
 from biped_adrc.files import write_text
-from biped_adrc.model.anatomy import anatomy
+from biped_adrc.model.anatomy import Anatomy, anatomy
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.legs import check_alike
+from biped_adrc.model.legs import check_alike, pairs
 from biped_adrc.model.own_checks import checks
-from biped_adrc.model.planar_base import on_planar_base
-from biped_adrc.model.reading import Reading, read, tip_of
-from biped_adrc.model.record import FRICTION, PRESET, Hints, record_of, to_toml
-from biped_adrc.model.robots import description_of
-from biped_adrc.model.sticks import drawable
-from biped_adrc.model.urdf import Joint, to_xml
+from biped_adrc.model.planar_base import PlanarBase, on_planar_base
+from biped_adrc.model.robots import GRAVITY, description_of
+from biped_adrc.model.urdf import Joint, Link, Tree, Vector, Visual, to_xml
+from biped_adrc.model.urdf_reader import Reading, read, tip_of
+
+_STEEL = 7800.0  # [kg/m^3]
+_RADIUS = 0.03  # of a stick, as a fraction of its length
+_BEADS = 9
+_STANCE, _SWING, _TRUNK = (0.0, 0.45, 0.7, 1.0), (0.84, 0.37, 0.0, 1.0), (0.35, 0.35, 0.4, 1.0)
+
+
+def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
+    """The tree itself where a link has a shape, else the tree with sticks and a sentence that says so."""
+    if any(link.visuals for link in tree.links.values()):
+        return tree, ()
+    legs = [{joint.child for joint in tree.path_to_root(foot)} for foot in feet]
+    links = {}
+    for name, link in tree.links.items():
+        stance, swing = (name in leg for leg in legs)
+        colour = _TRUNK if stance == swing else _STANCE if stance else _SWING
+        links[name] = replace(link, visuals=_shapes(tree, link, colour))
+    said = "shapes: the URDF has none that can be drawn, so sticks and balls are drawn instead"
+    return replace(tree, links=links), (said,)
+
+
+def _shapes(tree: Tree, link: Link, colour: tuple[float, ...]) -> tuple[Visual, ...]:
+    rgba = (colour[0], colour[1], colour[2], colour[3])
+    ends = [joint.origin for joint in tree.joints_below(link.name) if any(joint.origin)]
+    if link.inertial is None:
+        return tuple(shape for end in ends for shape in _stick(end, rgba))
+    com = link.inertial.com
+    radius = (3.0 * link.inertial.mass / (4.0 * math.pi * _STEEL)) ** (1.0 / 3.0)
+    sticks = [shape for end in ends or [com] if any(end) for shape in _stick(end, rgba)]
+    return (*sticks, Visual("sphere", (radius,), com, rgba))
+
+
+def _stick(end: Vector, rgba: tuple[float, float, float, float]) -> tuple[Visual, ...]:
+    """From the origin to `end` [m]."""
+    x, _, z = end
+    length = math.hypot(x, z)
+    radius = _RADIUS * length
+    middle = (0.5 * x, 0.0, 0.5 * z)
+    if abs(x) < radius:
+        return (Visual("cylinder", (radius, abs(z)), middle, rgba),)
+    if abs(z) < radius:
+        return (Visual("box", (abs(x), 2.0 * radius, 2.0 * radius), middle, rgba),)
+    shares = [k / (_BEADS - 1) for k in range(_BEADS)]
+    return tuple(Visual("sphere", (radius,), (s * x, 0.0, s * z), rgba) for s in shares)
+
+
+PRESET = "urdf"
+FRICTION = 0.6
+"""Dry friction of the feet where none is given: RABBIT's, dimensionless."""
+
+_SIDES = re.compile(r"(^|[_-])(left|right|l|r)(?=$|[_-])", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Hints:
+    """What a URDF does not say; None is guessed where there is one answer.
+
+    feet: links of the stance and the swing foot. actuated: joints with a motor, q1, q2, ... in order. hip:
+    link whose origin is the hip. torque [N m]: limit of a motor. friction_coefficient: of the feet. armature
+    [kg m^2]: rotor inertia per motor, reflected to the joint. gravity [m/s^2]. tip [m]: place of the feet
+    in the frames of the links `feet`, for a URDF that ends with its shins.
+    """
+
+    feet: tuple[str, ...] | None = None
+    actuated: tuple[str, ...] | None = None
+    hip: str | None = None
+    torque: float | None = None
+    friction_coefficient: float | None = None
+    armature: float = 0.0
+    gravity: float = GRAVITY
+    tip: tuple[float, float, float] | None = None
+
+
+def record_of(
+    reading: Reading,
+    body: PlanarBase,
+    parts: Anatomy,
+    actuated: tuple[str, ...],
+    torque: float,
+    hints: Hints,
+) -> dict[str, Any]:
+    """What a robot.toml says of it."""
+    moving = [joint.name for joint in parts.moving]
+    friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
+    source = f"The <inertial> elements of {Path(reading.tree.source).name}."
+    return {
+        "name": reading.tree.name,
+        "urdf": Path(reading.tree.source).name,
+        "default_preset": PRESET,
+        "actuated": list(actuated),
+        "passive": [name for name in moving if name not in actuated],
+        "unactuated": body.pitch,
+        "base": list(body.base),
+        "stance_foot": parts.feet[0],
+        "swing_foot": parts.feet[1],
+        "hip": parts.hip,
+        "trunk": body.trunk,
+        "phase": list(parts.phase),
+        "peak_torque": torque,
+        "friction_coefficient": friction,
+        "gravity": hints.gravity,
+        "ranges": {name: list(reading.ranges[name]) for name in moving if name in reading.ranges},
+        "friction": {
+            kind: {name: values[name] for name in moving if name in values}
+            for kind, values in (("viscous", reading.viscous), ("static", reading.static))
+        },
+        "links": _bodies(body.tree, parts.feet),
+        "presets": {PRESET: {"source": source, "armature": hints.armature}},
+    }
+
+
+def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
+    """Links with mass by body: twins together, under their name without the side."""
+    twins = dict(pairs(tree, feet))
+    heavy = [name for name, link in tree.links.items() if link.inertial is not None]
+    bodies: dict[str, list[str]] = {}
+    for link in heavy:
+        if link in twins.values():
+            continue
+        group = [link, twins[link]] if link in twins else [link]
+        name = _SIDES.sub("", link).strip("_-") if link in twins else link
+        taken = not name or name in bodies or (name in heavy and name not in group)
+        bodies[link if taken else name] = group
+    return bodies
+
+
+def to_toml(record: Mapping[str, Any]) -> str:
+    """TOML text of `record`: its values first, then its tables; empty tables are left out."""
+    return "\n".join(_lines(record, ())).strip() + "\n"
+
+
+def _lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+    values = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
+    tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
+    if path and values:
+        yield f"\n[{'.'.join(_key(part) for part in path)}]"
+    yield from (f"{_key(key)} = {_value(value)}" for key, value in values.items())
+    for key, value in tables.items():
+        yield from _lines(value, (*path, key))
+
+
+def _key(key: str) -> str:
+    bare = key.isascii() and key.replace("_", "").replace("-", "").isalnum()
+    return key if bare else json.dumps(key, ensure_ascii=False)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, list):
+        return f"[{', '.join(_value(item) for item in value)}]"
+    return json.dumps(value, ensure_ascii=False)
 
 
 @dataclass(frozen=True)

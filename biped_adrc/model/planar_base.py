@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass, replace
 
 from biped_adrc.errors import ModelError
-from biped_adrc.model.reroot import PIN_JOINT
+from biped_adrc.model.pinned import PIN_JOINT
 from biped_adrc.model.urdf import Joint, Link, Tree, Vector
 
 PLANAR = 1e-4  # how far a rounded rpy may turn an axis out of the plane, dimensionless
@@ -173,10 +173,8 @@ def _free(tree: Tree, name: str) -> str:
 def _check_below(found: PlanarBase) -> None:
     """Joints below the trunk turn, and each of them turns some mass. Raises ModelError."""
     tree = found.tree
-    below = [
-        j for j in tree.joints if j.parent != found.trunk and found.trunk in _above(tree, j.parent)
-    ]
-    below += tree.joints_below(found.trunk)
+    below = [j for j in tree.joints if tree.path_below(j.child, found.trunk)]
+    below.sort(key=lambda joint: joint.parent == found.trunk)
     where = f"URDF '{tree.source}'"
     if not any(joint.type == "revolute" for joint in below):
         raise ModelError(
@@ -199,10 +197,6 @@ def _check_below(found: PlanarBase) -> None:
                 f"{where}: the names of link 'ground' and joint '{PIN_JOINT}' are taken by the stance "
                 f"contact; rename '{joint.child}' or '{joint.name}'"
             )
-
-
-def _above(tree: Tree, link: str) -> list[str]:
-    return [joint.parent for joint in tree.path_to_root(link)]
 
 
 def _mass(tree: Tree, link: str) -> float:

@@ -2,6 +2,12 @@
 
 The record names the actuated joints in the order q1, q2, ..., the unactuated pitch, the planar base,
 the feet, the phase variable, and parameter presets with their sources.
+
+`Limits` are what ground and motors can give, within which a walk is legal. A walk makes a single support
+legally when the force of the ground, averaged over any window within it, lies in the friction cone (F_N > 0 and
+|F_T| <= mu F_N), every torque is within the motors' limit, and the swing foot does not scuff away from the ends
+of the step. The impulse at impact is not part of it. A mean and not an instant: the edge of a push breaks the
+cone for a millisecond and a foot does not move in it, while torques that chatter break it in the mean as well.
 """
 
 from __future__ import annotations
@@ -11,11 +17,12 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from biped_adrc.errors import ModelError, check_positive
+from biped_adrc.errors import InputError, ModelError, check_positive
 from biped_adrc.files import reading
-from biped_adrc.model.urdf import Inertial, Tree, load_tree
+from biped_adrc.model.urdf import Inertial, Tree
+from biped_adrc.model.urdf_reader import load_tree
 from biped_adrc.resources import data_folder
 
 
@@ -152,18 +159,17 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         return _description(data, path)
 
 
+_PLAIN = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
+
+
 def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
     friction = data.get("friction", {})
     description = RobotDescription(
-        name=data["name"],
+        **{key: data[key] for key in _PLAIN},
         urdf=path.parent / data["urdf"],
         actuated=tuple(data["actuated"]),
         passive=tuple(data.get("passive", ())),
-        unactuated=data["unactuated"],
         base=(data["base"][0], data["base"][1]),
-        stance_foot=data["stance_foot"],
-        swing_foot=data["swing_foot"],
-        hip=data["hip"],
         trunk=data.get("trunk", data["hip"]),
         phase=_numbers(data, "phase", data["phase"]),
         offset=_numbers(data, "offset", data.get("offset", [0.0] * _count(data))),
@@ -173,7 +179,6 @@ def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
         viscous=dict(friction.get("viscous", {})),
         static=dict(friction.get("static", {})),
         links={body: tuple(names) for body, names in data["links"].items()},
-        default_preset=data["default_preset"],
         presets={name: _preset(name, record, data) for name, record in data["presets"].items()},
         ranges={joint: _range(joint, ends) for joint, ends in data.get("ranges", {}).items()},
     )
@@ -228,3 +233,57 @@ def _positive(value: object, what: str) -> float:
     number = float(value)  # type: ignore[arg-type]
     check_positive(number, f"{what} is {value}")
     return number
+
+
+WINDOW = 5e-3
+"""[s]"""
+ROUND_OFF = 1e-9
+"""By which a force on the friction cone may lie outside of it, relative."""
+ENDS = 0.03
+"""Share of a step at either end in which the swing foot may be at the ground."""
+
+
+class KnownLimits(NamedTuple):
+    """`Limits` of one robot."""
+
+    friction: float
+    """mu."""
+    torque: float
+    """[N m]"""
+    window: float
+    """[s]"""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """friction: mu of the ground; torque [N m]: of every motor; None is what the robot's record says.
+
+    window [s]: over which the force of the ground is averaged. Raises InputError for a friction that is not
+    above 0 and at most 1, or a torque or window that is not positive.
+    """
+
+    friction: float | None = None
+    torque: float | None = None
+    window: float = WINDOW
+
+    def __post_init__(self) -> None:
+        mu, torque = self.friction, self.torque
+        if mu is not None and not 0.0 < mu <= 1.0:
+            raise InputError(
+                f"the friction limit is {mu}, expected a number above 0 and at most 1, or None for the "
+                "robot's record"
+            )
+        if torque is not None and not torque > 0.0:
+            raise InputError(
+                f"the torque limit is {torque} N m, expected a positive number, or None for the robot's record"
+            )
+        check_positive(self.window, f"the force window is {self.window} s")
+
+    def of(self, robot: RobotDescription) -> KnownLimits:
+        """With what the robot's record says where None was given."""
+        mu, torque = self.friction, self.torque
+        return KnownLimits(
+            robot.friction_coefficient if mu is None else float(mu),
+            robot.peak_torque if torque is None else float(torque),
+            float(self.window),
+        )

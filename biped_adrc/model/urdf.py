@@ -1,25 +1,21 @@
-"""Strict reading of URDF into a small tree, edits on it, and writing it back.
+"""A robot as a small tree of links and joints, edits on it, what makes it physical, and writing it as URDF.
 
 Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0.
-So the file is read and validated here first, parameters are changed on this tree, and Pinocchio
+So a file is read by `urdf_reader` and validated here first, parameters are changed on this tree, and Pinocchio
 is given the text this module writes.
 """
 
 from __future__ import annotations
 
 import math
-import re
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from itertools import chain
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from biped_adrc.errors import ModelError
-from biped_adrc.types import Array
 
 Vector = tuple[float, float, float]
 
@@ -28,11 +24,7 @@ GEOMETRY_SIZES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius"
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 """The matrix of inertia by the numbers of its MOMENTS."""
-LARGEST = 1e100
-"""Of the numbers in a URDF, in any unit; products of more overflow."""
-_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _FREE = {"lower": "-1000", "upper": "1000", "effort": "1000", "velocity": "1000"}  # no limit
-_ALMOST_ONE = 1e-6  # how far an axis may be from unit length, dimensionless
 
 
 @dataclass(frozen=True)
@@ -119,46 +111,7 @@ class Tree:
             name: replace(link, inertial=inertials.get(name, link.inertial))
             for name, link in self.links.items()
         }
-        return _validated(replace(self, links=links))
-
-
-def load_tree(path: Path | str) -> Tree:
-    """Read and validate a URDF file.
-
-    Raises ModelError that names the file, the element, what was found and what was expected.
-    """
-    return tree_of(parse(path), str(path))
-
-
-def parse(path: Path | str) -> ET.Element:
-    """The element <robot> of a URDF file, as it stands. Raises ModelError."""
-    path = Path(path)
-    if not path.is_file():
-        raise ModelError(f"URDF '{path}' not found; give the path of an existing .urdf file")
-    try:
-        root = ET.fromstring(path.read_bytes())
-    except ET.ParseError as error:
-        raise ModelError(f"URDF '{path}' is not well-formed XML: {error}") from error
-    except OSError as error:
-        raise ModelError(f"URDF '{path}' cannot be read: {error.strerror}") from error
-    if root.tag != "robot":
-        raise ModelError(f"URDF '{path}': root element is <{root.tag}>, expected <robot>")
-    return root
-
-
-def tree_of(root: ET.Element, source: str) -> Tree:
-    """The tree that <robot> describes; `source` is the file that messages name. Raises ModelError."""
-    links: dict[str, Link] = {}
-    for element in root.findall("link"):
-        link = _read_link(element, source)
-        if link.name in links:
-            raise ModelError(
-                f"URDF '{source}': two links are named '{link.name}'; names must differ"
-            )
-        links[link.name] = link
-    joints = tuple(_read_joint(element, source) for element in root.findall("joint"))
-    name = _printable(root.get("name", Path(source).stem), "robot", f"URDF '{source}'")
-    return _validated(Tree(name, links, joints, source))
+        return validated(replace(self, links=links))
 
 
 def to_xml(tree: Tree) -> str:
@@ -202,112 +155,7 @@ def _write_visual(element: ET.Element, visual: Visual, link: str) -> None:
     ET.SubElement(material, "color", rgba=_text(*visual.rgba))
 
 
-def numbers(element: ET.Element | None, key: str, default: str, count: int, where: str) -> Vector:
-    """`count` finite numbers of an attribute. Raises ModelError that quotes it after `where`."""
-    text = default if element is None else element.get(key, default)
-    words = text.split()
-    values = tuple(float(word) for word in words) if all(map(_NUMBER.fullmatch, words)) else ()
-    if len(values) != count or not all(abs(value) < LARGEST for value in values):
-        raise ModelError(
-            f"{where}: {key}={text!r}, expected {count} finite number(s) below {LARGEST:g}"
-        )
-    return values  # type: ignore[return-value]
-
-
-def _origin(element: ET.Element, where: str) -> Vector:
-    origin = element.find("origin")
-    if any(numbers(origin, "rpy", "0 0 0", 3, f"{where} <origin>")):
-        raise ModelError(
-            f"{where}: <origin> has a rotation (rpy); expected parallel frames at zero angles. "
-            "Turn the geometry and the inertia into the parent's axes instead"
-        )
-    return numbers(origin, "xyz", "0 0 0", 3, f"{where} <origin>")
-
-
-def _required(element: ET.Element, tag: str, where: str) -> ET.Element:
-    found = element.find(tag)
-    if found is None:
-        raise ModelError(f"{where}: <{tag}> is missing")
-    return found
-
-
-def _name(element: ET.Element, key: str, where: str) -> str:
-    name = element.get(key)
-    if not name:
-        raise ModelError(f"{where}: <{element.tag}> has no '{key}'")
-    return _printable(name, element.tag, where)
-
-
-def _printable(name: str, tag: str, where: str) -> str:
-    if not name.isprintable():
-        raise ModelError(
-            f"{where}: <{tag}> names {name!r}, expected a name on one line, without tabs"
-        )
-    return name
-
-
-def _read_link(element: ET.Element, source: str) -> Link:
-    name = _name(element, "name", f"URDF '{source}'")
-    where = f"URDF '{source}', link '{name}'"
-    inertial = element.find("inertial")
-    visuals = tuple(_read_visual(v, where) for v in element.findall("visual"))
-    return Link(name, None if inertial is None else _read_inertial(inertial, where), visuals)
-
-
-def _read_inertial(element: ET.Element, where: str) -> Inertial:
-    mass = numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
-    values = moments_of(_required(element, "inertia", where), f"{where} <inertia>")
-    return Inertial(mass, _origin(element, f"{where} <inertial>"), tuple(values.tolist()))
-
-
-def moments_of(inertia: ET.Element, where: str, default: str = "") -> Array:
-    """xx, xy, xz, yy, yz, zz (6,) of an <inertia>; default: of xx, yy and zz, which a file has to give."""
-    defaults = (default if key[1] == key[2] else "0" for key in MOMENTS)
-    read = zip(MOMENTS, defaults, strict=True)
-    return np.array([numbers(inertia, key, text, 1, where)[0] for key, text in read])
-
-
-def _read_visual(element: ET.Element, where: str) -> Visual:
-    geometry = _required(element, "geometry", f"{where} <visual>")
-    shape = next((g for g in geometry if g.tag in GEOMETRY_SIZES), None)
-    if shape is None:
-        found = ", ".join(f"<{g.tag}>" for g in geometry) or "nothing"
-        raise ModelError(f"{where} <visual>: found {found}, expected one of {list(GEOMETRY_SIZES)}")
-    count = 3 if shape.tag == "box" else 1
-    read = (
-        numbers(shape, k, "", count, f"{where} <{shape.tag}>") for k in GEOMETRY_SIZES[shape.tag]
-    )
-    size = tuple(chain.from_iterable(read))
-    if min(size) <= 0:
-        raise ModelError(f"{where} <{shape.tag}>: sizes {size}, expected positive numbers")
-    colour = element.find("material/color")
-    rgba = numbers(colour, "rgba", "0.5 0.5 0.5 1", 4, f"{where} <color>")
-    if not all(0.0 <= part <= 1.0 for part in rgba):
-        raise ModelError(f"{where} <color>: rgba {rgba}, expected numbers between 0 and 1")
-    return Visual(shape.tag, size, _origin(element, f"{where} <visual>"), rgba)  # type: ignore[arg-type]
-
-
-def _read_joint(element: ET.Element, source: str) -> Joint:
-    name = _name(element, "name", f"URDF '{source}'")
-    where = f"URDF '{source}', joint '{name}'"
-    kind = _name(element, "type", where)
-    if kind not in JOINT_TYPES:
-        hint = "; give a 'continuous' joint as 'revolute' with wide limits"
-        raise ModelError(f"{where}: type '{kind}', expected one of {list(JOINT_TYPES)}{hint}")
-    axis = numbers(element.find("axis"), "xyz", "1 0 0", 3, f"{where} <axis>")
-    if abs(math.hypot(*axis) - 1.0) > _ALMOST_ONE:
-        raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
-    return Joint(
-        name,
-        kind,
-        _name(_required(element, "parent", where), "link", where),
-        _name(_required(element, "child", where), "link", where),
-        _origin(element, where),
-        axis,
-    )
-
-
-def _validated(tree: Tree) -> Tree:
+def validated(tree: Tree) -> Tree:
     """Check that the links form one tree and that every moving body is physical."""
     where = f"URDF '{tree.source}'"
     names = [joint.name for joint in tree.joints]

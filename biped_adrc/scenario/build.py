@@ -10,14 +10,14 @@ from biped_adrc.control.passive import Passive
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait
-from biped_adrc.gait.passive_cycle import PassiveCycle, passive_cycle
+from biped_adrc.gait.published import PassiveCycle, passive_cycle
 from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.hardware.meter import Meter
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.errors import ModelErrors, impact_error
-from biped_adrc.model.limits import ENDS, Limits
+from biped_adrc.model.robots import ENDS, Limits
 from biped_adrc.scenario.construct import construct
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances, taken

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.control.passive import Passive
-from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid.integrators import Adaptive
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array

@@ -16,7 +16,7 @@ from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference, TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.limits import Limits
+from biped_adrc.model.robots import Limits
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
 from biped_adrc.scenario.scenario import Scenario
@@ -150,7 +150,7 @@ class Walk:
 
     def export(self, path: Path | str) -> None:
         """Write all signals for MATLAB (.mat), one array per name. Raises InputError and OutputError."""
-        from biped_adrc.gait.exchange.runs import export_run
+        from biped_adrc.gait.exchange.files import export_run
 
         export_run(vars(self.signals), path, note=self.note)
 

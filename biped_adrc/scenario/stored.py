@@ -16,7 +16,7 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
-from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped

@@ -12,11 +12,10 @@ from typing import NamedTuple
 from biped_adrc.engine.choice import COMPILED, simulate_by
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.gait import Gait
-from biped_adrc.hybrid.exponential import Exponential
-from biped_adrc.hybrid.integrators import RK4, OneStepMethod
+from biped_adrc.hybrid.integrators import RK4, Exponential, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.limits import Limits
+from biped_adrc.model.robots import Limits
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array

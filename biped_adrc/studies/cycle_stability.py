@@ -30,7 +30,7 @@ from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
-from biped_adrc.model.limits import Limits
+from biped_adrc.model.robots import Limits
 from biped_adrc.scenario.build import Scene, build
 from biped_adrc.scenario.passive import SETTLES, Cycle, known_cycle
 from biped_adrc.scenario.run import method_of

@@ -18,7 +18,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import Adaptive
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.limits import KnownLimits
+from biped_adrc.model.robots import KnownLimits
 from biped_adrc.scenario.walk import walk
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Walker

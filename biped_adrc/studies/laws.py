@@ -15,13 +15,11 @@ from biped_adrc.control.base import Measurement
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.engine.choice import COMPILED, simulate_by
 from biped_adrc.gait.reference import TimeReference
-from biped_adrc.hybrid.exponential import Exponential
-from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.hybrid.integrators import RK4, Exponential
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import HybridSystem, Mode
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.contact import Impact
-from biped_adrc.model.momentum import LinkMotion
+from biped_adrc.model.contact import Impact, LinkMotion
 from biped_adrc.model.reduction import reduce
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 from biped_adrc.scenario.build import Scene, build

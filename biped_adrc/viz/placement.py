@@ -24,7 +24,7 @@ import numpy as np
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.relabelling import twins
+from biped_adrc.model.legs import twins
 from biped_adrc.model.urdf import Joint, Tree
 from biped_adrc.types import Array
 from biped_adrc.walker import Walker

@@ -18,14 +18,14 @@ from biped_adrc.disturbances.base import Disturbance, disturbance_laws
 from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.noise import TorqueNoise
-from biped_adrc.engine.disturbance_code import disturbance_code
+from biped_adrc.engine.compiled_walker import disturbance_code
 from biped_adrc.engine.equations import Function
 from biped_adrc.engine.fingerprint import hash_of
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import Text, machine
 from biped_adrc.engine.symbols import Tracer, Vector, column, floats, run
 from biped_adrc.errors import InputError
-from biped_adrc.gait.corrected import CorrectedConstraint
+from biped_adrc.gait.constraint import CorrectedConstraint
 from biped_adrc.gait.reference import Reference, ReferenceLaws
 from biped_adrc.observers.base import Estimate, Observer, ObserverLaws
 from biped_adrc.observers.chain import chain_estimate, chain_reset, chain_state

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from biped_adrc.engine.store import VARIABLE
+from biped_adrc.engine.machine import VARIABLE
 
 
 @pytest.fixture(scope="package", autouse=True)

@@ -18,7 +18,7 @@ from biped_adrc.engine.choice import simulate_by
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.gait.constraint import virtual_constraint
-from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.gait.published import passive_cycle
 from biped_adrc.walker import FOOT_STRIKE, Mode
 
 simulate = partial(simulate_by, "compiled")

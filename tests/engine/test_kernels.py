@@ -21,7 +21,6 @@ from numba import types
 
 from biped_adrc.engine.kernels import layout, methods
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.plan import plan
 from biped_adrc.engine.kernels.run import arc
 from biped_adrc.engine.kernels.tables import (
     STATUS,
@@ -30,13 +29,12 @@ from biped_adrc.engine.kernels.tables import (
     PushCode,
     Scene,
     Sizes,
-    continuous_time,
-    no_push,
+    plan,
 )
 from biped_adrc.errors import InputError, NotFiniteError, SingularError
 from biped_adrc.hybrid import integrators, simulator
 from biped_adrc.hybrid import system as hybrid
-from biped_adrc.hybrid.exponential import Exponential, phi_table
+from biped_adrc.hybrid.integrators import Exponential, phi_table
 from biped_adrc.hybrid.status import Status
 from biped_adrc.observers.gpi import GPIObserver
 
@@ -267,7 +265,7 @@ class Case(NamedTuple):
     K: np.ndarray = NUMBERS
     drops: tuple = ((2, 0.004),)
     pulses: tuple = PULSES
-    clock: Clock = continuous_time()
+    clock: Clock = Clock()
 
     @property
     def scene(self):
@@ -279,7 +277,7 @@ class Case(NamedTuple):
         code = Code(*(address[name] for name in names))
         pulses = self.pulses
         push = (
-            no_push()
+            PushCode()
             if not pulses
             else PushCode(
                 np.array([address["pulse"]] * len(pulses)),
@@ -566,7 +564,7 @@ def test_the_constants_are_those_of_the_python_loop():
 
 def fitted(tick, period, method):
     return plan(
-        Code(1, tick, 1, 1), Sizes(1, 4, 1), Case().scene, no_push(), Clock(period, 1, 0.0), method
+        Code(1, tick, 1, 1), Sizes(1, 4, 1), Case().scene, PushCode(), Clock(period, 1, 0.0), method
     )
 
 

@@ -10,8 +10,8 @@ from biped_adrc.control.base import Controller, ControllerLaws
 from biped_adrc.control.npd import npd_torque
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.compiled_biped import CompiledBiped
+from biped_adrc.engine.mechanics import robot_of
 from biped_adrc.engine.program import NotCompiled, Program
-from biped_adrc.engine.robot import robot_of
 from biped_adrc.errors import ModelError
 from biped_adrc.gait.constraint import virtual_constraint
 from biped_adrc.model.planar import PlanarTree

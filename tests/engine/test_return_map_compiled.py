@@ -8,7 +8,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.errors import InputError, SimulationError
-from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.gait.published import passive_cycle
 from biped_adrc.walker import Mode
 
 

@@ -17,11 +17,11 @@ from biped_adrc.control.tracking import TrackedParameters
 from biped_adrc.engine import program
 from biped_adrc.engine.choice import simulate_by
 from biped_adrc.engine.fingerprint import law_text, skeleton
-from biped_adrc.engine.robot import robot_of
+from biped_adrc.engine.mechanics import robot_of
 from biped_adrc.engine.symbols import Untraceable, Vector
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import virtual_constraint
-from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import simulator
 from biped_adrc.linear import solve
 from biped_adrc.versions import NEVER_TRACED, source_text

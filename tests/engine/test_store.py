@@ -8,8 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from biped_adrc.engine.machine import Text, _path, machine, stored
-from biped_adrc.engine.store import VARIABLE, cache_folder, load_source
+from biped_adrc.engine.machine import (
+    VARIABLE,
+    Text,
+    _path,
+    cache_folder,
+    load_source,
+    machine,
+    stored,
+)
 
 TEXT = """
 define void @f(ptr %K, ptr %inp, ptr %out) {
@@ -71,7 +78,7 @@ def test_a_damaged_module_is_written_again(cache):
 def test_a_flipped_bit_in_numba_s_machine_code_is_noticed(cache):
     """numba itself would run it."""
     lines = (
-        "from biped_adrc.engine.store import load_source, seal\n"
+        "from biped_adrc.engine.machine import load_source, seal\n"
         "source = 'import numba\\n@numba.njit(\"f8(f8)\", cache=True)\\ndef f(x):\\n    return 2.0 * x\\n'\n"
         "module = load_source(source)\n"
         "seal(module)\n"

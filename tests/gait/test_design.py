@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.design.audit import missed_limits
-from biped_adrc.gait.design.optimise import optimise
+from biped_adrc.gait.design.optimise import missed_limits, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
 from biped_adrc.gait.design.start import apart, standing
 from biped_adrc.gait.exchange.importing import export_gait, import_gait

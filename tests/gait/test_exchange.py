@@ -13,11 +13,17 @@ from biped_adrc.gait.conventions import CONVENTIONS, convention
 from biped_adrc.gait.curves import Bezier, Polynomial, ramp
 from biped_adrc.gait.exchange.closure import check, closing_conventions
 from biped_adrc.gait.exchange.convert import mapped, record_of, reversed_curve
-from biped_adrc.gait.exchange.files import read_record, write_record
+from biped_adrc.gait.exchange.files import (
+    RUN_UNITS,
+    export_run,
+    read_mat,
+    read_record,
+    read_run,
+    write_mat,
+    write_record,
+)
 from biped_adrc.gait.exchange.importing import export_gait, import_constraint, import_gait
-from biped_adrc.gait.exchange.matfile import read_mat, write_mat
 from biped_adrc.gait.exchange.record import GaitRecord
-from biped_adrc.gait.exchange.runs import UNITS, export_run, read_run
 
 
 def assert_same(one, other, abs=1e-13):
@@ -450,7 +456,7 @@ def test_a_file_says_its_convention_once(gait, tmp_path):
 def test_run_as_mat_comes_back_equal(biped, gait, tmp_path):
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     columns = vars(ba.walk(walker, gait, 1).signals)
-    assert set(columns) == set(UNITS)
+    assert set(columns) == set(RUN_UNITS)
     path = tmp_path / "run.mat"
     export_run(columns, path, note="one step")
     back = read_run(path)

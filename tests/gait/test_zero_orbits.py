@@ -15,10 +15,9 @@ from biped_adrc.analysis.zero_report import zero_report
 from biped_adrc.cli import app
 from biped_adrc.errors import GaitError, InputError
 from biped_adrc.gait.curves import Polynomial
-from biped_adrc.gait.zero_limits import Limits, domain
-from biped_adrc.gait.zero_orbits import ZeroOrbits
-from biped_adrc.model.limits import KnownLimits
-from biped_adrc.model.limits import Limits as WithinLimits
+from biped_adrc.gait.zero_orbits import Limits, ZeroOrbits, domain
+from biped_adrc.model.robots import KnownLimits
+from biped_adrc.model.robots import Limits as WithinLimits
 from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
 
 ALPHA, GRAVITY = math.pi / 8, 9.81

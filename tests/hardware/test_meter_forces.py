@@ -15,6 +15,7 @@ from biped_adrc.hardware.meter import (
     Hit,
     Loads,
     Meter,
+    Outside,
     Reading,
     greater,
     metered,
@@ -47,8 +48,8 @@ class Ground:
             "u": np.zeros(4),
         }
         given |= more
-        at = (given["impulse"], np.zeros(2), given["foot"], given["drop"])
-        loads = Loads(momentum, force, *at)
+        outside = Outside(np.zeros(2), given["impulse"], given["drop"])
+        loads = Loads(momentum, force, given["foot"], outside)
         q, u = np.zeros(5), given["u"]
         told = (np.zeros(5), self.terms, self.t, step, since, loads)
         self.g = metered(self.k, self.g, q, self.v, u, u, *told)

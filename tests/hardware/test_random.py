@@ -3,7 +3,7 @@
 import numpy as np
 from scipy import stats
 
-from biped_adrc.hardware.random import M_1, M_2, normals, seeded, uniforms
+from biped_adrc.hardware.sensors import M_1, M_2, normals, seeded, uniforms
 
 
 def in_whole_numbers(r, count):

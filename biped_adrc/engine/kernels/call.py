@@ -131,21 +131,17 @@ def shift(typingctx: Any, pointer: Any, i: Any) -> Any:
     return pointer(pointer, types.int64), codegen
 
 
-@intrinsic
-def floats_at(typingctx: Any, address: Any) -> Any:
-    """Pointer to the float64 at an address."""
+def _pointer_at(number: Any, kind: Any) -> Any:
+    def at(typingctx: Any, address: Any) -> Any:
+        def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            return builder.inttoptr(arguments[0], kind.as_pointer())
 
-    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        return builder.inttoptr(arguments[0], ir.DoubleType().as_pointer())
+        return types.CPointer(number)(types.int64), codegen
 
-    return types.CPointer(types.float64)(types.int64), codegen
+    return intrinsic(at)
 
 
-@intrinsic
-def ints_at(typingctx: Any, address: Any) -> Any:
-    """Pointer to the int64 at an address."""
-
-    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        return builder.inttoptr(arguments[0], ir.IntType(64).as_pointer())
-
-    return types.CPointer(types.int64)(types.int64), codegen
+floats_at = _pointer_at(types.float64, ir.DoubleType())
+"""Pointer to the float64 at an address."""
+ints_at = _pointer_at(types.int64, ir.IntType(64))
+"""Pointer to the int64 at an address."""

@@ -9,10 +9,9 @@ from __future__ import annotations
 import math
 
 from biped_adrc.engine.kernels.call import Ints, inner, shift, unit
-from biped_adrc.engine.kernels.dop853 import eighth
 from biped_adrc.engine.kernels.laws import copy, row, watch
 from biped_adrc.engine.kernels.layout import *
-from biped_adrc.engine.kernels.steps import classical, halve
+from biped_adrc.engine.kernels.steps import classical, eighth, halve
 from biped_adrc.types import Array
 
 

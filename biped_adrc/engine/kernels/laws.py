@@ -184,12 +184,6 @@ def remainder(P: Ints, F: Array, K: Array, W: Array, t: float, y: Array, N: Arra
 
 
 @inner
-def split(P: Ints, K: Array, x: Array, y: Array) -> None:
-    """y = (w, E) of x."""
-    call(P[TO], K, x, y)
-
-
-@inner
 def join(P: Ints, K: Array, y: Array, x: Array) -> None:
     """x of y = (w, E)."""
     call(P[BACK], K, y, x)

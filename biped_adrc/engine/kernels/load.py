@@ -8,9 +8,9 @@ from pathlib import Path
 from threading import Lock
 from types import ModuleType
 
-from biped_adrc.engine.store import forget, load_source, seal
+from biped_adrc.engine.machine import forget, load_source, seal
 
-FILES = ("layout", "call", "laws", "steps", "dop853", "events", "segment", "arc", "walk")
+FILES = ("layout", "call", "laws", "steps", "events", "segment", "arc")
 """In the order in which they need each other."""
 _OWN = "biped_adrc.engine.kernels"
 

@@ -15,37 +15,35 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.integrate import DOP853
 
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.tables import Ints, Method
-from biped_adrc.errors import InputError
-from biped_adrc.hybrid.integrators import check_step
+from biped_adrc.errors import InputError, check_positive
+from biped_adrc.hybrid.integrators import Phi, PhiTable
 from biped_adrc.types import Array
 
 TERMS = 24
 """Of the series; |z|^24 / 24! < 1e-30."""
 STABLE = 0.1
 """Largest |lambda| h 2^-(levels - 1) for the classical step that ends a landing."""
-Phi = tuple[Array, Array, Array, Array]
 
 
 def rk4(h: float) -> Method:
     """The classical method with step h [s]. Raises InputError."""
-    check_step(h, "step h [s]")
-    return _method(layout.RK4, h=h)
+    check_positive(h, f"step h [s] is {h}")
+    return Method(layout.RK4, h=h)
 
 
 def dop853(rtol: float, atol: float, max_step: float) -> Method:
     """Dormand and Prince 8(5, 3) with step control; max_step [s]. Raises InputError."""
     for name, value in (("rtol", rtol), ("atol", atol), ("max_step [s]", max_step)):
-        check_step(value, name)
+        check_positive(value, f"{name} is {value}")
     least = 100.0 * np.finfo(float).eps
     if rtol < least:
         raise InputError(
             f"rtol is {rtol:g}, expected at least {least:.1e}, the round-off of a step"
         )
-    return _method(layout.DOP853, rtol=rtol, atol=atol, max_step=max_step)
+    return Method(layout.DOP853, rtol=rtol, atol=atol, max_step=max_step)
 
 
 def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> Method:
@@ -54,7 +52,7 @@ def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> Method:
     levels: the shortest sub-step of a landing is h 2^-(levels - 1). Raises InputError, also where the classical
     step below it would not be stable.
     """
-    check_step(h, "step h [s]")
+    check_positive(h, f"step h [s] is {h}")
     A, rows = np.array(A, dtype=float), np.array(rows, dtype=np.int64)
     if A.ndim != 2 or A.shape[0] != A.shape[1] or not np.all(np.isfinite(A)):
         raise InputError(f"A has shape {A.shape}, expected a square matrix of finite numbers")
@@ -71,16 +69,7 @@ def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> Method:
             f"the fastest pole is {fastest:.3g} rad/s and the shortest sub-step {shortest:.2e} s; "
             f"their product has to be below {STABLE}: give more levels or a shorter h"
         )
-    return _method(layout.ETD, h=h, phi=phi_levels(A, h, levels), rows=rows)
-
-
-def _method(kind: int, **given: float | Array | Ints) -> Method:
-    values: dict[str, float | Array | Ints] = dict.fromkeys(("h", "rtol", "atol", "max_step"), 1.0)
-    values |= {
-        name: np.ascontiguousarray(getattr(DOP853, name)) for name in ("A", "B", "C", "E3", "E5")
-    }
-    values |= {"phi": np.zeros((0, layout.MATRICES, 0, 0)), "rows": np.zeros(0, dtype=np.int64)}
-    return Method(kind, **(values | given))  # type: ignore[arg-type]
+    return Method(layout.ETD, h=h, phi=phi_levels(A, h, levels), rows=rows)
 
 
 def _times(A: Array, B: Array) -> Array:
@@ -112,7 +101,7 @@ def _doubled(phi: Phi) -> Phi:
 
 
 def phi_levels(A: Array, h: float, levels: int) -> Array:
-    """The six matrices of `hybrid.exponential.PhiTable` for h 2^-level, (levels, 6, k, k)."""
+    """The six matrices of `hybrid.integrators.PhiTable` for h 2^-level, (levels, 6, k, k)."""
     size = float(np.max(np.sum(np.abs(A), axis=1), initial=0.0)) * h
     short = max(0, math.ceil(math.log2(2.0 * size))) if size > 0.0 else 0
     phi = _series(A * (h * 0.5 ** max(short, levels)))
@@ -120,19 +109,5 @@ def phi_levels(A: Array, h: float, levels: int) -> Array:
     for level in reversed(range(max(short, levels))):
         half, phi = phi, _doubled(phi) if level < short else _series(A * (h * 0.5**level))
         if level < levels:
-            table[level] = _weights(half, phi, h * 0.5**level)
+            table[level] = PhiTable.of(half, phi, h * 0.5**level)
     return table
-
-
-def _weights(half: Phi, phi: Phi, h: float) -> Array:
-    p0, p1, p2, p3 = phi
-    return np.array(
-        (
-            half[0],
-            0.5 * h * half[1],
-            p0,
-            h * (p1 - 3.0 * p2 + 4.0 * p3),
-            h * (2.0 * p2 - 4.0 * p3),
-            h * (4.0 * p3 - p2),
-        )
-    )

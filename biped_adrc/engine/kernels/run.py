@@ -8,7 +8,7 @@ import numpy as np
 
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.plan import Plan
+from biped_adrc.engine.kernels.tables import Plan
 from biped_adrc.types import Array
 
 

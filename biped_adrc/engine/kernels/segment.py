@@ -7,22 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from biped_adrc.engine.kernels.call import Ints, inner, shift, unit
-from biped_adrc.engine.kernels.dop853 import adaptive, initial_step
+from biped_adrc.engine.kernels.call import Ints, call, inner, shift, unit
 from biped_adrc.engine.kernels.events import event, pieces, retake
-from biped_adrc.engine.kernels.laws import (
-    broken,
-    copy,
-    finite,
-    flow,
-    join,
-    regular,
-    remainder,
-    row,
-    split,
-)
+from biped_adrc.engine.kernels.laws import *
 from biped_adrc.engine.kernels.layout import *
-from biped_adrc.engine.kernels.steps import classical, exponential, halve
+from biped_adrc.engine.kernels.steps import adaptive, classical, exponential, halve, initial_step
 from biped_adrc.types import Array
 
 
@@ -64,7 +53,7 @@ def begin(P: Ints, F: Array, K: Array, W: Array, t: float) -> None:
     """What the first step of a smooth segment starts from, beside X0."""
     x, y = row(P, W, X0), row(P, W, Y0)
     if P[KIND] == ETD:
-        split(P, K, x, y)
+        call(P[TO], K, x, y)
         remainder(P, F, K, W, t, y, row(P, W, N0))
     if (P[KIND] != ETD or W[EVERY] > 0.0) and W[SLOPED] == 0.0:
         flow(P, F, K, W, t, x, row(P, W, DX0))

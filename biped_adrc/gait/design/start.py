@@ -19,6 +19,7 @@ from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.through_state import onto_section
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.contact import Impact
 from biped_adrc.model.planar import PlanarTree, point, turned
 from biped_adrc.types import Array
 
@@ -92,6 +93,16 @@ def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array
     return q, state[n:]
 
 
+def bezier_through(
+    biped: Biped, q: Array, dq: Array, degree: int
+) -> tuple[Impact, float, float, Array]:
+    """Impact from q with rates dq at Theta' = 1, each (n,), Theta+, Theta- and alpha that keeps to it."""
+    p, c, impact = biped.p, biped.phase, biped.impact(q, dq)
+    plus, minus = float(c @ impact.q), float(c @ q)
+    slopes = impact.v[:p] / float(c @ impact.v) * (minus - plus), dq[:p] * (minus - plus)
+    return impact, plus, minus, bezier_between(impact.q[:p], *slopes, q[:p], degree)
+
+
 def cold_start(
     biped: Biped, request: GaitRequest, limits: RobotLimits
 ) -> tuple[float, dict[str, Any]]:
@@ -118,21 +129,17 @@ def cold_start(
         rate = abs(float(c @ (q - q_plus))) / duration
     else:
         q, v = _given_state(biped, np.array(request.through), request.slope)
-        q_plus = biped.relabel(q)
         dq, rate = v / float(c @ v), abs(float(c @ v))
-    impact = biped.impact(q, dq)
-    theta = np.array([c @ q_plus, c @ q])
-    span = theta[1] - theta[0]
-    slopes = impact.v[:p] / float(c @ impact.v) * span, dq[:p] * span
+    impact, plus, minus, alpha = bezier_through(biped, q, dq, M)
     guess = {
         "q": q,
         "slope": dq[:p],
-        "alpha": bezier_between(q_plus[:p], *slopes, q[:p], M),
-        "theta": theta,
+        "alpha": alpha,
+        "theta": np.array([plus, minus]),
         "after": impact.v_e,
         "impulse": impact.impulse,
         "rate": rate,
         "rates": np.full(request.nodes, rate),
         "peak": 0.5,
     }
-    return float(np.sign(span)), guess
+    return float(np.sign(minus - plus)), guess

@@ -134,21 +134,10 @@ def pose_function(tree: PlanarTree) -> Any:
 
 def unknowns(n: int, degree: int, nodes: int) -> Unknowns:
     """The symbols."""
-    p = n - 1
-    sizes = (
-        (n, 1),
-        (p, 1),
-        (p, degree + 1),
-        (2, 1),
-        (n + 2, 1),
-        (2, 1),
-        (1, 1),
-        (1, nodes),
-        (1, 1),
-    )
-    return Unknowns(
-        *(ca.MX.sym(name, *size) for name, size in zip(Unknowns._fields, sizes, strict=True))
-    )
+    p, scalar = n - 1, (1, 1)
+    sizes = (n, 1), (p, 1), (p, degree + 1), (2, 1), (n + 2, 1), (2, 1), scalar, (1, nodes), scalar
+    named = zip(Unknowns._fields, sizes, strict=True)
+    return Unknowns(*(ca.MX.sym(name, *size) for name, size in named))
 
 
 class Step:

@@ -3,18 +3,26 @@
 The end of a step, relabelled, is the start of the next: q(0) = R q(1), every coordinate of it, and with a
 robot dq/dTheta after the impact is the slope at s = 0 (the constraint is hybrid-invariant). Every failure is
 a GaitError that names the joint, what was found, what was expected, the likely cause and what to try.
+
+A `Misfit` is one thing that can be wrong, with one check each.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.conventions import CONVENTIONS
-from biped_adrc.gait.exchange.convert import Coordinates, coordinates
-from biped_adrc.gait.exchange.misfits import Misfit, first_misfit
+from biped_adrc.gait.conventions import CONVENTIONS, convention
+from biped_adrc.gait.exchange.convert import Coordinates, coordinates, state_to_paper
 from biped_adrc.gait.exchange.record import GaitRecord
+from biped_adrc.gait.gait import CLOSES
 from biped_adrc.model.biped import Biped
+from biped_adrc.types import Array
 
 
 def check(record: GaitRecord, biped: Biped | None = None, slopes: bool = True) -> Coordinates:
@@ -62,3 +70,199 @@ def _hint(record: GaitRecord, biped: Biped | None) -> str:
         return ""
     names = " or ".join(f"'{name}'" for name in others)
     return f'; it would close in {names}. Try convention="{others[0]}"'
+
+
+SLOPES = 1e-2
+"""[rad/rad]: largest jump of dq/dTheta through the impact in a gait whose slopes close."""
+RATES = 1e-2
+"""[rad/s]: largest gap between the stored rates before impact and those of the curve."""
+LARGEST = 4.0 * np.pi
+"""[rad]: angles above this are taken for degrees."""
+_JOINTS = {
+    5: ("stance hip q1", "swing hip q2", "stance knee q3", "swing knee q4", "torso q5"),
+    3: ("stance hip q1", "swing hip q2", "torso q3"),
+}
+
+
+class Misfit(NamedTuple):
+    """What is wrong with a gait."""
+
+    where: str
+    found: str
+    expected: str
+    cause: str
+    geometric: bool = True
+    """Whether another angle convention can be the cure."""
+
+
+def first_misfit(
+    record: GaitRecord, along: Coordinates, biped: Biped | None, slopes: bool
+) -> Misfit | None:
+    """The first thing that is wrong, or None."""
+    checks: list[Callable[[], Misfit | None]] = [
+        lambda: _radians(record),
+        lambda: _direction(along),
+        lambda: _phase_of_rows(record, along),
+        lambda: _closure(along),
+        lambda: _state(record, along),
+    ]
+    if biped is not None:
+        checks[:0] = [lambda: _fits(along, biped)]
+        checks.append(lambda: _feet(along, biped, record.slope))
+        if slopes:
+            checks.append(lambda: _slopes(record, along, biped))
+    return next((misfit for c in checks if (misfit := c()) is not None), None)
+
+
+def _radians(record: GaitRecord) -> Misfit | None:
+    """The rows are angles in radians."""
+    values = np.array([record.curve_of_rows(s)[0] for s in (0.0, 0.5, 1.0)])
+    largest = np.max(np.abs(values), axis=0)
+    row = int(np.argmax(largest))
+    if largest[row] <= LARGEST:
+        return None
+    return Misfit(
+        f"row {row + 1} of the coefficients",
+        f"an angle of {largest[row]:.5g}",
+        f"radians, at most {LARGEST:.4g}",
+        "the angles are degrees; give radians, for the coefficients, theta_plus, theta_minus, q_minus and "
+        "v_minus",
+        geometric=False,
+    )
+
+
+def _fits(along: Coordinates, biped: Biped) -> Misfit | None:
+    n = len(along.phase)
+    if (n - 1, n) == (biped.p, biped.n):
+        return None
+    return Misfit(
+        "joints",
+        f"a gait of {n - 1} actuated joints and {n} coordinates",
+        f"{biped.p} and {biped.n} of robot '{biped.description.name}'",
+        "the gait is another robot's; load the robot it was made for",
+        geometric=False,
+    )
+
+
+def _direction(along: Coordinates) -> Misfit | None:
+    """Theta falls while the robot walks to +x."""
+    if not along.virtual_leg or along.theta_plus > along.theta_minus:
+        return None
+    return Misfit(
+        "phase range",
+        f"Theta from {along.theta_plus:.6g} after impact to {along.theta_minus:.6g} rad before the next",
+        "Theta that falls (theta_plus > theta_minus in this paper's coordinates)",
+        "theta_plus and theta_minus are exchanged, or the phase row has the other sign; exchange them, or "
+        "set reverse when the first coefficients belong to the end of the step",
+    )
+
+
+def _phase_of_rows(record: GaitRecord, along: Coordinates) -> Misfit | None:
+    """With one row per coordinate the phase is said twice: c q(s) and the range."""
+    if not record.of_all_coordinates:
+        return None
+    span = along.theta_minus - along.theta_plus
+    s = np.linspace(0.0, 1.0, 21)
+    gaps = [along.phase @ along.curve(x)[0] - (along.theta_plus + x * span) for x in s]
+    worst = int(np.argmax(np.abs(gaps)))
+    if abs(gaps[worst]) <= CLOSES:
+        return None
+    theta = along.theta_plus + s[worst] * span
+    return Misfit(
+        f"phase at s = {s[worst]:.2f}",
+        f"c q(s) = {theta + gaps[worst]:.6g} rad",
+        f"theta+ + s (theta- - theta+) = {theta:.6g} rad within {CLOSES:g}",
+        "the curves run over time or over another phase than the row c; give the phase row they were made "
+        "with, or curves fitted over it",
+    )
+
+
+def _closure(along: Coordinates) -> Misfit | None:
+    """q(0) = R q(1)."""
+    n = len(along.phase)
+    R = convention("paper", knees=n == 5).relabelling
+    begin, end = along.curve(0.0)[0], R.angles(along.curve(1.0)[0])
+    joint = int(np.argmax(np.abs(begin - end)))
+    if abs(begin[joint] - end[joint]) <= CLOSES:
+        return None
+    return Misfit(
+        f"{_JOINTS[n][joint]} across the impact",
+        f"{begin[joint]:.6g} rad at the start of the step",
+        f"{end[joint]:.6g} rad, the end of the step with the legs changed over, within {CLOSES:g} "
+        "(this paper's coordinates)",
+        "a coefficient of this joint is damaged, the order or sign of the joints differs, or the phase "
+        "range is another gait's or a time; compare the first and the last coefficients of both legs",
+    )
+
+
+def _state(record: GaitRecord, along: Coordinates) -> Misfit | None:
+    """The stored state before impact lies on the curve."""
+    state = state_to_paper(record, along.turns)
+    if state is None:
+        return None
+    q, v = state
+    h, dh, _ = along.curve(1.0)
+    rate = float(along.phase @ v) / (along.theta_minus - along.theta_plus)
+    names = _JOINTS[len(q)]
+    for what, unit, tolerance, found, expected in (
+        ("q_minus", "rad", CLOSES, q, h),
+        ("v_minus", "rad/s", RATES, v, dh * rate),
+    ):
+        joint = int(np.argmax(np.abs(found - expected)))
+        if abs(found[joint] - expected[joint]) > tolerance:
+            return Misfit(
+                f"{what} of the {names[joint]}",
+                f"{found[joint]:.6g} {unit}",
+                f"{expected[joint]:.6g} {unit} of the curve's end, within {tolerance:g}",
+                "the state belongs to another gait or to another instant; leave q_minus and v_minus out to "
+                "have them computed",
+            )
+    return None
+
+
+def _feet(along: Coordinates, biped: Biped, slope: float) -> Misfit | None:
+    """The swing foot starts and ends on the ground, and ends ahead of the stance foot."""
+    for s, when in ((0.0, "start"), (1.0, "end")):
+        x, z = biped.swing_foot(along.curve(s)[0])
+        height = float(z + math.tan(slope) * x)
+        if not abs(height) <= CLOSES:
+            return Misfit(
+                f"swing foot at the {when} of the step",
+                f"{height:.4g} m above the ground",
+                f"0 within {CLOSES:g} m",
+                "thigh and shin of the gait's robot have other lengths, or the phase range is another "
+                "gait's or a time, or it walks on another slope; load the robot it was made for, or give the "
+                "range of the phase [rad] and the slope",
+            )
+    ahead = float(biped.swing_foot(along.curve(1.0)[0])[0])
+    if ahead > 0.0:
+        return None
+    return Misfit(
+        "swing foot at the end of the step",
+        f"{ahead:.4g} m from the stance foot",
+        "ahead of it, x > 0",
+        "the gait walks to -x: change the sign of all angles, or set reverse",
+    )
+
+
+def _slopes(record: GaitRecord, along: Coordinates, biped: Biped) -> Misfit | None:
+    """dq/dTheta after the impact is the slope at the start."""
+    span = along.theta_minus - along.theta_plus
+    end, start = along.curve(1.0), along.curve(0.0)
+    rate = np.sign(span) * end[1] / span
+    impact = biped.impact(end[0], np.asarray(rate))
+    after: Array = impact.v / float(along.phase @ impact.v)
+    before = start[1] / span
+    joint = int(np.argmax(np.abs(after - before)))
+    if abs(after[joint] - before[joint]) <= SLOPES:
+        return None
+    made_for = f"{record.robot or '?'}, preset {record.preset or '?'}"
+    here = f"{biped.description.name}, preset {biped.preset}"
+    return Misfit(
+        f"slope of the {_JOINTS[biped.n][joint]} through the impact",
+        f"{before[joint]:.5g} rad/rad at the start of the step",
+        f"{after[joint]:.5g} rad/rad, that after the impact at its end, within {SLOPES:g}",
+        f"the masses differ (gait for {made_for}; robot {here}), or the constraint is not hybrid-invariant; "
+        "load the robot with the gait's preset, or accept the jump with slopes=False",
+        geometric=False,
+    )

@@ -12,7 +12,6 @@ and the last row is a curve too, so every coordinate is.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from math import comb
 from typing import NamedTuple
 
@@ -20,7 +19,7 @@ import numpy as np
 
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import AngleMap, convention
-from biped_adrc.gait.curves import CURVES, Bezier, Curve, ramp
+from biped_adrc.gait.curves import Bezier, Curve, ramp
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import Gait
 from biped_adrc.types import Array
@@ -139,29 +138,23 @@ def record_of(gait: Gait, to: str = "paper") -> GaitRecord:
     constraint = gait.constraint
     n = len(constraint.phase)
     other = convention(to, knees=n == 5)
-    full = GaitRecord(
-        "paper",
-        constraint.curve.coefficients,
-        constraint.theta_plus,
-        constraint.theta_minus,
-        constraint.phase,
-        curve=_kind(constraint.curve),
-        name=gait.name,
-    )
+    kind = type(constraint.curve).__name__.lower()
+    ends = constraint.theta_plus, constraint.theta_minus
+    coefficients = constraint.curve.coefficients
+    full = GaitRecord("paper", coefficients, *ends, constraint.phase, curve=kind, name=gait.name)
     curve = _completed(full, constraint.curve, constraint.phase)
     back: AngleMap = other.to_paper.inverse
     own = mapped(curve, back.A, back.b)
     # Theta = c q = c A q' + c b
     row = constraint.phase @ other.to_paper.A
-    ends = np.array([constraint.theta_plus, constraint.theta_minus])
-    ends = other.sense * (ends - constraint.phase @ other.to_paper.b)
+    plus, minus = other.sense * (np.array(ends) - constraint.phase @ other.to_paper.b)
     return GaitRecord(
         to,
         other.outputs @ own.coefficients,
-        float(ends[0]),
-        float(ends[1]),
+        float(plus),
+        float(minus),
         phase=other.sense * row + 0.0,
-        curve=_kind(constraint.curve),
+        curve=kind,
         q_minus=back.angles(gait.q_minus),
         v_minus=back.rates(gait.v_minus),
         period=gait.period,
@@ -171,9 +164,3 @@ def record_of(gait: Gait, to: str = "paper") -> GaitRecord:
         preset=gait.preset,
         provenance=gait.provenance,
     )
-
-
-def _kind(curve: Curve) -> str:
-    """The name of the curve's class in CURVES."""
-    kinds: Mapping[type[Curve], str] = {kind: name for name, kind in CURVES.items()}
-    return kinds[type(curve)]

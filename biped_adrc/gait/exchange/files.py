@@ -1,11 +1,15 @@
-"""Records of gaits on disk: JSON, and MATLAB files with a `units` struct.
+"""Records of gaits on disk, JSON or MATLAB files with a `units` struct, and runs as MATLAB files.
 
 The names are those of `docs/notation.md` and of the stored gaits; a stored gait of this package is such a
 record in this paper's convention.
+
+MATLAB files are of version 5, read by MATLAB and Octave: plain arrays, text, and the struct. A run is columns
+over time.
 """
 
 from __future__ import annotations
 
+import io
 import json
 from collections.abc import Mapping
 from dataclasses import fields
@@ -13,12 +17,66 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.io import loadmat, savemat
 
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import output_path, read_json, reading, write_text
-from biped_adrc.gait.exchange.matfile import read_mat, write_mat
+from biped_adrc.files import output_path, read_json, reading, write_bytes, write_text
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import FORMAT as STORED
+from biped_adrc.types import Array
+
+LONGEST_NAME = 31
+"""Letters of a variable's name in a .mat file."""
+
+
+def write_mat(path: Path | str, entries: Mapping[str, Any], units: Mapping[str, str]) -> None:
+    """Write numbers, arrays and text under their names; rows of one dimension become columns.
+
+    Raises InputError for a name MATLAB cannot have or an entry without a unit, and OutputError.
+    """
+    for name, value in entries.items():
+        if not (name.isidentifier() and name.isascii() and not name.startswith("_")) or (
+            len(name) > LONGEST_NAME
+        ):
+            raise InputError(
+                f"'{name}' cannot be a variable of a .mat file; expected a letter, then letters, digits and "
+                f"underscores, at most {LONGEST_NAME}"
+            )
+        if not isinstance(value, str) and name not in units:
+            raise InputError(
+                f"'{name}' has no unit; give one for each array, '1' where there is none"
+            )
+    buffer = io.BytesIO()
+    savemat(buffer, {**entries, "units": dict(units)}, oned_as="column")
+    write_bytes(Path(path), buffer.getvalue())
+
+
+def read_mat(path: Path | str) -> dict[str, Any]:
+    """The variables of a .mat file; arrays without their dimensions of length 1, structs as dicts.
+
+    Raises InputError for a file that is missing, damaged or of version 7.3.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise InputError(f"MATLAB file '{path}' not found")
+    try:
+        found = loadmat(io.BytesIO(path.read_bytes()), simplify_cells=True)
+    except NotImplementedError as error:
+        raise InputError(
+            f"MATLAB file '{path}' is of version 7.3 (HDF5), expected 5 or 7; save it again in MATLAB with "
+            "save(file, '-v7', ...)"
+        ) from error
+    except Exception as error:  # a damaged file makes scipy raise errors of many kinds
+        raise InputError(f"MATLAB file '{path}' cannot be read: {error}") from error
+    return {name: _text(value) for name, value in found.items() if not name.startswith("__")}
+
+
+def _text(value: Any) -> Any:
+    """Text that MATLAB keeps as an array of characters, as str."""
+    if isinstance(value, np.ndarray) and value.dtype.kind == "U":
+        return "".join(value.ravel().tolist())
+    return value
+
 
 FORMAT = "biped_adrc exchanged gait 1"
 UNITS = {
@@ -69,20 +127,16 @@ def read_record(
     if path.suffix.lower() == ".mat":
         found = read_mat(path)
     elif path.suffix.lower() == ".json":
-        found = _read_json(path)
+        found = read_json(path, "gait file")
+        if not isinstance(found, dict):
+            kind = type(found).__name__
+            raise InputError(f"gait file '{path}' holds a {kind}, expected an object")
     else:
         raise InputError(f"gait file '{path}' ends in '{path.suffix}', expected .json or .mat")
     if found.get("format") == FORMAT and "units" not in found:
         raise InputError(f"gait file '{path}' ends before its units: it is cut off; copy it again")
     with reading("gait file", path, GaitError):
         return _record(_ours(found, names or {}), convention)
-
-
-def _read_json(path: Path) -> dict[str, Any]:
-    found = read_json(path, "gait file")
-    if not isinstance(found, dict):
-        raise InputError(f"gait file '{path}' holds a {type(found).__name__}, expected an object")
-    return found
 
 
 def _ours(found: Mapping[str, Any], names: Mapping[str, str]) -> dict[str, Any]:
@@ -138,3 +192,61 @@ def _provenance(value: Any) -> dict[str, Any]:
     if not isinstance(value, Mapping):
         raise GaitError(f"provenance is a {type(value).__name__}, expected text or a mapping")
     return dict(value)
+
+
+RUN_FORMAT = "biped_adrc exchanged run 1"
+RUN_UNITS = {
+    name: unit
+    for unit, names in {
+        "s": "t",
+        "1": "step",
+        "m": "swing_foot hip foothold foothold_height",
+        "rad": "q theta q_d error",
+        "rad/s": "v dtheta dq_d",
+        "rad/s^2": "a xi xi_estimate xi_external xi_matched xi_nominal",
+        "N": "ground_reaction",
+        "N m": "u zeta zeta_estimate",
+        "J": "kinetic potential",
+    }.items()
+    for name in names.split()
+}
+"""Units of the columns `biped_adrc.analysis.signals.Signals` has."""
+
+
+def export_run(
+    columns: Mapping[str, Array],
+    path: Path | str,
+    units: Mapping[str, str] | None = None,
+    note: str = "",
+) -> None:
+    """Write columns (K,) or (K, ...) over the same K nodes as a .mat file, such as `vars(walk.signals)`.
+
+    units: of columns that are not of this package. Angles are in this paper's convention. Raises InputError
+    for a column without a unit or of another length, and OutputError.
+    """
+    path = output_path(path, (".mat",))
+    known = {**RUN_UNITS, **(units or {})}
+    arrays = {name: np.asarray(column, dtype=float) for name, column in columns.items()}
+    lengths = {name: a.shape[0] if a.ndim else 0 for name, a in arrays.items()}
+    if "t" not in arrays or len(set(lengths.values())) != 1:
+        raise InputError(
+            f"columns have lengths {lengths}; expected 't' and one length for all of them"
+        )
+    unknown = [name for name in arrays if name not in known]
+    if unknown:
+        raise InputError(f"columns {unknown} have no unit; give units={{name: unit}} for them")
+    about = {"format": RUN_FORMAT, "convention": "paper", "note": note}
+    write_mat(path, {**about, **arrays}, {name: known[name] for name in arrays})
+
+
+def read_run(path: Path | str) -> dict[str, Array]:
+    """The columns of a file `export_run` wrote, each (K,) or (K, ...). Raises InputError."""
+    found = read_mat(path)
+    if found.get("format") != RUN_FORMAT:
+        raise InputError(
+            f"run '{path}' has format '{found.get('format')}', expected '{RUN_FORMAT}'; "
+            "write it with export_run"
+        )
+    if "units" not in found:
+        raise InputError(f"run '{path}' ends before its units: it is cut off; copy it again")
+    return {name: np.asarray(found[name], dtype=float) for name in found["units"]}

@@ -17,7 +17,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from biped_adrc.files import write_bytes, write_text
-from biped_adrc.model.limits import Limits
+from biped_adrc.model.robots import Limits
 from biped_adrc.scenario.registry import find, is_own, source_hash, words
 from biped_adrc.studies.bench.build import scene_of
 from biped_adrc.studies.bench.cell import IMPULSE, Row, is_legal, number

@@ -21,7 +21,7 @@ from biped_adrc.disturbances.link import OnLink
 from biped_adrc.errors import InputError
 from biped_adrc.gait.curves import Polynomial
 from biped_adrc.hardware.meter import Meter
-from biped_adrc.model.limits import ENDS
+from biped_adrc.model.robots import ENDS
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.observers.momentum import MomentumObserver
 from biped_adrc.studies.verification import three_link

@@ -14,7 +14,7 @@ import numpy as np
 
 import biped_adrc as ba
 from biped_adrc.engine.batch import run_case
-from biped_adrc.gait.passive_cycle import passive_cycle
+from biped_adrc.gait.published import passive_cycle
 from biped_adrc.scenario import build as scenario
 from biped_adrc.scenario.push import parse_push
 from biped_adrc.scenario.run import parts_of
