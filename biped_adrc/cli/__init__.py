@@ -22,7 +22,6 @@ from biped_adrc.cli import (
     robot,
     sweep,
     walk,
-    zero,
 )
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, gait_app
 from biped_adrc.errors import BipedError
@@ -40,7 +39,6 @@ __all__ = [
     "robot",
     "sweep",
     "walk",
-    "zero",
 ]
 
 

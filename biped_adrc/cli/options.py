@@ -1,10 +1,12 @@
-"""Options that are fields of a scenario: name, unit, default and text come from the record."""
+"""Options of commands: their texts from options.toml; those that are fields of a scenario from the record."""
 
 from __future__ import annotations
 
 import json
+import tomllib
 from collections.abc import Callable
-from functools import wraps
+from functools import reduce, wraps
+from importlib.resources import files
 from inspect import Parameter, signature
 from typing import Annotated, Any, get_args
 
@@ -34,15 +36,46 @@ Sets = Annotated[
     ),
 ]
 
+TEXTS = tomllib.loads(files("biped_adrc.cli").joinpath("options.toml").read_text("utf-8"))
+Command = Callable[..., None]
 
-def of_scenario(*names: str, **flags: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+
+def texts(name: str) -> Callable[[Command], Command]:
+    """Options and arguments with the texts that options.toml has under this name, such as "gait.design"."""
+    table: dict[str, Any] = reduce(dict.__getitem__, name.split("."), TEXTS)
+    said = TEXTS["every"] | table
+
+    def decorate(command: Command) -> Command:
+        plain = signature(command, eval_str=True)
+        told = [
+            p.replace(annotation=Annotated[p.annotation, _shown(said[p.name])])
+            if p.name in said
+            else p
+            for p in plain.parameters.values()
+        ]
+        command.__signature__ = plain.replace(parameters=told)  # type: ignore[attr-defined]
+        command.__annotations__ = {}
+        return command
+
+    return decorate
+
+
+def _shown(text: Any) -> Any:
+    """An option, or an argument, as options.toml has it."""
+    entry = {"help": text} if isinstance(text, str) else text
+    if "argument" in entry:
+        return typer.Argument(help=entry["argument"])
+    return typer.Option(*entry.get("flags", ()), help=entry["help"])
+
+
+def of_scenario(*names: str, **flags: str) -> Callable[[Command], Command]:
     """Options for fields by name, or by a flag of another name, put in front of a command's own.
 
     The command gets as `given` those that are on the command line.
     """
     shown = {**{name: "--" + name.replace("_", "-") for name in names}, **flags}
 
-    def decorate(command: Callable[..., None]) -> Callable[..., None]:
+    def decorate(command: Command) -> Command:
         @wraps(command)
         def with_given(context: typer.Context, **values: Any) -> None:
             given = {name: values.pop(name) for name in shown}

@@ -157,7 +157,7 @@ class Walk:
     def _repr_html_(self) -> str:
         """What a notebook shows: status and remarks, the animation and the figure of `plot`."""
         from biped_adrc.viz.meshcat import animation_html
-        from biped_adrc.viz.notebook import inline
+        from biped_adrc.viz.pages import inline
 
         impacts = len(self.trajectory.events(FOOT_STRIKE))
         status = self.trajectory.status

@@ -35,7 +35,7 @@ from biped_adrc.studies.results import Results
 from biped_adrc.studies.tables import tables
 from biped_adrc.versions import versions
 from biped_adrc.viz.meshcat import animation_html
-from biped_adrc.viz.report import write_report
+from biped_adrc.viz.pages import write_report
 
 
 def reproduce(

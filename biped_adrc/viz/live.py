@@ -23,7 +23,7 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 from biped_adrc.errors import InputError
 from biped_adrc.viz.frames import pose
 from biped_adrc.viz.meshcat import Look, captions, scene_settings
-from biped_adrc.viz.meshcat_page import page
+from biped_adrc.viz.pages import player
 from biped_adrc.viz.placement import Recorded, Scene
 
 ADDRESS = "127.0.0.1"
@@ -137,7 +137,7 @@ def play(
         )
     scenes = {name: Scene.of(walks[name]) for name in look.order(walks)}
     settings = {**scene_settings(scenes, look), "live": True}
-    html = page(settings, " and ".join(walks), captions(scenes))
+    html = player(settings, " and ".join(walks), captions(scenes))
     return asyncio.run(_serve(scenes, html, look.fps, port, open_browser, wait, say))
 
 

@@ -17,7 +17,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 from biped_adrc.viz import meshcat_scene as draw
 from biped_adrc.viz.frames import Frames
-from biped_adrc.viz.meshcat_page import MemoryWindow, page
+from biped_adrc.viz.pages import player
 from biped_adrc.viz.placement import Recorded, Scene, ending, exchanged, is_wheel
 from biped_adrc.viz.side_view import SideView
 
@@ -97,7 +97,7 @@ def animation_html(
     settings = scene_settings(scenes, look, {name: len(f.t) for name, f in frames.items()})
     for walk, f in zip(settings["walks"], frames.values(), strict=True):
         walk["data"] = _packed(f)
-    return page(settings, " and ".join(walks), captions(scenes))
+    return player(settings, " and ".join(walks), captions(scenes))
 
 
 def _packed(frames: Frames) -> dict[str, str]:
@@ -121,8 +121,8 @@ def scene_settings(
 
     scenes: the solid walk first. points: number of nodes of each trace.
     """
-    window = MemoryWindow()
-    viewer = draw.visualizer(window)
+    window = draw.MemoryWindow()
+    viewer = window.viewer
     names = node_names(scenes)
     described = []
     for lane, (name, scene) in enumerate(scenes.items()):
@@ -148,15 +148,15 @@ def scene_settings(
         "end": max(scene.trajectory.t_end for scene in scenes.values()),
         "view": look.view,
         "views": {kind: _view(kind, scale) for kind in VIEWS},
-        "commands": window.packed(),
+        "commands": window.packed,
         "live": False,
     }
 
 
 def _view(kind: str, scale: float) -> dict[str, Any]:
-    window = MemoryWindow(kind)
-    position, target = draw.set_camera(draw.visualizer(window), kind, scale)
-    return {"commands": window.packed(), "position": position, "target": target}
+    window = draw.MemoryWindow(kind)
+    position, target = draw.set_camera(window.viewer, kind, scale)
+    return {"commands": window.packed, "position": position, "target": target}
 
 
 def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) -> dict[str, Any]:

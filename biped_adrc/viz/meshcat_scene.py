@@ -6,13 +6,18 @@ points in the model and balls in the URDF: the ground is drawn one radius below 
 
 from __future__ import annotations
 
+import base64
 import itertools
 import math
+import random
+import re
+import uuid
 import warnings
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
+import umsgpack  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
 from biped_adrc.model.biped import Biped
@@ -26,6 +31,7 @@ with warnings.catch_warnings():
     import meshcat
     import meshcat.geometry as shapes
 
+_UUID = re.compile(rb"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 STANCE, SWING = (0.0, 0.447, 0.698), (0.902, 0.624, 0.0)
 """Colours of the legs: blue and orange (Okabe and Ito), dark and light in grey print."""
 REACTION, TORQUE = (0.0, 0.62, 0.451), (0.8, 0.475, 0.655)
@@ -248,6 +254,28 @@ def set_camera(viewer: Any, kind: str, scale: float = 1.0) -> tuple[list[float],
     return [scale * c for c in position], [scale * c for c in target]
 
 
-def visualizer(window: Any) -> Any:
-    """Meshcat's tree of nodes, writing to `window`."""
-    return meshcat.Visualizer(window=window)
+class MemoryWindow:
+    """Takes the place of meshcat's window: keeps the commands, opens no port and starts no process."""
+
+    def __init__(self, seed: str = "scene") -> None:
+        self.packed: list[str] = []
+        """The commands in base64."""
+        self.viewer: Any = meshcat.Visualizer(window=self)
+        """Meshcat's tree of nodes."""
+        self._names: dict[bytes, bytes] = {}
+        self._source = random.Random(seed)
+
+    def send(self, command: Any) -> None:
+        """Pack a command of meshcat as its viewer expects it.
+
+        Meshcat names objects by clock and host (uuid1); here names come from a seeded source, for the same
+        bytes every time.
+        """
+        packed = _UUID.sub(lambda found: self._named(found[0]), umsgpack.packb(command.lower()))
+        self.packed.append(base64.b64encode(packed).decode("ascii"))
+
+    def _named(self, name: bytes) -> bytes:
+        if name not in self._names:
+            number = uuid.UUID(int=self._source.getrandbits(128), version=4)
+            self._names[name] = str(number).encode()
+        return self._names[name]
