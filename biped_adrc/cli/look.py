@@ -54,10 +54,9 @@ def animate(
 def _show(walks: dict[str, Walk], clip: Clip, port: int, browser: bool, wait: float) -> None:
     """In a browser, until it is closed."""
     from biped_adrc.viz.live import play
-    from biped_adrc.viz.meshcat import Look
 
-    look = Look(fps=60.0 if clip.fps is None else clip.fps, view=clip.view)
-    console.print(play(walks, look, port=port, open_browser=browser, wait=wait, say=console.print))
+    said = play(walks, clip.look(), port=port, open_browser=browser, wait=wait, say=console.print)
+    console.print(said)
 
 
 @app.command()

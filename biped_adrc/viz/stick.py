@@ -10,8 +10,8 @@ from matplotlib.collections import LineCollection
 
 from biped_adrc.errors import InputError
 from biped_adrc.viz.placement import Recorded, Scene, ending
-from biped_adrc.viz.side_view import STANCE, SWING, TRUNK, SideView
-from biped_adrc.viz.style import label, new_figure, style, write_figure
+from biped_adrc.viz.side_view import SideView
+from biped_adrc.viz.style import STANCE, SWING, TRUNK, label, new_figure, style, write_figure
 
 LOOKS = {
     "swing": (SWING, 1.4, (0, (4, 1.5)), "swing leg"),

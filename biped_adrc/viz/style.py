@@ -25,6 +25,14 @@ PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 GREY = "#666666"
 PUSH = "#F0E442"
 """Yellow, for the window of a push."""
+STANCE, SWING, TRUNK = "#0072B2", "#E69F00", "#333333"
+"""Of legs and trunk: blue, orange, dark grey; dark, light and black in print."""
+REACTION, TORQUE = "#009E73", "#CC79A7"
+"""Bluish green and reddish purple: the ground reaction, a torque from outside."""
+WEIGHT_LENGTH = 0.4
+"""[m], length of the arrow of a ground reaction as large as the robot's weight."""
+METRES_PER_NEWTON_METRE = 0.004
+"""Radius of the ring of an external torque [m / N m]."""
 DASHES: tuple[Any, ...] = ("-", (0, (6, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1, 1.5)))
 
 _PATH = re.compile(rb'\bd="[^"]*"')

@@ -27,6 +27,13 @@ def line(axes: Axes, s: Signals, y: Array, i: int, name: str) -> None:
     axes.plot(broken(s, s.t), broken(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
 
 
+def curves(axes: Axes, s: Signals, values: Array, symbol: str, unit: str) -> None:
+    """The columns of values (K, k) over time: symbol_1, symbol_2, ..."""
+    for i, column in enumerate(values.T):
+        line(axes, s, column, i, f"${symbol}_{i + 1}$")
+    label(axes, "time [s]", unit)
+
+
 def shade(axes: Axes, push: Window | None) -> None:
     """Mark the time of a push."""
     if push is not None:
@@ -69,9 +76,7 @@ def chosen(s: Signals, joints: Sequence[int] | None) -> tuple[int, ...]:
 def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
     """All coordinates over time [rad], with motors or without."""
     shade(axes, push)
-    for i in range(s.q.shape[1]):
-        line(axes, s, s.q[:, i], i, f"$q_{i + 1}$")
-    label(axes, "time [s]", "angle [rad]")
+    curves(axes, s, s.q, "q", "angle [rad]")
     return legend(axes)
 
 
@@ -97,21 +102,17 @@ def tracking_errors(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
     """q_b - q_d by joint, in the unit in which the largest reads well."""
     shade(axes, push)
     unit, factor = angle_unit(s.error)
-    for i in range(s.error.shape[1]):
-        line(axes, s, factor * s.error[:, i], i, f"$q_{i + 1}$")
-    label(axes, "time [s]", f"tracking error [{unit}]")
+    curves(axes, s, factor * s.error, "q", f"tracking error [{unit}]")
     return legend(axes)
 
 
 def torques(axes: Axes, s: Signals, limit: float | None = None, push: Window | None = None) -> Axes:
     """Torques of the motors [N m]; limit [N m] is drawn as dotted lines."""
     shade(axes, push)
-    for i in range(s.u.shape[1]):
-        line(axes, s, s.u[:, i], i, f"$u_{i + 1}$")
+    curves(axes, s, s.u, "u", "torque [N m]")
     if limit is not None:
         axes.axhline(limit, color=GREY, ls=":", label=f"limit {limit:g} N m")
         axes.axhline(-limit, color=GREY, ls=":", label="_")
-    label(axes, "time [s]", "torque [N m]")
     return legend(axes)
 
 
