@@ -25,8 +25,7 @@ from biped_adrc.control.base import Measurement
 from biped_adrc.control.delayed import Delayed, line_flow, line_output, line_state, pade
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.motors import IDEAL, Line, acting, sent, whole_and_part
-from biped_adrc.observers.gpi import gpi_flow
-from biped_adrc.observers.gpi_sampled import gpi_correct, gpi_predict
+from biped_adrc.observers.gpi import gpi_correct, gpi_flow, gpi_predict
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.studies.observer_check import DelayCase, check_encoders, step_errors
 from biped_adrc.viz.observer_figure import observer_figure

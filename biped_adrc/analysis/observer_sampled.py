@@ -28,8 +28,7 @@ from biped_adrc.analysis.observer_loop import joint_gains
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hardware.motors import whole_and_part
-from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.observers.gpi_sampled import SampledGPIParameters
+from biped_adrc.observers.gpi import GPIObserver, SampledGPIParameters
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, ComplexArray
 
@@ -122,8 +121,7 @@ class SampledLoop:
         A, n = self.observer.error_system().A, self.observer.order
         both = np.zeros((2 * n, 2 * n))
         both[:n, :n], both[:n, n:] = A * self.period, np.eye(n) * self.period
-        integral: Array = expm(both)[:n, n:]
-        return integral
+        return expm(both)[:n, n:]
 
     @cached_property
     def _fed(self) -> Array:
@@ -133,8 +131,7 @@ class SampledLoop:
             return self._current.Gamma / T**2
         b = np.zeros(k)
         b[1] = 1.0 / self.observer.scale
-        held: Array = self._held @ b / T**2
-        return held
+        return self._held @ b / T**2
 
     @cached_property
     def _feedback(self) -> Array:

@@ -191,8 +191,7 @@ def _returned(walked: Walked) -> Array:
     """x- of the next strike. Raises SimulationError, with the status, when there is none."""
     if not walked.status.ok:
         raise _no_return(walked.status, walked.detail)
-    x: Array = walked.x_minus[-1]
-    return x
+    return walked.x_minus[-1]
 
 
 def _no_return(status: Status, detail: str) -> SimulationError:

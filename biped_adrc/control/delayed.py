@@ -64,8 +64,7 @@ def line_state(k: LineParameters, u: Array) -> Array:
 
 def line_output(k: LineParameters, R: Array) -> Array:
     """u (p,) [N m] that comes out."""
-    u: Array = k.numerator @ R
-    return u
+    return k.numerator @ R
 
 
 def line_flow(k: LineParameters, R: Array, asked: Array) -> Array:

@@ -23,9 +23,14 @@ from typing import ClassVar
 import numpy as np
 
 from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.body import body_of
 from biped_adrc.control.observing import ObservingController, Sight
-from biped_adrc.control.tracking import TABLE_II, Gains, TrackingParameters, tracking_torque
+from biped_adrc.control.tracking import (
+    TABLE_II,
+    Gains,
+    TrackingParameters,
+    body_of,
+    tracking_torque,
+)
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.linear import solve_positive
 from biped_adrc.model.reduction import Reduction

@@ -47,8 +47,7 @@ def output_seen(r: ReferencePoint, m: Measurement) -> Estimate:
 
 def output_fed(r: ReferencePoint, m: Measurement, u: Array) -> Array:
     """L u (p,) [rad/s^2]."""
-    product: Array = output_matrix(r, m.terms) @ (m.terms.kappa @ u)
-    return product
+    return output_matrix(r, m.terms) @ (m.terms.kappa @ u)
 
 
 def output_torque(k: TrackingParameters, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:

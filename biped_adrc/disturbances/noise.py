@@ -22,7 +22,7 @@ from biped_adrc.disturbances.base import (
     Windowed,
     WindowParameters,
     onset,
-    within,
+    window_acts,
 )
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.types import Array
@@ -43,11 +43,6 @@ def noise_torque(
     s, count = t - onset(k.window, t_start), k.frequencies.shape[1]
     total = np.sin(2.0 * math.pi * k.frequencies * s + k.phases).sum(axis=1)
     return k.window.amplitude * math.sqrt(2.0 / count) * total
-
-
-def noise_acts(k: NoiseParameters, t: float, step: int, t_start: float) -> float:
-    """Above 0 in the window."""
-    return within(k.window, t, step, t_start)
 
 
 @dataclass(frozen=True)
@@ -80,4 +75,4 @@ class TorqueNoise(Windowed):
 
     @property
     def windowed(self) -> DisturbanceLaw:
-        return DisturbanceLaw(self.parameters, noise_torque, active=noise_acts)
+        return DisturbanceLaw(self.parameters, noise_torque, active=window_acts)

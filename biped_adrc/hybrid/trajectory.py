@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -82,31 +82,19 @@ def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, 
     return r * r * (1 + 2 * s) * x0 + s * s * (3 - 2 * s) * x1 + h * s * r * (r * dx0 - s * dx1)
 
 
-class Viewer(Protocol):
-    """Makes pictures of a trajectory; given by the layer that knows the robot."""
-
-    def animate(self, trajectory: Trajectory, path: Path | str) -> None:
-        """Write an animation to `path`."""
-
-    def plot(self, trajectory: Trajectory) -> Any:
-        """A matplotlib Figure."""
-
-    def html(self, trajectory: Trajectory) -> str:
-        """What a notebook shows."""
-
-
 @dataclass(frozen=True)
 class Trajectory:
     """Arcs in order of time. Call it with t [s] for the state.
 
-    viewer: who draws it; not stored with a run and not sent to another process.
+    viewer: makes the walk that a trajectory is of, which draws it; given by the layer that knows the robot, not
+    stored with a run and not sent to another process.
     """
 
     arcs: tuple[Arc, ...]
     status: Status
     detail: str = ""
     settings: dict[str, Any] = field(default_factory=dict)
-    viewer: Viewer | None = field(default=None, compare=False, repr=False)
+    viewer: Callable[[Trajectory], Any] | None = field(default=None, compare=False, repr=False)
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "viewer": None}
@@ -164,20 +152,20 @@ class Trajectory:
     # -- pictures --------------------------------------------------------------------------------
     def animate(self, path: Path | str) -> None:
         """Write the motion as an animation, by the suffix of `path`. Raises InputError and OutputError."""
-        self._seen().animate(self, path)
+        self._seen().animate(path)
 
     def plot(self) -> Any:
         """The main signals as a matplotlib Figure. Raises InputError."""
-        return self._seen().plot(self)
+        return self._seen().plot()
 
     def _repr_html_(self) -> str | None:
-        return None if self.viewer is None else self.viewer.html(self)
+        return None if self.viewer is None else self._seen()._repr_html_()
 
-    def _seen(self) -> Viewer:
+    def _seen(self) -> Any:
         if self.viewer is None:
             raise InputError(
                 "this trajectory does not know its robot, so it cannot be drawn; take it from "
                 "biped_adrc.walk(...) or biped_adrc.load_walk(...), or draw "
                 "biped_adrc.Walk(walker, gait, trajectory)"
             )
-        return self.viewer
+        return self.viewer(self)

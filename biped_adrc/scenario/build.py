@@ -18,12 +18,10 @@ from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.errors import ModelErrors, impact_error
 from biped_adrc.model.limits import ENDS, Limits
-from biped_adrc.scenario.construct import construct
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances, taken
-from biped_adrc.scenario.draw import drawn
-from biped_adrc.scenario.registry import own
-from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.registry import construct, own
+from biped_adrc.scenario.scenario import Scenario, drawn
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
 from biped_adrc.walker import Walker

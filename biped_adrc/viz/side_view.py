@@ -134,8 +134,7 @@ class SideView:
 
     def step(self, t: float) -> int:
         """Number of the single support."""
-        number: int = self.scene.trajectory.arcs[self.scene.arc_at(t)].mode.step
-        return number
+        return self.scene.trajectory.arcs[self.scene.arc_at(t)].mode.step
 
     def roles(self, t: float) -> list[str]:
         """ "stance", "swing" or "" by bone at t: the legs change over at every impact."""
