@@ -18,7 +18,7 @@ delay is known, with the mean of what acts until the next tick, which is exact f
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -208,23 +208,14 @@ def sampled_loop(
     )
 
 
-def largest_period(
-    observer: GPIObserver,
-    gains: Gains = TABLE_II,
-    *,
-    joint: int = 0,
-    delay_periods: float = 0.0,
-    known: bool = False,
-    form: str = "current",
-) -> float:
-    """The largest T [s] below which every period is stable, with a delay of that many periods.
+def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
+    """The largest T [s] below which the loop is stable at every period, with a delay of that many periods.
 
     0 when SHORTEST is unstable already, infinite when all up to LONGEST are stable.
     """
 
     def stable(T: float) -> bool:
-        d = delay_periods * T
-        return sampled_loop(observer, T, gains, joint=joint, delay=d, known=known, form=form).stable
+        return replace(loop, period=T, delay=delay_periods * T).stable
 
     low = SHORTEST
     if not stable(low):
@@ -236,25 +227,18 @@ def largest_period(
     return last_true(stable, low, low * RATIO)
 
 
-def largest_delay(
-    observer: GPIObserver,
-    period: float,
-    gains: Gains = TABLE_II,
-    *,
-    joint: int = 0,
-    known: bool = False,
-) -> float:
-    """The largest delay [s] below which every delay is stable at this period.
+def largest_delay(loop: SampledLoop) -> float:
+    """The largest delay [s] below which the loop is stable with every delay.
 
     0 when the loop is unstable without one, infinite when all up to MOST_PERIODS are stable.
     """
 
     def stable(d: float) -> bool:
-        return sampled_loop(observer, period, gains, joint=joint, delay=d, known=known).stable
+        return replace(loop, delay=d).stable
 
     if not stable(0.0):
         return 0.0
-    step = period / PARTS
+    step = loop.period / PARTS
     for i in range(1, MOST_PERIODS * PARTS + 1):
         if not stable(i * step):
             return last_true(stable, (i - 1) * step, i * step)

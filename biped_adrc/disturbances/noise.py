@@ -24,7 +24,7 @@ from biped_adrc.disturbances.base import (
     onset,
     window_acts,
 )
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.errors import check_positive, check_whole
 from biped_adrc.types import Array
 
 
@@ -62,8 +62,7 @@ class TorqueNoise(Windowed):
         check_positive(self.bandwidth, f"noise bandwidth is {self.bandwidth} Hz")
         for name, least in (("seed", 0), ("sines", 1)):
             value = getattr(self, name)
-            if isinstance(value, bool) or not isinstance(value, int) or value < least:
-                raise InputError(f"noise {name} is {value}, expected a whole number >= {least}")
+            check_whole(value, f"noise {name} is {value}", least)
 
     @cached_property
     def parameters(self) -> NoiseParameters:

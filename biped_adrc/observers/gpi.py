@@ -76,10 +76,6 @@ class InjectedChain(ChainObserver):
         """l_(m+1), l_m, ..., l_0 of (17) in physical units."""
         return self.parameters.gains * self.scale ** np.arange(1, self.order + 1)
 
-    @property
-    def laws(self) -> ObserverLaws:
-        return chain_laws(self.parameters, gpi_flow)
-
     def sampled(self, period: float) -> SampledGPIObserver:
         """The current (filtered) discrete observer with poles exp(s T)."""
         return SampledGPIObserver.from_poles(self.poles, period)
@@ -122,6 +118,10 @@ class GPIObserver(InjectedChain):
         """What the laws `gpi_flow` and `chain_...` need."""
         gains = np.real(np.poly(np.array(self.poles) / self.scale))[1:]
         return GPIParameters(np.ascontiguousarray(gains), float(self.scale), self.order)
+
+    @property
+    def laws(self) -> ObserverLaws:
+        return chain_laws(self.parameters, gpi_flow)
 
 
 class SampledGPIParameters(NamedTuple):

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.types import Array
 from biped_adrc.viz.placement import TILE, loads
 from biped_adrc.viz.side_view import SideView
@@ -46,8 +46,7 @@ class Motion:
             raise InputError(
                 f"fps is {self.fps} frames per second, expected more than 0 and at most 50"
             )
-        if not (math.isfinite(self.slower) and self.slower > 0.0):
-            raise InputError(f"slower is {self.slower}, expected a positive number")
+        check_positive(self.slower, f"slower is {self.slower}")
         if not 100 <= self.width <= 4000:
             raise InputError(f"width is {self.width} px, expected 100 to 4000")
         if self.magnify is not None and not self.apart:

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.ground import ground_axes
 from biped_adrc.types import Array
 from biped_adrc.viz.style import DASHES, GREY, PALETTE, PUSH, label
@@ -187,8 +187,7 @@ def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -
     positive downhill; F_T is along it. Impulses at impact are not forces and are not drawn. Raises InputError
     for a coefficient that is not positive.
     """
-    if not (np.isfinite(mu) and mu > 0.0):
-        raise InputError(f"the coefficient of friction is {mu}, expected a positive number")
+    check_positive(mu, f"the coefficient of friction is {mu}")
     tangent, normal = (s.ground_reaction @ axis for axis in ground_axes(slope))
     top = 1.1 * max(float(np.max(normal)), 1.0)
     axes.fill([0.0, mu * top, -mu * top], [0.0, top, top], color="#dddddd", zorder=0)
