@@ -1,4 +1,4 @@
-"""Files: data, names, JSON that is read, plain values for JSON, and writing whole or not at all."""
+"""Files: their names, JSON that is read, plain values for JSON, and writing whole or not at all."""
 
 from __future__ import annotations
 
@@ -18,9 +18,6 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import BipedError, InputError, OutputError
-
-_PACKAGE = Path(__file__).resolve().parent
-
 
 _KIND = re.compile(r"\.[A-Za-z]\w*")
 """The end of a name that says what is in a file; '.1' of 'push_0.1' does not."""
@@ -139,17 +136,3 @@ def replacing(path: Path) -> Iterator[Path]:
     finally:
         if temporary is not None:
             temporary.unlink(missing_ok=True)
-
-
-def data_folder(kind: str) -> Path:
-    """Folder `kind` ("urdf" or "gaits"), in the wheel or beside the package in a checkout.
-
-    Raises FileNotFoundError when neither the wheel nor the checkout has it.
-    """
-    for candidate in (_PACKAGE / "_data" / kind, _PACKAGE.parent / kind):
-        if candidate.is_dir():
-            return candidate
-    raise FileNotFoundError(
-        f"the data folder '{kind}' is neither in the installed package nor beside it; "
-        "reinstall with 'pip install .'"
-    )

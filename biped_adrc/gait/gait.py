@@ -15,11 +15,12 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import GaitError, check_positive
-from biped_adrc.files import data_folder, output_path, reading, write_text
+from biped_adrc.files import output_path, reading, write_text
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import CURVES
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
+from biped_adrc.resources import data_folder
 from biped_adrc.types import Array
 
 FORMAT = "biped_adrc gait 1"

@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from biped_adrc.errors import ModelError, check_positive
-from biped_adrc.files import data_folder, reading
+from biped_adrc.files import reading
 from biped_adrc.model.urdf import Inertial, Tree, load_tree
+from biped_adrc.resources import data_folder
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from inspect import Parameter, signature
 from typing import Any
 
 from biped_adrc.errors import BipedError, InputError
-from biped_adrc.files import data_folder
+from biped_adrc.resources import data_folder
 
 _OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 """package.module:Class."""

@@ -19,7 +19,7 @@ from typer.testing import CliRunner
 from biped_adrc.cli import app
 from biped_adrc.cli import sweep as _  # noqa: F401
 from biped_adrc.errors import InputError, OutputError
-from biped_adrc.files import data_folder
+from biped_adrc.resources import data_folder
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.bench.build import scene_of
 from biped_adrc.studies.bench.cluster import Cluster

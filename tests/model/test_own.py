@@ -11,11 +11,11 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError, ModelError, OutputError
-from biped_adrc.files import data_folder
 from biped_adrc.gait.conventions import AngleMap
 from biped_adrc.model.own import biped_from_urdf, derive
 from biped_adrc.model.own_checks import checks
 from biped_adrc.model.record import Hints
+from biped_adrc.resources import data_folder
 from biped_adrc.studies.verification.frost_urdf import (
     HUNG,
     LIMIT,

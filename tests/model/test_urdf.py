@@ -5,11 +5,11 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
-from biped_adrc.files import data_folder
 from biped_adrc.model.pinned import frame_index, velocity_index
 from biped_adrc.model.reroot import reroot
 from biped_adrc.model.robots import load_description, robot_names
 from biped_adrc.model.urdf import load_tree, to_xml
+from biped_adrc.resources import data_folder
 
 FLOATING = data_folder("urdf") / "rabbit" / "floating.urdf"
 TORSO_MASS = '<mass value="12.0"/>'

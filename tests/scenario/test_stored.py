@@ -17,8 +17,8 @@ import biped_adrc as ba
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError
-from biped_adrc.files import data_folder
 from biped_adrc.hybrid.storage import load, load_beside, save
+from biped_adrc.resources import data_folder
 from biped_adrc.scenario import registry
 from biped_adrc.scenario.plain import Reader, Writer
 
