@@ -205,12 +205,17 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     return np.concatenate((q, v, s, written(Held(w, g, line, h.own))))
 
 
+def asked(loop: Loop, s: Array, m: Measurement) -> tuple[Array, Array]:
+    """The controller's state corrected by a measurement, and the torque (p,) [N m] that it asks for."""
+    s = loop.law.correct(s, m)
+    return s, loop.saturate(loop.law.output(s, m))
+
+
 def decided(
     loop: Loop, k: HeldParameters, s: Array, m: Measurement, line: Line
 ) -> tuple[Array, Line]:
     """The controller's state and the line of torques after it has acted on a measurement."""
-    s = loop.law.correct(s, m)
-    u = loop.saturate(loop.law.output(s, m))
+    s, u = asked(loop, s, m)
     if k.sizes.rate > 0:
         u = limited(k.motors, line, u)
     line = sent(k.motors, line, u)

@@ -88,6 +88,11 @@ class ClosedLoop(HybridSystem, Generic[P]):
         """Largest torque of the motors, one number or (p,) [N m]; None for none."""
         return None
 
+    @cached_property
+    def torques(self) -> tuple[int]:
+        """Shape of u."""
+        return (self.plant.p,)
+
     @property
     def gain(self) -> Array:
         """As `semantics.Loop`."""
@@ -142,11 +147,11 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     def saturate(self, u: Array) -> Array:
         """u within the torque limit. Raises NotFiniteError, SimulationError for another number of torques."""
-        u = np.asarray(u, dtype=float)
-        if u.shape != (self.plant.p,):
+        u, limit = np.asarray(u, dtype=float), self.limit
+        if u.shape != self.torques:
             raise SimulationError(misshapen(self.controller, u, self.plant.p))
-        if self.limit is not None:
-            u = np.minimum(np.maximum(u, -self.limit), self.limit)
+        if limit is not None:
+            u = np.minimum(np.maximum(u, -limit), limit)
         if not math.isfinite(u.dot(u)):
             raise NotFiniteError(f"{type(self.controller).__name__}.output returned {u} N m")
         return u

@@ -42,12 +42,12 @@ class Measurement(NamedTuple):
     @property
     def q_b(self) -> Array:
         """Actuated joints (p,) [rad]."""
-        return self.q[: self.terms.kappa.shape[0]]
+        return self.q[: len(self.terms.kappa)]
 
     @property
     def v_b(self) -> Array:
         """Their rates (p,) [rad/s]."""
-        return self.v[: self.terms.kappa.shape[0]]
+        return self.v[: len(self.terms.kappa)]
 
 
 def measured(m: Measurement) -> Estimate:

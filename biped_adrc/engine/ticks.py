@@ -17,11 +17,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.closed_loop.semantics import decided
+from biped_adrc.closed_loop.semantics import asked
 from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels import layout
+from biped_adrc.engine.kernels.layout import COMPLETED, END
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run import arc
 from biped_adrc.engine.kernels.tables import STATUS
@@ -29,7 +30,6 @@ from biped_adrc.engine.told import Point, Told
 from biped_adrc.errors import NotFiniteError, SingularError
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.held import HeldSizes
-from biped_adrc.hardware.motors import Line
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
 from biped_adrc.hybrid.simulator import Record, RunOptions
@@ -47,7 +47,6 @@ BLOCK = 256
 """Ticks of which the measurements lie in one array."""
 ROOM = 1024
 """Nodes of an arc to make room for at first."""
-NONE = np.zeros(0)
 
 
 def run_ticks(
@@ -82,7 +81,7 @@ LOST = {
 
 def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> Found | None:
     """The event behind a code of the kernels, None for none. Raises one of LOST, or what the jump raises."""
-    if code == layout.COMPLETED:
+    if code == COMPLETED:
         return None
     if code == layout.STRUCK:
         outcome = walker.struck(t, x, mode)
@@ -146,7 +145,7 @@ class Between:
         plant, at = self.system.plant, self.system.flowing
         if self.s is None:
             self.s = start(plant, x[at], t, mode, until, self.fired, record.every)
-        self.s[layout.HEAD :], self.s[layout.END] = x[at], until
+        self.s[layout.HEAD :], self.s[END] = x[at], until
         found = arc(plant.plan, plant.K, self.s, record.every, room=16)
         self.s = found.s
         record.add(found.t.copy(), whole(x, at, found.x), whole(0.0 * x, at, found.dx))
@@ -156,7 +155,7 @@ class Between:
 
 # -- without hardware ------------------------------------------------------------------------------
 _TERMS, _POINT = partial(tuple.__new__, Reduction), partial(tuple.__new__, ReferencePoint)
-_HOLD = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)
+_HOLD = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)
 
 
 @dataclass(frozen=True)
@@ -203,32 +202,33 @@ class Bare(HybridSystem):
 
         ends: how many nodes there were at each tick.
         """
-        walker, law, k, time = self.walker, self.walker.law, self.walker.held, self.walker.timing
-        assert k is not None
+        walker, law, time = self.walker, self.walker.law, self.walker.timing
         assert isinstance(time, SampledTime)
         origin, period, s = t if time.restart else self.t_first, time.period, states[0]
         body = walker.nominal.body_terms if law.needs_body else None
-        run, u_at, size = seen.s, layout.HEAD + 2 * k.sizes.n, len(s)
-        line = Line(NONE, NONE, NONE, run[u_at:].copy())
+        run, size = seen.s, len(s)
+        torque = run[layout.HEAD + 2 * walker.plant.n :]
         count = max(0, math.floor((t - origin) / period))
         while origin + count * period < t:
             count += 1
-        told = self.told.point or Unasked()
+        told, (step, began) = self.told.point or Unasked(), mode
+        due = origin + count * period
         for q, v, terms, point in seen:
             told.now = q, v, point
-            if t == origin + count * period:
+            if t == due:
                 B = None if body is None else body(q, v)
-                m = Measurement(t, mode.step, t - mode.start, q, v, terms, B)
-                s, line = decided(walker, k, s, m, line)
-                run[u_at:] = line.u
+                m = Measurement(t, step, t - began, q, v, terms, B)
+                s, u = asked(walker, s, m)
+                torque[:] = u
+                s = law.predict(s, m, u)
                 count += 1
+                due = origin + count * period
                 if size:
                     states.append(s)
                     ends.append(int(run[layout.COUNT]))
-            t = min(origin + count * period, until)
-            run[layout.END] = t
+            run[END] = t = min(due, until)
             code = seen.move()
-            if code != layout.COMPLETED or t >= until:
+            if code != COMPLETED or t >= until:
                 return code
         raise AssertionError
 

@@ -69,7 +69,9 @@ class FloatingDynamics:
 
     def velocity_map(self, q: Array) -> Array:
         """J_e(q) (n + 2, n + 2): v_float = J_e q_e'."""
-        x = self.configuration(q)
+        return self._velocity_map(self.configuration(q))
+
+    def _velocity_map(self, x: Array) -> Array:
         J = self._foot_jacobian(x, self.stance)
         J_e = np.zeros((self.n + 2, self.n + 2))
         J_e[self.angles, np.arange(self.n)] = 1.0
@@ -120,9 +122,10 @@ class FloatingDynamics:
 
     def impact(self, q: Array, v: Array, R: Array, offset: Array) -> Impact:
         """Solve (7) at (q-, v-) and relabel: q+ = R q- + offset, v+ = R v (n,). Raises SingularError."""
-        n = self.n
-        D_e = self.extended_inertia(q)
-        E_2 = self.swing_jacobian(q)
+        n, x = self.n, self.configuration(q)
+        J_e = self._velocity_map(x)
+        D_e = J_e.T @ pin.crba(self.model, self.data, x) @ J_e
+        E_2 = self._foot_jacobian(x, self.swing) @ J_e
         K = np.block([[D_e, -E_2.T], [E_2, np.zeros((2, 2))]])
         rhs = np.concatenate((D_e[:, :n] @ v, np.zeros(2)))
         try:

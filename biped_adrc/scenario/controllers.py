@@ -23,7 +23,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.scenario.registry import construct, find, lacking, spelled, takes
-from biped_adrc.scenario.scenario import DEFAULTS, Scenario
+from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, Scenario
 from biped_adrc.scenario.values import unknown
 
 GAINS = ("K_p", "K_d")
@@ -143,7 +143,7 @@ def controller(s: Scenario, gait: Gait, biped: Biped, others: set[str] | None = 
     for name in s.own:
         if name not in maker.used and name not in (others or ()):
             raise InputError(
-                f"own value '{name}' of controller '{s.controller}': {unknown(name, sorted(known))}"
+                f"own value '{name}' of controller '{s.controller}': {unknown(name, sorted(known), FIELDS)}"
             )
     idle = [
         name

@@ -14,7 +14,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.registry import construct, find, takes
-from biped_adrc.scenario.scenario import Scenario, drawn
+from biped_adrc.scenario.scenario import DEFAULTS, Scenario, drawn
 from biped_adrc.types import Array
 
 OVER_STEPS = ("sine", "noise")
@@ -37,8 +37,13 @@ def push(s: Scenario, biped: Biped, gait: Gait, plant: Biped) -> Disturbance | N
     along = np.array((math.cos(s.direction), math.sin(s.direction), 0.0))
     kind, _, link = s.on.partition(" ")
     values = {**window(s, gait), "force": tuple((s.force * along)[:2].tolist()), **s.own}
-    on_link = kind == "link"
-    forced = on_link or "force" in takes(find("disturbance", s.push).load())
+    on_link, accepted = kind == "link", takes(find("disturbance", s.push).load())
+    forced = on_link or "force" in accepted
+    idle = {"direction": not forced, "frequency": not {"frequency", "bandwidth"} & set(accepted)}
+    if given := [name for name in idle if idle[name] and getattr(s, name) != DEFAULTS[name]]:
+        raise InputError(
+            f"the push '{s.push}' on '{s.on}' takes no {given[0]}: this would do nothing, leave it out"
+        )
     if forced and s.amplitude > 0.0:
         raise InputError(
             f"the push '{s.push}' on '{s.on}' is a force [N], and an amplitude is given"

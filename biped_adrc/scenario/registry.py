@@ -196,7 +196,7 @@ def construct(
     if missing:
         raise InputError(
             f"{what} needs {', '.join(missing)}; give --set {missing[0]}=VALUE, `own.{missing[0]} = VALUE` "
-            f"in a study, or Scenario(own={{'{missing[0]}': VALUE}})"
+            f"in a study, or Scenario(own={{'{missing[0]}': VALUE}}); given by themselves are {sorted(values)}"
         )
     try:
         made = make(**{name: x for name, x in values.items() if name in takes(make)})
@@ -205,5 +205,7 @@ def construct(
     except Exception as error:  # whatever a class of the user's may raise
         raise InputError(f"{what} could not be made: {type(error).__name__}: {error}") from error
     if not isinstance(made, kind):
-        raise InputError(f"{what} made a {type(made).__name__}, expected a {kind.__name__}")
+        raise InputError(
+            f"{what} made a {type(made).__name__}, expected one of class {kind.__name__}"
+        )
     return made

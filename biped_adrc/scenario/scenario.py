@@ -47,6 +47,13 @@ CHOICES: dict[str, tuple[str, ...]] = {
 """By field."""
 NAMED = {"controller": "controller", "observer": "observer", "push": "disturbance"}
 """Fields that name a thing of the registry, and its kind."""
+OF_PUSH = ("on", "direction", "onset", "duration", "frequency")
+"""Values of the push named by `push`."""
+OF_SAMPLING = (
+    *("delay", "delay_known", "counts", "noise", "pitch_noise", "rate_noise"),
+    *("velocity", "filter_time", "rate_limit", "lag"),
+)
+"""Values that are there in sampled time only."""
 FREE = ("adaptive", "stiff")
 """Methods that choose their own steps."""
 
@@ -193,6 +200,11 @@ class Scenario:
         pushed, last = self.push != "none", self.first_step + self.impacts - 1
         return {
             "amplitude or force without a push": not pushed and self.amplitude + self.force > 0.0,
+            **{f"{name} without a push": not pushed and self._given(name) for name in OF_PUSH},
+            **{
+                f"{name} without a period": self.period is None and self._given(name)
+                for name in OF_SAMPLING
+            },
             "friction_error without friction": self.friction_error > 0.0 and not self.friction,
             "filter_time with rates that are measured": self.filter_time > 0.0
             and self.velocity == "measured",
@@ -204,6 +216,9 @@ class Scenario:
             "a tolerance without the method adaptive or stiff": self.tolerance != 1e-9
             and self.method not in FREE,
         }
+
+    def _given(self, name: str) -> bool:
+        return bool(getattr(self, name) != DEFAULTS[name])
 
     def record(self) -> dict[str, Any]:
         """The values that differ from the defaults and from what `hardware` fills in, by name, plain."""

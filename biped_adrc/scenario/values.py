@@ -72,8 +72,8 @@ def reason(error: Exception, known: Iterable[str] = ()) -> str:
     return f"{name}found {found['input']!r}, {text.replace('Input should', 'should')}"
 
 
-def unknown(name: str, known: Iterable[str]) -> str:
-    """What is said of a name that there is not."""
-    near = get_close_matches(name, list(known), 3, 0.6)
+def unknown(name: str, known: Iterable[str], near_by: Iterable[str] = ()) -> str:
+    """What is said of a name that there is not; `near_by` are others that may have been meant."""
+    near = get_close_matches(name, [*known, *near_by], 3, 0.6)
     hint = f"did you mean {' or '.join(map(repr, near))}?" if near else f"choose from {list(known)}"
     return f"unknown parameter; {hint}" if known else "unknown parameter; leave it out"

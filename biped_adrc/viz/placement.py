@@ -21,6 +21,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from biped_adrc.analysis.signals import Signals
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.relabelling import twins
@@ -158,6 +159,8 @@ class Recorded(Protocol):
     def walker(self) -> Walker: ...
     @property
     def trajectory(self) -> Trajectory: ...
+    @property
+    def recorded(self) -> Signals | None: ...
 
 
 @dataclass(frozen=True)
@@ -168,6 +171,8 @@ class Scene:
     trajectory: Trajectory
     footholds: Array
     heights: Array
+    recorded: Signals | None = None
+    """Of a walk whose controller is not there."""
 
     @classmethod
     def of(cls, walk: Recorded) -> Scene:
@@ -177,7 +182,8 @@ class Scene:
             feet.append(foot)
             if arc.event is not None and arc.event.x_plus is not None:
                 foot = foot + plant.swing_foot(arc.event.x_minus[: plant.n])
-        return cls(walk.walker, walk.trajectory, *np.array(feet).T)
+        x, z = np.array(feet).T
+        return cls(walk.walker, walk.trajectory, x, z, walk.recorded)
 
     @property
     def biped(self) -> Biped:
@@ -235,12 +241,17 @@ def loads(scene: Scene, t: float) -> Loads:
 
     Controller states are not interpolated: a fast observer's would not survive it.
     """
-    arc = scene.trajectory.arcs[scene.arc_at(t)]
+    arcs, at = scene.trajectory.arcs, scene.arc_at(t)
+    arc, known = arcs[at], scene.recorded
     k = min(max(int(np.searchsorted(arc.t, t, side="right")) - 1, 0), len(arc.t) - 1)
-    i = scene.walker.instant(float(arc.t[k]), arc.x[k], arc.mode)
+    if known is None:
+        i = scene.walker.instant(float(arc.t[k]), arc.x[k], arc.mode)
+        force, zeta = scene.walker.ground_reaction(i, arc.mode), i.zeta
+    else:
+        row = k + sum(len(before.t) for before in arcs[:at])
+        force, zeta = known.ground_reaction[row], known.zeta[row]
     # with q drawn as R q, power zeta' q' is that of R^-T zeta, and R is its own inverse
-    zeta = scene.biped.R.T @ i.zeta if exchanged(scene.biped, arc.mode.step) else i.zeta
-    return Loads(scene.walker.ground_reaction(i, arc.mode), zeta)
+    return Loads(force, scene.biped.R.T @ zeta if exchanged(scene.biped, arc.mode.step) else zeta)
 
 
 def ending(trajectory: Trajectory) -> str:

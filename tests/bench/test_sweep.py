@@ -200,7 +200,11 @@ def test_a_dollar_is_no_formula():
 
 def test_what_was_no_walk_is_grey_and_no_fall(tmp_path):
     study = read_study(
-        {"study": {"name": "refused"}, "grid": {"impacts": [1, 2], "on": ["q1", "random joints"]}}
+        {
+            "study": {"name": "refused"},
+            "fixed": {"push": "pulse", "pushed_step": 1},
+            "grid": {"impacts": [1, 2], "on": ["q1", "random joints"]},
+        }
     )
     done = sweep(study, tmp_path, Threads(1), function=half_refused)
     table = done.table()

@@ -92,17 +92,20 @@ def test_neither_the_folder_nor_the_urdf_matters(tmp_path: Path, monkeypatch) ->
     assert done.exit_code == 0
 
 
-def stored(own: str) -> ba.Walk:
+def stored(own: str, period: float | None = 1e-3) -> ba.Walk:
     """Of a controller of one's own, which is forgotten then."""
-    s = ba.Scenario(f"{own}:Mine", own={"gain": 0.8}, period=1e-3, **FAST)
+    s = ba.Scenario(f"{own}:Mine", own={"gain": 0.8}, period=period, **FAST)
     walk = ba.walk_scenario(s)
     walk.save("mine.npz")
     del sys.modules[own]
     return walk
 
 
-def test_an_own_controller_is_read_without_it(own: str, tmp_path: Path) -> None:
-    walk = stored(own)
+@pytest.mark.parametrize("period", [1e-3, None])
+def test_an_own_controller_is_read_without_it(
+    own: str, period: float | None, tmp_path: Path
+) -> None:
+    walk = stored(own, period)
     again = ba.load_walk("mine.npz")
     assert own not in sys.modules, "reading a file imports nothing"
     same(walk, again)
