@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Callable
 from functools import reduce, wraps
-from importlib.resources import files
 from inspect import Parameter, signature
 from typing import Annotated, Any, get_args
 
 import typer
 
 from biped_adrc.errors import InputError
+from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import parse_push
 from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, UNITS
 
@@ -27,16 +26,7 @@ Pushes = Annotated[
         "several joints with different torques: 'q1=30,q3=-20@19:0.1-0.3'.",
     ),
 ]
-Sets = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set",
-        help="NAME=VALUE: any other value of a scenario, with its unit as in a study ('delay=2 ms'), or what "
-        "the controller itself takes ('gain=3'). May be repeated.",
-    ),
-]
-
-TEXTS = tomllib.loads(files("biped_adrc.cli").joinpath("options.toml").read_text("utf-8"))
+TEXTS = packaged("biped_adrc.cli", "options.toml")
 Command = Callable[..., None]
 
 

@@ -11,7 +11,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
-from biped_adrc.cli.options import Pushes, Sets, of_scenario, texts, values_of
+from biped_adrc.cli.options import Pushes, of_scenario, texts, values_of
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
@@ -36,7 +36,7 @@ NUMERICS = ("friction", "slope", "method", "engine", "friction_limit", "force_wi
 def simulate(
     given: dict[str, Any],
     push: Pushes = None,
-    sets: Sets = None,
+    sets: list[str] | None = None,
     as_printed: bool = False,
     end_illegal: bool = False,
     out: Path | None = None,
@@ -180,7 +180,7 @@ def _nominal(c: Certificate) -> str:
 def poincare(
     given: dict[str, Any],
     slope: float | None = None,
-    sets: Sets = None,
+    sets: list[str] | None = None,
     observer_states: bool = True,
     samples: int = 25,
 ) -> None:

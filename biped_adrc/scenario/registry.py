@@ -13,17 +13,15 @@ import inspect
 import os
 import re
 import sys
-import tomllib
 from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from importlib import import_module
-from importlib.resources import files
 from inspect import Parameter, signature
 from typing import Any
 
 from biped_adrc.errors import BipedError, InputError
-from biped_adrc.resources import data_folder
+from biped_adrc.resources import data_folder, packaged
 
 _OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 """package.module:Class."""
@@ -48,10 +46,9 @@ class Entry:
 
 
 def _read() -> dict[str, dict[str, Entry]]:
-    text = files("biped_adrc.scenario").joinpath("registry.toml").read_text("utf-8")
     return {
         kind: {name: Entry(**values) for name, values in entries.items()}
-        for kind, entries in tomllib.loads(text).items()
+        for kind, entries in packaged("biped_adrc.scenario", "registry.toml").items()
     }
 
 

@@ -17,21 +17,12 @@ import numpy as np
 from pydantic import ConfigDict, field_validator, model_validator
 from pydantic.dataclasses import dataclass
 
+from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import Push, parse_push
 from biped_adrc.scenario.registry import find, spelled
 from biped_adrc.scenario.values import clear, described
 
-HARDWARE: dict[str, dict[str, Any]] = {
-    "none": {},
-    "ideal": {"period": 1e-3},
-    "rabbit": {
-        "period": 1.5e-3,
-        "counts": 8192.0,
-        "velocity": "differences",
-        "torque_limit": 150.0,
-        "friction": True,
-    },
-}
+HARDWARE: dict[str, dict[str, Any]] = packaged("biped_adrc.scenario", "hardware.toml")
 """Continuous time; exact at 1 kHz; and sampling, encoders, torque and friction published for RABBIT
 (Chevallereau et al., IEEE Control Systems Magazine 2003; Westervelt, Buche, Grizzle, IJRR 2004), whose rotors
 are in the preset 'identified'."""

@@ -6,12 +6,12 @@ They are made from the summary that `biped-adrc compare` writes: shares of walks
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping, Sequence
-from importlib.resources import files
 from typing import Any
 
-TEXTS = tomllib.loads(files("biped_adrc.viz").joinpath("comparison.toml").read_text("utf-8"))
+from biped_adrc.resources import packaged
+
+TEXTS = packaged("biped_adrc.viz", "comparison.toml")
 TITLE: str = TEXTS["title"]
 WHAT_COUNTS: str = " ".join(TEXTS["what_counts"].split())
 MEASURES: dict[str, str] = TEXTS["measures"]

@@ -12,7 +12,6 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
 from biped_adrc.viz import meshcat_scene as draw
 from biped_adrc.viz.frames import Frames
 from biped_adrc.viz.pages import player
@@ -86,15 +85,11 @@ def animation_html(walks: Mapping[str, Recorded], look: Look | None = None) -> s
 
 def _packed(frames: Frames) -> dict[str, str]:
     """Times as float64, the rest as float32, in base64."""
-    columns = dict.fromkeys(("arc", "joints", "rates", "loads", "points"), np.float32)
-    return {
-        name: _base64(np.asarray(getattr(frames, name), dtype=kind))
-        for name, kind in {"t": np.float64, **columns}.items()
-    }
-
-
-def _base64(values: Array) -> str:
-    return base64.b64encode(np.ascontiguousarray(values).tobytes()).decode("ascii")
+    kinds = {"t": np.float64} | dict.fromkeys(
+        ("arc", "joints", "rates", "loads", "points"), np.float32
+    )
+    packed = {name: np.asarray(getattr(frames, name), dtype=kind) for name, kind in kinds.items()}
+    return {name: base64.b64encode(x.tobytes()).decode("ascii") for name, x in packed.items()}
 
 
 # -- scene -----------------------------------------------------------------------------------------

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import base64
 import json
-import tomllib
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
@@ -21,6 +20,7 @@ from matplotlib.figure import Figure
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
+from biped_adrc.resources import packaged
 from biped_adrc.viz import comparison_text as t
 from biped_adrc.viz.style import render
 
@@ -46,8 +46,8 @@ Captions = dict[str, tuple[str, str]]
 @cache
 def captions(page: str) -> Captions:
     """Those of a page, from captions.toml."""
-    found = tomllib.loads(files("biped_adrc.viz").joinpath("captions.toml").read_text("utf-8"))
-    return {name: (x["title"], " ".join(x["text"].split())) for name, x in found[page].items()}
+    found = packaged("biped_adrc.viz", "captions.toml")[page].items()
+    return {name: (x["title"], " ".join(x["text"].split())) for name, x in found}
 
 
 def rendered(template: str, **values: Any) -> str:
