@@ -13,7 +13,7 @@ print(" m  largest tracking error [rad]")
 for m in (1, 2, 3, 5):
     observer = ba.GPIObserver.from_bandwidth(500.0, m)  # all poles at -500 rad/s
     controller = ba.ADRCController(gait.constraint, observer)
-    walk = ba.walk(ba.Walker(biped, controller, push), gait, impacts=3, engine="compiled")
+    walk = ba.walk(ba.Walker(biped, controller, push), gait, impacts=3)
     print(f"{m:2d}  {walk.signals.peak_error:.1e}  {walk.trajectory.status.name}")
 
 # To try: sample at 1 kHz (Walker(..., timing=ba.SampledTime(1e-3))). Does a higher m still help?

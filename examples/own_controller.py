@@ -30,7 +30,7 @@ gait = ba.load_gait("published", biped)
 push = ba.TorquePulse([30, 30, 30, 30, 0], step=3, start=0.1, stop=0.3)  # [N m], [s]
 
 for controller in (GravityPD(gait.constraint), ba.ADRCController(gait.constraint)):
-    walk = ba.walk(ba.Walker(biped, controller, push), gait, impacts=6, engine="compiled")
+    walk = ba.walk(ba.Walker(biped, controller, push), gait, impacts=6)
     print(
         f"{type(controller).__name__:16s} {walk.trajectory.status.name:10s} "
         f"largest tracking error {walk.signals.peak_error:.1e} rad, "

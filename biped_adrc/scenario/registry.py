@@ -100,6 +100,12 @@ def registered(home: str) -> Callable[..., Any] | None:
     return next((entry.given for entry in entries if entry.given and entry.home == home), None)
 
 
+def portable(kind: str, name: str) -> str:
+    """The name by which another process finds it: `module:Class` for what was registered in this one."""
+    entry = REGISTRY[kind].get(name)
+    return entry.home if entry is not None and entry.given is not None else name
+
+
 def own(kind: str, name: str) -> Callable[..., Any] | None:
     """A robot or a gait that the user brought by this name; None for a file. Raises InputError."""
     return find(kind, name).load() if is_own(name) or name in REGISTRY[kind] else None

@@ -19,7 +19,7 @@ from pydantic.dataclasses import dataclass
 
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import Push, parse_push
-from biped_adrc.scenario.registry import find, spelled
+from biped_adrc.scenario.registry import find, portable, spelled
 from biped_adrc.scenario.values import clear, described
 
 HARDWARE: dict[str, dict[str, Any]] = packaged("biped_adrc.scenario", "hardware.toml")
@@ -147,7 +147,7 @@ class Scenario:
         try:
             return tuple(float(word) for word in given.split(","))
         except ValueError:
-            raise ValueError("expected numbers separated by commas") from None
+            raise ValueError(f"found {given!r}, expected numbers separated by commas") from None
 
     @field_validator("start")
     @classmethod
@@ -212,11 +212,17 @@ class Scenario:
         return bool(getattr(self, name) != DEFAULTS[name])
 
     def record(self) -> dict[str, Any]:
-        """The values that differ from the defaults and from what `hardware` fills in, by name, plain."""
+        """The values that differ from the defaults and from what `hardware` fills in, by name, plain.
+
+        What was registered in this process is written as module:Class, by which any other finds it.
+        """
         usual = {**DEFAULTS, **HARDWARE[self.hardware]}
         found = {name: x for name, x in sorted(asdict(self).items()) if x != usual[name]}
         if self.pushes:
             found["pushes"] = [_told(push) for push in found["pushes"]]
+        for name, kind in {**NAMED, "robot": "robot", "gait": "gait"}.items():
+            if name in found:
+                found[name] = portable(kind, found[name])
         return found | ({} if self.poles is None else {"poles": list(self.poles)})
 
     @property

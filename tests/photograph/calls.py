@@ -83,9 +83,7 @@ CHAINS: dict[str, tuple[Call, ...]] = {
         Call("observer by Table I", "observer --delay 0.0005 --known --period 0.0005"),
         Call("observer confirmed", "observer --bandwidth 300 --order 1 --confirm"),
         Call("sweep dry", "sweep study.toml -o sweep --dry-run"),
-        Call(
-            "sweep", "sweep study.toml -o sweep --workers 1 --export csv --plot start.q5,controller"
-        ),
+        Call("sweep", "sweep study.toml -o sweep --workers 1 --export csv --plot start.q5,case"),
         Call("sweep again", "sweep study.toml -o sweep --no-run --threads"),
         Call("compare", f"{COMPARE} --no-pushes --workers 1 -o comparison"),
     ),
@@ -133,16 +131,23 @@ name = "a small study"
 
 [fixed]
 impacts = 2
-bandwidth = "500 rad/s"
-order = 1
 counts = 8192
 velocity = "differences"
 torque_limit = "150 N m"
 max_step_time = 0.9
 
 [grid]
-controller = ["NPD", "ADRC"]
 start.q5 = { from = "-3 deg", to = "3 deg", count = 3 }
+
+[[cases]]
+name = "NPD"
+controller = "NPD"
+
+[[cases]]
+name = "ADRC"
+controller = "ADRC"
+bandwidth = "500 rad/s"
+order = 1
 """
 WRONG_STUDY = """\
 [study]

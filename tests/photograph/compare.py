@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import difflib
 import fnmatch
+import html
 import json
 import math
 import re
@@ -98,7 +99,8 @@ def close(a: float, b: float) -> bool:
 
 
 def text_word(a: str, b: str) -> str:
-    """Whether two texts are equal, or equal but for round-off in their numbers."""
+    """Whether two texts are equal, or equal but for round-off in their numbers; &#39; and &#x27; are one."""
+    a, b = html.unescape(a), html.unescape(b)
     if a == b:
         return EQUAL
     if NUMBER.sub("#", a) != NUMBER.sub("#", b):
@@ -285,8 +287,26 @@ def call_words(c: Comparison, key: str, a: Any, b: Any) -> None:
             c,
             f"calls: {name}",
             f"commands/{key}",
-            *({name: x[name]} if name in x else {} for x in (a, b)),
+            *({name: paired(x[name])} if name in x else {} for x in (a, b)),
         )
+
+
+def paired(tree: Any) -> Any:
+    """The runs and points of a file of results in the order of what they found, not of their hashed names."""
+    if isinstance(tree, list):
+        return [paired(x) for x in tree]
+    if not isinstance(tree, dict):
+        return tree
+    order = {"runs": lambda run: found(run["row"]), "points": lambda point: found(point["at"])}
+    return {
+        k: sorted(x, key=order[k]) if k in order and isinstance(x, list) else paired(x)
+        for k, x in tree.items()
+    }
+
+
+def found(row: dict[str, Any]) -> list[tuple[str, str]]:
+    """Values by name, numbers with six digits."""
+    return sorted((k, f"{x:.6g}" if isinstance(x, float) else str(x)) for k, x in row.items())
 
 
 def allowed_in(path: Path | None) -> list[tuple[str, str]]:

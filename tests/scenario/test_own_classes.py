@@ -65,11 +65,16 @@ def test_an_observer_and_a_push_of_ones_own(own: str) -> None:
     assert (type(seen.observer).__name__, seen.observer.m) == ("HighGainObserver", 2)
 
 
-@pytest.mark.parametrize("crew", [Processes(1), Threads(1)])
-def test_a_sweep_over_its_own_gain(own: str, tmp_path, crew) -> None:
+@pytest.mark.parametrize(
+    ("crew", "name"), [(Processes(1), ""), (Threads(1), ""), (Processes(1), "of mine")]
+)
+def test_a_sweep_over_its_own_gain(own: str, tmp_path, monkeypatch, crew, name: str) -> None:
+    if name:
+        monkeypatch.setattr(registry, "REGISTRY", {k: {**v} for k, v in registry.REGISTRY.items()})
+        ba.register("controller", name, registry.own("controller", f"{own}:Mine"))
     tables = {
         "study": {"name": "gains"},
-        "fixed": {"controller": f"{own}:Mine", "impacts": 1},
+        "fixed": {"controller": name or f"{own}:Mine", "impacts": 1},
         "grid": {"own.gain": [0.5, 1.0]},
     }
     table = sweep(read_study(tables), tmp_path / "out", crew).table()
