@@ -55,6 +55,12 @@ def check_count(count: object, what: str) -> None:
         raise InputError(f"{what}, expected a whole number, at least 1")
 
 
+def check_whole(value: object, what: str, least: int = 0) -> None:
+    """Raise InputError, beginning with `what`, unless `value` is an int from `least` on; True is none."""
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise InputError(f"{what}, expected a whole number >= {least}")
+
+
 def check_positive(
     value: float, what: str, hint: str = "", error: type[BipedError] = InputError
 ) -> None:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
-from biped_adrc.errors import InputError, check_count
+from biped_adrc.errors import InputError, check_count, check_positive, check_whole
 from biped_adrc.types import Array
 
 
@@ -24,42 +25,45 @@ def check_slope(slope: float) -> None:
 
 
 @dataclass(frozen=True)
-class StepDown:
+class GroundStep:
+    """What a step down and a step up share."""
+
+    step: int
+    height: float
+    way: ClassVar[str]
+    other: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        way, height = self.way, self.height
+        check_count(
+            self.step, f"the step {way} is in single support {self.step}; they are counted from 1"
+        )
+        hint = f"; a step {self.other} is a Step{self.other.capitalize()}"
+        check_positive(height, f"the step {way} is {height} m high", hint)
+
+    @property
+    def drop(self) -> float:
+        """How far the ground lies below the stance foot [m], negative for a step up."""
+        return self.height if self.way == "down" else -self.height
+
+
+class StepDown(GroundStep):
     """The ground on which single support `step` (from 1) ends lies `height` [m] below its stance foot.
 
     Raises InputError for a height that is not positive; a step up is a `StepUp`.
     """
 
-    step: int
-    height: float
-
-    def __post_init__(self) -> None:
-        _check(self.step, self.height, "down", "up")
-
-    @property
-    def drop(self) -> float:
-        """How far the ground lies below the stance foot [m]."""
-        return self.height
+    way, other = "down", "up"
 
 
-@dataclass(frozen=True)
-class StepUp:
+class StepUp(GroundStep):
     """The ground on which single support `step` (from 1) ends lies `height` [m] above its stance foot.
 
     The swing foot strikes it once it has been above; whether it clears the edge is not modelled.
     Raises InputError for a height that is not positive; a step down is a `StepDown`.
     """
 
-    step: int
-    height: float
-
-    def __post_init__(self) -> None:
-        _check(self.step, self.height, "up", "down")
-
-    @property
-    def drop(self) -> float:
-        """How far the ground lies below the stance foot [m], negative."""
-        return -self.height
+    way, other = "up", "down"
 
 
 def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp, ...]:
@@ -72,10 +76,7 @@ def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp,
     if not (math.isfinite(rms) and rms >= 0.0):
         raise InputError(f"the rms of uneven ground is {rms} m, expected a number >= 0")
     for name, value in (("seed", seed), ("number of steps", steps)):
-        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-            raise InputError(
-                f"the {name} of uneven ground is {value}, expected a whole number >= 0"
-            )
+        check_whole(value, f"the {name} of uneven ground is {value}")
     heights = np.concatenate(([0.0], np.random.default_rng(seed).normal(0.0, rms, steps)))
     drops = ((k + 1, float(drop)) for k, drop in enumerate(-np.diff(heights)))
     return tuple(
@@ -83,12 +84,3 @@ def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp,
         for step, drop in drops
         if drop != 0.0
     )
-
-
-def _check(step: int, height: float, way: str, other: str) -> None:
-    check_count(step, f"the step {way} is in single support {step}; they are counted from 1")
-    if not (math.isfinite(height) and height > 0.0):
-        raise InputError(
-            f"the step {way} is {height} m high, expected a positive number; a step {other} is a "
-            f"Step{other.capitalize()}"
-        )

@@ -19,8 +19,7 @@ def solve(A: Array, B: Array, what: str) -> Array:
     _, _, X, info = dgesv(A, B)
     if info != 0:
         raise SingularError(f"{what} is singular: pivot {info} of its LU factors is zero")
-    solution: Array = X
-    return solution
+    return X
 
 
 def solve_positive(A: Array, B: Array, what: str) -> Array:

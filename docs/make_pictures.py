@@ -21,7 +21,8 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import load_walks
 from biped_adrc.studies.figures import draw, push_window
-from biped_adrc.viz.gif import Motion, write_gif
+from biped_adrc.viz.gif import write_gif
+from biped_adrc.viz.moving import Motion
 from biped_adrc.viz.numbers import SHARES, Numbers, as_text, numbers_of, rounded
 from biped_adrc.viz.placement import Scene
 from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure

@@ -20,12 +20,12 @@ from write_results import bullets, table
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.studies.bench.compare_study import figures
-from biped_adrc.viz.comparison_page import TITLE
 from biped_adrc.viz.comparison_text import (
     EQUAL,
     MEDIANS,
     PUSHES,
     SHARES,
+    TITLE,
     WHAT_COUNTS,
     by_condition,
     by_direction,

@@ -20,8 +20,8 @@ from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.studies.push_map import WORDS, Cell, Fate, apart, certain, counts, settings_of
-from biped_adrc.viz.figures import push_map_figure
 from biped_adrc.viz.numbers import as_text, numbers_of
+from biped_adrc.viz.push_map_plot import push_map_figure
 from biped_adrc.viz.style import render
 
 PAGE = Path(__file__).resolve().parent / "critical_phase.md"

@@ -15,8 +15,7 @@ from typing import Any
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
-from biped_adrc.viz.pages import captions, plain
-from biped_adrc.viz.report import CLAIM_COLUMNS, KINDS
+from biped_adrc.viz.pages import CLAIM_COLUMNS, KINDS, captions, plain
 
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- results: begin -->", "<!-- results: end -->"

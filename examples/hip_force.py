@@ -5,7 +5,7 @@ Run: python examples/hip_force.py
 
 import biped_adrc as ba
 from biped_adrc.analysis.forced_steps import forced_walk, stopping_force
-from biped_adrc.analysis.stride_directions import direction_merits
+from biped_adrc.analysis.stride_gain import direction_merits
 
 biped = ba.Biped.load("rabbit", "identified-bare")
 gait = ba.load_gait("v0.5", biped)

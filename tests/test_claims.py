@@ -42,7 +42,7 @@ from biped_adrc.studies.claims.words import (
 )
 from biped_adrc.studies.push_map import Cell, Fate
 from biped_adrc.studies.results import Results
-from biped_adrc.viz.report import CLAIM_COLUMNS
+from biped_adrc.viz.pages import CLAIM_COLUMNS
 
 NUMERICS = {
     "tracking error per unit disturbance on a held joint, simulated [s^2]": 2e-5,

@@ -10,7 +10,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis import forced_steps
 from biped_adrc.analysis.forced_steps import forced_walk, stopping_force
-from biped_adrc.analysis.stride_directions import (
+from biped_adrc.analysis.stride_gain import (
     DIRECTIONS,
     STANCE_KNEE,
     direction_merits,

@@ -10,8 +10,8 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.certificate import Support, outside, support
 from biped_adrc.analysis.legality import Legality, first_violation, outcome_of
+from biped_adrc.analysis.quadrature import window_means
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.analysis.window import window_means
 from biped_adrc.model.robots import KnownLimits
 from biped_adrc.scenario.run import execute
 from biped_adrc.scenario.scenario import Scenario

@@ -25,8 +25,7 @@ from biped_adrc.control.base import Measurement
 from biped_adrc.control.delayed import Delayed, line_flow, line_output, line_state, pade
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.motors import IDEAL, Line, acting, sent, whole_and_part
-from biped_adrc.observers.gpi import gpi_flow
-from biped_adrc.observers.gpi_sampled import gpi_correct, gpi_predict
+from biped_adrc.observers.gpi import gpi_correct, gpi_flow, gpi_predict
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.studies.observer_check import DelayCase, check_encoders, step_errors
 from biped_adrc.viz.observer_figure import observer_figure
@@ -207,7 +206,7 @@ def test_covariance_solves_its_equation():
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("observer_", [TABLE_I, FIRST], ids=["table 1", "m = 1"])
 def test_largest_period_parts_stable_from_unstable(observer_, form):
-    T = largest_period(observer_, form=form, delay_periods=1.0)
+    T = largest_period(sampled_loop(observer_, 1e-3, form=form), delay_periods=1.0)
     for share, stable in ((0.999, True), (1.001, False)):
         loop = sampled_loop(observer_, share * T, delay=share * T, form=form)
         assert loop.stable is stable
@@ -215,14 +214,14 @@ def test_largest_period_parts_stable_from_unstable(observer_, form):
 
 def test_a_held_measurement_limits_the_period_of_table_1():
     """The bound that the notes on the paper found by trying: about 1e-5 s."""
-    assert largest_period(TABLE_I, form="held") == pytest.approx(1e-5, rel=0.1)
+    assert largest_period(sampled_loop(TABLE_I, 1e-3, form="held")) == pytest.approx(1e-5, rel=0.1)
 
 
 @pytest.mark.parametrize("observer_", [TABLE_I, FIRST], ids=["table 1", "m = 1"])
 def test_sampled_margin_tends_to_the_continuous_one(observer_):
     """A held torque is late by half a period; the observer knows that, so the margin is not even less."""
     margin = observer_loop(observer_).delay_margin().delay
-    gaps = [abs(largest_delay(observer_, margin / n) - margin) for n in (8, 32)]
+    gaps = [abs(largest_delay(sampled_loop(observer_, margin / n)) - margin) for n in (8, 32)]
     assert gaps[1] < 0.5 * gaps[0]
     assert gaps[1] < 0.02 * margin
 

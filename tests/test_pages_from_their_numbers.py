@@ -11,8 +11,8 @@ import pytest
 
 from biped_adrc.studies.bench.compare_study import figures
 from biped_adrc.studies.plan import BOTH
-from biped_adrc.viz.figures import push_map_figure
 from biped_adrc.viz.numbers import as_text, differences, numbers_of
+from biped_adrc.viz.push_map_plot import push_map_figure
 
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"

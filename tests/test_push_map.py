@@ -12,8 +12,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.scenario.run import execute
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.push_map import Cell, Fate, Tried, apart, certain, counts, push_map, pushes
-from biped_adrc.viz.figures import push_map_figure
-from biped_adrc.viz.push_map_plot import FATES
+from biped_adrc.viz.push_map_plot import FATES, push_map_figure
 
 LEGAL = Fate("legal", "COMPLETED", 200.0, 0.4, 0.5)
 MADE = Fate("made", "COMPLETED", 50.0, 0.8, 0.5)

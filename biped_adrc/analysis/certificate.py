@@ -17,9 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.analysis.quadrature import integrate
+from biped_adrc.analysis.quadrature import integrate, window_means
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.analysis.window import window_means
 from biped_adrc.errors import InputError
 from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
@@ -199,8 +198,7 @@ def inner(t: Array, finished: bool = True) -> NDArray[np.bool_]:
 
 def _height(walker: Walker, s: Signals) -> Array:
     """(K,) of the swing foot above the line of the ground through the stance foot, along the vertical [m]."""
-    height: Array = s.swing_foot[:, 1] + math.tan(walker.slope) * s.swing_foot[:, 0]
-    return height
+    return s.swing_foot[:, 1] + math.tan(walker.slope) * s.swing_foot[:, 0]
 
 
 def _needs(walker: Walker, s: Signals, k: KnownLimits, finished: bool) -> dict[str, Any]:
@@ -227,10 +225,7 @@ def _needs(walker: Walker, s: Signals, k: KnownLimits, finished: bool) -> dict[s
 
 def outside(F: Array, mu: float) -> NDArray[np.bool_]:
     """(K,) whether (F_T, F_N) (K, 2) is outside the friction cone; a force that is no number is."""
-    found: NDArray[np.bool_] = ~(
-        (F[:, 1] > 0.0) & (np.abs(F[:, 0]) <= (1.0 + ROUND_OFF) * mu * F[:, 1])
-    )
-    return found
+    return ~((F[:, 1] > 0.0) & (np.abs(F[:, 0]) <= (1.0 + ROUND_OFF) * mu * F[:, 1]))
 
 
 def largest_ratio(F: Array) -> float:

@@ -18,8 +18,8 @@ from biped_adrc.analysis.certificate import (
     outside,
     struck,
 )
+from biped_adrc.analysis.quadrature import window_means
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.analysis.window import window_means
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.robots import KnownLimits, Limits

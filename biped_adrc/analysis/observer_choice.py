@@ -144,9 +144,8 @@ def recommend(hardware: Hardware, gains: Gains, m: int, joint: int = 0) -> Recom
         low = low if forbids else float(w)
     if not math.isfinite(low):
         return Recommended(m, math.nan, "", math.nan, math.nan, math.nan)
-    observer = GPIObserver.from_bandwidth(low, m)
-    found = OnHardware(hardware, observer, gains, joint)
-    margin = largest_delay(observer, hardware.period, gains, joint=joint, known=hardware.known)
+    found = OnHardware(hardware, GPIObserver.from_bandwidth(low, m), gains, joint)
+    margin = largest_delay(found.sampled())
     return Recommended(m, low, because, found.ripple, margin, found.rejection)
 
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from functools import cached_property, partial
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -74,8 +74,7 @@ class ObserverReport(OnHardware):
     @cached_property
     def sampled_margins(self) -> tuple[float, float]:
         """The largest stable delay [s] at this period, hidden and known."""
-        made = self.observer, self.hardware.period, self.gains
-        hidden, known = (largest_delay(*made, joint=self.joint, known=k) for k in (False, True))
+        hidden, known = (largest_delay(replace(self.sampled(), known=k)) for k in (False, True))
         return hidden, known
 
     @cached_property
@@ -88,9 +87,8 @@ class ObserverReport(OnHardware):
         }
 
     def _periods(self, delay_periods: float = 0.0, form: str = "current") -> tuple[float, float]:
-        made = partial(largest_period, self.observer, self.gains, joint=self.joint, form=form)
-        told = (False, delay_periods > 0.0)
-        hidden, known = (made(delay_periods=delay_periods, known=k) for k in told)
+        loop, told = replace(self.sampled(), form=form), (False, delay_periods > 0.0)
+        hidden, known = (largest_period(replace(loop, known=k), delay_periods) for k in told)
         return hidden, known
 
     @cached_property

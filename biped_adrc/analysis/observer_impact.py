@@ -83,8 +83,7 @@ def _times(theta: Array, rate: Array, start: float) -> Array:
     """t at the nodes: the integral of 1 / Theta' from the start of the step."""
     slowness = Chebyshev.fit(theta, 1.0 / rate, DEGREE)
     whole = slowness.integ()
-    t: Array = whole(theta) - whole(start)
-    return t
+    return whole(theta) - whole(start)
 
 
 def reset_error(impact: Impact, policy: ResetPolicy) -> Array:

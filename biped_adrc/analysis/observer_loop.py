@@ -126,8 +126,7 @@ class ObserverLoop:
         """L at frequencies [rad/s]."""
         s = 1j * np.asarray(frequency, dtype=float) / self.observer.scale
         top, bottom = self._broken(known)
-        L: ComplexArray = np.polyval(top, s) / np.polyval(bottom, s)
-        return L
+        return np.polyval(top, s) / np.polyval(bottom, s)
 
     # -- stability -----------------------------------------------------------------------------------
     def stable_without_delay(self, known: bool = False) -> bool:
@@ -220,10 +219,9 @@ def _squared(p: Array) -> Array:
         half * (-1.0) ** np.arange(len(half)) if len(half) else np.zeros(1)
         for half in (rising[0::2], rising[1::2])
     )
-    square: Array = np.polyadd(
+    return np.polyadd(
         np.polymul(even[::-1], even[::-1]), np.append(np.polymul(odd[::-1], odd[::-1]), 0.0)
     )
-    return square
 
 
 def joint_gains(gains: Gains, joint: int) -> tuple[float, float]:

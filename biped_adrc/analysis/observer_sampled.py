@@ -18,7 +18,7 @@ delay is known, with the mean of what acts until the next tick, which is exact f
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -28,8 +28,7 @@ from biped_adrc.analysis.observer_loop import joint_gains
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hardware.motors import whole_and_part
-from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.observers.gpi_sampled import SampledGPIParameters
+from biped_adrc.observers.gpi import GPIObserver, SampledGPIParameters
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, ComplexArray
 
@@ -122,8 +121,7 @@ class SampledLoop:
         A, n = self.observer.error_system().A, self.observer.order
         both = np.zeros((2 * n, 2 * n))
         both[:n, :n], both[:n, n:] = A * self.period, np.eye(n) * self.period
-        integral: Array = expm(both)[:n, n:]
-        return integral
+        return expm(both)[:n, n:]
 
     @cached_property
     def _fed(self) -> Array:
@@ -133,8 +131,7 @@ class SampledLoop:
             return self._current.Gamma / T**2
         b = np.zeros(k)
         b[1] = 1.0 / self.observer.scale
-        held: Array = self._held @ b / T**2
-        return held
+        return self._held @ b / T**2
 
     @cached_property
     def _feedback(self) -> Array:
@@ -211,23 +208,14 @@ def sampled_loop(
     )
 
 
-def largest_period(
-    observer: GPIObserver,
-    gains: Gains = TABLE_II,
-    *,
-    joint: int = 0,
-    delay_periods: float = 0.0,
-    known: bool = False,
-    form: str = "current",
-) -> float:
-    """The largest T [s] below which every period is stable, with a delay of that many periods.
+def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
+    """The largest T [s] below which the loop is stable at every period, with a delay of that many periods.
 
     0 when SHORTEST is unstable already, infinite when all up to LONGEST are stable.
     """
 
     def stable(T: float) -> bool:
-        d = delay_periods * T
-        return sampled_loop(observer, T, gains, joint=joint, delay=d, known=known, form=form).stable
+        return replace(loop, period=T, delay=delay_periods * T).stable
 
     low = SHORTEST
     if not stable(low):
@@ -239,25 +227,18 @@ def largest_period(
     return last_true(stable, low, low * RATIO)
 
 
-def largest_delay(
-    observer: GPIObserver,
-    period: float,
-    gains: Gains = TABLE_II,
-    *,
-    joint: int = 0,
-    known: bool = False,
-) -> float:
-    """The largest delay [s] below which every delay is stable at this period.
+def largest_delay(loop: SampledLoop) -> float:
+    """The largest delay [s] below which the loop is stable with every delay.
 
     0 when the loop is unstable without one, infinite when all up to MOST_PERIODS are stable.
     """
 
     def stable(d: float) -> bool:
-        return sampled_loop(observer, period, gains, joint=joint, delay=d, known=known).stable
+        return replace(loop, delay=d).stable
 
     if not stable(0.0):
         return 0.0
-    step = period / PARTS
+    step = loop.period / PARTS
     for i in range(1, MOST_PERIODS * PARTS + 1):
         if not stable(i * step):
             return last_true(stable, (i - 1) * step, i * step)

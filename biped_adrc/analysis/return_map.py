@@ -30,7 +30,7 @@ from biped_adrc.types import Array, ComplexArray
 from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
 if TYPE_CHECKING:
-    from biped_adrc.engine.batch import Strides, Walked
+    from biped_adrc.engine.batch import Strides
 
 _CHORD = 0.1  # the residual must fall by this factor with the old dP/ds, else it is taken anew
 
@@ -118,7 +118,11 @@ class ReturnMap:
         if compiled is None:
             strikes = mapper(lambda start: self.next_strike(self.walker, *start).x_minus, starts)
             return [self.project(x) for x in strikes]
-        return [self.project(_returned(walked)) for walked in compiled(starts)]
+        made = compiled(starts)
+        for walked in made:
+            if not walked.status.ok:
+                raise _no_return(walked.status, walked.detail)
+        return [self.project(walked.x_minus[-1]) for walked in made]
 
     @cached_property
     def ran(self) -> str:
@@ -185,14 +189,6 @@ class ReturnMap:
                 return PeriodicOrbit(self.lift(s), sorted_eigenvalues(J), residual, iteration)
             s, previous = s + newton_step(J, gap), residual
         raise not_converged(max_iterations, residual, tolerance)
-
-
-def _returned(walked: Walked) -> Array:
-    """x- of the next strike. Raises SimulationError, with the status, when there is none."""
-    if not walked.status.ok:
-        raise _no_return(walked.status, walked.detail)
-    x: Array = walked.x_minus[-1]
-    return x
 
 
 def _no_return(status: Status, detail: str) -> SimulationError:

@@ -83,8 +83,7 @@ class Signals:
     @property
     def xi_unmatched(self) -> Array:
         """(K, p) the rest of `xi_external`: what comes through the unactuated row of (12) [rad/s^2]."""
-        unmatched: Array = self.xi_external - self.xi_matched
-        return unmatched
+        return self.xi_external - self.xi_matched
 
     @property
     def peak_error(self) -> float:

@@ -64,8 +64,7 @@ class Tolerances:
         """|one_i - other_j| in units of what is allowed (len(one), len(other)); at most 1 where they agree."""
         a, b = one[:, np.newaxis], other[np.newaxis]
         allowed = np.maximum(self.absolute, self.relative * np.maximum(np.abs(a), np.abs(b)))
-        ratio: Array = np.abs(a - b) / allowed
-        return ratio
+        return np.abs(a - b) / allowed
 
 
 @dataclass(frozen=True)

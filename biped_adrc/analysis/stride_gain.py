@@ -1,4 +1,4 @@
-"""Gains of the stride's PI from the zero dynamics.
+"""Gains of the stride's PI from the zero dynamics, and which joints to bend for its correction.
 
 With exact tracking, z_k = sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k of
 
@@ -13,12 +13,19 @@ and z. With the PI of `control.stride` the poles of the loop are the roots of
 At lambda = -mu, mu = (c b - d a) / d, the gains drop out, so a triple pole r, the quickest there is, has
 
     (r + mu)^3 = mu (mu + 1) (mu + a),   K_P = r^3 / (d mu),   K_P + K_I = (1 + a - 3 r) / d.
+
+The static gain g = dv/dbeta [m/s per rad] of a direction is what the correction does to the speed in the long
+run. What it costs is the change of the motors' torque along the periodic orbit,
+
+    U = max over the step and the motors of |du/dbeta|   [N m per rad],
+
+and |g| / U [m/s per N m] does not change when the direction is scaled, so it compares directions.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,6 +44,20 @@ BUMP = 64.0 * np.array([0.0, 0.0, 0.0, 1.0, -3.0, 3.0, -1.0])
 """Coefficients of b(s) = 64 s^3 (1 - s)^3 in powers of s."""
 DIFFERENCE = 1e-3
 """Half width of the central differences: in beta [rad], and relative in z."""
+
+
+STANCE_KNEE = (0.0, 0.0, 1.0, 0.0)
+"""d for RABBIT's joints: beta < 0 bends the stance knee in the middle of the step and quickens the walk."""
+
+DIRECTIONS: Mapping[str, tuple[float, ...]] = {
+    "torso lean": TORSO_LEAN,
+    "stance hip": (1.0, 0.0, 0.0, 0.0),
+    "swing hip": (0.0, 1.0, 0.0, 0.0),
+    "hips apart": (1.0, -1.0, 0.0, 0.0),
+    "stance knee": STANCE_KNEE,
+    "swing knee": (0.0, 0.0, 0.0, 1.0),
+}
+"""By name, for a robot with RABBIT's joints."""
 
 
 @dataclass(frozen=True)
@@ -130,3 +151,43 @@ def stride_response(
         c=(speed(zero, 1.0 + DIFFERENCE) - speed(zero, 1.0 - DIFFERENCE)) / (w * sigma**2),
         d=(speed(more) - speed(less)) / w,
     )
+
+
+@dataclass(frozen=True)
+class DirectionMerit:
+    """One direction d (p,) of the correction."""
+
+    name: str
+    direction: tuple[float, ...]
+    static_gain: float
+    """g [m/s per rad]."""
+    torque: float
+    """U [N m per rad]."""
+
+    @property
+    def merit(self) -> float:
+        """|g| / U [m/s per N m]."""
+        return abs(self.static_gain) / self.torque
+
+
+def direction_merits(
+    gait: Gait, biped: Biped, directions: Mapping[str, tuple[float, ...]] = DIRECTIONS
+) -> tuple[DirectionMerit, ...]:
+    """Every direction, the best first. Raises InputError without one, and as `stride_response`."""
+    if not directions:
+        raise InputError("no direction of the stride's correction was given, expected at least one")
+    found = [_merit(gait, biped, name, d) for name, d in directions.items()]
+    return tuple(sorted(found, key=lambda direction: -direction.merit))
+
+
+def _merit(gait: Gait, biped: Biped, name: str, d: tuple[float, ...]) -> DirectionMerit:
+    gain = stride_response(gait, biped, d).static_gain
+
+    def torque(beta: float) -> Array:
+        return ZeroDynamics.of(biped, bumped(gait.constraint, beta * np.array(d))).cycle.u
+
+    change = (torque(DIFFERENCE) - torque(-DIFFERENCE)) / (2.0 * DIFFERENCE)
+    U = float(np.max(np.abs(change)))
+    if not U > 0.0:
+        raise InputError(f"the direction '{name}' is {d}, expected one that bends a joint")
+    return DirectionMerit(name, d, gain, U)

@@ -95,29 +95,24 @@ class ZeroDynamicsReport:
         if self.domain.empty:
             return [("domain", f"empty: no speed keeps {_show(self.limits)} all along the step")]
         (v_0, v_1), (E_0, E_1) = self.speeds, self.energies
+        low, high = self.domain
+        ends = (
+            f"{low.zeta:.4f} ({_because(low)}) < zeta < {high.zeta:.4f} ({_because(high)}) {UNIT}"
+        )
         found: list[tuple[str, ...]] = [
-            ("domain", f"{self._ends()}"),
+            ("domain", ends),
             ("speeds in it", f"{v_0:.4f} to {v_1:.4f} m/s, of the first step"),
             ("energies in it", f"{E_0:.3f} to {E_1:.3f} J before impact"),
         ]
         if self.walkable:
-            low, high = self.domain
             inside = low.zeta + 1e-9 * self.zeta_star  # rho itself excludes the end
-            steps = [self._steps(zeta) for zeta in (inside, high.zeta)]
+            steps = [
+                self.orbits.steps_to(zeta, CLOSENESS) if math.isfinite(zeta) else "any number of"
+                for zeta in (inside, high.zeta)
+            ]
             text = f"{steps[0]} steps from the lower end, {steps[1]} from the upper"
             found.append(("settled", f"to {CLOSENESS:.1%} of zeta* after {text}"))
         return found
-
-    def _steps(self, zeta: float) -> str:
-        return (
-            str(self.orbits.steps_to(zeta, CLOSENESS)) if math.isfinite(zeta) else "any number of"
-        )
-
-    def _ends(self) -> str:
-        low, high = self.domain
-        return (
-            f"{low.zeta:.4f} ({_because(low)}) < zeta < {high.zeta:.4f} ({_because(high)}) {UNIT}"
-        )
 
     def _doubts(self) -> list[tuple[str, ...]]:
         found: list[tuple[str, ...]] = []

@@ -9,39 +9,19 @@ from __future__ import annotations
 
 import os
 import sys
+from importlib import import_module
 
 from rich.console import Console
 
-from biped_adrc.cli import (
-    compare,
-    design,
-    gait,
-    look,
-    observer,
-    reproduce,
-    robot,
-    sweep,
-    walk,
-    zero,
-)
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, gait_app
 from biped_adrc.errors import BipedError
 
-__all__ = [
-    "app",
-    "compare",
-    "design",
-    "gait",
-    "gait_app",
-    "look",
-    "main",
-    "observer",
-    "reproduce",
-    "robot",
-    "sweep",
-    "walk",
-    "zero",
-]
+__all__ = ["app", "gait_app", "main"]
+
+COMMANDS = ("compare", "design", "gait", "look", "observer", "reproduce", "robot", "sweep", "walk")
+"""Modules, each of which adds its commands to the app, in the order of the help."""
+for _module in COMMANDS:
+    import_module(f"biped_adrc.cli.{_module}")
 
 
 def _say_interrupted() -> None:

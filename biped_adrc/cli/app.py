@@ -1,9 +1,11 @@
-"""What the commands share: the app, options, the progress bar."""
+"""What the commands share: the app, the progress bar, and names of files, looked at before any computing."""
 
 from __future__ import annotations
 
 import shlex
 import sys
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -16,6 +18,8 @@ from rich.progress import (
     TextColumn,
     TimeElapsedColumn,
 )
+
+from biped_adrc.files import keep_inputs, output_path
 
 EXIT_CHECK_FAILED, EXIT_FELL, EXIT_INTERRUPTED = 1, 4, 130
 
@@ -37,13 +41,7 @@ console = Console()
 Preset = Annotated[
     str, typer.Option(help="Parameters of RABBIT: identified, identified-bare or tac2003.")
 ]
-Robot = Annotated[
-    str, typer.Option(help="Robot by name ('biped-adrc robot list'), or the path of a robot.toml.")
-]
-RobotPreset = Annotated[
-    str | None, typer.Option(help="Parameters of the robot; its record's default if not given.")
-]
-StoredGait = Annotated[str, typer.Argument(help="A stored gait by name, or a .json file.")]
+FIGURES, GAITS = (".png", ".svg"), (".json",)
 
 
 def command() -> str:
@@ -60,3 +58,38 @@ def bar() -> Progress:
         TimeElapsedColumn(),
         console=console,
     )
+
+
+def inputs(robot: str, *others: str) -> tuple[Path, ...]:
+    """The files that a robot and gaits are read from; none for names. Raises ModelError."""
+    from biped_adrc.model.robots import load_description
+
+    files = tuple(path for path in map(Path, (robot, *others)) if path.is_file())
+    return (*files, load_description(robot).urdf)
+
+
+def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
+    """Where a run goes. Raises InputError for a name that is no run's or that is read, and OutputError."""
+    from biped_adrc.hybrid.storage import check_beside, run_files
+
+    if out is None:
+        return None
+    path = output_path(out, (".npz", ".mat"), default=True)
+    if path.suffix.lower() == ".mat":
+        keep_inputs((path,), read)
+        return path
+    path, beside = run_files(path)
+    keep_inputs((path, beside), read)
+    check_beside(beside)
+    return path
+
+
+def say(text: str) -> None:
+    """As it is, neither wrapped nor coloured."""
+    console.print(text, markup=False, highlight=False, soft_wrap=True)
+
+
+def say_written(path: Path | None) -> None:
+    """The name of a file."""
+    if path is not None:
+        say(f"written to {path}")

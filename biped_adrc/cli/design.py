@@ -3,67 +3,48 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
 from rich.status import Status
 from rich.table import Table
 
-from biped_adrc.cli.app import Robot, RobotPreset, console, gait_app
-from biped_adrc.cli.output import GAITS, inputs, say_written
+from biped_adrc.cli.app import GAITS, console, gait_app, inputs, say_written
+from biped_adrc.cli.options import texts
 from biped_adrc.errors import GaitError, InputError
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
     from biped_adrc.gait.design.ipopt import Progress
-    from biped_adrc.gait.design.request import StepLimits
     from biped_adrc.types import Array
-
-Slope = Annotated[float, typer.Option(help="Of the ground [rad], positive downhill.")]
-Minimise = Annotated[str, typer.Option(help="torque (squared), transport (cost of), or peak.")]
-Degree = Annotated[int, typer.Option(help="Of the Bezier curves.")]
-Nodes = Annotated[int, typer.Option(help="Gauss nodes at which the limits are kept.")]
-Torque = Annotated[float | None, typer.Option(help="Limit of a motor [N m]; the robot's own.")]
-Friction = Annotated[float | None, typer.Option(help="Limit of |F_T| / F_N; the robot's own.")]
-ImpulseFriction = Annotated[
-    float | None, typer.Option(help="The same of the impulse; as --friction. 'inf' for none.")
-]
-Clearance = Annotated[
-    float,
-    typer.Option(help="Swing foot in mid-step, share of the leg; 0 lets legs without knees scuff."),
-]
 
 
 @gait_app.command("design")
+@texts("gait.design")
 def gait_design(
-    speed: Annotated[float | None, typer.Option(help="Along the ground [m/s].")] = None,
-    step: Annotated[float | None, typer.Option(help="Distance between the feet [m].")] = None,
-    through: Annotated[
-        str | None,
-        typer.Option(help="Pre-impact state instead: q-, q'- as 2 n numbers, comma separated."),
-    ] = None,
-    robot: Robot = "rabbit",
-    preset: RobotPreset = None,
-    slope: Slope = 0.0,
-    minimise: Minimise = "torque",
-    degree: Degree = 6,
-    nodes: Nodes = 24,
-    torque: Torque = None,
-    friction: Friction = None,
-    impulse_friction: ImpulseFriction = None,
-    clearance: Clearance = 0.02,
-    out: Annotated[
-        Path | None, typer.Option("--out", "-o", help="Where to write it (.json).")
-    ] = None,
+    speed: float | None = None,
+    step: float | None = None,
+    through: str | None = None,
+    robot: str = "rabbit",
+    preset: str | None = None,
+    slope: float = 0.0,
+    minimise: str = "torque",
+    degree: int = 6,
+    nodes: int = 24,
+    torque: float | None = None,
+    friction: float | None = None,
+    impulse_friction: float | None = None,
+    clearance: float = 0.02,
+    out: Path | None = None,
 ) -> None:
     """Design a periodic, feasible, stable gait for a speed, a step, or both, and certify it by walking."""
+    from biped_adrc.gait.design.request import StepLimits
     from biped_adrc.model.biped import Biped
     from biped_adrc.studies.gait_design import design_gait
 
     out = None if out is None else output_path(out, GAITS, default=True)
     keep_inputs((out,) if out else (), inputs(robot))
     biped = Biped.load(robot, preset)
-    limits = _limits(torque, friction, impulse_friction, clearance)
+    limits = StepLimits(friction, impulse_friction, torque, clearance=clearance or None)
     with console.status("building the programme") as shown:
         found = design_gait(
             biped,
@@ -84,16 +65,13 @@ def gait_design(
 
 
 @gait_app.command("library")
+@texts("gait.library")
 def gait_library(
-    speeds: Annotated[
-        str, typer.Option(help="[m/s], as 0.4,0.5 or FIRST:LAST:STEP.")
-    ] = "0.4:1.1:0.1",
-    robot: Robot = "rabbit",
-    preset: RobotPreset = None,
-    minimise: Minimise = "torque",
-    out: Annotated[
-        Path, typer.Option("--out", "-o", help="Folder for one .json file per speed.")
-    ] = Path("gait-library"),
+    speeds: str = "0.4:1.1:0.1",
+    robot: str = "rabbit",
+    preset: str | None = None,
+    minimise: str = "torque",
+    out: Path = Path("gait-library"),
 ) -> None:
     """Design a gait for every speed, each from a cold start, and store those that were found."""
     from biped_adrc.model.biped import Biped
@@ -126,14 +104,6 @@ def gait_library(
         console.print(f"written to {out}")
     if missed:
         raise GaitError("; ".join(missed))
-
-
-def _limits(
-    torque: float | None, friction: float | None, impulse: float | None, clearance: float
-) -> StepLimits:
-    from biped_adrc.gait.design.request import StepLimits
-
-    return StepLimits(friction, impulse, torque, clearance=clearance or None)
 
 
 def _progress(shown: Status) -> Progress:

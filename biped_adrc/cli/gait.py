@@ -1,25 +1,19 @@
-"""`biped-adrc gait`."""
+"""`biped-adrc gait`, but for `design` and `library`."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-import typer
-
-from biped_adrc.cli.app import Preset, Robot, RobotPreset, StoredGait, console, gait_app
-from biped_adrc.cli.output import GAITS, inputs, say_written
+from biped_adrc.cli.app import FIGURES, GAITS, console, gait_app, inputs, say, say_written
+from biped_adrc.cli.options import texts
 from biped_adrc.files import keep_inputs, output_path
 
 
 @gait_app.command("published")
-def gait_published(
-    preset: Preset = "identified",
-    out: Annotated[
-        Path | None, typer.Option("--out", "-o", help="Where to write it (.json).")
-    ] = None,
-) -> None:
+@texts("gait.paper")
+def gait_published(preset: str = "identified", out: Path | None = None) -> None:
     """Design gait (a): the constraint of least torque whose orbit passes through the published x*."""
     out = None if out is None else output_path(out, GAITS, default=True)
     from biped_adrc.gait.published import design_published_gait
@@ -29,12 +23,8 @@ def gait_published(
 
 
 @gait_app.command("recipe")
-def gait_recipe(
-    preset: Preset = "identified",
-    out: Annotated[
-        Path | None, typer.Option("--out", "-o", help="Where to write it (.json).")
-    ] = None,
-) -> None:
+@texts("gait.paper")
+def gait_recipe(preset: str = "identified", out: Path | None = None) -> None:
     """Design gait (b): hip sine, inverse kinematics and polynomial regression, section IV."""
     out = None if out is None else output_path(out, GAITS, default=True)
     from biped_adrc.model.biped import Biped
@@ -44,11 +34,8 @@ def gait_recipe(
 
 
 @gait_app.command("show")
-def gait_show(
-    gait: StoredGait = "published",
-    robot: Robot = "rabbit",
-    preset: RobotPreset = None,
-) -> None:
+@texts("gait.stored")
+def gait_show(gait: str = "published", robot: str = "rabbit", preset: str | None = None) -> None:
     """Print a stored gait's provenance and its zero dynamics."""
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.gait.zero_dynamics import ZeroDynamics
@@ -57,7 +44,7 @@ def gait_show(
     biped = Biped.load(robot, preset)
     found = load_gait(gait, biped)
     for key, value in found.provenance.items():
-        console.print(f"{key}: {value}", markup=False, highlight=False, soft_wrap=True)
+        say(f"{key}: {value}")
     if (found.robot, found.preset) != (biped.description.name, biped.preset):
         console.print(
             f"of robot {found.robot}, preset {found.preset}; below with {biped.description.name}, "
@@ -78,14 +65,13 @@ def _save(gait: Any, out: Path | None, read: Iterable[Path] = ()) -> None:
 
 
 @gait_app.command("export")
+@texts("gait.stored")
 def gait_export(
-    gait: StoredGait,
-    out: Annotated[Path, typer.Option("--out", "-o", help="Where to write it (.mat or .json).")],
-    robot: Robot = "rabbit",
-    preset: RobotPreset = None,
-    convention: Annotated[
-        str, typer.Option(help="Angle convention: paper, tac2003, frost or optimtraj.")
-    ] = "paper",
+    gait: str,
+    out: Path,
+    robot: str = "rabbit",
+    preset: str | None = None,
+    convention: str = "paper",
 ) -> None:
     """Write a gait for MATLAB or as JSON, in any angle convention."""
     from biped_adrc.gait.exchange.importing import export_gait
@@ -99,19 +85,14 @@ def gait_export(
 
 
 @gait_app.command("import")
+@texts("gait.import")
 def gait_import(
-    file: Annotated[Path, typer.Argument(help="A gait as .mat or .json.")],
-    robot: Robot = "rabbit",
-    preset: RobotPreset = None,
-    convention: Annotated[
-        str | None, typer.Option(help="Angle convention, of a file that does not say its own.")
-    ] = None,
-    slopes: Annotated[
-        bool, typer.Option(help="Ask that the slopes close through the impact.")
-    ] = True,
-    out: Annotated[
-        Path | None, typer.Option("--out", "-o", help="Where to write it (.json).")
-    ] = None,
+    file: Path,
+    robot: str = "rabbit",
+    preset: str | None = None,
+    convention: str | None = None,
+    slopes: bool = True,
+    out: Path | None = None,
 ) -> None:
     """Bring along a gait: check that it closes, store it in this paper's convention."""
     from biped_adrc.gait.exchange.importing import import_gait
@@ -121,3 +102,35 @@ def gait_import(
     out = None if out is None else output_path(out, GAITS, default=True)
     keep_inputs((out,) if out else (), read)
     _save(import_gait(file, Biped.load(robot, preset), convention, slopes=slopes), out, read)
+
+
+@gait_app.command("zero")
+@texts("gait.stored")
+def gait_zero(
+    gait: str = "published",
+    robot: str = "rabbit",
+    preset: str | None = None,
+    friction: float | None = None,
+    torque: float | None = None,
+    slope: float | None = None,
+    plot: Path | None = None,
+) -> None:
+    """Say what the zero dynamics of a gait allow: orbit, stability, domain of attraction, speeds."""
+    from biped_adrc.analysis.zero_report import zero_report
+    from biped_adrc.gait.gait import load_gait
+    from biped_adrc.gait.zero_orbits import Limits
+    from biped_adrc.model.biped import Biped
+
+    plot = None if plot is None else output_path(plot, FIGURES)
+    biped = Biped.load(robot, preset)
+    mu = biped.description.friction_coefficient if friction is None else friction
+    found = load_gait(gait, biped)
+    angle = found.slope if slope is None else slope
+    report = zero_report(biped, found.constraint, Limits(mu, torque, angle))
+    say(report.text())
+    if plot is not None:
+        from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
+        from biped_adrc.viz.style import write_figure
+
+        write_figure(plot, zero_dynamics_figure(report))
+        say_written(plot)

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
-
-from biped_adrc.cli.app import app, console
-from biped_adrc.cli.output import FIGURES, say_written
+from biped_adrc.cli.app import FIGURES, app, console, say_written
+from biped_adrc.cli.options import texts
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
@@ -16,56 +14,23 @@ if TYPE_CHECKING:
     from biped_adrc.viz.export import Clip
 
 
-RunFile = Annotated[Path, typer.Argument(help="A run written by 'simulate' or 'reproduce' (.npz).")]
-Ghost = Annotated[
-    list[Path] | None,
-    typer.Option(help="Another run, drawn translucent beside the first. May be repeated."),
-]
-Page = Annotated[
-    Path,
-    typer.Option(
-        "--out", "-o", help="What to write: .html (offline page), .gif, or .png or .svg (strip)."
-    ),
-]
-View = Annotated[str, typer.Option(help="side (orthographic) or perspective; of the page.")]
-Start = Annotated[float | None, typer.Option("--from", help="Start of a .gif or strip [s].")]
-Stop = Annotated[float | None, typer.Option("--to", help="End of a .gif or strip [s].")]
-Fps = Annotated[float | None, typer.Option(help="Frames per second; 60, or 25 for a .gif.")]
-Apart = Annotated[
-    bool, typer.Option("--apart", help="The walks of a .gif side by side, their errors below.")
-]
-Magnify = Annotated[
-    float | None,
-    typer.Option(help="With --apart: draw deviations from the reference so many times."),
-]
-Slower = Annotated[float, typer.Option(help="How many times slower than the walk a .gif plays.")]
-Live = Annotated[
-    bool,
-    typer.Option("--live", help="Show it in the browser from a server on 127.0.0.1 instead."),
-]
-Port = Annotated[int, typer.Option(help="Port of --live; 0 takes a free one.")]
-Browser = Annotated[
-    bool, typer.Option(help="Open the browser with --live, or only print the address.")
-]
-Wait = Annotated[float, typer.Option(help="How long --live waits for the first page [s].")]
-
-
 @app.command()
+@texts("animate")
 def animate(
-    run: RunFile,
-    ghost: Ghost = None,
-    out: Page = Path("walk.html"),
-    view: View = "side",
-    start: Start = None,
-    stop: Stop = None,
-    fps: Fps = None,
-    apart: Apart = False,
-    magnify: Magnify = None,
-    slower: Slower = 1.0,
-    live: Live = False,
-    port: Port = 0,
-    browser: Browser = True,
-    wait: Wait = 120.0,
+    run: Path,
+    ghost: list[Path] | None = None,
+    out: Path = Path("walk.html"),
+    view: str = "side",
+    start: float | None = None,
+    stop: float | None = None,
+    fps: float | None = None,
+    apart: bool = False,
+    magnify: float | None = None,
+    slower: float = 1.0,
+    live: bool = False,
+    port: int = 0,
+    browser: bool = True,
+    wait: float = 120.0,
 ) -> None:
     """Write the walk as a page, a picture or a strip; or show it live."""
     from biped_adrc.errors import InputError
@@ -89,36 +54,26 @@ def animate(
 def _show(walks: dict[str, Walk], clip: Clip, port: int, browser: bool, wait: float) -> None:
     """In a browser, until it is closed."""
     from biped_adrc.viz.live import play
-    from biped_adrc.viz.meshcat import Look
 
-    look = Look(fps=60.0 if clip.fps is None else clip.fps, view=clip.view)
-    console.print(play(walks, look, port=port, open_browser=browser, wait=wait, say=console.print))
+    said = play(walks, clip.look(), port=port, open_browser=browser, wait=wait, say=console.print)
+    console.print(said)
 
 
 @app.command()
+@texts("plot")
 def plot(
-    run: RunFile,
-    beside: Annotated[
-        list[Path] | None, typer.Option("--with", help="Another run to compare. May be repeated.")
-    ] = None,
-    figure: Annotated[
-        str,
-        typer.Option(
-            help="tracking, disturbance, ground, energy; phase or comparison of all runs."
-        ),
-    ] = "tracking",
-    out: Annotated[Path, typer.Option("--out", "-o", help="What to write: .png or .svg.")] = Path(
-        "figure.png"
-    ),
+    run: Path,
+    beside: list[Path] | None = None,
+    figure: str = "tracking",
+    out: Path = Path("figure.png"),
 ) -> None:
     """Draw the signals of a run."""
-    from biped_adrc.files import write_bytes
     from biped_adrc.scenario.stored import load_walks
     from biped_adrc.studies.figures import draw
-    from biped_adrc.viz.style import render
+    from biped_adrc.viz.style import write_figure
 
     runs = [run, *(beside or [])]
     keep_inputs((output_path(out, FIGURES),), runs)
     walks = load_walks(runs)
-    write_bytes(out, render(draw(figure, walks), out.suffix.lower().removeprefix(".")))
+    write_figure(out, draw(figure, walks))
     say_written(out)

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
 from rich.markup import escape
 from rich.table import Table
 
-from biped_adrc.cli.app import Robot, RobotPreset, app, bar, console
-from biped_adrc.cli.output import FIGURES, say_written
+from biped_adrc.cli.app import FIGURES, app, bar, console, say, say_written
+from biped_adrc.cli.options import texts
 from biped_adrc.errors import InputError
-from biped_adrc.files import output_path, write_bytes
+from biped_adrc.files import output_path
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.observer_design import ObserverReport
@@ -24,50 +23,23 @@ if TYPE_CHECKING:
     from biped_adrc.studies.observer_check import DelayCheck, Walked
 
 
-Poles = Annotated[
-    str | None,
-    typer.Option(help="m + 2 observer poles [rad/s], comma separated; by default Table I."),
-]
-Bandwidth = Annotated[
-    float | None, typer.Option(help="All m + 2 poles at minus this [rad/s], instead of poles.")
-]
-Order = Annotated[
-    int | None,
-    typer.Option(help="m; 1 with --bandwidth if not given, checked against --poles."),
-]
-Proportional = Annotated[float, typer.Option("--K-p", help="K_p [1/s^2].")]
-Derivative = Annotated[float, typer.Option("--K-d", help="K_d [1/s].")]
-Period = Annotated[float, typer.Option(help="Sampling period [s].")]
-Counts = Annotated[float, typer.Option(help="Of the encoders per revolution.")]
-Delay = Annotated[float, typer.Option(help="From a tick to its torque [s].")]
-Known = Annotated[
-    bool, typer.Option("--known", help="Feed the observer with the torque that acts.")
-]
-StoredGait = Annotated[str, typer.Option(help="A stored gait by name, or a .json file.")]
-Confirm = Annotated[
-    bool, typer.Option("--confirm", help="Walk below and above the margins, and with encoders.")
-]
-Out = Annotated[
-    Path | None, typer.Option("--out", "-o", help="Draw the transfer functions: .png or .svg.")
-]
-
-
 @app.command("observer")
+@texts("observer")
 def observer_command(
-    poles: Poles = None,
-    bandwidth: Bandwidth = None,
-    order: Order = None,
-    k_p: Proportional = 5000.0,
-    k_d: Derivative = 50.0,
-    period: Period = 1.5e-3,
-    counts: Counts = 8192.0,
-    delay: Delay = 0.0,
-    known: Known = False,
-    robot: Robot = "rabbit",
-    preset: RobotPreset = None,
-    gait: StoredGait = "published",
-    confirm: Confirm = False,
-    out: Out = None,
+    poles: str | None = None,
+    bandwidth: float | None = None,
+    order: int | None = None,
+    k_p: float = 5000.0,
+    k_d: float = 50.0,
+    period: float = 1.5e-3,
+    counts: float = 8192.0,
+    delay: float = 0.0,
+    known: bool = False,
+    robot: str = "rabbit",
+    preset: str | None = None,
+    gait: str = "published",
+    confirm: bool = False,
+    out: Path | None = None,
 ) -> None:
     """Say what an observer asks of encoders, clock and motors, and which one a robot allows."""
     from biped_adrc.analysis.observer_design import observer_report
@@ -86,26 +58,21 @@ def observer_command(
     if confirm:
         _confirm(biped, found, chosen, gains, (period, counts, delay, known))
     if path is not None:
-        _draw(report, path)
+        from biped_adrc.viz.observer_figure import observer_figure
+        from biped_adrc.viz.style import write_figure
+
+        write_figure(path, observer_figure([report]))
+        say_written(path)
 
 
 def _print_report(report: ObserverReport) -> None:
-    console.print(report.verdict, markup=False, highlight=False, soft_wrap=True)
+    say(report.verdict)
     for section in report.sections:
         header = (escape(name) for name in section.header)
         table = Table(*header, title=escape(section.title), title_justify="left")
         for row in section.rows:
             table.add_row(*(escape(cell) for cell in row))
         console.print(table)
-
-
-def _draw(report: ObserverReport, path: Path) -> None:
-    from biped_adrc.viz.observer_figure import observer_figure
-    from biped_adrc.viz.style import render
-
-    kind = path.suffix.lower().removeprefix(".")
-    write_bytes(path, render(observer_figure([report]), kind))
-    say_written(path)
 
 
 def _observer(poles: str | None, bandwidth: float | None, order: int | None) -> GPIObserver:
@@ -171,12 +138,9 @@ def _print_walks(checks: list[DelayCheck], walks: list[Walked]) -> None:
     for check in checks:
         own = f"{1e6 * check.robot_margin:.4g} us ({100 * check.shift:+.2g} %)"
         own = own if math.isfinite(check.robot_margin) else "far from it"
-        console.print(
+        say(
             f"delay {'known' if check.known else 'hidden'}: linear margin {1e6 * check.margin:.4g} us, "
             f"{'confirmed' if check.confirmed else 'NOT confirmed'}; the robot's own "
             f"{own}; a finer approximant changes errors "
-            f"by {check.order_effect:.1g} rad",
-            markup=False,
-            highlight=False,
-            soft_wrap=True,
+            f"by {check.order_effect:.1g} rad"
         )

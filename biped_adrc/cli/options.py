@@ -1,16 +1,17 @@
-"""Options that are fields of a scenario: name, unit, default and text come from the record."""
+"""Options of commands: their texts from options.toml; those that are fields of a scenario from the record."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from functools import wraps
+from functools import reduce, wraps
 from inspect import Parameter, signature
 from typing import Annotated, Any, get_args
 
 import typer
 
 from biped_adrc.errors import InputError
+from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import parse_push
 from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, UNITS
 
@@ -25,24 +26,46 @@ Pushes = Annotated[
         "several joints with different torques: 'q1=30,q3=-20@19:0.1-0.3'.",
     ),
 ]
-Sets = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set",
-        help="NAME=VALUE: any other value of a scenario, with its unit as in a study ('delay=2 ms'), or what "
-        "the controller itself takes ('gain=3'). May be repeated.",
-    ),
-]
+TEXTS = packaged("biped_adrc.cli", "options.toml")
+Command = Callable[..., None]
 
 
-def of_scenario(*names: str, **flags: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+def texts(name: str) -> Callable[[Command], Command]:
+    """Options and arguments with the texts that options.toml has under this name, such as "gait.design"."""
+    table: dict[str, Any] = reduce(dict.__getitem__, name.split("."), TEXTS)
+    said = TEXTS["every"] | table
+
+    def decorate(command: Command) -> Command:
+        plain = signature(command, eval_str=True)
+        told = [
+            p.replace(annotation=Annotated[p.annotation, _shown(said[p.name])])
+            if p.name in said
+            else p
+            for p in plain.parameters.values()
+        ]
+        command.__signature__ = plain.replace(parameters=told)  # type: ignore[attr-defined]
+        command.__annotations__ = {}
+        return command
+
+    return decorate
+
+
+def _shown(text: Any) -> Any:
+    """An option, or an argument, as options.toml has it."""
+    entry = {"help": text} if isinstance(text, str) else text
+    if "argument" in entry:
+        return typer.Argument(help=entry["argument"])
+    return typer.Option(*entry.get("flags", ()), help=entry["help"])
+
+
+def of_scenario(*names: str, **flags: str) -> Callable[[Command], Command]:
     """Options for fields by name, or by a flag of another name, put in front of a command's own.
 
     The command gets as `given` those that are on the command line.
     """
     shown = {**{name: "--" + name.replace("_", "-") for name in names}, **flags}
 
-    def decorate(command: Callable[..., None]) -> Callable[..., None]:
+    def decorate(command: Command) -> Command:
         @wraps(command)
         def with_given(context: typer.Context, **values: Any) -> None:
             given = {name: values.pop(name) for name in shown}

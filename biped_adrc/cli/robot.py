@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 from rich.console import Console
 from rich.table import Table
 
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, console
+from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, console, say
+from biped_adrc.cli.options import texts
 from biped_adrc.errors import InputError, ModelError
 
 if TYPE_CHECKING:
@@ -23,37 +24,18 @@ robot_app = typer.Typer(
 )
 app.add_typer(robot_app, name="robot")
 
-File = Annotated[Path, typer.Argument(help="URDF of a planar biped with point feet.")]
-Feet = Annotated[
-    str | None, typer.Option(help="Links of the feet, stance foot first: STANCE,SWING.")
-]
-Actuated = Annotated[
-    str | None, typer.Option(help="Joints with a motor, q1,q2,... in order; the others are free.")
-]
-Hip = Annotated[str | None, typer.Option(help="Link whose origin is the hip.")]
-Torque = Annotated[float | None, typer.Option(help="Torque limit of every motor [N m].")]
-Friction = Annotated[
-    float | None, typer.Option("--friction", help="Dry friction coefficient of the feet.")
-]
-Armature = Annotated[
-    float, typer.Option(help="Rotor inertia per motor, reflected to the joint [kg m^2].")
-]
-Tip = Annotated[
-    str | None,
-    typer.Option(help="Place x,y,z of the feet in the frames of the links --feet [m]; 0,0,0.4."),
-]
-
 
 @robot_app.command("check")
+@texts("robot.own")
 def robot_check(
-    file: File,
-    feet: Feet = None,
-    actuated: Actuated = None,
-    hip: Hip = None,
-    torque: Torque = None,
-    friction: Friction = None,
-    armature: Armature = 0.0,
-    tip: Tip = None,
+    file: Path,
+    feet: str | None = None,
+    actuated: str | None = None,
+    hip: str | None = None,
+    torque: float | None = None,
+    friction: float | None = None,
+    armature: float = 0.0,
+    tip: str | None = None,
 ) -> None:
     """Read a URDF as a biped: say what was guessed, and check it against the laws of mechanics.
 
@@ -74,16 +56,17 @@ def robot_check(
 
 
 @robot_app.command("new")
+@texts("robot.own")
 def robot_new(
-    file: File,
-    out: Annotated[Path, typer.Option("--out", "-o", help="Folder to write, new or empty.")],
-    feet: Feet = None,
-    actuated: Actuated = None,
-    hip: Hip = None,
-    torque: Torque = None,
-    friction: Friction = None,
-    armature: Armature = 0.0,
-    tip: Tip = None,
+    file: Path,
+    out: Path,
+    feet: str | None = None,
+    actuated: str | None = None,
+    hip: str | None = None,
+    torque: float | None = None,
+    friction: float | None = None,
+    armature: float = 0.0,
+    tip: str | None = None,
 ) -> None:
     """Write floating.urdf and robot.toml of a URDF, for Biped.load("FOLDER/robot.toml")."""
     from biped_adrc.model.own import derive
@@ -93,7 +76,7 @@ def robot_new(
         raise ModelError(f"URDF '{file}': {'; '.join(map(str, derived.broken))}")
     record = derived.write(out)
     _explain(derived)
-    _say(f"written to {record}")
+    say(f"written to {record}")
 
 
 @robot_app.command("list")
@@ -112,18 +95,14 @@ def robot_list() -> None:
 
 
 @robot_app.command("show")
-def robot_show(
-    robot: Annotated[str, typer.Argument(help="A robot's name, or the path of a robot.toml.")],
-    preset: Annotated[
-        str | None, typer.Option(help="Parameters; the default ones if none.")
-    ] = None,
-) -> None:
+@texts("robot.show")
+def robot_show(robot: str, preset: str | None = None) -> None:
     """Print what the record of a robot says, and its masses."""
     from biped_adrc.model.biped import Biped
 
     biped = Biped.load(robot, preset)
     d = biped.description
-    _say(f"{d.name}, preset {biped.preset}: {d.preset(biped.preset).source}")
+    say(f"{d.name}, preset {biped.preset}: {d.preset(biped.preset).source}")
     _describe(biped)
 
 
@@ -161,10 +140,6 @@ def _names(text: str | None) -> tuple[str, ...] | None:
     return tuple(name.strip() for name in text.split(",") if name.strip())
 
 
-def _say(text: str) -> None:
-    console.print(text, markup=False, highlight=False, soft_wrap=True)
-
-
 def _complain(text: str) -> None:
     Console(stderr=True).print(text, markup=False, highlight=False, soft_wrap=True)
 
@@ -172,26 +147,26 @@ def _complain(text: str) -> None:
 def _explain(derived: Derived) -> None:
     _describe(derived.biped)
     for sentence in derived.said:
-        _say(f"guessed  {sentence}")
+        say(f"guessed  {sentence}")
     for check in derived.checks:
-        _say(f"{'holds' if check.holds else 'BROKEN':<8} {check}")
+        say(f"{'holds' if check.holds else 'BROKEN':<8} {check}")
 
 
 def _describe(biped: Biped) -> None:
     d = biped.description
-    _say(f"n = {biped.n} coordinates, p = {biped.p} motors, {biped.mass:.6g} kg")
+    say(f"n = {biped.n} coordinates, p = {biped.p} motors, {biped.mass:.6g} kg")
     for i, joint in enumerate(d.joints):
         role = (
             "motor" if joint in d.actuated else "free" if joint in d.passive else "absolute pitch"
         )
-        _say(f"  q{i + 1} = {joint} ({role})")
+        say(f"  q{i + 1} = {joint} ({role})")
     terms = " ".join(f"{c:+.6g} q{i + 1}" for i, c in enumerate(d.phase) if c != 0.0)
-    _say(f"Theta = {terms}")
-    _say(f"stance foot {d.stance_foot}, swing foot {d.swing_foot}, hip {d.hip}, trunk {d.trunk}")
-    _say(f"section: foot strike, where the height of {d.swing_foot} comes down to zero")
+    say(f"Theta = {terms}")
+    say(f"stance foot {d.stance_foot}, swing foot {d.swing_foot}, hip {d.hip}, trunk {d.trunk}")
+    say(f"section: foot strike, where the height of {d.swing_foot} comes down to zero")
     limit = f"torque limit {d.peak_torque:g} N m, " if biped.p else ""
-    _say(f"{limit}friction {d.friction_coefficient:g}, gravity {d.gravity:g} m/s^2")
+    say(f"{limit}friction {d.friction_coefficient:g}, gravity {d.gravity:g} m/s^2")
     for name, link in biped.tree.links.items():
         if link.inertial is not None:
             mass, (x, _, z), iyy = link.inertial.mass, link.inertial.com, link.inertial.inertia[3]
-            _say(f"  {name}: {mass:.6g} kg, COM ({x:.6g}, {z:.6g}) m, iyy {iyy:.6g} kg m^2")
+            say(f"  {name}: {mass:.6g} kg, COM ({x:.6g}, {z:.6g}) m, iyy {iyy:.6g} kg m^2")

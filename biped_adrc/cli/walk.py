@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.markup import escape
 from rich.table import Table
 
-from biped_adrc.cli.app import EXIT_FELL, app, bar, console
-from biped_adrc.cli.options import Pushes, Sets, of_scenario, values_of
-from biped_adrc.cli.output import inputs, run_path, say_written
+from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
+from biped_adrc.cli.options import Pushes, of_scenario, texts, values_of
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
@@ -22,20 +21,6 @@ if TYPE_CHECKING:
     from biped_adrc.scenario.recording import Walk
     from biped_adrc.scenario.scenario import Scenario
 
-
-EndIllegal = Annotated[
-    bool,
-    typer.Option(
-        "--end-illegal",
-        help="End at the first step that ground or motors could not carry; exit code 4, as for a fall.",
-    ),
-]
-AsPrinted = Annotated[
-    bool, typer.Option("--as-printed", help="Drop h' Theta'' from (20) and (28), as printed.")
-]
-Out = Annotated[
-    Path | None, typer.Option("--out", "-o", help="Write the run (.npz), or its signals (.mat).")
-]
 WHY = {
     "compiled": "generated from Pinocchio's model and checked against it",
     "pinocchio": "as asked for",
@@ -47,13 +32,14 @@ NUMERICS = ("friction", "slope", "method", "engine", "friction_limit", "force_wi
 
 @app.command()
 @of_scenario(*COMMON, *LAW, *NUMERICS, h="--step")
+@texts("simulate")
 def simulate(
     given: dict[str, Any],
     push: Pushes = None,
-    sets: Sets = None,
-    as_printed: AsPrinted = False,
-    end_illegal: EndIllegal = False,
-    out: Out = None,
+    sets: list[str] | None = None,
+    as_printed: bool = False,
+    end_illegal: bool = False,
+    out: Path | None = None,
 ) -> None:
     """Walk, and print what each step needed of the ground and of the motors."""
     from biped_adrc.scenario.build import limits
@@ -91,9 +77,8 @@ def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> N
     if end_illegal:
         full, half = full.until_illegal(limits), half and half.until_illegal(limits)
     if out is not None:
-        (full.export if out.suffix.lower() == ".mat" else full.save)(
-            out
-        )  # first, as printing may fail
+        # first, as printing may fail
+        (full.export if out.suffix.lower() == ".mat" else full.save)(out)
     if half is None:
         _print_passive(full, limits)
     else:
@@ -101,7 +86,7 @@ def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> N
     settings = full.trajectory.settings
     console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
     for remark in full.remarks:
-        console.print(f"note: {remark}", markup=False, highlight=False, soft_wrap=True)
+        say(f"note: {remark}")
     say_written(out)
     if not full.trajectory.status.ok:
         raise typer.Exit(EXIT_FELL)
@@ -191,18 +176,13 @@ def _nominal(c: Certificate) -> str:
 
 @app.command()
 @of_scenario("robot", "preset", "gait", "controller")
+@texts("poincare")
 def poincare(
     given: dict[str, Any],
-    slope: Annotated[
-        float | None, typer.Option(help="Of the ground [rad], positive downhill.")
-    ] = None,
-    sets: Sets = None,
-    observer_states: Annotated[
-        bool, typer.Option(help="Count the observer's states among the coordinates.")
-    ] = True,
-    samples: Annotated[
-        int, typer.Option(help="Impacts of the walk for the paper's regression; 0 leaves it out.")
-    ] = 25,
+    slope: float | None = None,
+    sets: list[str] | None = None,
+    observer_states: bool = True,
+    samples: int = 25,
 ) -> None:
     """Fixed point of the return map, and its multipliers by every method beside each other; NPD by default."""
     from biped_adrc.scenario.scenario import Scenario
@@ -225,4 +205,4 @@ def poincare(
         f"residual {o.residual:.1e}; |lambda| by every method:",
         found.table.text(),
     )
-    console.print("\n".join(lines), markup=False, highlight=False, soft_wrap=True)
+    say("\n".join(lines))

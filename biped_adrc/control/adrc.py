@@ -39,9 +39,6 @@ def joints_told(r: ReferencePoint, x: Estimate, m: Measurement) -> Estimate:
     return x
 
 
-SIGHT = Sight(joints_seen, joints_fed, adrc_torque, joints_told, of_reference=False)
-
-
 @dataclass(frozen=True)
 class ADRCController(ObservingController):
     """(20) with an observer that is its whole state.
@@ -50,19 +47,13 @@ class ADRCController(ObservingController):
     reset: what happens to the observer at impact.
     """
 
+    sight = Sight(joints_seen, joints_fed, adrc_torque, joints_told, of_reference=False)
+
     reference: Reference
     observer: Observer = field(default_factory=GPIObserver.from_poles)
     gains: Gains = TABLE_II
     solve_theta: bool = True
     reset: ResetPolicy = ResetPolicy.MODEL
-
-    @property
-    def sight(self) -> Sight:
-        return SIGHT
-
-    @property
-    def loop(self) -> bool:
-        return self.solve_theta
 
     def error_system(self) -> ErrorSystem | None:
         error = self.observer.error_system()

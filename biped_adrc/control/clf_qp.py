@@ -33,8 +33,8 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement, measured
-from biped_adrc.control.body import body_of
 from biped_adrc.control.output_adrc import output_matrix
+from biped_adrc.control.tracking import body_of
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.linear import solve
@@ -88,8 +88,7 @@ def least_norm(d: Decrease, relaxation: float) -> Array:
     """mu (p,) without limits, p = relaxation."""
     if d.psi_0 <= 0.0:
         return np.zeros_like(d.psi_1)
-    mu: Array = d.psi_1 * (-d.psi_0 / (float(d.psi_1 @ d.psi_1) + 1.0 / relaxation))
-    return mu
+    return d.psi_1 * (-d.psi_0 / (float(d.psi_1 @ d.psi_1) + 1.0 / relaxation))
 
 
 def affine(r: ReferencePoint, m: Measurement) -> Affine:

@@ -64,8 +64,7 @@ def line_state(k: LineParameters, u: Array) -> Array:
 
 def line_output(k: LineParameters, R: Array) -> Array:
     """u (p,) [N m] that comes out."""
-    u: Array = k.numerator @ R
-    return u
+    return k.numerator @ R
 
 
 def line_flow(k: LineParameters, R: Array, asked: Array) -> Array:
@@ -144,9 +143,8 @@ class Delayed(Controller):
             raise InputError(
                 f"the line's order is {self.order!r}, expected a whole number 1 to {HIGHEST}"
             )
-        limit = self.torque_limit
-        if limit is not None and not (math.isfinite(limit) and limit > 0.0):
-            raise InputError(f"the torque limit is {limit} N m, expected a positive number or None")
+        if (limit := self.torque_limit) is not None:
+            check_positive(limit, f"the torque limit is {limit} N m", " or None")
 
     @property
     def needs_body(self) -> bool:  # type: ignore[override]

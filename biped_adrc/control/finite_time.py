@@ -31,8 +31,7 @@ def psi(x1: Array, x2: Array, alpha: float) -> Array:
 
 def _power(x: Array, exponent: float) -> Array:
     """sign(x) |x|^exponent."""
-    power: Array = np.sign(x) * np.abs(x) ** exponent
-    return power
+    return np.sign(x) * np.abs(x) ** exponent
 
 
 @dataclass(frozen=True)

@@ -23,9 +23,14 @@ from typing import ClassVar
 import numpy as np
 
 from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.body import body_of
 from biped_adrc.control.observing import ObservingController, Sight
-from biped_adrc.control.tracking import TABLE_II, Gains, TrackingParameters, tracking_torque
+from biped_adrc.control.tracking import (
+    TABLE_II,
+    Gains,
+    TrackingParameters,
+    body_of,
+    tracking_torque,
+)
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.linear import solve_positive
 from biped_adrc.model.reduction import Reduction
@@ -68,9 +73,6 @@ def momentum_told(r: ReferencePoint, x: Estimate, m: Measurement) -> Estimate:
     return Estimate(joints.position, joints.velocity, pushed(m.terms, x.disturbance).xi)
 
 
-SIGHT = Sight(momentum_seen, momentum_fed, dob_torque, momentum_told, of_reference=False)
-
-
 @dataclass(frozen=True)
 class MomentumDOBController(ObservingController):
     """The module's equations with a momentum observer that is the whole state.
@@ -80,17 +82,10 @@ class MomentumDOBController(ObservingController):
     """
 
     needs_body: ClassVar[bool] = True
+    sight = Sight(momentum_seen, momentum_fed, dob_torque, momentum_told, of_reference=False)
 
     reference: Reference
     observer: Observer = field(default_factory=lambda: MomentumObserver.from_bandwidth(200.0))
     gains: Gains = TABLE_II
     solve_theta: bool = True
     reset: ResetPolicy = ResetPolicy.MODEL
-
-    @property
-    def sight(self) -> Sight:
-        return SIGHT
-
-    @property
-    def loop(self) -> bool:
-        return self.solve_theta

@@ -63,7 +63,10 @@ def observing_laws(
     sight: Sight, point: Callable[..., ReferencePoint], o: ObserverLaws
 ) -> ControllerLaws:
     """The laws around the laws o of any observer and the law of any reference, all without parameters."""
-    seen, torque, told, of_reference = sight.seen, sight.torque, sight.told, sight.of_reference
+    seen, fed, torque, told, of_reference = sight
+    o_flow: Any = o.flow
+    o_correct: Any = o.correct
+    o_predict: Any = o.predict
 
     def at(k: ObservingParameters, m: Measurement) -> Any:
         return point(k.h, m.t, m.q, m.v) if of_reference else None
@@ -83,48 +86,23 @@ def observing_laws(
     def estimate(k: ObservingParameters, s: Array, m: Measurement) -> Estimate:
         return told(at(k, m), o.estimate(k.observer, rows(k.observer, s)), m)
 
-    laws = ControllerLaws(None, output, initial_state, jump=jump, estimate=estimate)
-    if o.flow is not None:
-        laws = laws._replace(flow=_flow(sight, at, o.flow))
-    if o.correct is not None and o.predict is not None:
-        laws = laws._replace(
-            correct=_correct(sight, at, o.correct), predict=_predict(sight, at, o.predict)
-        )
-    return laws
-
-
-Law = Callable[..., Any]
-
-
-def _flow(sight: Sight, at: Law, law: Law) -> Law:
-    seen, fed = sight.seen, sight.fed
-
     def flow(k: ObservingParameters, s: Array, m: Measurement, u: Array) -> Array:
         r = at(k, m)
-        Z: Array = law(k.observer, rows(k.observer, s), seen(r, m).position, fed(r, m, u))
-        return Z.ravel()
-
-    return flow
-
-
-def _correct(sight: Sight, at: Law, law: Law) -> Law:
-    seen = sight.seen
+        Z = rows(k.observer, s)
+        return o_flow(k.observer, Z, seen(r, m).position, fed(r, m, u)).ravel()
 
     def correct(k: ObservingParameters, s: Array, m: Measurement) -> Array:
-        Z: Array = law(k.observer, rows(k.observer, s), seen(at(k, m), m).position)
-        return Z.ravel()
-
-    return correct
-
-
-def _predict(sight: Sight, at: Law, law: Law) -> Law:
-    fed = sight.fed
+        return o_correct(k.observer, rows(k.observer, s), seen(at(k, m), m).position).ravel()
 
     def predict(k: ObservingParameters, s: Array, m: Measurement, u: Array) -> Array:
-        Z: Array = law(k.observer, rows(k.observer, s), fed(at(k, m), m, u))
-        return Z.ravel()
+        return o_predict(k.observer, rows(k.observer, s), fed(at(k, m), m, u)).ravel()
 
-    return predict
+    laws = ControllerLaws(None, output, initial_state, jump=jump, estimate=estimate)
+    if o_flow is not None:
+        laws = laws._replace(flow=flow)
+    if o_correct is not None and o_predict is not None:
+        laws = laws._replace(correct=correct, predict=predict)
+    return laws
 
 
 class ObservingController(Controller):
@@ -135,21 +113,19 @@ class ObservingController(Controller):
     gains: Gains
     reset: ResetPolicy
 
+    solve_theta: bool = True
+    """Whether the loop through Theta'' is solved."""
+
     @property
     @abstractmethod
     def sight(self) -> Sight:
         """What is seen, fed, and made of the estimates."""
 
     @property
-    def loop(self) -> bool:
-        """Whether the loop through Theta'' is solved."""
-        return True
-
-    @property
     def laws(self) -> ControllerLaws:
         r, o = reference_laws(self.reference), observer_laws(self.observer)
         k = ObservingParameters(
-            r.parameters, self.gains.parameters(self.loop), o.parameters, self.reset.code
+            r.parameters, self.gains.parameters(self.solve_theta), o.parameters, self.reset.code
         )
         laws = observing_laws(self.sight, r.point, o.functions)
         return laws._replace(parameters=k, obstacle=r.obstacle or o.obstacle)

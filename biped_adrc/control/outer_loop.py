@@ -137,8 +137,7 @@ def reference_in_force(controller: Controller, s: Array) -> Constraint:
         return CorrectedConstraint(
             reference_in_force(controller.inner, z), controller.correction(w)
         )
-    h: Constraint = getattr(controller, "reference", None) or tracked_constraint(controller)
-    return h
+    return getattr(controller, "reference", None) or tracked_constraint(controller)
 
 
 def core_size(controller: Controller, s: Array) -> int:

@@ -47,8 +47,7 @@ def output_seen(r: ReferencePoint, m: Measurement) -> Estimate:
 
 def output_fed(r: ReferencePoint, m: Measurement, u: Array) -> Array:
     """L u (p,) [rad/s^2]."""
-    product: Array = output_matrix(r, m.terms) @ (m.terms.kappa @ u)
-    return product
+    return output_matrix(r, m.terms) @ (m.terms.kappa @ u)
 
 
 def output_torque(k: TrackingParameters, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
@@ -74,9 +73,6 @@ def output_told(r: ReferencePoint, x: Estimate, m: Measurement) -> Estimate:
     return Estimate(x.position + r.q_d, x.velocity + r.dq_d, xi)
 
 
-SIGHT = Sight(output_seen, output_fed, output_torque, output_told, of_reference=True)
-
-
 @dataclass(frozen=True)
 class OutputADRCController(ObservingController):
     """The module's equations with an observer of y that is the whole state.
@@ -86,11 +82,9 @@ class OutputADRCController(ObservingController):
     There is no form for the exponential method: in continuous time with Table I take RK4(5e-5).
     """
 
+    sight = Sight(output_seen, output_fed, output_torque, output_told, of_reference=True)
+
     reference: Reference
     observer: Observer = field(default_factory=GPIObserver.from_poles)
     gains: Gains = TABLE_II
     reset: ResetPolicy = ResetPolicy.MODEL
-
-    @property
-    def sight(self) -> Sight:
-        return SIGHT

@@ -74,5 +74,4 @@ def _solve(M: Array, b: Array) -> Array:
             f"condition number is {condition:.1e}, expected above {_SINGULAR:g}; choose outputs that the "
             "motors can move independently here"
         )
-    solution: Array = dgetrs(factors, pivots, b)[0]
-    return solution
+    return dgetrs(factors, pivots, b)[0]

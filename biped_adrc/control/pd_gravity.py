@@ -14,8 +14,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from biped_adrc.control.base import Controller, ControllerLaws, Measurement
-from biped_adrc.control.body import body_of
-from biped_adrc.control.tracking import Gains, TrackingParameters, feedback, tracked_laws
+from biped_adrc.control.tracking import Gains, TrackingParameters, body_of, feedback, tracked_laws
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.types import Array
 

@@ -25,7 +25,7 @@ from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.errors import InputError
 from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
 from biped_adrc.linear import solve
-from biped_adrc.model.reduction import Reduction
+from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array
 
@@ -78,8 +78,7 @@ def tracking_torque(
 
 def feedback(k: TrackingParameters | Gains, r: ReferencePoint, x1: Array, x2: Array) -> Array:
     """-K_d (x2 - q_d') - K_p (x1 - q_d) (p,) [rad/s^2]."""
-    f: Array = -k.K_d * (x2 - r.dq_d) - k.K_p * (x1 - r.q_d)
-    return f
+    return -k.K_d * (x2 - r.dq_d) - k.K_p * (x1 - r.q_d)
 
 
 def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
@@ -125,3 +124,13 @@ def _tracked(point: Callable[..., ReferencePoint], torque: Torque) -> Controller
         return torque(k.tracking, point(k.h, m.t, m.q, m.v), m)
 
     return ControllerLaws(None, output)
+
+
+def body_of(m: Measurement) -> BodyTerms:
+    """m.body. Raises InputError for a measurement made for a controller without `needs_body`."""
+    if m.body is None:
+        raise InputError(
+            "the measurement has no body terms; expected those of the nominal model. Give the controller "
+            "needs_body = True, or the Measurement body=biped.body_terms(q, v)"
+        )
+    return m.body

@@ -45,12 +45,7 @@ class Disturbance(Composed):
     """A pure function of time, step and state: give `laws`, or write `torque`. `a + b` adds two of them up."""
 
     _kind: ClassVar[str] = "disturbance"
-    _methods: ClassVar[frozenset[str]] = frozenset(
-        (
-            "torque",
-            "resultant",
-        )
-    )
+    _methods: ClassVar[frozenset[str]] = frozenset(("torque", "resultant"))
 
     @property
     def laws(self) -> tuple[DisturbanceLaw, ...] | None:
@@ -170,6 +165,11 @@ def within(k: WindowParameters, t: float, step: int, t_start: float) -> Any:
     stop = np.where(k.step > 0, t_start, 0.0) + k.stop
     here = np.where(k.step > 0, 1.0 * (step == k.step), 1.0)
     return here * (t >= onset(k, t_start)) * (t < stop)
+
+
+def window_acts(k: Any, t: float, step: int, t_start: float) -> Any:
+    """Above 0 in the window of parameters that have one."""
+    return within(k.window, t, step, t_start)
 
 
 @dataclass(frozen=True)

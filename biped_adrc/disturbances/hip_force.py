@@ -46,8 +46,7 @@ def hip_resultant(
 
 def hip_acts(k: HipForceParameters, t: float, step: int, t_start: float) -> float:
     """Above 0 from the first to the last single support."""
-    acts: float = 1.0 * (step >= k.first) * (step <= k.last)
-    return acts
+    return 1.0 * (step >= k.first) * (step <= k.last)
 
 
 @dataclass(frozen=True)

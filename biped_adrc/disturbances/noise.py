@@ -22,9 +22,9 @@ from biped_adrc.disturbances.base import (
     Windowed,
     WindowParameters,
     onset,
-    within,
+    window_acts,
 )
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.errors import check_positive, check_whole
 from biped_adrc.types import Array
 
 
@@ -45,11 +45,6 @@ def noise_torque(
     return k.window.amplitude * math.sqrt(2.0 / count) * total
 
 
-def noise_acts(k: NoiseParameters, t: float, step: int, t_start: float) -> float:
-    """Above 0 in the window."""
-    return within(k.window, t, step, t_start)
-
-
 @dataclass(frozen=True)
 class TorqueNoise(Windowed):
     """Root mean square `amplitude` (n,) [N m], flat up to `bandwidth` [Hz], different on every coordinate.
@@ -67,8 +62,7 @@ class TorqueNoise(Windowed):
         check_positive(self.bandwidth, f"noise bandwidth is {self.bandwidth} Hz")
         for name, least in (("seed", 0), ("sines", 1)):
             value = getattr(self, name)
-            if isinstance(value, bool) or not isinstance(value, int) or value < least:
-                raise InputError(f"noise {name} is {value}, expected a whole number >= {least}")
+            check_whole(value, f"noise {name} is {value}", least)
 
     @cached_property
     def parameters(self) -> NoiseParameters:
@@ -80,4 +74,4 @@ class TorqueNoise(Windowed):
 
     @property
     def windowed(self) -> DisturbanceLaw:
-        return DisturbanceLaw(self.parameters, noise_torque, active=noise_acts)
+        return DisturbanceLaw(self.parameters, noise_torque, active=window_acts)

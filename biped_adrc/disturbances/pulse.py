@@ -19,7 +19,7 @@ from biped_adrc.disturbances.base import (
     Windowed,
     WindowParameters,
     onset,
-    within,
+    window_acts,
 )
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
@@ -42,11 +42,6 @@ def pulse_torque(
     rise = np.where(sloping, k.rise, 1.0)
     up, down = np.minimum(s / rise, 1.0), np.clip((s - k.width) / rise, 0.0, 1.0)
     return np.where(sloping, up - down, 1.0) * k.window.amplitude
-
-
-def pulse_acts(k: PulseParameters, t: float, step: int, t_start: float) -> float:
-    """Above 0 in the window."""
-    return within(k.window, t, step, t_start)
 
 
 @dataclass(frozen=True)
@@ -80,4 +75,4 @@ class TorquePulse(Windowed):
 
     @property
     def windowed(self) -> DisturbanceLaw:
-        return DisturbanceLaw(self.parameters, pulse_torque, active=pulse_acts)
+        return DisturbanceLaw(self.parameters, pulse_torque, active=window_acts)

@@ -13,7 +13,7 @@ from biped_adrc.disturbances.base import (
     Windowed,
     WindowParameters,
     onset,
-    within,
+    window_acts,
 )
 from biped_adrc.errors import check_positive
 from biped_adrc.types import Array
@@ -34,11 +34,6 @@ def sine_torque(
     return k.window.amplitude * np.sin(2.0 * math.pi * k.frequency * s)
 
 
-def sine_acts(k: SineParameters, t: float, step: int, t_start: float) -> float:
-    """Above 0 in the window."""
-    return within(k.window, t, step, t_start)
-
-
 @dataclass(frozen=True)
 class TorqueSine(Windowed):
     """amplitude (n,) [N m], frequency f [Hz]."""
@@ -56,4 +51,4 @@ class TorqueSine(Windowed):
 
     @property
     def windowed(self) -> DisturbanceLaw:
-        return DisturbanceLaw(self.parameters, sine_torque, active=sine_acts)
+        return DisturbanceLaw(self.parameters, sine_torque, active=window_acts)

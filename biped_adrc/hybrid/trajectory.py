@@ -79,15 +79,15 @@ def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, 
 class Trajectory:
     """Arcs in order of time. Call it with t [s] for the state.
 
-    viewer: who draws it, by animate(trajectory, path), plot(trajectory) and html(trajectory), from the layer
-    that knows the robot; not stored with a run and not sent to another process.
+    viewer: makes the walk that a trajectory is of, which draws it; given by the layer that knows the robot, not
+    stored with a run and not sent to another process.
     """
 
     arcs: tuple[Arc, ...]
     status: Status
     detail: str = ""
     settings: dict[str, Any] = field(default_factory=dict)
-    viewer: Any = field(default=None, compare=False, repr=False)
+    viewer: Callable[[Trajectory], Any] | None = field(default=None, compare=False, repr=False)
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "viewer": None}
@@ -145,14 +145,14 @@ class Trajectory:
     # -- pictures --------------------------------------------------------------------------------
     def animate(self, path: Path | str) -> None:
         """Write the motion as an animation, by the suffix of `path`. Raises InputError and OutputError."""
-        self._seen().animate(self, path)
+        self._seen().animate(path)
 
     def plot(self) -> Any:
         """The main signals as a matplotlib Figure. Raises InputError."""
-        return self._seen().plot(self)
+        return self._seen().plot()
 
     def _repr_html_(self) -> str | None:
-        return None if self.viewer is None else self.viewer.html(self)
+        return None if self.viewer is None else self._seen()._repr_html_()
 
     def _seen(self) -> Any:
         if self.viewer is None:
@@ -161,4 +161,4 @@ class Trajectory:
                 "biped_adrc.walk(...) or biped_adrc.load_walk(...), or draw "
                 "biped_adrc.Walk(walker, gait, trajectory)"
             )
-        return self.viewer
+        return self.viewer(self)

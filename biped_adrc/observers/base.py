@@ -122,14 +122,7 @@ class Observer(Composed):
 
     _kind: ClassVar[str] = "observer"
     _methods: ClassVar[frozenset[str]] = frozenset(
-        (
-            "initial_state",
-            "estimate",
-            "reset",
-            "flow",
-            "correct",
-            "predict",
-        )
+        ("initial_state", "estimate", "reset", "flow", "correct", "predict")
     )
 
     @property
@@ -194,8 +187,7 @@ class Observer(Composed):
         law = self._law(name)
         if law is None:
             raise InputError(f"{type(self).__name__} works in {works_in}")
-        made: Array = law(rows(self._laws.parameters, z), *given).ravel()
-        return made
+        return law(rows(self._laws.parameters, z), *given).ravel()
 
 
 class MethodParameters(NamedTuple):

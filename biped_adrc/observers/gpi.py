@@ -9,27 +9,31 @@
 Its error obeys (19) with the poles chosen. States are scaled by w, the geometric mean of the poles:
 z_k = x_k / w^(k-1), and the gains are the coefficients of the polynomial of the poles divided by w. The
 injection is written l (y - x1^), never l y - l x1^: with gains up to 1e29 that form is lost in round-off.
+
+In discrete time it has its *current* (filtered) form,
+
+    Z- <- Phi Z + Gamma T^2 kappa u          prediction over one period
+    Z  <- Z- + L (y - Z-_1)                  correction at the tick
+
+Phi is the Taylor matrix of a chain of integrators in states z_k = x_k T^(k-1), Phi_ij = 1/(j - i)!, and
+Gamma = (1/2, 1, 0, ...). L places the eigenvalues of (I - L C) Phi at exp(s T) by Ackermann's formula.
+The held-measurement observer with the same poles is unstable at 1 kHz; this form is stable there.
 """
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import factorial
 from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.observers.base import ErrorSystem, ObserverLaws
-from biped_adrc.observers.chain import (
-    ChainObserver,
-    chain_laws,
-    equal_poles,
-    stable_poles,
-    whole,
-)
-from biped_adrc.observers.gpi_sampled import SampledGPIObserver
+from biped_adrc.observers.chain import ChainObserver, chain_laws, equal_poles, stable_poles, whole
 from biped_adrc.types import Array
 
 TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
@@ -54,7 +58,37 @@ def gpi_flow(k: GPIParameters, Z: Array, y: Array, input: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class GPIObserver(ChainObserver):
+class InjectedChain(ChainObserver):
+    """(17) with any gains: what its leaves share."""
+
+    @property
+    @abstractmethod
+    def poles(self) -> tuple[complex, ...]:
+        """(m + 2,) [rad/s]."""
+
+    @property
+    @abstractmethod
+    def parameters(self) -> GPIParameters:
+        """What the laws `gpi_flow` and `chain_...` need."""
+
+    @property
+    def gains(self) -> Array:
+        """l_(m+1), l_m, ..., l_0 of (17) in physical units."""
+        return self.parameters.gains * self.scale ** np.arange(1, self.order + 1)
+
+    def sampled(self, period: float) -> SampledGPIObserver:
+        """The current (filtered) discrete observer with poles exp(s T)."""
+        return SampledGPIObserver.from_poles(self.poles, period)
+
+    def error_system(self) -> ErrorSystem:
+        """(19) in scaled states: e' = A e + b (q_b'' - kappa u)."""
+        A = self.scale * np.eye(self.order, k=1)
+        A[:, 0] = -self.scale * self.parameters.gains
+        return ErrorSystem(A, 1.0 / self.scale)
+
+
+@dataclass(frozen=True)
+class GPIObserver(InjectedChain):
     """(17) with the same m + 2 poles for every joint. Make it with `from_poles` or `from_bandwidth`."""
 
     poles: tuple[complex, ...] = ()
@@ -86,21 +120,69 @@ class GPIObserver(ChainObserver):
         return GPIParameters(np.ascontiguousarray(gains), float(self.scale), self.order)
 
     @property
-    def gains(self) -> Array:
-        """l_(m+1), l_m, ..., l_0 of (17) in physical units."""
-        l: Array = self.parameters.gains * self.scale ** np.arange(1, self.order + 1)  # noqa: E741
-        return l
-
-    @property
     def laws(self) -> ObserverLaws:
         return chain_laws(self.parameters, gpi_flow)
 
-    def sampled(self, period: float) -> SampledGPIObserver:
-        """The current (filtered) discrete observer with poles exp(s T)."""
-        return SampledGPIObserver.from_poles(self.poles, period)
 
-    def error_system(self) -> ErrorSystem:
-        """(19) in scaled states: e' = A e + b (q_b'' - kappa u)."""
-        A = self.scale * np.eye(self.order, k=1)
-        A[:, 0] = -self.scale * self.parameters.gains
-        return ErrorSystem(A, 1.0 / self.scale)
+class SampledGPIParameters(NamedTuple):
+    """Phi (k, k), Gamma T^2 (k,) and L (k,), 1/T [1/s] by which states are scaled, and k = m + 2."""
+
+    Phi: Array
+    Gamma: Array
+    L: Array
+    scale: float
+    order: int
+
+
+def gpi_correct(k: SampledGPIParameters, Z: Array, y: Array) -> Array:
+    """Z at the tick with y (p,) taken in."""
+    return Z + np.outer(k.L, y - Z[0])
+
+
+def gpi_predict(k: SampledGPIParameters, Z: Array, input: Array) -> Array:
+    """Z one period later under constant input kappa u (p,)."""
+    return k.Phi @ Z + np.outer(k.Gamma, input)
+
+
+@dataclass(frozen=True)
+class SampledGPIObserver(ChainObserver):
+    """The discrete observer for one period; `scale` is 1/T."""
+
+    period: float = 0.0
+    poles: tuple[complex, ...] = ()
+
+    @classmethod
+    def from_poles(cls, poles: Sequence[complex], period: float) -> SampledGPIObserver:
+        """Poles s [rad/s] of the continuous observer, as those of GPIObserver, and the period T [s].
+
+        Raises InputError.
+        """
+        poles = stable_poles(poles, "a discrete GPI observer", " (m >= 0)")
+        check_positive(period, f"the sampling period is {period} s")
+        return cls(len(poles) - 2, 1.0 / period, period, poles)
+
+    @cached_property
+    def parameters(self) -> SampledGPIParameters:
+        """What the laws `gpi_correct`, `gpi_predict` and `chain_...` need."""
+        k = self.order
+        N = np.zeros((k, k))
+        for i in range(k):
+            for j in range(i + 1, k):
+                N[i, j] = 1.0 / factorial(j - i)
+        Phi = np.eye(k) + N
+        Gamma = np.zeros(k)
+        Gamma[0], Gamma[1] = 0.5 * self.period**2, self.period**2
+        roots = np.exp(np.array(self.poles) * self.period)
+        p_of_Phi = np.eye(k, dtype=complex)
+        for root in roots:  # factors (1 - root) I + N: no cancellation for real roots in (0, 1)
+            p_of_Phi = p_of_Phi @ ((1.0 - root) * np.eye(k) + N)
+        rows = [Phi[0]]
+        for _ in range(k - 1):
+            rows.append(rows[-1] @ Phi)
+        last = np.linalg.solve(np.array(rows), np.eye(k)[-1])
+        L = np.ascontiguousarray(np.real(p_of_Phi @ last))
+        return SampledGPIParameters(Phi, Gamma, L, float(self.scale), k)
+
+    @property
+    def laws(self) -> ObserverLaws:
+        return chain_laws(self.parameters, correct=gpi_correct, predict=gpi_predict)

@@ -22,19 +22,13 @@ from math import comb
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.observers.base import ErrorSystem, ObserverLaws
-from biped_adrc.observers.chain import (
-    ChainObserver,
-    chain_laws,
-    whole,
-)
-from biped_adrc.observers.gpi import GPIParameters, gpi_flow
-from biped_adrc.observers.gpi_sampled import SampledGPIObserver
-from biped_adrc.types import Array
+from biped_adrc.observers.base import ObserverLaws
+from biped_adrc.observers.chain import chain_laws, whole
+from biped_adrc.observers.gpi import GPIParameters, InjectedChain, gpi_flow
 
 
 @dataclass(frozen=True)
-class HighGainObserver(ChainObserver):
+class HighGainObserver(InjectedChain):
     """The module's equations, the same for every joint. Make it with `from_epsilon`."""
 
     alpha: tuple[float, ...] = ()
@@ -67,24 +61,8 @@ class HighGainObserver(ChainObserver):
         return GPIParameters(np.array(self.alpha), float(self.scale), self.order)
 
     @property
-    def gains(self) -> Array:
-        """alpha_i / eps^i (m + 2,), in the order of the module's equations."""
-        gains: Array = self.parameters.gains * self.scale ** np.arange(1, self.order + 1)
-        return gains
-
-    @property
     def laws(self) -> ObserverLaws:
         return chain_laws(self.parameters, gpi_flow)
-
-    def sampled(self, period: float) -> SampledGPIObserver:
-        """The current (filtered) discrete observer with poles exp(s T)."""
-        return SampledGPIObserver.from_poles(self.poles, period)
-
-    def error_system(self) -> ErrorSystem:
-        """(19) in scaled states."""
-        A = self.scale * np.eye(self.order, k=1)
-        A[:, 0] = -self.scale * self.parameters.gains
-        return ErrorSystem(A, 1.0 / self.scale)
 
 
 def _hurwitz(alpha: Sequence[float], m: int) -> tuple[float, ...]:

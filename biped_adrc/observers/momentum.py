@@ -38,8 +38,8 @@ from biped_adrc.observers.chain import (
     stable_poles,
     whole,
 )
-from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.observers.gpi_sampled import (
+from biped_adrc.observers.gpi import (
+    GPIObserver,
     SampledGPIObserver,
     SampledGPIParameters,
     gpi_correct,

@@ -18,12 +18,10 @@ from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.errors import ModelErrors, impact_error
 from biped_adrc.model.robots import ENDS, Limits
-from biped_adrc.scenario.construct import construct
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances, taken
-from biped_adrc.scenario.draw import drawn
-from biped_adrc.scenario.registry import own
-from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.registry import construct, own
+from biped_adrc.scenario.scenario import Scenario, drawn
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
 from biped_adrc.walker import Walker
@@ -88,6 +86,7 @@ def build(s: Scenario, scene: Scene | None = None, metered: bool = False) -> Wal
             "such as 'NPD'"
         )
     plant = plant_of(s, biped)
+    gain = impact_error(drawn(s, "impact"), s.impact_error, biped.n if s.impact_error else 0)
     return Walker(
         plant,
         controller(s, gait, biped, taken(s)),
@@ -103,7 +102,7 @@ def build(s: Scenario, scene: Scene | None = None, metered: bool = False) -> Wal
         sensors=sensors(s),
         motors=Motors(s.rate_limit, s.lag) if s.rate_limit or s.lag else None,
         meter=Meter(gait.constraint, limits(s), ENDS * gait.period) if metered else None,
-        impact_gain=_gain(s, biped.n),
+        impact_gain=tuple(gain.tolist()),
     )
 
 
@@ -154,12 +153,6 @@ def plant_of(s: Scenario, biped: Biped) -> Biped:
     if any(widths):
         plant = ModelErrors.drawn(plant, drawn(s, "model"), *widths).apply(plant)
     return plant
-
-
-def _gain(s: Scenario, n: int) -> tuple[float, ...]:
-    if s.impact_error == 0.0:
-        return ()
-    return tuple(float(e) for e in impact_error(drawn(s, "impact"), s.impact_error, n))
 
 
 def sensors(s: Scenario) -> Sensors | None:

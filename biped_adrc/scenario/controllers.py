@@ -22,8 +22,7 @@ from biped_adrc.gait.outputs import LinearOutputs
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.scenario.construct import construct, lacking, takes
-from biped_adrc.scenario.registry import find, spelled
+from biped_adrc.scenario.registry import construct, find, lacking, spelled, takes
 from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, Scenario
 from biped_adrc.scenario.values import unknown
 
@@ -117,8 +116,7 @@ class Maker:
         best = max(fitting, key=lambda way: len(set(offered) & set(takes(way))))
         self._seen(best, offered)
         self.used |= {"order"} if "m" in takes(best) else set()
-        made: Observer = construct(f"the observer of {what}", best, offered, Observer)
-        return made
+        return construct(f"the observer of {what}", best, offered, Observer)
 
 
 def _default(make: Callable[..., Any]) -> Observer:

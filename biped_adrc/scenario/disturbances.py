@@ -13,10 +13,8 @@ from biped_adrc.disturbances.link import OnLink
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.construct import construct, takes
-from biped_adrc.scenario.draw import drawn
-from biped_adrc.scenario.registry import find
-from biped_adrc.scenario.scenario import DEFAULTS, Scenario
+from biped_adrc.scenario.registry import construct, find, takes
+from biped_adrc.scenario.scenario import DEFAULTS, Scenario, drawn
 from biped_adrc.types import Array
 
 OVER_STEPS = ("sine", "noise")

@@ -17,8 +17,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import BipedError, InputError
-from biped_adrc.scenario.construct import takes
-from biped_adrc.scenario.registry import registered, source_hash
+from biped_adrc.scenario.registry import registered, source_hash, takes
 
 _ROOMS = re.compile(
     r"biped_adrc\.((control|observers|disturbances|gait|hardware|model)\.[a-z_]+|timing|ground|walker)"

@@ -157,7 +157,7 @@ class Walk:
     def _repr_html_(self) -> str:
         """What a notebook shows: status and remarks, the animation and the figure of `plot`."""
         from biped_adrc.viz.meshcat import animation_html
-        from biped_adrc.viz.notebook import inline
+        from biped_adrc.viz.pages import inline
 
         impacts = len(self.trajectory.events(FOOT_STRIKE))
         status = self.trajectory.status
@@ -166,33 +166,12 @@ class Walk:
         return inline(summary, animation_html({self.controller_name: self}), [self.plot()])
 
 
-@dataclass(frozen=True)
-class Viewer:
-    """Draws trajectories as walks of the same walker."""
-
-    walker: Walker
-    gait: Gait | None
-    scenario: Scenario | None
-
-    def _of(self, trajectory: Trajectory) -> Walk:
-        return Walk(self.walker, self.gait, trajectory, self.scenario)
-
-    def animate(self, trajectory: Trajectory, path: Path | str) -> None:
-        """As `Walk.animate`."""
-        self._of(trajectory).animate(path)
-
-    def plot(self, trajectory: Trajectory) -> Figure:
-        """As `Walk.plot`."""
-        return self._of(trajectory).plot()
-
-    def html(self, trajectory: Trajectory) -> str:
-        """As a walk in a notebook."""
-        return self._of(trajectory)._repr_html_()
-
-
 def watched(
     walker: Walker, gait: Gait | None, trajectory: Trajectory, scenario: Scenario | None = None
 ) -> Walk:
     """The walk whose trajectory can draw itself."""
-    viewer = Viewer(walker, gait, scenario)
-    return Walk(walker, gait, replace(trajectory, viewer=viewer), scenario)
+
+    def seen(trajectory: Trajectory) -> Walk:
+        return Walk(walker, gait, trajectory, scenario)
+
+    return seen(replace(trajectory, viewer=seen))

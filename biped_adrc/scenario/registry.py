@@ -1,8 +1,9 @@
 """The registry: what may be named in a scenario, a line of registry.toml for each thing.
 
 A name is one of these, one that `register` added, or `package.module:Class` of the user's own, in Python, on
-the command line and in the files of studies alike. What is one's own is imported when a walk is built, by its
-name and also from the working directory, so that worker processes find it too; reading a file imports nothing.
+the command line and in the files of studies alike; things are made from values by their names. What is one's
+own is imported when a walk is built, by its name and also from the working directory, so that worker processes
+find it too; reading a file imports nothing.
 """
 
 from __future__ import annotations
@@ -12,19 +13,21 @@ import inspect
 import os
 import re
 import sys
-import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from importlib import import_module
-from importlib.resources import files
+from inspect import Parameter, signature
 from typing import Any
 
-from biped_adrc.errors import InputError
-from biped_adrc.resources import data_folder
+from biped_adrc.errors import BipedError, InputError
+from biped_adrc.resources import data_folder, packaged
 
 _OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 """package.module:Class."""
+
+
+_VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
 @dataclass(frozen=True)
@@ -43,10 +46,9 @@ class Entry:
 
 
 def _read() -> dict[str, dict[str, Entry]]:
-    text = files("biped_adrc.scenario").joinpath("registry.toml").read_text("utf-8")
     return {
         kind: {name: Entry(**values) for name, values in entries.items()}
-        for kind, entries in tomllib.loads(text).items()
+        for kind, entries in packaged("biped_adrc.scenario", "registry.toml").items()
     }
 
 
@@ -174,5 +176,39 @@ def _imported(home: str) -> Callable[..., Any]:
         there = [key for key, x in vars(found).items() if isinstance(x, type)]
         near = get_close_matches(name, there, 1) or there
         raise InputError(f"'{home}': module '{module}' has no class '{name}'; it has {near}")
-    made: Callable[..., Any] = thing
+    return thing
+
+
+def takes(make: Callable[..., Any]) -> Mapping[str, Parameter]:
+    """The parameters of a class or function that may be given by name."""
+    found = signature(make).parameters
+    return {name: p for name, p in found.items() if p.kind not in _VARIADIC}
+
+
+def lacking(make: Callable[..., Any], values: Container[str]) -> list[str]:
+    """Parameters without a default that are not among the values."""
+    wanted = (p for p in takes(make).values() if p.default is Parameter.empty)
+    return [p.name for p in wanted if p.name not in values]
+
+
+def construct(
+    what: str, make: Callable[..., Any], values: Mapping[str, Any], kind: type[Any]
+) -> Any:
+    """make(**values) with those of the values that it takes, a `kind`. Raises InputError, of `what`."""
+    missing = lacking(make, values)
+    if missing:
+        raise InputError(
+            f"{what} needs {', '.join(missing)}; give --set {missing[0]}=VALUE, `own.{missing[0]} = VALUE` "
+            f"in a study, or Scenario(own={{'{missing[0]}': VALUE}}); given by themselves are {sorted(values)}"
+        )
+    try:
+        made = make(**{name: x for name, x in values.items() if name in takes(make)})
+    except BipedError:
+        raise
+    except Exception as error:  # whatever a class of the user's may raise
+        raise InputError(f"{what} could not be made: {type(error).__name__}: {error}") from error
+    if not isinstance(made, kind):
+        raise InputError(
+            f"{what} made a {type(made).__name__}, expected one of class {kind.__name__}"
+        )
     return made

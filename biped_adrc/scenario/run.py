@@ -1,12 +1,20 @@
-"""A scenario carried out, and what a walk leaves that is small enough to come from another process."""
+"""A scenario carried out.
+
+Robots without motors walk on their known cycle, the fixed point of the return map: Newton finds it from the
+stored state, and a walk starts just after its impact.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
+from biped_adrc.analysis.return_map import ReturnMap
+from biped_adrc.analysis.variational import periodic_orbit
+from biped_adrc.control.passive import Passive
 from biped_adrc.engine.choice import COMPILED
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.published import passive_cycle
@@ -15,7 +23,6 @@ from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.build import Scene, build, start
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.passive import cycle_start
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.scenario import FREE, Scenario
 from biped_adrc.scenario.walk import (
@@ -26,7 +33,8 @@ from biped_adrc.scenario.walk import (
     refined,
     walk_in_parts,
 )
-from biped_adrc.walker import Walker
+from biped_adrc.types import Array
+from biped_adrc.walker import Mode, Walker
 
 METHODS: dict[str, Callable[..., OneStepMethod]] = {
     "rk4": RK4,
@@ -35,6 +43,12 @@ METHODS: dict[str, Callable[..., OneStepMethod]] = {
     "adaptive": Adaptive,
     "stiff": Stiff,
 }
+
+
+LIGHT_FEET = 5e-4
+"""[rad, rad/s], of central differences, where round-off of 1e-10 in P asks for wider ones."""
+SETTLES = 1e-9
+"""[rad, rad/s], residual of Newton: feet of 1e-7 of the hip's mass leave a round-off of 1e-10."""
 
 
 def method_of(s: Scenario, walker: Walker) -> OneStepMethod:
@@ -70,6 +84,35 @@ def halved(s: Scenario, walker: Walker | None = None) -> Scenario:
         if fine is None and s.method is None and s.engine == COMPILED:
             fine = FINE_STEP if isinstance(usual, Exponential) else None
     return replace(s, h=0.5 * h, fine=None if fine is None else 0.5 * fine)
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """A return map and a pre-impact state from which Newton finds its fixed point."""
+
+    P: ReturnMap
+    guess: Array
+
+
+def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
+    """The stored cycle of a robot without motors, on its own slope or another one [rad] nearby.
+
+    Raises GaitError when none is stored, SimulationError when the robot does not come to a first impact.
+    """
+    known = passive_cycle(biped)
+    angle = known.slope if slope is None else slope
+    walker = Walker(biped, Passive(), slope=angle, max_step_time=known.max_step_time)
+    P = ReturnMap(walker, Adaptive(1e-12, 1e-12), difference=LIGHT_FEET, pitch=math.pi)
+    start = walker.initial_state(known.q_plus, known.v_plus)
+    return Cycle(P, P.next_strike(walker, start, Mode()).x_minus)
+
+
+def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:
+    """(q, v) just after the impact of the cycle on a slope [rad]. Raises SimulationError without one."""
+    cycle, n = known_cycle(biped, slope), biped.n
+    orbit, _ = periodic_orbit(cycle.P, cycle.guess, SETTLES)
+    after = biped.impact(orbit.x_minus[:n], orbit.x_minus[n:])
+    return after.q, after.v
 
 
 def walk_scenario(

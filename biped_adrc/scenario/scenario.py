@@ -13,24 +13,16 @@ from collections.abc import Mapping
 from dataclasses import asdict, field
 from typing import Any
 
+import numpy as np
 from pydantic import ConfigDict, field_validator, model_validator
 from pydantic.dataclasses import dataclass
 
+from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import Push, parse_push
 from biped_adrc.scenario.registry import find, portable, spelled
 from biped_adrc.scenario.values import clear, described
 
-HARDWARE: dict[str, dict[str, Any]] = {
-    "none": {},
-    "ideal": {"period": 1e-3},
-    "rabbit": {
-        "period": 1.5e-3,
-        "counts": 8192.0,
-        "velocity": "differences",
-        "torque_limit": 150.0,
-        "friction": True,
-    },
-}
+HARDWARE: dict[str, dict[str, Any]] = packaged("biped_adrc.scenario", "hardware.toml")
 """Continuous time; exact at 1 kHz; and sampling, encoders, torque and friction published for RABBIT
 (Chevallereau et al., IEEE Control Systems Magazine 2003; Westervelt, Buche, Grizzle, IJRR 2004), whose rotors
 are in the preset 'identified'."""
@@ -240,6 +232,10 @@ class Scenario:
         return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
+DRAWN = ("start", "onset", "joints", "noise", "sensors", "model", "impact", "ground")
+"""By its place here and the scenario's seed."""
+
+
 FIELDS: Mapping[str, Any] = Scenario.__pydantic_fields__  # type: ignore[attr-defined]
 """By name, with description, unit and range."""
 DEFAULTS: dict[str, Any] = {
@@ -252,3 +248,10 @@ UNITS: dict[str, str] = {name: str(x.json_schema_extra["unit"]) for name, x in F
 def _told(push: dict[str, Any]) -> dict[str, Any]:
     """Without what is not finite, the stop of a step for good, which no file of plain values has."""
     return {name: x for name, x in push.items() if not (name == "stop" and math.isinf(x))}
+
+
+def drawn(s: Scenario, what: str) -> int:
+    """A seed for one of the things in `DRAWN`: one more of them changes none of the others."""
+    sequence = np.random.SeedSequence(s.seed, spawn_key=(DRAWN.index(what),))
+    words = sequence.generate_state(1, np.uint64)
+    return int(words[0] >> np.uint64(1))

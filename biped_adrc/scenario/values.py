@@ -2,35 +2,33 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from functools import wraps
-from importlib.resources import files
 from typing import Any, TypeVar
 
 from pydantic import Field, ValidationError
 
 from biped_adrc.errors import InputError
+from biped_adrc.resources import packaged
 
 _T = TypeVar("_T")
 
 
 def described(name: str) -> Callable[[type[_T]], type[_T]]:
     """A class whose fields have the texts, units and ranges that a TOML file beside this module has."""
-    text = files("biped_adrc.scenario").joinpath(name).read_text("utf-8")
 
     def decorate(cls: type[_T]) -> type[_T]:
-        for name, told in tomllib.loads(text).items():
+        for field, told in packaged("biped_adrc.scenario", name).items():
             limits = {key: x for key, x in told.items() if key not in ("text", "unit")}
-            default = getattr(cls, name)
+            default = getattr(cls, field)
             if isinstance(default, bool | int | float) or limits:
                 limits["strict"] = True
             factory = getattr(default, "default_factory", None)
             given = {"default": default} if factory is None else {"default_factory": factory}
             extra = {"unit": told.get("unit", "1")}
             made = Field(**given, description=told["text"], json_schema_extra=extra, **limits)
-            setattr(cls, name, made)
+            setattr(cls, field, made)
         return cls
 
     return decorate

@@ -58,16 +58,11 @@ def refined(
     Where it switches by the time of the run, not of the step, all of the walk is fine.
     """
     steps = range(first_step, first_step + impacts)
-    switched = {k for k in steps if _switches(walker, k)}
+    times = walker.disturbance.switching_times if walker.disturbance else lambda *at: ()
+    late = walker.max_step_time
+    switched = {k for k in steps if any(map(math.isfinite, times(k, k * late)))}
     methods = (fine if {k, k - 1} & switched else usual for k in steps)
     return tuple(Part(len(list(group)), method) for method, group in groupby(methods))
-
-
-def _switches(walker: Walker, step: int) -> bool:
-    if walker.disturbance is None:
-        return False
-    late = step * walker.max_step_time
-    return any(math.isfinite(t) for t in walker.disturbance.switching_times(step, late))
 
 
 def walk(

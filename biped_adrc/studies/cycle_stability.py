@@ -32,8 +32,7 @@ from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model.robots import Limits
 from biped_adrc.scenario.build import Scene, build
-from biped_adrc.scenario.passive import SETTLES, Cycle, known_cycle
-from biped_adrc.scenario.run import method_of
+from biped_adrc.scenario.run import SETTLES, Cycle, known_cycle, method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import default_method
 from biped_adrc.types import Array

@@ -14,7 +14,7 @@ import numpy as np
 
 from biped_adrc.analysis.forced_steps import stopping_force
 from biped_adrc.analysis.legality import Legality, outcome_of
-from biped_adrc.analysis.stride_directions import STANCE_KNEE
+from biped_adrc.analysis.stride_gain import STANCE_KNEE
 from biped_adrc.control.base import Controller
 from biped_adrc.control.stride import StridePI
 from biped_adrc.errors import InputError

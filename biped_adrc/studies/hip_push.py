@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from biped_adrc.analysis.stride_directions import DirectionMerit, direction_merits
+from biped_adrc.analysis.stride_gain import DirectionMerit, direction_merits
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.studies.hip_case import HipCase, PushedWalk
 from biped_adrc.studies.pair import CONTROLLERS

@@ -15,6 +15,7 @@ from biped_adrc.studies.pool import Task, run_tasks
 from biped_adrc.studies.results import Results
 from biped_adrc.viz import figures
 from biped_adrc.viz.numbers import as_text, numbers_of
+from biped_adrc.viz.push_map_plot import push_map_figure
 from biped_adrc.viz.robot_figure import robot_figure
 from biped_adrc.viz.style import render
 
@@ -44,7 +45,7 @@ def pictures(plan: Plan, r: Results) -> dict[str, Task]:
     mu = Biped.load("rabbit", plan.preset).description.friction_coefficient
     maps = {
         f"push_map_{preset}": (
-            figures.push_map_figure,
+            push_map_figure,
             [cell.row() for cell in cells if cell.preset == preset],
         )
         for preset in sorted({cell.preset for cell in cells})

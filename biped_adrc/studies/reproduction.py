@@ -34,8 +34,8 @@ from biped_adrc.studies.pool import TaskProgress, run_tasks
 from biped_adrc.studies.results import Results
 from biped_adrc.studies.tables import tables
 from biped_adrc.versions import versions
-from biped_adrc.viz.meshcat import animation_html
-from biped_adrc.viz.report import write_report
+from biped_adrc.viz.meshcat import Look, animation_html
+from biped_adrc.viz.pages import write_report
 
 
 def reproduce(
@@ -192,7 +192,7 @@ def _notes() -> list[str]:
 def _animate(r: Results) -> str:
     walks = {c: replay(head.outcome.run, head.trajectory) for c, head in r.heads.items()}
     window = push_window(r.heads["NPD"].signals)
-    return animation_html(walks, "ADRC", [] if window is None else [(*window, "push")])
+    return animation_html(walks, Look("ADRC", [] if window is None else [(*window, "push")]))
 
 
 def failed(checks: list[dict[str, Any]]) -> list[dict[str, Any]]:

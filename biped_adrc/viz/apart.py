@@ -7,7 +7,6 @@ the walk's own.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,26 +16,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from biped_adrc.types import Array
-from biped_adrc.viz.moving import (
-    COLOURS,
-    HEADROOM,
-    REACTION,
-    REFERENCE,
-    SOLE,
-    TORQUE,
-    DrawnRobot,
-    Footprints,
-    Forces,
-    follow,
-    ground,
-    picture,
-)
+from biped_adrc.viz import moving as draw
 from biped_adrc.viz.placement import Recorded, Scene, ending, is_wheel
 from biped_adrc.viz.plots.over_time import angle_unit
 from biped_adrc.viz.side_view import Deviation, SideView
-from biped_adrc.viz.style import PUSH
+from biped_adrc.viz.style import PUSH, REACTION, TORQUE
 
-DPI = 100
 SHOWN = 1.5
 """[m], width of the panel of one walk."""
 LINES = ("#D55E00", "#000000", "#56B4E9", "#E69F00")
@@ -45,36 +30,30 @@ HEAD, STRIP = 78, 150
 """[px], heights of the legend above and of the errors below."""
 
 
-class Magnified(NamedTuple):
-    """The factor k, None for the posture as it is, and by how much slower than the walk it is shown."""
-
-    factor: float | None
-    slower: float
-
-
-def frames_apart(
-    walks: Mapping[str, Recorded], times: Array, magnified: Magnified, width: int
-) -> list[Array]:
+def frames_apart(walks: Mapping[str, Recorded], times: Array, motion: draw.Motion) -> list[Array]:
     """Frames (height, width, 3) at `times` [s]. Raises InputError for walks without a reference."""
-    start = float(times[0])
-    panels = [_Panel(n, walk, magnified, k, start) for k, (n, walk) in enumerate(walks.items())]
-    tall = max(HEADROOM * panel.view.height + SOLE for panel in panels)
+    start, width, k = float(times[0]), motion.width, motion.magnify
+    panels = [
+        _Panel(n, walk, k, LINES[i % len(LINES)], start)
+        for i, (n, walk) in enumerate(walks.items())
+    ]
+    tall = max(draw.HEADROOM * panel.view.height + draw.SOLE for panel in panels)
     body = width / len(panels) * tall / SHOWN
     height = HEAD + body + STRIP
-    figure = Figure(figsize=(width / DPI, height / DPI), dpi=DPI)
+    figure = Figure(figsize=(width / draw.DPI, height / draw.DPI), dpi=draw.DPI)
     canvas = FigureCanvasAgg(figure)
     bottom, share = STRIP / height, 1.0 / len(panels)
     for k, panel in enumerate(panels):
         panel.draw(figure.add_axes((k * share, bottom, share, body / height)))
     strip = figure.add_axes((0.095, 48 / height, 0.88, (STRIP - 60) / height))
     errors = _Errors(strip, panels, times)
-    _legend(figure, panels, magnified, height)
+    _legend(figure, panels, motion, height)
     out = []
     for t in times.tolist():
         for panel in panels:
             panel.show(t)
         errors.show(t)
-        out.append(picture(canvas))
+        out.append(draw.picture(canvas))
     return out
 
 
@@ -82,10 +61,10 @@ class _Panel:
     """One walk."""
 
     def __init__(
-        self, name: str, walk: Recorded, magnified: Magnified, k: int, start: float
+        self, name: str, walk: Recorded, factor: float | None, colour: str, start: float
     ) -> None:
-        scene, factor = Scene.of(walk), magnified.factor
-        self.name, self.colour, self.magnified = name, LINES[k % len(LINES)], factor is not None
+        scene = Scene.of(walk)
+        self.name, self.colour, self.magnified = name, colour, factor is not None
         self.tracked = Deviation.of(walk, 0.0)
         shown = None if factor is None else Deviation.of(walk, factor)
         self.view, self.reference = SideView(scene, shown), SideView(scene, self.tracked)
@@ -94,15 +73,17 @@ class _Panel:
     def draw(self, axes: Axes) -> None:
         """Everything that `show` moves."""
         axes.set_axis_off()
-        ground(axes, [self.view])
+        draw.ground(axes, [self.view])
         self.axes = axes
-        self.prints = Footprints(axes, self.view, 1.0, 2)
+        self.prints = draw.Footprints(axes, self.view, 1.0, 2)
         # wider than the robot, so that a posture on its reference shows it
         self.behind = (
-            DrawnRobot(axes, self.reference, 1.0, 2, REFERENCE, 1.7) if self.magnified else None
+            draw.DrawnRobot(axes, self.reference, 1.0, 2, draw.REFERENCE, 1.7)
+            if self.magnified
+            else None
         )
-        self.robot = DrawnRobot(axes, self.view, 1.0, 3)
-        self.forces = Forces(axes, self.view, 1.0, 4)
+        self.robot = draw.DrawnRobot(axes, self.view, 1.0, 3)
+        self.forces = draw.Forces(axes, self.view, 1.0, 4)
         self.title = axes.text(0.04, 0.99, self.name, fontsize=15, color=self.colour, weight="bold")
         self.text = axes.text(0.04, 0.915, "", fontsize=11)
         for text in (self.title, self.text):
@@ -110,7 +91,7 @@ class _Panel:
 
     def show(self, t: float) -> None:
         """The walk at t [s]."""
-        follow(self.axes, self.view, t, 0.5 * SHOWN, 0.5 * SHOWN)
+        draw.follow(self.axes, self.view, t, 0.5 * SHOWN, 0.5 * SHOWN)
         self.prints.show(t)
         if self.behind is not None:
             self.behind.show(t)
@@ -169,19 +150,20 @@ class _Errors:
             dot.set_data(at[rows][-1:], error[rows][-1:])
 
 
-def _legend(figure: Figure, panels: list[_Panel], magnified: Magnified, height: float) -> None:
+def _legend(figure: Figure, panels: list[_Panel], motion: draw.Motion, height: float) -> None:
     """What the colours mean, and what is drawn larger or slower than it is."""
     entries: list[Patch | Line2D] = []
     if not is_wheel(panels[0].view.scene.biped):
-        entries += [Patch(color=COLOURS[leg], label=f"{leg} leg") for leg in ("stance", "swing")]
+        entries += [
+            Patch(color=draw.COLOURS[leg], label=f"{leg} leg") for leg in ("stance", "swing")
+        ]
     entries.append(Patch(color=REACTION, label="ground force"))
     entries.append(Patch(color=TORQUE, label="push"))
     said = []
-    if magnified.factor is not None:
-        entries.append(Patch(color=REFERENCE, label="reference"))
-        said.append(f"deviation from the reference drawn {magnified.factor:g} times as large")
-    if magnified.slower != 1.0:
-        said.append(f"{magnified.slower:g} times slower")
+    if motion.magnify is not None:
+        entries.append(Patch(color=draw.REFERENCE, label="reference"))
+        said.append(f"deviation from the reference drawn {motion.magnify:g} times as large")
+    said += [pace] if (pace := motion.pace()) else []
     figure.legend(
         handles=entries,
         loc="upper center",

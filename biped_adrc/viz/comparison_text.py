@@ -9,69 +9,26 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-MEASURES = {
-    "peak_error": "largest error [rad]",
-    "rms_torque": "rms torque [N m]",
-    "cost_of_transport": "cost of transport",
-    "speed_change": "change of speed",
-    "peak_matched": "matched [rad/s^2]",
-    "peak_unmatched": "unmatched [rad/s^2]",
-}
+from biped_adrc.resources import packaged
+
+TEXTS = packaged("biped_adrc.viz", "comparison.toml")
+TITLE: str = TEXTS["title"]
+WHAT_COUNTS: str = " ".join(TEXTS["what_counts"].split())
+MEASURES: dict[str, str] = TEXTS["measures"]
 """Columns of a walk's row of which the median over legal walks is shown; matched and unmatched are the parts of
 what the model does not know."""
-NEEDS = {
-    "mean_friction": "friction",
-    "mean_normal_force": "least normal force [N]",
-    "peak_torque": "peak torque [N m]",
-    "impulse_ratio": "impulse ratio",
-}
+NEEDS: dict[str, str] = TEXTS["needs"]
 """What a walk needs of the ground and the motors: medians over the walks that make all steps."""
-REASONS = {
-    "bad_normal_force": "normal force",
-    "bad_friction": "friction",
-    "bad_torque": "torque",
-    "bad_scuffing": "scuffing",
-}
+REASONS: dict[str, str] = TEXTS["reasons"]
 """Why a walk that makes all steps is not legal; a walk may have several."""
-WHAT_COUNTS = (
-    "A walk is legal when it makes all steps and, in every step, the ground force averaged over 5 ms stays "
-    "inside the friction cone, no torque is beyond the motors' limit and the swing foot does not scuff. The "
-    "impulse at impact is judged in a column of its own and makes no walk illegal."
-)
-SHARES = (
-    "condition",
-    "controller",
-    "legal [%]",
-    "made all steps [%]",
-    "the others ended",
-    "made, but not legal for [%]",
-    "impulse beyond the cone [%]",
-    *NEEDS.values(),
-)
+SHARES: tuple[str, ...] = (*TEXTS["columns"]["shares"], *NEEDS.values())
 """Of the first table; the needs are medians over the walks that make all steps."""
-MEDIANS = ("condition", "controller", "legal walks", *MEASURES.values())
+MEDIANS: tuple[str, ...] = (*TEXTS["columns"]["medians"], *MEASURES.values())
 """Of the second; medians over legal walks."""
-PUSHES = (
-    "joints",
-    "phase",
-    "controller",
-    "walked legally",
-    "its seeds",
-    "all steps made",
-    "its seeds",
-)
+PUSHES: tuple[str, ...] = tuple(TEXTS["columns"]["pushes"])
 """Of the largest pushes [N m]."""
-EQUAL = (
-    "condition",
-    "controller",
-    "bandwidth [rad/s]",
-    "made all steps [%]",
-    "legal [%]",
-    "largest error of legal walks [rad]",
-)
+EQUAL: tuple[str, ...] = tuple(TEXTS["columns"]["equal"])
 """Of the observers at equal bandwidth."""
-
-
 EQUAL_FAMILY = "equal_bandwidth"
 """Of the sentences about them; the others are about controllers at their own settings."""
 
@@ -174,15 +131,9 @@ def nominal_text(nominal: Mapping[str, Any]) -> str:
     broken = ", ".join(nominal["broken"])
     beyond = f"; beyond its limit already: {broken}" if broken else ""
     limits = nominal["limits"]
-    units = {
-        "mean_friction": f"friction {{}} of {limits['friction']:g} (mean over 5 ms)",
-        "mean_normal_force": "a normal force down to {} N (mean over 5 ms)",
-        "peak_torque": f"{{}} of {limits['torque']:g} N m",
-        "impulse_ratio": f"friction {{}} of {limits['friction']:g} for the impulse at impact",
-    }
     needs = [
-        words.format(f"{nominal['needs'][name]:.3g}")
-        for name, words in units.items()
+        words.format(f"{nominal['needs'][name]:.3g}", **limits)
+        for name, words in TEXTS["nominal"].items()
         if nominal["needs"][name] is not None
     ]
     return f"{walk} {verdict}{beyond}. It needs {', '.join(needs) or 'what was not measured'}."

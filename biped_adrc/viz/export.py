@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from biped_adrc.errors import InputError
-from biped_adrc.viz.gif import Motion, write_gif
-from biped_adrc.viz.meshcat import write_animation
+from biped_adrc.files import write_text
+from biped_adrc.viz.gif import write_gif
+from biped_adrc.viz.meshcat import Look, animation_html
+from biped_adrc.viz.moving import Motion
 from biped_adrc.viz.placement import Recorded
 from biped_adrc.viz.stick import write_strip
 
@@ -48,6 +50,10 @@ class Clip:
         """Whether something is asked for that only a moving picture has."""
         return self.apart or self.magnify is not None or self.slower != 1.0
 
+    def look(self) -> Look:
+        """Of a page, or live."""
+        return Look(fps=60.0 if self.fps is None else self.fps, view=self.view)
+
     def motion(self) -> Motion:
         """Of a moving picture. Raises InputError."""
         fps = 25.0 if self.fps is None else self.fps
@@ -66,7 +72,7 @@ def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) 
             f"'{path}' is no moving picture, and apart, magnify and slower are of one; write a .gif"
         )
     if suffix == ".html":
-        write_animation(path, walks, fps=60.0 if clip.fps is None else clip.fps, view=clip.view)
+        write_text(path, animation_html(walks, clip.look()))
     elif suffix == ".gif":
         write_gif(path, walks, start=clip.start, stop=clip.stop, motion=clip.motion())
     else:

@@ -14,7 +14,6 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.types import Array
 from biped_adrc.viz import plots
 from biped_adrc.viz.plots.over_time import Window
-from biped_adrc.viz.push_map_plot import push_map_figure
 from biped_adrc.viz.style import new_figure, style
 from biped_adrc.viz.thin import thin
 
@@ -255,17 +254,3 @@ def _pushed_columns(
     columns[0][0].set_title("whole walk", loc="left")
     _edges(columns[1:], first, push)
     _one_legend_a_row([columns[0][0], columns[1][0], columns[1][1], columns[2][1]], ())
-
-
-__all__ = [
-    "comparison_figure",
-    "disturbance_figure",
-    "energy_figure",
-    "ground_figure",
-    "multiplier_figure",
-    "passive_figure",
-    "phase_figure",
-    "push_map_figure",
-    "return_map_figure",
-    "tracking_figure",
-]

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import check_positive
 from biped_adrc.hybrid.trajectory import Arc, hermite
 from biped_adrc.types import Array
 from biped_adrc.viz.placement import Scene, joint_values, loads
@@ -23,8 +24,7 @@ EPSILON = 1e-6
 """[s], half the interval of the central difference that gives the rates of the base."""
 
 
-@dataclass(frozen=True)
-class Pose:
+class Pose(NamedTuple):
     """All that is drawn at one time."""
 
     joints: Array
@@ -53,18 +53,14 @@ class Frames:
     @classmethod
     def of(cls, scene: Scene, fps: float) -> Frames:
         """Sample a walk. Raises InputError for a number of frames per second that is not positive."""
-        if not (math.isfinite(fps) and fps > 0):
-            raise InputError(f"fps is {fps} frames per second, expected a positive number")
+        check_positive(fps, f"fps is {fps} frames per second")
         t, arcs, poses = [], [], []
         for i, arc in enumerate(scene.trajectory.arcs):
             nodes = _nodes(scene, arc, fps)
             t.append(nodes)
             arcs.append(np.full(len(nodes), i))
             poses += [pose(scene, i, float(node)) for node in nodes]
-        columns = (
-            np.array([getattr(p, name) for p in poses])
-            for name in ("joints", "rates", "loads", "points")
-        )
+        columns = map(np.array, zip(*poses, strict=True))
         return cls(np.concatenate(t), np.concatenate(arcs), *columns)
 
 

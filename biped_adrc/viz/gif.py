@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,60 +15,17 @@ from PIL import Image, ImageColor
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes
 from biped_adrc.types import Array
-from biped_adrc.viz.apart import LINES, Magnified, frames_apart
-from biped_adrc.viz.moving import (
-    COLOURS,
-    HEADROOM,
-    REACTION,
-    REFERENCE,
-    SOLE,
-    TORQUE,
-    DrawnRobot,
-    Forces,
-    Trail,
-    follow,
-    ground,
-    picture,
-)
+from biped_adrc.viz import moving as draw
+from biped_adrc.viz.apart import LINES, frames_apart
 from biped_adrc.viz.placement import Recorded, Scene, ending
 from biped_adrc.viz.side_view import SideView
-from biped_adrc.viz.style import style
+from biped_adrc.viz.style import REACTION, TORQUE, style
 
 GHOST = 0.35
-DPI = 100
 SHOWN = 2.6
 """[m], width of the picture of walks laid over one another."""
 REST = 2.0
 """[s], how much longer the last frame is shown where a walk ended badly."""
-
-
-@dataclass(frozen=True)
-class Motion:
-    """How walks are set in motion.
-
-    apart: side by side instead of over one another, with their errors over time below. magnify: factor by which
-    the deviation from the reference is drawn larger, and the reference in grey; None for the posture as it is;
-    it needs `apart`. slower: by how much slower than the walk. fps [1/s]: frames per second, at most 50 (a GIF
-    counts hundredths of a second). width [px].
-    """
-
-    apart: bool = False
-    magnify: float | None = None
-    slower: float = 1.0
-    fps: float = 25.0
-    width: int = 600
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.fps) and 0.0 < self.fps <= 50.0):
-            raise InputError(
-                f"fps is {self.fps} frames per second, expected more than 0 and at most 50"
-            )
-        if not (math.isfinite(self.slower) and self.slower > 0.0):
-            raise InputError(f"slower is {self.slower}, expected a positive number")
-        if not 100 <= self.width <= 4000:
-            raise InputError(f"width is {self.width} px, expected 100 to 4000")
-        if self.magnify is not None and not self.apart:
-            raise InputError("a magnified deviation is drawn of walks side by side; add 'apart'")
 
 
 def write_gif(
@@ -78,14 +34,14 @@ def write_gif(
     solid: str | None = None,
     start: float | None = None,
     stop: float | None = None,
-    motion: Motion | None = None,
+    motion: draw.Motion | None = None,
 ) -> None:
     """Write walks, over one another or side by side, as a GIF that repeats.
 
     solid: the walk drawn opaque and followed where they are laid over one another, the last one if None. start,
     stop [s]: the part shown, the whole if None. Raises InputError and OutputError.
     """
-    motion = Motion() if motion is None else motion
+    motion = draw.Motion() if motion is None else motion
     names = list(walks)
     solid = names[-1] if solid is None and names else solid
     if solid is None or solid not in walks:
@@ -93,20 +49,18 @@ def write_gif(
     times = _times(walks, start, stop, motion)
     with style():
         if motion.apart:
-            images = frames_apart(
-                walks, times, Magnified(motion.magnify, motion.slower), motion.width
-            )
+            images = frames_apart(walks, times, motion)
         else:
             order = [*(n for n in names if n != solid), solid]
             scenes = {n: Scene.of(walks[n]) for n in order}
-            images = _frames(scenes, times, motion.width, _speed(motion.slower))
+            images = _frames(scenes, times, motion)
     badly = any(ending(w.trajectory) and w.trajectory.t_end <= times[-1] for w in walks.values())
     rest = REST if badly else 0.0
     write_bytes(path, _encoded([Image.fromarray(i) for i in images], motion.fps, rest))
 
 
 def _times(
-    walks: Mapping[str, Recorded], start: float | None, stop: float | None, motion: Motion
+    walks: Mapping[str, Recorded], start: float | None, stop: float | None, motion: draw.Motion
 ) -> Array:
     """When the frames are; the end of a walk that ended badly is one of them."""
     first = min(walk.trajectory.t_start for walk in walks.values())
@@ -123,22 +77,23 @@ def _times(
     return np.append(times, stop) if badly else times
 
 
-def _speed(slower: float) -> str:
-    return "" if slower == 1.0 else f", {slower:g} times slower"
-
-
-def _frames(scenes: Mapping[str, Scene], times: Array, width: int, speed: str) -> list[Array]:
+def _frames(scenes: Mapping[str, Scene], times: Array, motion: draw.Motion) -> list[Array]:
     views = [SideView(scene) for scene in scenes.values()]
     last = views[-1]
-    height = width * (HEADROOM * last.height + SOLE) / SHOWN
-    figure = Figure(figsize=(width / DPI, height / DPI), dpi=DPI)
+    width, pace = motion.width, motion.pace(", ")
+    height = width * (draw.HEADROOM * last.height + draw.SOLE) / SHOWN
+    figure = Figure(figsize=(width / draw.DPI, height / draw.DPI), dpi=draw.DPI)
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_axis_off()
-    ground(axes, views)
+    draw.ground(axes, views)
     opacities = [GHOST] * (len(views) - 1) + [1.0]
     drawn = [
-        (Trail(axes, v, times, o, k), DrawnRobot(axes, v, o, k), Forces(axes, v, o, k))
+        (
+            draw.Trail(axes, v, times, o, k),
+            draw.DrawnRobot(axes, v, o, k),
+            draw.Forces(axes, v, o, k),
+        )
         for k, (v, o) in enumerate(zip(views, opacities, strict=True), start=2)
     ]
     *ghosts, solid = scenes
@@ -147,14 +102,14 @@ def _frames(scenes: Mapping[str, Scene], times: Array, width: int, speed: str) -
     text.set_bbox({"fc": "white", "ec": "none", "alpha": 0.7, "pad": 2.0})
     out = []
     for k, t in enumerate(times.tolist()):
-        follow(axes, last, t, 0.6 * SHOWN, 0.4 * SHOWN)
+        draw.follow(axes, last, t, 0.6 * SHOWN, 0.4 * SHOWN)
         for trail, robot, forces in drawn:
             trail.show(k, t)
             robot.show(t)
             forces.show(t)
         over = [f"\n{n} {ending(s.trajectory)}" for n, s in scenes.items() if _is_over(s, t)]
-        text.set_text(f"{caption}\nt = {t:.2f} s, step {last.step(t)}{speed}{''.join(over)}")
-        out.append(picture(canvas))
+        text.set_text(f"{caption}\nt = {t:.2f} s, step {last.step(t)}{pace}{''.join(over)}")
+        out.append(draw.picture(canvas))
     return out
 
 
@@ -169,7 +124,15 @@ def _encoded(images: list[Image.Image], fps: float, rest: float) -> bytes:
     """
     some = [np.asarray(image)[::3] for image in images[:: max(1, len(images) // 8)]]
     width = some[0].shape[1]
-    marked = (*COLOURS.values(), REACTION, TORQUE, REFERENCE, *LINES, "black", "white")
+    marked = (
+        *draw.COLOURS.values(),
+        REACTION,
+        TORQUE,
+        draw.REFERENCE,
+        *LINES,
+        "black",
+        "white",
+    )
     swatches = [ImageColor.getrgb(c) for c in marked]
     band = [np.full((len(some[0]) // 4, width, 3), rgb, dtype=np.uint8) for rgb in swatches]
     palette = Image.fromarray(np.concatenate([*some, *band])).quantize(64)

@@ -12,6 +12,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -23,7 +24,7 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 from biped_adrc.errors import InputError
 from biped_adrc.viz.frames import pose
 from biped_adrc.viz.meshcat import Look, captions, scene_settings
-from biped_adrc.viz.meshcat_page import page
+from biped_adrc.viz.pages import player
 from biped_adrc.viz.placement import Recorded, Scene
 
 ADDRESS = "127.0.0.1"
@@ -130,23 +131,16 @@ def play(
     """
     if not 0 <= port <= 65535:
         raise InputError(f"port is {port}, expected 1 to 65535, or 0 for a free one")
-    if _inside_a_loop():
+    with suppress(RuntimeError):
+        asyncio.get_running_loop()
         raise InputError(
             "live mode runs an event loop of its own and one is running already, as in a notebook; there "
             "a walk as the last line of a cell shows itself"
         )
     scenes = {name: Scene.of(walks[name]) for name in look.order(walks)}
     settings = {**scene_settings(scenes, look), "live": True}
-    html = page(settings, " and ".join(walks), captions(scenes))
+    html = player(settings, " and ".join(walks), captions(scenes))
     return asyncio.run(_serve(scenes, html, look.fps, port, open_browser, wait, say))
-
-
-def _inside_a_loop() -> bool:
-    try:
-        asyncio.get_running_loop()
-    except RuntimeError:
-        return False
-    return True
 
 
 async def _serve(
@@ -169,7 +163,15 @@ async def _serve(
     session = Session(html, (f"{ADDRESS}:{port}", f"localhost:{port}"), loop.create_future())
     for number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(number, session.end, f"stopped by {number.name}")
-    server = HTTPServer(_application(session))
+    pages = [(r"/", Front, {"session": session}), (r"/poses", Pages, {"session": session})]
+    server = HTTPServer(
+        Application(
+            pages,
+            websocket_ping_interval=PING,
+            websocket_ping_timeout=PING,
+            log_function=lambda handler: None,
+        )
+    )
     server.add_sockets(sockets)
     say(f"http://{ADDRESS}:{port}/  (Ctrl-C ends it)")
     launcher = await _launch(f"http://{ADDRESS}:{port}/") if open_browser else None
@@ -187,15 +189,6 @@ async def _serve(
         if task.done() and not task.cancelled() and task.exception() is not None:
             raise task.exception()  # type: ignore[misc]
     return reason
-
-
-def _application(session: Session) -> Application:
-    return Application(
-        [(r"/", Front, {"session": session}), (r"/poses", Pages, {"session": session})],
-        websocket_ping_interval=PING,
-        websocket_ping_timeout=PING,
-        log_function=lambda handler: None,
-    )
 
 
 def _report(session: Session, task: asyncio.Task[None]) -> None:

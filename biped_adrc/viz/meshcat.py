@@ -6,31 +6,32 @@ import base64
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.files import write_text
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
 from biped_adrc.viz import meshcat_scene as draw
 from biped_adrc.viz.frames import Frames
-from biped_adrc.viz.meshcat_page import MemoryWindow, page
+from biped_adrc.viz.pages import player
 from biped_adrc.viz.placement import Recorded, Scene, ending, exchanged, is_wheel
 from biped_adrc.viz.side_view import SideView
+from biped_adrc.viz.style import (
+    METRES_PER_NEWTON_METRE,
+    REACTION,
+    STANCE,
+    SWING,
+    TORQUE,
+    WEIGHT_LENGTH,
+)
 
 GHOST = 0.35
 """Opacity of a ghost."""
 LANE = 0.4
 """[m], by which each ghost walks farther from the camera: faces in one plane flicker."""
-WEIGHT_LENGTH = 0.4
-"""[m], length of the arrow of a ground reaction as large as the robot's weight."""
 LONGEST = 1.2
 """[m], of the arrow of a ground reaction; that of a larger one is cut, and the page says so."""
-METRES_PER_NEWTON_METRE = 0.004
-"""Radius of the ring of an external torque [m / N m]."""
 TRACE_POINTS = 20_000
 """Room for the traces of a walk whose length is not known beforehand."""
 TALL = 1.6
@@ -68,49 +69,27 @@ class Look:
         return [solid, *(name for name in walks if name != solid)]
 
 
-def write_animation(
-    path: Path,
-    walks: Mapping[str, Recorded],
-    solid: str | None = None,
-    marks: Marks = (),
-    fps: float = 60.0,
-    view: str = "side",
-) -> None:
-    """Write the walks, overlaid, as one HTML file that needs no server and no network.
+def animation_html(walks: Mapping[str, Recorded], look: Look | None = None) -> str:
+    """The walks, overlaid, as one page that needs no server and no network; the same walks give the same text.
 
-    For the arguments see `Look`. Raises InputError and OutputError.
+    Raises InputError.
     """
-    write_text(path, animation_html(walks, solid, marks, fps, view))
-
-
-def animation_html(
-    walks: Mapping[str, Recorded],
-    solid: str | None = None,
-    marks: Marks = (),
-    fps: float = 60.0,
-    view: str = "side",
-) -> str:
-    """The text of the file of `write_animation`; the same walks give the same text."""
-    look = Look(solid, marks, fps, view)
+    look = Look() if look is None else look
     scenes = {name: Scene.of(walks[name]) for name in look.order(walks)}
-    frames = {name: Frames.of(scene, fps) for name, scene in scenes.items()}
+    frames = {name: Frames.of(scene, look.fps) for name, scene in scenes.items()}
     settings = scene_settings(scenes, look, {name: len(f.t) for name, f in frames.items()})
     for walk, f in zip(settings["walks"], frames.values(), strict=True):
         walk["data"] = _packed(f)
-    return page(settings, " and ".join(walks), captions(scenes))
+    return player(settings, " and ".join(walks), captions(scenes))
 
 
 def _packed(frames: Frames) -> dict[str, str]:
     """Times as float64, the rest as float32, in base64."""
-    columns = dict.fromkeys(("arc", "joints", "rates", "loads", "points"), np.float32)
-    return {
-        name: _base64(np.asarray(getattr(frames, name), dtype=kind))
-        for name, kind in {"t": np.float64, **columns}.items()
-    }
-
-
-def _base64(values: Array) -> str:
-    return base64.b64encode(np.ascontiguousarray(values).tobytes()).decode("ascii")
+    kinds = {"t": np.float64} | dict.fromkeys(
+        ("arc", "joints", "rates", "loads", "points"), np.float32
+    )
+    packed = {name: np.asarray(getattr(frames, name), dtype=kind) for name, kind in kinds.items()}
+    return {name: base64.b64encode(x.tobytes()).decode("ascii") for name, x in packed.items()}
 
 
 # -- scene -----------------------------------------------------------------------------------------
@@ -121,8 +100,8 @@ def scene_settings(
 
     scenes: the solid walk first. points: number of nodes of each trace.
     """
-    window = MemoryWindow()
-    viewer = draw.visualizer(window)
+    window = draw.MemoryWindow()
+    viewer = window.viewer
     names = node_names(scenes)
     described = []
     for lane, (name, scene) in enumerate(scenes.items()):
@@ -148,15 +127,15 @@ def scene_settings(
         "end": max(scene.trajectory.t_end for scene in scenes.values()),
         "view": look.view,
         "views": {kind: _view(kind, scale) for kind in VIEWS},
-        "commands": window.packed(),
+        "commands": window.packed,
         "live": False,
     }
 
 
 def _view(kind: str, scale: float) -> dict[str, Any]:
-    window = MemoryWindow(kind)
-    position, target = draw.set_camera(draw.visualizer(window), kind, scale)
-    return {"commands": window.packed(), "position": position, "target": target}
+    window = draw.MemoryWindow(kind)
+    position, target = draw.set_camera(window.viewer, kind, scale)
+    return {"commands": window.packed, "position": position, "target": target}
 
 
 def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) -> dict[str, Any]:
@@ -166,8 +145,8 @@ def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) ->
     draw.add_robot(robot, biped, opacity)
     prints = draw.add_footprints(robot["footprints"], scene, depth, opacity)
     draw.add_trace(robot["hip_trace"], room, draw.DARK, opacity)
-    draw.add_trace(robot["foot_trace"], room, draw.SWING, opacity)
-    draw.add_arrow(robot["ground_reaction"], draw.REACTION, opacity)
+    draw.add_trace(robot["foot_trace"], room, SWING, opacity)
+    draw.add_arrow(robot["ground_reaction"], REACTION, opacity)
     rings = [_add_ring(robot, biped, name, opacity) for name in biped.description.joints]
     return {
         "joints": [
@@ -181,7 +160,7 @@ def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) ->
             if joint.type != "fixed"
         ],
         "legs": [[f"{path}/{part}" for part in leg] for leg in draw.leg_visuals(biped)],
-        "colours": [draw.colour(draw.STANCE), draw.colour(draw.SWING)],
+        "colours": [draw.colour(STANCE), draw.colour(SWING)],
         "rings": [f"{path}/{ring}/turn" for ring in rings],
         "arrow": f"{path}/ground_reaction",
         "traces": [f"{path}/hip_trace", f"{path}/foot_trace"],
@@ -211,7 +190,7 @@ def _add_ring(robot: Any, biped: Biped, name: str, opacity: float) -> str:
     torso = name not in biped.description.actuated and inertial is not None
     path = f"{draw.joint_path(biped.tree, joint)}/torque"
     origin = inertial.com if torso and inertial is not None else (0.0, 0.0, 0.0)
-    draw.add_ring(robot[path], origin, draw.TORQUE, opacity)
+    draw.add_ring(robot[path], origin, TORQUE, opacity)
     return path
 
 
@@ -231,12 +210,12 @@ def captions(scenes: Mapping[str, Scene]) -> list[tuple[str, str]]:
     solid, *ghosts = scenes
     biped = scenes[solid].biped
     newtons = 0.1 * biped.weight / WEIGHT_LENGTH
-    walking = [(_css(draw.STANCE), "stance leg"), (_css(draw.SWING), "swing leg")]
+    walking = [(STANCE.lower(), "stance leg"), (SWING.lower(), "swing leg")]
     entries = [
         *([] if is_wheel(biped) else walking),
-        (_css(draw.REACTION), f"ground reaction, 0.1 m = {newtons:.0f} N"),
+        (REACTION.lower(), f"ground reaction, 0.1 m = {newtons:.0f} N"),
         (
-            _css(draw.TORQUE),
+            TORQUE.lower(),
             f"torque from outside, radius 0.1 m = {0.1 / METRES_PER_NEWTON_METRE:.0f} N m",
         ),
     ]
@@ -244,7 +223,3 @@ def captions(scenes: Mapping[str, Scene]) -> list[tuple[str, str]]:
         text = f"{solid}: solid. {', '.join(ghosts)}: translucent, {LANE:g} m farther away."
         return [("", text), *entries]
     return [("", f"{solid}."), *entries]
-
-
-def _css(rgb: Sequence[float]) -> str:
-    return f"#{draw.colour(rgb):06x}"

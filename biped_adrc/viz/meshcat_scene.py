@@ -6,13 +6,19 @@ points in the model and balls in the URDF: the ground is drawn one radius below 
 
 from __future__ import annotations
 
+import base64
 import itertools
 import math
+import random
+import re
+import uuid
 import warnings
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
+import umsgpack  # type: ignore[import-untyped]
+from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
 from biped_adrc.model.biped import Biped
@@ -26,11 +32,10 @@ with warnings.catch_warnings():
     import meshcat
     import meshcat.geometry as shapes
 
-STANCE, SWING = (0.0, 0.447, 0.698), (0.902, 0.624, 0.0)
-"""Colours of the legs: blue and orange (Okabe and Ito), dark and light in grey print."""
-REACTION, TORQUE = (0.0, 0.62, 0.451), (0.8, 0.475, 0.655)
-"""Bluish green and reddish purple: the ground reaction, a torque from outside."""
+_UUID = re.compile(rb"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 DARK = (0.1, 0.1, 0.1)
+Colour = str | tuple[float, float, float] | tuple[float, float, float, float]
+"""Red, green, blue in 0..1, or "#RRGGBB"."""
 VIEW = 2.0
 """[m], height of the picture from the side."""
 HEAD = 0.09
@@ -51,15 +56,14 @@ def rotation(R: Array) -> Array:
     return M
 
 
-def paint(rgb: Sequence[float], opacity: float = 1.0) -> Any:
+def paint(rgb: Colour, opacity: float = 1.0) -> Any:
     """A material of one colour."""
     return shapes.MeshLambertMaterial(color=colour(rgb), opacity=opacity)
 
 
-def colour(rgb: Sequence[float]) -> int:
-    """0xRRGGBB of red, green, blue in 0..1."""
-    red, green, blue = (round(255 * c) for c in rgb[:3])
-    return (red << 16) + (green << 8) + blue
+def colour(rgb: Colour) -> int:
+    """0xRRGGBB."""
+    return int(to_hex(rgb)[1:], 16)
 
 
 # -- robot -----------------------------------------------------------------------------------------
@@ -140,14 +144,14 @@ def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0)
     return shift((point[0], side, point[1])) @ rotation(R) @ shift((0.0, 0.0, -depth))
 
 
-def add_trace(node: Any, points: int, rgb: Sequence[float], opacity: float) -> None:
+def add_trace(node: Any, points: int, rgb: Colour, opacity: float) -> None:
     """Room for a line of `points` points, drawn by the player."""
     room = np.zeros((3, 2 * max(points - 1, 1)), dtype=np.float32)
     material = shapes.LineBasicMaterial(color=colour(rgb), opacity=opacity)
     node.set_object(shapes.LineSegments(shapes.PointsGeometry(room), material))
 
 
-def add_arrow(node: Any, rgb: Sequence[float], opacity: float) -> None:
+def add_arrow(node: Any, rgb: Colour, opacity: float) -> None:
     """An arrow along z: `shaft` of length 1 m and `head` of `HEAD`, to be scaled by the player."""
     shaft, head = node["shaft"]["body"], node["head"]["body"]
     shaft.set_object(shapes.Cylinder(1.0, 0.012), paint(rgb, opacity))
@@ -156,7 +160,7 @@ def add_arrow(node: Any, rgb: Sequence[float], opacity: float) -> None:
     head.set_transform(shift((0.0, 0.0, 0.5 * HEAD)) @ UPRIGHT)
 
 
-def add_ring(node: Any, origin: Sequence[float], rgb: Sequence[float], opacity: float) -> None:
+def add_ring(node: Any, origin: Sequence[float], rgb: Colour, opacity: float) -> None:
     """A bent arrow of radius 1 m in the x-z plane, counter-clockwise as q; `turn` is scaled by the player."""
     node.set_transform(shift(origin))
     vertices, faces = ring_mesh()
@@ -248,6 +252,28 @@ def set_camera(viewer: Any, kind: str, scale: float = 1.0) -> tuple[list[float],
     return [scale * c for c in position], [scale * c for c in target]
 
 
-def visualizer(window: Any) -> Any:
-    """Meshcat's tree of nodes, writing to `window`."""
-    return meshcat.Visualizer(window=window)
+class MemoryWindow:
+    """Takes the place of meshcat's window: keeps the commands, opens no port and starts no process."""
+
+    def __init__(self, seed: str = "scene") -> None:
+        self.packed: list[str] = []
+        """The commands in base64."""
+        self.viewer: Any = meshcat.Visualizer(window=self)
+        """Meshcat's tree of nodes."""
+        self._names: dict[bytes, bytes] = {}
+        self._source = random.Random(seed)
+
+    def send(self, command: Any) -> None:
+        """Pack a command of meshcat as its viewer expects it.
+
+        Meshcat names objects by clock and host (uuid1); here names come from a seeded source, for the same
+        bytes every time.
+        """
+        packed = _UUID.sub(lambda found: self._named(found[0]), umsgpack.packb(command.lower()))
+        self.packed.append(base64.b64encode(packed).decode("ascii"))
+
+    def _named(self, name: bytes) -> bytes:
+        if name not in self._names:
+            number = uuid.UUID(int=self._source.getrandbits(128), version=4)
+            self._names[name] = str(number).encode()
+        return self._names[name]

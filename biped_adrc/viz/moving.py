@@ -3,23 +3,58 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.types import Array
 from biped_adrc.viz.placement import TILE, loads
-from biped_adrc.viz.side_view import STANCE, SWING, TRUNK, SideView
+from biped_adrc.viz.side_view import SideView
+from biped_adrc.viz.style import METRES_PER_NEWTON_METRE, REACTION, STANCE, SWING, TORQUE, TRUNK
 
 COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
-REACTION, TORQUE, REFERENCE = "#009E73", "#CC79A7", "#B9B9B9"
-METRES_PER_NEWTON_METRE = 0.004
+REFERENCE = "#B9B9B9"
 SOLE, HEADROOM = 0.12, 1.2
 """[m] of ground below the foot, and the height of the picture above it as a multiple of the robot's."""
 EDGE = 0.04
 """[m] that arrows keep from the edge of the picture."""
+DPI = 100
+
+
+@dataclass(frozen=True)
+class Motion:
+    """How walks are set in motion.
+
+    apart: side by side instead of over one another, with their errors over time below. magnify: factor by which
+    the deviation from the reference is drawn larger, and the reference in grey; None for the posture as it is;
+    it needs `apart`. slower: by how much slower than the walk. fps [1/s]: frames per second, at most 50 (a GIF
+    counts hundredths of a second). width [px].
+    """
+
+    apart: bool = False
+    magnify: float | None = None
+    slower: float = 1.0
+    fps: float = 25.0
+    width: int = 600
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.fps) and 0.0 < self.fps <= 50.0):
+            raise InputError(
+                f"fps is {self.fps} frames per second, expected more than 0 and at most 50"
+            )
+        check_positive(self.slower, f"slower is {self.slower}")
+        if not 100 <= self.width <= 4000:
+            raise InputError(f"width is {self.width} px, expected 100 to 4000")
+        if self.magnify is not None and not self.apart:
+            raise InputError("a magnified deviation is drawn of walks side by side; add 'apart'")
+
+    def pace(self, before: str = "") -> str:
+        """By how much slower it is, in words; empty for the pace of the walk."""
+        return "" if self.slower == 1.0 else f"{before}{self.slower:g} times slower"
 
 
 def picture(canvas: FigureCanvasAgg) -> Array:

@@ -1,9 +1,13 @@
-"""Pages from templates: each one offline file that holds all it needs and asks no network for anything."""
+"""Pages from templates: each one offline file that holds all it needs and asks no network for anything.
+
+They are the report of a reproduction, a comparison, the player of animated walks, and a walk inside a notebook.
+The same values give the same text.
+"""
 
 from __future__ import annotations
 
 import base64
-import tomllib
+import json
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
@@ -12,14 +16,27 @@ from typing import Any
 
 from jinja2 import Environment, PackageLoader
 from markupsafe import Markup
+from matplotlib.figure import Figure
 
 from biped_adrc.errors import InputError
+from biped_adrc.files import write_text
+from biped_adrc.resources import packaged
+from biped_adrc.viz import comparison_text as t
+from biped_adrc.viz.style import render
 
 POLICY = (
     "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; "
     "img-src data: blob:; worker-src blob:"
 )
 """Content security policy of a page: the browser itself refuses every load from a network."""
+CLAIM_COLUMNS = ("claim", "where", "word", "number", "share", "convergence", "reason")
+KINDS = {
+    "reproduced": "what the paper claims and what could have failed",
+    "law": "physics and numerics that hold whatever the paper says",
+    "consistency": "what was built in and has to come out again",
+}
+HEIGHT = 480
+"""[px] of the animation in a notebook."""
 MAGIC = {b"\x89PNG": "image/png", b"<?xml": "image/svg+xml", b"<svg": "image/svg+xml"}
 
 Captions = dict[str, tuple[str, str]]
@@ -29,8 +46,8 @@ Captions = dict[str, tuple[str, str]]
 @cache
 def captions(page: str) -> Captions:
     """Those of a page, from captions.toml."""
-    found = tomllib.loads(files("biped_adrc.viz").joinpath("captions.toml").read_text("utf-8"))
-    return {name: (x["title"], " ".join(x["text"].split())) for name, x in found[page].items()}
+    found = packaged("biped_adrc.viz", "captions.toml")[page].items()
+    return {name: (x["title"], " ".join(x["text"].split())) for name, x in found}
 
 
 def rendered(template: str, **values: Any) -> str:
@@ -80,3 +97,81 @@ def data_uri(title: str, source: str | bytes | Path) -> str:
             f"figure '{title}' is neither PNG nor SVG; give SVG text or a Path to a file"
         )
     return f"data:{kinds[0]};base64,{base64.b64encode(data).decode('ascii')}"
+
+
+def write_report(
+    path: Path,
+    summary: Mapping[str, Any],
+    figures: Mapping[str, str | Path],
+    animation: str | None = None,
+) -> None:
+    """Write the page of a reproduction.
+
+    summary: as in summary.json; what is missing is left out. figures: name -> SVG text, or the path of an SVG
+    or PNG file. animation: text of the page of `meshcat.animation_html`. Raises InputError and OutputError.
+    """
+    write_text(path, report_html(summary, figures, animation))
+
+
+def report_html(
+    summary: Mapping[str, Any],
+    figures: Mapping[str, str | Path],
+    animation: str | None = None,
+) -> str:
+    """The text of the page of `write_report`."""
+    return rendered(
+        "report",
+        s=summary,
+        figures=[_figure(name, source) for name, source in figures.items()],
+        animation=animation,
+        columns=CLAIM_COLUMNS,
+        kinds=KINDS,
+    )
+
+
+def _figure(name: str, source: str | Path) -> tuple[str, str, str]:
+    """Heading, what to look for, and the picture itself; of a map the preset is in the heading too."""
+    known = captions("report")
+    key = next((key for key in known if name == key or name.startswith(f"{key}_")), "")
+    title, caption = known.get(key, (name, ""))
+    rest = name.removeprefix(key).replace("_", " ").strip() if key else ""
+    title = f"{title}, {rest}" if rest else title
+    return title, caption, data_uri(title, source)
+
+
+def comparison_html(summary: Mapping[str, Any], figures: Mapping[str, str]) -> str:
+    """The text of the page of a comparison; figures: name -> SVG text."""
+    shown, cells = captions("comparison").items(), t.by_condition(summary["cells"])
+    return rendered(
+        "comparison",
+        s=summary,
+        figures=[(*said, data_uri(said[0], figures[n])) for n, said in shown if n in figures],
+        t=t,
+        shares=[t.share_texts(cell) for cell in cells],
+        medians=[t.median_texts(cell) for cell in cells],
+        pushed=[t.push_texts(push) for push in t.by_direction(summary["pushes"])],
+    )
+
+
+def player(settings: Mapping[str, Any], title: str, legend: Sequence[tuple[str, str]]) -> str:
+    """The page that plays `settings` (see `meshcat.scene_settings`) in Meshcat's viewer.
+
+    legend: colours and texts, which are plain and are escaped here.
+    """
+    viewer = files("meshcat").joinpath("viewer", "dist", "main.min.js").read_text(encoding="utf-8")
+    return rendered(
+        "player",
+        s=settings,
+        title=title,
+        captions=legend,
+        style="player.css",
+        policy=POLICY + ("; connect-src 'self'" if settings["live"] else ""),
+        viewer=Markup(viewer),
+        data=Markup(json.dumps(settings).replace("<", "\\u003c")),
+    )
+
+
+def inline(summary: str, animation: str, figures: Sequence[Figure] = ()) -> str:
+    """HTML of a cell's output: a line of text, the page `animation` in a frame, the figures below it."""
+    uris = [data_uri("walk", render(figure, "png", dpi=80.0)) for figure in figures]
+    return rendered("notebook", summary=summary, animation=animation, figures=uris, height=HEIGHT)

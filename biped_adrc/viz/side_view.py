@@ -19,6 +19,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.urdf import Visual
 from biped_adrc.types import Array
 from biped_adrc.viz.placement import Recorded, Scene, exchanged, legs, link_placements, spokes
+from biped_adrc.viz.style import WEIGHT_LENGTH
 
 
 @runtime_checkable
@@ -57,12 +58,6 @@ class Deviation:
     def change(self, t: float, step: int) -> Array:
         """What is added to q_b (p,) [rad]: (k - 1)(q_b - q_d)."""
         return (self.factor - 1.0) * self.error(t, step)
-
-
-STANCE, SWING, TRUNK = "#0072B2", "#E69F00", "#333333"
-"""Blue, orange, dark grey: dark, light and black in print."""
-WEIGHT_LENGTH = 0.4
-"""[m], length of the arrow of a ground reaction as large as the robot's weight."""
 
 
 @dataclass(frozen=True)
@@ -139,8 +134,7 @@ class SideView:
 
     def step(self, t: float) -> int:
         """Number of the single support."""
-        number: int = self.scene.trajectory.arcs[self.scene.arc_at(t)].mode.step
-        return number
+        return self.scene.trajectory.arcs[self.scene.arc_at(t)].mode.step
 
     def roles(self, t: float) -> list[str]:
         """ "stance", "swing" or "" by bone at t: the legs change over at every impact."""

@@ -9,10 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
 from biped_adrc.errors import InputError
-from biped_adrc.files import write_bytes
 from biped_adrc.viz.placement import Recorded, Scene, ending
-from biped_adrc.viz.side_view import STANCE, SWING, TRUNK, SideView
-from biped_adrc.viz.style import label, new_figure, render, style
+from biped_adrc.viz.side_view import SideView
+from biped_adrc.viz.style import STANCE, SWING, TRUNK, label, new_figure, style, write_figure
 
 LOOKS = {
     "swing": (SWING, 1.4, (0, (4, 1.5)), "swing leg"),
@@ -116,4 +115,4 @@ def write_strip(
     with style():
         figure = new_figure(6.4, 5.2)
         strip(figure.subplots(), walk, start, stop, poses)
-    write_bytes(path, render(figure, path.suffix.lower().removeprefix(".")))
+    write_figure(path, figure)

@@ -9,6 +9,8 @@ import io
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
@@ -16,40 +18,29 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from biped_adrc.errors import InputError
+from biped_adrc.files import write_bytes
 
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 """Blue, vermillion, bluish green, reddish purple, orange, sky blue, black (Okabe and Ito, 2008)."""
 GREY = "#666666"
 PUSH = "#F0E442"
 """Yellow, for the window of a push."""
+STANCE, SWING, TRUNK = "#0072B2", "#E69F00", "#333333"
+"""Of legs and trunk: blue, orange, dark grey; dark, light and black in print."""
+REACTION, TORQUE = "#009E73", "#CC79A7"
+"""Bluish green and reddish purple: the ground reaction, a torque from outside."""
+WEIGHT_LENGTH = 0.4
+"""[m], length of the arrow of a ground reaction as large as the robot's weight."""
+METRES_PER_NEWTON_METRE = 0.004
+"""Radius of the ring of an external torque [m / N m]."""
 DASHES: tuple[Any, ...] = ("-", (0, (6, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1, 1.5)))
 
 _PATH = re.compile(rb'\bd="[^"]*"')
 _LONG = re.compile(rb"-?\d+\.\d{3,}")
 
-RC: dict[Any, Any] = {
-    "font.family": "sans-serif",
-    "font.sans-serif": ["DejaVu Sans"],
-    "font.size": 9.0,
-    "axes.titlesize": 10.0,
-    "axes.labelsize": 9.0,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "axes.axisbelow": True,
-    "axes.unicode_minus": True,
-    "grid.color": "#dddddd",
-    "grid.linewidth": 0.6,
-    "lines.linewidth": 1.2,
-    "legend.frameon": False,
-    "legend.fontsize": 8.0,
-    "figure.facecolor": "white",
-    "savefig.facecolor": "white",
-    "path.simplify": True,
-    "path.simplify_threshold": 0.3,
-    "svg.hashsalt": "biped_adrc",
-    "svg.fonttype": "path",
-}
+RC = mpl.rc_params_from_file(
+    str(files("biped_adrc.viz") / "style.mplstyle"), use_default_template=False
+)
 
 
 @contextmanager
@@ -95,6 +86,11 @@ def render(figure: Figure, kind: str, dpi: float = 150.0) -> bytes:
     with style():
         figure.savefig(buffer, format=kind, dpi=dpi, metadata=metadata)
     return _shortened(buffer.getvalue()) if kind == "svg" else buffer.getvalue()
+
+
+def write_figure(path: Path, figure: Figure) -> None:
+    """Write a figure as .png or .svg. Raises InputError and OutputError."""
+    write_bytes(path, render(figure, path.suffix.lower().removeprefix(".")))
 
 
 def _shortened(svg: bytes) -> bytes:

@@ -16,9 +16,9 @@ from biped_adrc.studies.bench.compare_study import draw, figures, write
 from biped_adrc.studies.bench.comparison import compare
 from biped_adrc.studies.bench.run import COLUMNS
 from biped_adrc.viz.comparison_figure import legal_figure, measure_figure, push_figure
-from biped_adrc.viz.comparison_page import comparison_html
 from biped_adrc.viz.comparison_text import interval
 from biped_adrc.viz.numbers import numbers_of
+from biped_adrc.viz.pages import comparison_html
 from biped_adrc.viz.sweep_maps import Maps, cut, sweep_map_figure
 
 DOCS = Path(__file__).parents[2] / "docs"

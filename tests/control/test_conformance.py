@@ -24,8 +24,7 @@ from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.noise import TorqueNoise
 from biped_adrc.gait.outputs import LinearOutputs
 from biped_adrc.observers.base import Observer
-from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.observers.gpi_sampled import SampledGPIObserver
+from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.observers.momentum import (
     MomentumChain,

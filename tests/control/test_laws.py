@@ -29,8 +29,7 @@ from biped_adrc.gait.constraint import CorrectedConstraint
 from biped_adrc.gait.reference import Reference, ReferenceLaws
 from biped_adrc.observers.base import Estimate, Observer, ObserverLaws
 from biped_adrc.observers.chain import chain_estimate, chain_reset, chain_state
-from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.observers.gpi_sampled import SampledGPIObserver
+from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.observers.momentum import MomentumObserver, SampledMomentumObserver
 from biped_adrc.scenario.registry import find, names

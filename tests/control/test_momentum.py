@@ -9,8 +9,7 @@ import biped_adrc as ba
 from biped_adrc.control.momentum_dob import MomentumDOBController, momentum_fed, momentum_seen
 from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import InputError
-from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.observers.gpi_sampled import SampledGPIObserver
+from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
 from biped_adrc.observers.momentum import (
     MomentumObserver,
     SampledMomentumObserver,

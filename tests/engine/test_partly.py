@@ -9,8 +9,8 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.base import Controller, ControllerLaws
 from biped_adrc.control.npd import npd_torque
-from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw
-from biped_adrc.disturbances.pulse import pulse_acts, pulse_torque
+from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, window_acts
+from biped_adrc.disturbances.pulse import pulse_torque
 from biped_adrc.engine.choice import simulate_by
 from biped_adrc.errors import NotFiniteError, SingularError
 from biped_adrc.gait.constraint import virtual_constraint
@@ -287,7 +287,7 @@ class Branching(WithoutState):
 class BranchingPulse(ba.TorquePulse):
     @property
     def laws(self):
-        return (DisturbanceLaw(self.parameters, pulsing, self.switches, active=pulse_acts),)
+        return (DisturbanceLaw(self.parameters, pulsing, self.switches, active=window_acts),)
 
 
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])

@@ -8,7 +8,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.certificate import depths, forces
-from biped_adrc.analysis.window import integral
+from biped_adrc.analysis.quadrature import integral
 from biped_adrc.engine.symbols import Scalar, Tracer
 from biped_adrc.hardware.meter import (
     READINGS,

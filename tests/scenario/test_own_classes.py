@@ -205,7 +205,7 @@ def test_every_controller_and_observer_of_the_package_has_a_name() -> None:
         registry.find(k, n).load() for k in ("controller", "observer") for n in registry.names(k)
     }
     made = {"SampledGPIObserver", "SampledMomentumObserver", "ChainObserver", "MomentumChain"}
-    made |= {"OuterLoop", "ObservingController", "StridePI"}  # by `stride_pi`
+    made |= {"InjectedChain", "OuterLoop", "ObservingController", "StridePI"}  # by `stride_pi`
 
     def below(cls):
         for child in cls.__subclasses__():

@@ -19,7 +19,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.viz.meshcat import write_animation
+from biped_adrc.viz.export import export
 from biped_adrc.viz.meshcat_scene import joint_path
 from biped_adrc.viz.placement import Scene
 
@@ -40,7 +40,7 @@ def opened(
     browser: Chrome, walks: dict[str, Walk], tmp_path_factory: pytest.TempPathFactory
 ) -> tuple[Chrome, Path]:
     path = tmp_path_factory.mktemp("page") / "walk.html"
-    write_animation(path, walks)
+    export(path, walks)
     requested(browser)
     browser.get(path.as_uri())
     return browser, path
@@ -178,7 +178,7 @@ def test_a_walk_that_fell_says_so_and_its_arrow_is_cut(
     trajectory = replace(walk.trajectory, arcs=(*before, replace(last, event=event)))
     fell = replace(walk, trajectory=replace(trajectory, status=Status.FELL))
     path = tmp_path / "fell.html"
-    write_animation(path, {"NPD": fell, "ADRC": walks["ADRC"]})
+    export(path, {"NPD": fell, "ADRC": walks["ADRC"]})
     browser.get(path.as_uri())
     message = browser.find_element(By.ID, "message")
     seek(browser, 0.5)

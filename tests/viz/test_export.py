@@ -20,8 +20,8 @@ from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.export import Clip, export
-from biped_adrc.viz.gif import Motion, write_gif
-from biped_adrc.viz.moving import arrow, cut, ring
+from biped_adrc.viz.gif import write_gif
+from biped_adrc.viz.moving import Motion, arrow, cut, ring
 from biped_adrc.viz.placement import Scene, ending
 from biped_adrc.viz.side_view import Deviation, SideView
 from biped_adrc.viz.stick import strip, write_strip

@@ -19,7 +19,8 @@ from biped_adrc.hybrid.trajectory import hermite
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk as walk_of
-from biped_adrc.viz.meshcat import animation_html, node_names, write_animation
+from biped_adrc.viz.export import Clip, export
+from biped_adrc.viz.meshcat import Look, animation_html, node_names
 from biped_adrc.viz.meshcat_scene import ring_mesh, visual_transform
 from biped_adrc.viz.placement import Scene
 from biped_adrc.walker import Walker
@@ -31,7 +32,7 @@ FPS = 60.0
 
 @pytest.fixture(scope="module")
 def page(walks: dict[str, Walk]) -> str:
-    return animation_html(walks, fps=FPS)
+    return animation_html(walks, Look(fps=FPS))
 
 
 def scene(text: str) -> tuple[dict[str, object], list[dict]]:
@@ -117,7 +118,7 @@ def test_a_push_is_drawn_on_the_joint_that_is_pushed(biped: Biped) -> None:
     gait = load_gait("published", biped)
     push = TorquePulse([30.0, 0.0, -20.0, 0.0, 5.0], step=2, start=0.1, stop=0.2)
     made = walk_of(Walker(biped, NPDController(gait.constraint), push), gait, 2, RK4(2e-3))
-    d = data(scene(animation_html({"NPD": made}, fps=FPS))[0]["walks"][0])
+    d = data(scene(animation_html({"NPD": made}, Look(fps=FPS)))[0]["walks"][0])
     zeta, begin = d["loads"][:, 2:], made.trajectory.arcs[1].t[0]
     inside = (d["t"] >= begin + 0.1) & (d["t"] < begin + 0.2)
     assert inside.sum() >= 6
@@ -182,12 +183,12 @@ def test_the_page_stands_alone(page: str) -> None:
 
 
 def test_the_page_repeats_byte_for_byte(biped: Biped, walks: dict[str, Walk], page: str) -> None:
-    assert animation_html(walks, fps=FPS) == page
+    assert animation_html(walks, Look(fps=FPS)) == page
 
 
 def test_names_and_marks_are_escaped(biped: Biped, walks: dict[str, Walk]) -> None:
     bad = "</script><b>&"
-    text = animation_html({bad: walks["NPD"]}, marks=[(0.1, 0.3, bad)], fps=30.0)
+    text = animation_html({bad: walks["NPD"]}, Look(marks=[(0.1, 0.3, bad)], fps=30.0))
     assert "<b>" not in text.split("</style>")[1].split("<script>")[0]
     assert scene(text)[0]["marks"] == [[0.1, 0.3, bad]]
 
@@ -196,13 +197,13 @@ def test_animation_refuses_bad_input(biped: Biped, walks: dict[str, Walk], tmp_p
     with pytest.raises(InputError, match="at least one"):
         animation_html({})
     with pytest.raises(InputError, match="choose one of"):
-        animation_html(walks, solid="LQR")
+        animation_html(walks, Look(solid="LQR"))
     with pytest.raises(InputError, match="fps"):
-        animation_html(walks, fps=0.0)
+        animation_html(walks, Look(fps=0.0))
     with pytest.raises(InputError, match="perspective"):
-        animation_html(walks, view="top")
+        animation_html(walks, Look(view="top"))
     (tmp_path / "file").write_text("")
     with pytest.raises(OutputError):
-        write_animation(tmp_path / "file" / "walk.html", walks, fps=10.0)
-    write_animation(tmp_path / "walk.html", walks, fps=10.0)
+        export(tmp_path / "file" / "walk.html", walks, Clip(fps=10.0))
+    export(tmp_path / "walk.html", walks, Clip(fps=10.0))
     assert [f.name for f in tmp_path.glob("*.html")] == ["walk.html"]

@@ -17,7 +17,7 @@ from selenium.webdriver.support.ui import WebDriverWait
 
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.meshcat import animation_html
-from biped_adrc.viz.report import write_report
+from biped_adrc.viz.pages import write_report
 
 from .browser import chromium, console, needs_chromium, requested
 from .test_report import SUMMARY

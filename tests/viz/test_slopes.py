@@ -24,9 +24,10 @@ from biped_adrc.scenario.run import passive_walk
 from biped_adrc.scenario.stored import load_walk
 from biped_adrc.studies.figures import draw
 from biped_adrc.viz.frames import pose
-from biped_adrc.viz.gif import Motion, write_gif
-from biped_adrc.viz.meshcat import animation_html
+from biped_adrc.viz.gif import write_gif
+from biped_adrc.viz.meshcat import Look, animation_html
 from biped_adrc.viz.meshcat_scene import joint_path
+from biped_adrc.viz.moving import Motion
 from biped_adrc.viz.placement import Scene, link_placements
 from biped_adrc.viz.plots import friction_cone
 from biped_adrc.viz.side_view import SideView
@@ -178,7 +179,7 @@ def commands(page: str) -> dict[str, dict[str, dict]]:
 def test_footprints_lie_on_the_tiles_of_the_page(walks: dict[str, Walk], name: str) -> None:
     """The corners of every box: the balls of the feet touch the tops."""
     scene = Scene.of(walks[name])
-    c = commands(animation_html({name: walks[name]}, fps=20.0))
+    c = commands(animation_html({name: walks[name]}, Look(fps=20.0)))
     depth, normal = 0.02, np.array([math.sin(scene.walker.slope), math.cos(scene.walker.slope)])
     tops = []
     for path, made in c["set_object"].items():
@@ -200,7 +201,7 @@ def test_footprints_lie_on_the_tiles_of_the_page(walks: dict[str, Walk], name: s
 
 def test_walks_on_different_grounds_have_a_ground_each(walks: dict[str, Walk]) -> None:
     def widths(names: tuple[str, ...]) -> set[float]:
-        made = commands(animation_html({n: walks[n] for n in names}, fps=5.0))["set_object"]
+        made = commands(animation_html({n: walks[n] for n in names}, Look(fps=5.0)))["set_object"]
         boxes = [o["object"]["geometries"][0] for path, o in made.items() if "/ground/" in path]
         return {round(box["height"], 9) for box in boxes}
 

@@ -35,9 +35,8 @@ from biped_adrc.studies.bench.sweep import check_folder
 from biped_adrc.studies.bench.workers import Workers, workers_of
 from biped_adrc.versions import numerical_versions
 from biped_adrc.viz.comparison_figure import legal_figure, measure_figure, push_figure
-from biped_adrc.viz.comparison_page import comparison_html
 from biped_adrc.viz.comparison_text import NEEDS, REASONS
-from biped_adrc.viz.pages import captions
+from biped_adrc.viz.pages import captions, comparison_html
 from biped_adrc.viz.style import render
 
 RESULTS = "comparison.sqlite"

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from biped_adrc.checks import Check, at_least, at_most
 from biped_adrc.studies.claims.admissible import convergence, declared
-from biped_adrc.viz.report import CLAIM_COLUMNS
+from biped_adrc.viz.pages import CLAIM_COLUMNS
 
 REPLICATED = "replicated"
 DEPENDS = "depends"

@@ -23,7 +23,7 @@ from biped_adrc.gait.gait import Gait, gait_names, load_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.passive import Cycle
+from biped_adrc.scenario.run import Cycle
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import find_cycle, gait_cycle
 from biped_adrc.studies.gait_design import design_gait

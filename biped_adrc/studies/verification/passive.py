@@ -21,7 +21,7 @@ from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.passive import Cycle, known_cycle
+from biped_adrc.scenario.run import Cycle, known_cycle
 from biped_adrc.studies.verification.row import Row
 from biped_adrc.types import Array
 from biped_adrc.walker import Mode

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.ground import ground_axes
 from biped_adrc.types import Array
 from biped_adrc.viz.style import DASHES, GREY, PALETTE, PUSH, label
@@ -25,6 +25,13 @@ def broken(s: Signals, y: Array) -> Array:
 def line(axes: Axes, s: Signals, y: Array, i: int, name: str) -> None:
     """y (K,) over time in the i-th colour and dash."""
     axes.plot(broken(s, s.t), broken(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
+
+
+def curves(axes: Axes, s: Signals, values: Array, symbol: str, unit: str) -> None:
+    """The columns of values (K, k) over time: symbol_1, symbol_2, ..."""
+    for i, column in enumerate(values.T):
+        line(axes, s, column, i, f"${symbol}_{i + 1}$")
+    label(axes, "time [s]", unit)
 
 
 def shade(axes: Axes, push: Window | None) -> None:
@@ -69,9 +76,7 @@ def chosen(s: Signals, joints: Sequence[int] | None) -> tuple[int, ...]:
 def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
     """All coordinates over time [rad], with motors or without."""
     shade(axes, push)
-    for i in range(s.q.shape[1]):
-        line(axes, s, s.q[:, i], i, f"$q_{i + 1}$")
-    label(axes, "time [s]", "angle [rad]")
+    curves(axes, s, s.q, "q", "angle [rad]")
     return legend(axes)
 
 
@@ -97,21 +102,17 @@ def tracking_errors(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
     """q_b - q_d by joint, in the unit in which the largest reads well."""
     shade(axes, push)
     unit, factor = angle_unit(s.error)
-    for i in range(s.error.shape[1]):
-        line(axes, s, factor * s.error[:, i], i, f"$q_{i + 1}$")
-    label(axes, "time [s]", f"tracking error [{unit}]")
+    curves(axes, s, factor * s.error, "q", f"tracking error [{unit}]")
     return legend(axes)
 
 
 def torques(axes: Axes, s: Signals, limit: float | None = None, push: Window | None = None) -> Axes:
     """Torques of the motors [N m]; limit [N m] is drawn as dotted lines."""
     shade(axes, push)
-    for i in range(s.u.shape[1]):
-        line(axes, s, s.u[:, i], i, f"$u_{i + 1}$")
+    curves(axes, s, s.u, "u", "torque [N m]")
     if limit is not None:
         axes.axhline(limit, color=GREY, ls=":", label=f"limit {limit:g} N m")
         axes.axhline(-limit, color=GREY, ls=":", label="_")
-    label(axes, "time [s]", "torque [N m]")
     return legend(axes)
 
 
@@ -186,8 +187,7 @@ def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -
     positive downhill; F_T is along it. Impulses at impact are not forces and are not drawn. Raises InputError
     for a coefficient that is not positive.
     """
-    if not (np.isfinite(mu) and mu > 0.0):
-        raise InputError(f"the coefficient of friction is {mu}, expected a positive number")
+    check_positive(mu, f"the coefficient of friction is {mu}")
     tangent, normal = (s.ground_reaction @ axis for axis in ground_axes(slope))
     top = 1.1 * max(float(np.max(normal)), 1.0)
     axes.fill([0.0, mu * top, -mu * top], [0.0, top, top], color="#dddddd", zorder=0)

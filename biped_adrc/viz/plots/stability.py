@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -70,20 +70,17 @@ def staircase(axes: Axes, before: Array, after: Array, steps: int = 12) -> Axes:
     axes.plot([x[0], x[-1]], [x[0], x[-1]], color=GREY, ls="--", label="the same speed")
     axes.plot(x, y, color=PALETTE[0], marker="o", ms=3, label="return map")
     for k, start in enumerate((x[0], x[-1])):
-        stairs = _stairs(x, y, float(start), steps)
-        name = "step by step" if k == 0 else "_"
-        axes.plot(*stairs.T, color=PALETTE[1], lw=0.9, label=name)
-    axes.plot(*stairs[-1], "s", color="black", ms=7, mfc="none", label="where it settles")
+        way = [float(start)]
+        for _ in range(steps):
+            way.append(float(np.interp(way[-1], x, y)))
+        stairs(axes, way, "step by step" if k == 0 else "_")
+    axes.plot(way[-1], way[-1], "s", color="black", ms=7, mfc="none", label="where it settles")
     label(axes, r"$\dot\Theta$ before impact $k$ [rad/s]", r"before impact $k+1$ [rad/s]")
     axes.legend(loc="best", frameon=False)
     return axes
 
 
-def _stairs(x: Array, y: Array, start: float, steps: int) -> Array:
-    """Corners (2 steps + 1, 2): up or down to the map, across to the diagonal."""
-    corners, here = [(start, start)], start
-    for _ in range(steps):
-        there = float(np.interp(here, x, y))
-        corners += [(here, there), (there, there)]
-        here = there
-    return np.array(corners)
+def stairs(axes: Axes, way: Sequence[float] | Array, name: str) -> None:
+    """From each number of `way` to the next: up or down to the map, across to the diagonal."""
+    corners = np.repeat(way, 2)
+    axes.plot(corners[:-1], np.append(way[0], corners[2:]), color=PALETTE[1], lw=0.9, label=name)

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from biped_adrc.analysis.zero_report import ZeroDynamicsReport
 from biped_adrc.gait.zero_orbits import PASSING, ZeroOrbits, grid
 from biped_adrc.types import Array
+from biped_adrc.viz.plots.stability import stairs
 from biped_adrc.viz.style import DASHES, GREY, PALETTE, label, new_figure, style
 
 WIDE = 2.0  # where the domain has no upper end it is drawn to this many zeta*
@@ -81,7 +82,7 @@ def restricted_map(axes: Axes, report: ZeroDynamicsReport, steps: int = STAIRS) 
     for k, end in enumerate(() if report.domain.empty else (low, high)):
         inside = end + 1e-6 * (high - low) * (1.0 if k == 0 else -1.0)
         name = "step by step" if k == 0 else "_"
-        axes.plot(*_stairs(o, inside, steps).T, color=PALETTE[1], lw=0.9, label=name)
+        stairs(axes, o.iterate(inside, steps), name)
     name = r"$\zeta^*$"
     axes.plot(report.zeta_star, report.zeta_star, "s", color="black", mfc="none", label=name)
     unit = "[kg$^2$m$^4$/s$^2$]"
@@ -129,12 +130,6 @@ def _sigma(orbits: ZeroOrbits, theta: Array, zeta: float) -> Array:
     square = orbits.sigma_squared(theta, zeta)
     size = np.sqrt(np.where(square >= 0.0, square, np.nan))
     return math.copysign(1.0, orbits.sigma(1.0)) * size
-
-
-def _stairs(orbits: ZeroOrbits, zeta: float, steps: int) -> Array:
-    """Corners (2 steps + 1, 2): to the map, across to the diagonal."""
-    way = orbits.iterate(zeta, steps)
-    return np.column_stack((np.repeat(way, 2)[:-1], np.append(way[0], np.repeat(way[1:], 2))))
 
 
 def _title(report: ZeroDynamicsReport) -> str:
