@@ -154,7 +154,9 @@ def test_a_wheel_is_drawn_on_its_slope() -> None:
     walker = ba.Walker(biped, ba.Passive(), slope=slope, max_step_time=10.0)
     start = np.array([math.pi - slope + math.pi / 8])
     rolled = walk(walker, start, np.array([-2.0]), 3)
-    scene = Scene.of(type("Recorded", (), {"walker": walker, "trajectory": rolled}))
+    scene = Scene.of(
+        type("Recorded", (), {"walker": walker, "trajectory": rolled, "recorded": None})
+    )
     along = 2.0 * math.sin(math.pi / 8) * np.arange(3.0)
     np.testing.assert_allclose(scene.footholds, along * math.cos(slope), atol=1e-9)
     np.testing.assert_allclose(scene.heights, -along * math.sin(slope), atol=1e-9)
