@@ -14,8 +14,7 @@ from biped_adrc.files import plain
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.studies.claims import evidence, rows_control, rows_gait, rows_push
 from biped_adrc.studies.claims.admissible import Member, convergence, declared, members
-from biped_adrc.studies.claims.evidence import Cycle, Jumps, Needs, Pair, Start
-from biped_adrc.studies.claims.gathered import Evidence
+from biped_adrc.studies.claims.evidence import Cycle, Evidence, Jumps, Needs, Pair, Start
 from biped_adrc.studies.claims.orders import Order, bandwidth_with
 from biped_adrc.studies.claims.table import rows
 from biped_adrc.studies.claims.walks import (

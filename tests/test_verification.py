@@ -17,13 +17,12 @@ from biped_adrc.model.robots import robot_names
 from biped_adrc.studies.verification import (
     frost_urdf,
     gaits,
-    paper,
     passive,
     rabbit,
     three_link,
 )
-from biped_adrc.studies.verification.design import SPEEDS, design_rows
 from biped_adrc.studies.verification.groups import Group, Maker, group_named, groups
+from biped_adrc.studies.verification.rabbit import SPEEDS, design_rows
 from biped_adrc.studies.verification.row import COLUMNS, Measure, Row, at_most
 
 PARTS: dict[str, Maker] = {
@@ -36,8 +35,8 @@ PARTS: dict[str, Maker] = {
     "three-link walker": three_link.three_link_rows,
     "1.05 m/s as printed": rabbit.printed_rows,
     "1.05 m/s designed": rabbit.designed_rows,
-    "Table I": paper.poles_row,
-    "x* identified": partial(paper.fixed_point_rows, "identified"),
+    "Table I": rabbit.poles_row,
+    "x* identified": partial(rabbit.fixed_point_rows, "identified"),
     "other coordinates": frost_urdf.sense_rows,
     "multipliers of the compass": partial(gaits.robot_rows, "compass"),
     "multipliers of the simplest walker": partial(gaits.robot_rows, "simplest"),

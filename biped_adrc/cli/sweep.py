@@ -56,7 +56,7 @@ def sweep(
     ] = False,
 ) -> None:
     """Walk every point of a study, on all cores or a cluster; what is finished is never lost."""
-    from biped_adrc.studies.bench.rehearsal import rehearse
+    from biped_adrc.studies.bench.study import rehearse
     from biped_adrc.studies.bench.study_file import load_study
 
     found = load_study(study)
@@ -224,6 +224,6 @@ def _write(done: Sweep, out: Path, kinds: list[str], maps: list[Maps]) -> None:
         export(done, path)
         say(f"written to {path}")
     for m in maps:
-        from biped_adrc.studies.bench.maps import write_map
+        from biped_adrc.studies.bench.export import write_map
 
         say(f"written to {write_map(done, m, out)}")

@@ -18,10 +18,10 @@ from biped_adrc.scenario.push import Push, joints_push
 from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.claims.admissible import method
-from biped_adrc.studies.claims.gathered import claim_tasks
+from biped_adrc.studies.claims.evidence import claim_tasks
+from biped_adrc.studies.cycle_stability import poincare_twice, return_map_samples
 from biped_adrc.studies.laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.studies.pair import CONTROLLERS
-from biped_adrc.studies.poincare import poincare_twice, return_map_samples
 from biped_adrc.studies.pool import Task
 from biped_adrc.studies.push_map import PATTERNS, push_map, pushes
 

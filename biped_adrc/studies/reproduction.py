@@ -20,19 +20,18 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.scenario.stored import replay
 from biped_adrc.studies import verdicts
-from biped_adrc.studies.claims.gathered import gathered
+from biped_adrc.studies.claims.evidence import gathered
 from biped_adrc.studies.claims.table import claims
 from biped_adrc.studies.claims.words import MEANINGS, PREFACE, Claim, claim_checks
 from biped_adrc.studies.convergence import observed_order, records
 from biped_adrc.studies.figures import push_window
-from biped_adrc.studies.findings import findings
 from biped_adrc.studies.laws import work_identity
 from biped_adrc.studies.pictures import draw_all
 from biped_adrc.studies.plan import BOTH, Headline, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.pool import TaskProgress, run_tasks
 from biped_adrc.studies.results import Results
-from biped_adrc.studies.tables import tables
+from biped_adrc.studies.tables import findings, tables
 from biped_adrc.versions import versions
 from biped_adrc.viz.meshcat import animation_html
 from biped_adrc.viz.report import write_report

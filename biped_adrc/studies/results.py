@@ -8,8 +8,8 @@ from typing import Any
 
 from biped_adrc.checks import Check
 from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.studies.cycle_stability import PoincareResult, RegressionTest, regression_of
 from biped_adrc.studies.plan import BOTH, Headline, Plan, RecipeResult
-from biped_adrc.studies.poincare import PoincareResult, RegressionTest, regression_of
 from biped_adrc.studies.push_map import Cell
 from biped_adrc.types import Array
 

@@ -21,13 +21,12 @@ from biped_adrc.model.limits import Limits
 from biped_adrc.scenario.registry import find, is_own, source_hash, words
 from biped_adrc.studies.bench.build import scene_of
 from biped_adrc.studies.bench.cell import IMPULSE, Row, is_legal, number
+from biped_adrc.studies.bench.chunk import Point, key_of, text_of
 from biped_adrc.studies.bench.comparison import NOMINAL, Comparison, check, compare
-from biped_adrc.studies.bench.conditions import BASE, COMPARED, CONDITIONS
-from biped_adrc.studies.bench.equal_bandwidth import NOT_ALIKE, OWN
+from biped_adrc.studies.bench.conditions import BASE, COMPARED, CONDITIONS, NOT_ALIKE, OWN
 from biped_adrc.studies.bench.execute import LARGEST_CHUNK, Progress, run_study
 from biped_adrc.studies.bench.findings import answers, sentences
 from biped_adrc.studies.bench.parameters import trial
-from biped_adrc.studies.bench.points import Point, key_of, text_of
 from biped_adrc.studies.bench.run import run_trials
 from biped_adrc.studies.bench.store import About, Store
 from biped_adrc.studies.bench.store_open import open_store

@@ -13,11 +13,14 @@ from biped_adrc.errors import InputError
 from biped_adrc.scenario.registry import find, is_own, names
 from biped_adrc.studies.bench.cell import Cell, Row
 from biped_adrc.studies.bench.chunk import NO_WALK
-from biped_adrc.studies.bench.conditions import BASE, COMPARED, CONDITIONS, record
-from biped_adrc.studies.bench.equal_bandwidth import (
+from biped_adrc.studies.bench.conditions import (
     BANDWIDTH,
+    BASE,
+    COMPARED,
+    CONDITIONS,
     equal_record,
     equal_values,
+    record,
     walked_again,
 )
 from biped_adrc.studies.bench.largest_push import (

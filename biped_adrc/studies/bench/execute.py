@@ -16,8 +16,17 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from biped_adrc.errors import BipedError, InputError
-from biped_adrc.studies.bench.chunk import CRASHED, Function, Made, made, run_chunk
-from biped_adrc.studies.bench.points import Point, key_of, point, text_of
+from biped_adrc.studies.bench.chunk import (
+    CRASHED,
+    Function,
+    Made,
+    Point,
+    key_of,
+    made,
+    point,
+    run_chunk,
+    text_of,
+)
 from biped_adrc.studies.bench.store import Placed, Ran, Store
 from biped_adrc.studies.bench.workers import (
     Workers,

@@ -22,8 +22,7 @@ from typing import Any, NamedTuple
 from filelock import FileLock
 
 from biped_adrc.errors import InputError, OutputError
-from biped_adrc.studies.bench.chunk import CRASHED, NO_WALK
-from biped_adrc.studies.bench.points import text_of
+from biped_adrc.studies.bench.chunk import CRASHED, NO_WALK, text_of
 from biped_adrc.studies.bench.workers import undisturbed
 
 

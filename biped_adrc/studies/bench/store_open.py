@@ -14,7 +14,7 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from biped_adrc.errors import InputError
-from biped_adrc.studies.bench.points import text_of
+from biped_adrc.studies.bench.chunk import text_of
 from biped_adrc.studies.bench.store import About, Store, cannot_write, damaged
 
 APPLICATION = 0x62614452

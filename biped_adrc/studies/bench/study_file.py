@@ -33,9 +33,16 @@ from biped_adrc.studies.bench.parameters import (
     read,
     trial,
 )
-from biped_adrc.studies.bench.rehearsal import some_points
-from biped_adrc.studies.bench.samples import Draw, Range
-from biped_adrc.studies.bench.study import MOST_POINTS, SEED, Named, Study, too_many
+from biped_adrc.studies.bench.study import (
+    MOST_POINTS,
+    SEED,
+    Draw,
+    Named,
+    Range,
+    Study,
+    some_points,
+    too_many,
+)
 
 TABLES = ("study", "fixed", "grid", "random", "sobol", "cases")
 MOST = 1_000_000

@@ -9,7 +9,6 @@ from functools import partial
 from importlib.resources import files
 
 from biped_adrc.errors import InputError
-from biped_adrc.studies.verification.design import SPEEDS, design_rows, through_rows
 from biped_adrc.studies.verification.frost_urdf import sense_rows
 from biped_adrc.studies.verification.gaits import (
     PRESETS,
@@ -19,8 +18,6 @@ from biped_adrc.studies.verification.gaits import (
     robot_rows,
     work_rows,
 )
-from biped_adrc.studies.verification.hip import hip_rows, published_force_rows
-from biped_adrc.studies.verification.paper import fixed_point_rows, poles_row
 from biped_adrc.studies.verification.passive import (
     ball_rows,
     compass_rows,
@@ -29,7 +26,17 @@ from biped_adrc.studies.verification.passive import (
     simplest_rows,
     wheel_rows,
 )
-from biped_adrc.studies.verification.rabbit import designed_rows, printed_rows
+from biped_adrc.studies.verification.rabbit import (
+    SPEEDS,
+    design_rows,
+    designed_rows,
+    fixed_point_rows,
+    hip_rows,
+    poles_row,
+    printed_rows,
+    published_force_rows,
+    through_rows,
+)
 from biped_adrc.studies.verification.row import Row
 from biped_adrc.studies.verification.three_link import three_link_rows
 
