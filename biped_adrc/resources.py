@@ -1,8 +1,12 @@
-"""Where the robots (`urdf/`) and gaits (`gaits/`) lie: in the wheel, or beside the package in a checkout."""
+"""Data: robots (`urdf/`) and gaits (`gaits/`), in the wheel or beside the package in a checkout, and tables."""
 
 from __future__ import annotations
 
+import tomllib
+from functools import cache
+from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 _PACKAGE = Path(__file__).resolve().parent
 
@@ -19,3 +23,9 @@ def data_folder(kind: str) -> Path:
         f"the data folder '{kind}' is neither in the installed package nor beside it; "
         "reinstall with 'pip install .'"
     )
+
+
+@cache
+def packaged(package: str, name: str) -> dict[str, Any]:
+    """The tables of a TOML file that lies in a package."""
+    return tomllib.loads(files(package).joinpath(name).read_text("utf-8"))

@@ -114,7 +114,8 @@ def run_study(
         while f.pending:
             f.collect()
     except BaseException:
-        f.abandon()
+        with undisturbed():  # Ctrl-C once more
+            f.abandon()
         raise
     crew.stop(f.executor, False)
     return Summary(f.done, f.fresh, f.deaths)
@@ -186,18 +187,18 @@ class _Flight:
 
     def collect(self) -> None:
         """Store what is finished; wait for it where nothing is."""
+        suspects = self.died()
+        while suspects and self.pending:  # they would be suspects too
+            suspects += self.died()
+        for chunk in suspects:
+            self.alone(chunk)
+
+    def died(self) -> list[Chunk]:
+        """Wait for chunks and store them; those of them whose worker died."""
         finished, _ = wait(self.pending, PATIENCE, FIRST_COMPLETED)
         if not finished:
             self.crew.check(self.executor)
-        suspects = [chunk for future in finished if (chunk := self.take(future)) is not None]
-        if suspects:
-            while self.pending:  # they would be suspects too
-                finished, _ = wait(self.pending, PATIENCE, FIRST_COMPLETED)
-                if not finished:
-                    self.crew.check(self.executor)
-                suspects += [c for future in finished if (c := self.take(future)) is not None]
-            for chunk in suspects:
-                self.alone(chunk)
+        return [chunk for future in finished if (chunk := self.take(future)) is not None]
 
     def take(self, future: Future[list[Made]]) -> Chunk | None:
         """Store what has come; the chunk itself where its worker died."""
@@ -218,10 +219,10 @@ class _Flight:
     def alone(self, chunk: Chunk) -> None:
         """Run a chunk again with nothing beside it, so that it is known who kills a worker."""
         self.send(chunk)
-        (future,) = self.pending
-        while not wait(self.pending, PATIENCE).done:
-            self.crew.check(self.executor)
-        if self.take(future) is None:
+        died: list[Chunk] = []
+        while self.pending:
+            died += self.died()
+        if not died:
             return
         if len(chunk) > 1:
             for job in chunk:
@@ -253,8 +254,7 @@ class _Flight:
         self.tell("a worker process died; what it was running is run again")
 
     def keep(self, chunk: Chunk, rows: list[Made], died: bool = False) -> None:
-        pairs = zip(chunk, rows, strict=True)
-        self.store.add(_ran(job, row) for job, row in pairs)
+        self.store.add(map(_ran, chunk, rows))
         self.in_a_row = 0
         self.crashed_in_a_row = self.crashed_in_a_row if died else 0
         self.done += len(chunk)
@@ -263,11 +263,7 @@ class _Flight:
         self.tell()
 
     def abandon(self) -> None:
-        """End the workers, and store what they had finished; Ctrl-C once more does not disturb that."""
-        with undisturbed():
-            self._abandon()
-
-    def _abandon(self) -> None:
+        """End the workers, and store what they had finished."""
         for future in self.pending:
             future.cancel()
         self.crew.stop(self.executor, True)
@@ -275,9 +271,7 @@ class _Flight:
         for future, (chunk, _) in self.pending.items():
             if future.done() and not future.cancelled() and future.exception() is None:
                 with suppress(BipedError):
-                    self.store.add(
-                        _ran(job, row) for job, row in zip(chunk, future.result(), strict=True)
-                    )
+                    self.store.add(map(_ran, chunk, future.result()))
 
     def named(self, error: BaseException) -> BaseException:
         """An error of what is between this process and its workers."""

@@ -58,14 +58,18 @@ def paired_ratio(a: Sequence[float], b: Sequence[float], margin: float) -> Teste
     """
     if len(a) == 0:
         return None
-    logs = [math.log(x / y) for x, y in zip(a, b, strict=True)]
-    found = median(logs)
+    ratios = [x / y for x, y in zip(a, b, strict=True)]
+    logs, edge = [math.log(x) for x in ratios], math.log(margin)
+    beside = ([x < -edge for x in logs], [x > edge for x in logs])
+    p = min(1.0, 2.0 * min(map(_more_than_half, beside)))
+    return Tested(len(ratios), median_ratio(ratios), p)
+
+
+def median_ratio(ratios: Sequence[float]) -> Interval:
+    """Median of positive numbers, at least one, by their logarithms."""
+    found = median([math.log(x) for x in ratios])
     assert found is not None
-    edge = math.log(margin)
-    least = min(
-        _more_than_half([x < -edge for x in logs]), _more_than_half([x > edge for x in logs])
-    )
-    return Tested(len(logs), Interval(*(math.exp(x) for x in found)), min(1.0, 2.0 * least))
+    return Interval(*(math.exp(x) for x in found))
 
 
 def paired_equal(a: Sequence[float], b: Sequence[float], margin: float) -> Tested | None:
