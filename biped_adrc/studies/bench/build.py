@@ -25,33 +25,20 @@ from biped_adrc.walker import Mode
 SUFFIXES = {"robot": ".toml", "gait": ".json"}
 """By parameter: how a path is told from a name."""
 
-OWN = {
-    "controller": "controller",
-    "own.inner": "controller",
-    "observer": "observer",
-    "push": "disturbance",
-    "robot": "robot",
-    "gait": "gait",
-}
+OWN = {name: name for name in ("controller", "observer", "robot", "gait")}
+OWN |= {"own.inner": "controller", "push": "disturbance"}
 """Parameters that may name a class of the user's own, and its kind."""
 
 
 def files_of_study(study: Study) -> tuple[Path, ...]:
     """Those that any of its points names, in a fixed order."""
-    values: list[tuple[str, Any]] = [*study.fixed.items()]
-    values += [pair for case in study.cases for pair in case.values.items()]
-    values += [(name, x) for name in SUFFIXES for x in study.grid.get(name, ())]
-    return tuple(sorted({path for pair in values for path in files_of(*pair)}))
+    return tuple(sorted({path for pair in study.given() for path in files_of(*pair)}))
 
 
 def own_of_study(study: Study) -> dict[str, str]:
     """What the user's own classes are by their source, those that a point names. Raises InputError."""
-    values = [*study.fixed.items(), *(x for case in study.cases for x in case.values.items())]
-    values += [(name, x) for name, levels in study.grid.items() for x in levels]
-    named = {(OWN[name], x) for name, x in values if name in OWN and is_own(str(x))}
-    return {
-        f"source {x}": source_hash(find(kind, str(x)).load()) for kind, x in sorted(named, key=str)
-    }
+    named = {(OWN[name], str(x)) for name, x in study.given() if name in OWN and is_own(str(x))}
+    return {f"source {x}": source_hash(find(kind, x).load()) for kind, x in sorted(named)}
 
 
 def files_of(name: str, value: Any) -> tuple[Path, ...]:
@@ -59,50 +46,40 @@ def files_of(name: str, value: Any) -> tuple[Path, ...]:
     if not isinstance(value, str) or Path(value).suffix != SUFFIXES.get(name):
         return ()
     path = Path(value)
-    return (path, *_urdf(path)) if name == "robot" else (path,)
-
-
-def _urdf(path: Path) -> tuple[Path, ...]:
+    if name != "robot":
+        return (path,)
     try:
-        return (path.parent / tomllib.loads(path.read_text(encoding="utf-8"))["urdf"],)
+        return path, path.parent / tomllib.loads(path.read_text(encoding="utf-8"))["urdf"]
     except (OSError, ValueError, KeyError, TypeError):
-        return ()  # who loads it says what is wrong
+        return (path,)  # who loads it says what is wrong
 
 
 def hashes(paths: Iterable[Path]) -> dict[str, str]:
     """What is in the files, to be put beside the versions of what the numbers depend on."""
-    return {f"file {path}": _hash(path) for path in paths}
-
-
-def _hash(path: Path) -> str:
-    try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()[:12]
-    except OSError:
-        return "none"
+    there = {path: path.read_bytes() if path.is_file() else None for path in paths}
+    return {
+        f"file {path}": "none" if text is None else hashlib.sha256(text).hexdigest()[:12]
+        for path, text in there.items()
+    }
 
 
 Stamp = tuple[tuple[str, int, int], ...]
 """Of files: path, time of the last change [ns] and size."""
+OF_SCENE = ("robot", "preset", "gait", "friction", "continued")
+"""Values of a scenario that a scene is made of."""
 
 
 def scene_of(s: Scenario) -> Scene:
     """Loaded once in a process, and again when a file has changed. Raises InputError where there is none."""
     paths = (*files_of("robot", s.robot), *files_of("gait", s.gait))
-    return _scene(s.robot, s.preset, s.gait, s.friction, s.continued, _stamp(paths))
+    there = [(str(path), path.stat()) for path in paths if path.is_file()]
+    stamp = tuple((path, found.st_mtime_ns, found.st_size) for path, found in there)
+    return _scene(tuple((name, getattr(s, name)) for name in OF_SCENE), stamp)
 
 
 @lru_cache(maxsize=16)
-def _scene(
-    robot: str, preset: str | None, gait: str, friction: bool, continued: bool, stamp: Stamp
-) -> Scene:
-    return Scene.of(
-        Scenario(robot=robot, preset=preset, gait=gait, friction=friction, continued=continued)
-    )
-
-
-def _stamp(paths: tuple[Path, ...]) -> Stamp:
-    there = [(path, path.stat()) for path in paths if path.is_file()]
-    return tuple((str(path), found.st_mtime_ns, found.st_size) for path, found in there)
+def _scene(values: tuple[tuple[str, Any], ...], stamp: Stamp) -> Scene:
+    return Scene.of(Scenario(**dict(values)))
 
 
 def case(s: Scenario) -> Case:

@@ -153,22 +153,18 @@ class _Flight:
 
         Where the points lie is stored on the way.
         """
-        position = self.first
         late: list[Job] = []
+        places = itertools.count(self.first)
         while batch := list(itertools.islice(points, LOOK_UP)):
             jobs = [_job(p) for p in batch]
-            self.store.place(
-                Placed(position + i, job.key, text_of(p.at))
-                for i, (job, p) in enumerate(zip(jobs, batch, strict=True))
-            )
-            position += len(batch)
-            keys = [job.key for job in jobs]
-            there, crashed = self.store.finished(keys), self.store.crashed(keys)
-            new = {job.key: job for job in jobs if job.key not in there | self.keys}
+            told = zip(jobs, batch, strict=True)
+            self.store.place(Placed(next(places), job.key, text_of(p.at)) for job, p in told)
+            crashed = self.store.crashed([job.key for job in jobs])
+            new = {j.key: j for j in jobs if crashed.get(j.key, True) and j.key not in self.keys}
             self.done += len(batch) - len(new)
             self.keys |= new.keys()
             self.tell()
-            self.known |= crashed & new.keys()
+            self.known |= crashed.keys() & new.keys()
             late += [job for job in new.values() if job.key in crashed]
             yield from (job for job in new.values() if job.key not in crashed)
         yield from late
@@ -286,9 +282,8 @@ class _Flight:
     def tell(self, note: str = "") -> None:
         if self.progress is None:
             return
-        left = None
+        seconds, left = time.monotonic() - self.begin, None
         if self.total is not None and self.fresh:
-            seconds = time.monotonic() - self.begin
             left = seconds / self.fresh * max(self.total - self.done, 0)
         self.progress(Progress(self.done, self.total, self.fresh, left, note))
 

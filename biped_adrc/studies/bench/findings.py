@@ -120,14 +120,14 @@ def _against(cell: Cell, again: Cell | None, usual: Cell) -> Iterable[Question]:
     settings = [cell] if again is None else [cell, again]
     yield _legality(settings, usual)
     for name in RATIOS:
-        each = [paired_ratio(*_both_legal([x, usual], name), margin=MARGIN) for x in settings]
+        each = [paired_ratio(*_pair(x, usual, name), MARGIN) for x in settings]
         if each[0] is not None:
             held = {_side(x) for x in each} in ({-1}, {1})
             yield _question(name, cell, each[0], held)
     unmatched = usual.medians({"peak_unmatched": ""})["peak_unmatched"]
     if unmatched is not None and unmatched.low > 0.0:
-        changes = (_both_legal([x, usual], "speed_change", positive=False) for x in settings)
-        alike = [paired_equal(*change, margin=SPEED) for change in changes]
+        changes = (_pair(x, usual, "speed_change", positive=False) for x in settings)
+        alike = [paired_equal(*change, SPEED) for change in changes]
         if alike[0] is not None:
             held = all(
                 x is not None and x.value.low > -SPEED and x.value.high < SPEED for x in alike
@@ -171,6 +171,11 @@ def _both_legal(cells: Sequence[Cell], name: str, positive: bool = True) -> list
     return [list(column) for column in zip(*found, strict=True)] or [[] for _ in cells]
 
 
+def _pair(x: Cell, y: Cell, name: str, positive: bool = True) -> tuple[list[float], list[float]]:
+    a, b = _both_legal([x, y], name, positive)
+    return a, b
+
+
 def _equal(c: Comparison) -> Iterable[Question]:
     """Whether the ratio of two observers' errors is another at equal bandwidth."""
     for pair in itertools.combinations(c.equal, 2):
@@ -182,10 +187,10 @@ def _equal(c: Comparison) -> Iterable[Question]:
 def _changed(own: Sequence[Cell], equal: Sequence[Cell]) -> Iterable[Question]:
     errors = [np.array(x) for x in _both_legal([*own, *equal], "peak_error")]
     before, after = errors[0] / errors[1], errors[2] / errors[3]
-    found = paired_ratio(list(before), list(after), MARGIN)
+    found = paired_ratio(before.tolist(), after.tolist(), MARGIN)
     if found is None:
         return
-    r, s = (median_ratio(list(x)) for x in (before, after))
+    r, s = (median_ratio(x.tolist()) for x in (before, after))
     turned = (r.high < 1.0 < s.low) or (s.high < 1.0 < r.low)
     text = (
         f"{equal[0].controller} to {equal[1].controller} {_interval(r)} and {_interval(s)} in {found.pairs} "

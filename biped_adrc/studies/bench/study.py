@@ -77,28 +77,21 @@ class Draw(BaseModel):
 
     def samples(self) -> Iterator[dict[str, float | int]]:
         """The samples in their order, the same each time."""
-        left = self.count
-        for block in self._blocks():
-            for w in block[:left]:
-                yield {
-                    name: r.at(float(x))
-                    for (name, r), x in zip(self.ranges.items(), w, strict=True)
-                }
-            left -= len(block)
-            if left <= 0:
-                return
+        for w in itertools.islice(self._points(), self.count):
+            ranges = zip(self.ranges.items(), w.tolist(), strict=True)
+            yield {name: r.at(x) for (name, r), x in ranges}
 
-    def _blocks(self) -> Iterator[Array]:
-        """(BLOCK, number of ranges) each, in [0, 1)."""
+    def _points(self) -> Iterator[Array]:
+        """(number of ranges,) each in [0, 1), without end."""
         random, n = np.random.default_rng(self.seed), len(self.ranges)
         if self.kind == "random":
             while True:
-                yield random.random((BLOCK, n))
+                yield from random.random((BLOCK, n))
         from scipy.stats import qmc
 
         sobol = qmc.Sobol(n, seed=random)
         while True:
-            yield sobol.random(BLOCK)
+            yield from sobol.random(BLOCK)
 
 
 CASE, SEED = "case", "seed"
@@ -152,10 +145,15 @@ class Study(BaseModel):
             return len(self.seeds)
         if self.draw is None or name not in self.draw.ranges:
             return 1
-        drawn = self.draw.ranges[name]
-        return min(
-            self.draw.count, int(drawn.high - drawn.low) + 1 if drawn.whole else self.draw.count
-        )
+        drawn, count = self.draw.ranges[name], self.draw.count
+        return min(count, int(drawn.high - drawn.low) + 1) if drawn.whole else count
+
+    def given(self) -> Iterator[tuple[str, Value]]:
+        """Names and values of all points, but for what is drawn."""
+        yield from self.fixed.items()
+        for case in self.cases:
+            yield from case.values.items()
+        yield from ((name, x) for name, levels in self.grid.items() for x in levels)
 
     def configuration(self) -> dict[str, Any]:
         """All of it as plain values."""
@@ -242,8 +240,7 @@ def _some_of_a_case(study: Study, spread: int) -> Iterator[At]:
     samples = _samples(study)
     sample, first = next(samples), {name: levels[0] for name, levels in axes.items()}
     for name, levels in axes.items():
-        for x in _spaced(levels):
-            yield first | {name: x} | sample
+        yield from (first | {name: x} | sample for x in _spaced(levels))
     worded = {
         name: levels if any(isinstance(x, str) for x in levels) else levels[:1]
         for name, levels in axes.items()
@@ -271,12 +268,12 @@ def _spaced(levels: Sequence[Value]) -> Iterator[Value]:
 
 def _spread(axes: dict[str, Sequence[Value]], most: int) -> Iterator[At]:
     """Combinations at even distances in the order of the study, the last among them."""
-    count = math.prod(len(levels) for levels in axes.values())
+    count = math.prod(map(len, axes.values()))
     some = min(most, count)
     places = {round(k * (count - 1) / max(some - 1, 1)) for k in range(some)}
     for place in sorted(places):
-        at: At = {}
+        at: At = dict.fromkeys(axes)
         for name, levels in reversed(axes.items()):
             place, i = divmod(place, len(levels))
             at[name] = levels[i]
-        yield {name: at[name] for name in axes}
+        yield at
