@@ -5,16 +5,18 @@ from __future__ import annotations
 import csv
 import itertools
 from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
-
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING, Any
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import replacing, write_bytes
 from biped_adrc.studies.bench.sweep import PARAMETER, Sweep
-from biped_adrc.viz.style import render
-from biped_adrc.viz.sweep_maps import Maps, sweep_map_figure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from biped_adrc.viz.sweep_maps import Maps
 
 KINDS = ("csv", "parquet")
 BLOCK = 10_000
@@ -48,19 +50,19 @@ def _field(x: Any) -> Any:
     return repr(float(x)) if isinstance(x, float) else x
 
 
-def check_parquet() -> None:
-    """Raises InputError where Parquet cannot be written."""
-    try:
-        import pyarrow  # noqa: F401
-    except ImportError as error:
+def check_kind(kind: str) -> None:
+    """Raises InputError for a kind of file that there is not, or where Parquet cannot be written."""
+    if kind not in KINDS:
+        raise InputError(f"--export is '{kind}', expected one of {list(KINDS)}")
+    if kind == "parquet" and find_spec("pyarrow") is None:
         raise InputError(
             "an export to Parquet needs pyarrow, which is not installed; pip install 'biped-adrc[tables]'"
-        ) from error
+        )
 
 
 def export_parquet(results: Sweep, path: Path) -> None:
     """A column has one type: whole numbers, floats, true or false, text. Raises InputError and OutputError."""
-    check_parquet()
+    check_kind("parquet")
     import pyarrow as pa
     from pyarrow import parquet
 
@@ -96,21 +98,21 @@ def _as(kind: type, x: Any) -> Any:
 
 def sweep_map(results: Sweep, maps: Maps) -> Figure:
     """A figure of what is finished. Raises InputError for a column that there is not."""
+    from biped_adrc.viz.sweep_maps import sweep_map_figure
+
     known = results.names()
     renamed = {n: f"{PARAMETER}{n}" for n in results.study.varied if f"{PARAMETER}{n}" in known}
-    m = replace(
-        maps,
-        x=renamed.get(maps.x, maps.x),
-        y=renamed.get(maps.y, maps.y),
-        panel=None if maps.panel is None else renamed.get(maps.panel, maps.panel),
-    )
-    names = dict.fromkeys((m.x, m.y, m.value, *((m.panel,) if m.panel else ())))
-    return sweep_map_figure(results.table(*names).columns, m)
+    shown = {name: x for name in ("x", "y", "panel") if (x := getattr(maps, name)) is not None}
+    axes: dict[str, str] = {name: renamed.get(x, x) for name, x in shown.items()}
+    names = dict.fromkeys((*axes.values(), maps.value))
+    return sweep_map_figure(results.table(*names).columns, replace(maps, **axes))  # type: ignore[arg-type]
 
 
 def write_map(results: Sweep, maps: Maps, folder: Path) -> Path:
     """The figure as a PNG in `folder`, named by what it shows. Raises InputError and OutputError."""
-    parts = [maps.x, maps.y, *([maps.panel] if maps.panel else []), maps.value]
-    path = folder / f"map-{'-'.join(parts)}.png"
+    from biped_adrc.viz.style import render
+
+    shown = filter(None, (maps.x, maps.y, maps.panel, maps.value))
+    path = folder / f"map-{'-'.join(shown)}.png"
     write_bytes(path, render(sweep_map(results, maps), "png"))
     return path
