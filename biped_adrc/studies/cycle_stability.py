@@ -238,33 +238,12 @@ def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
     )
 
 
-@dataclass(frozen=True)
-class RegressionTest:
-    """The paper's regression on a walk whose multipliers are known by other means."""
-
-    regression: Regression
-    controller: str
-
-    def record(self) -> dict[str, Any]:
-        """As plain values."""
-        r = self.regression
-        return {
-            "controller": self.controller,
-            "magnitudes": r.magnitudes.tolist(),
-            "rank": r.rank,
-            "condition": float(r.condition) if np.isfinite(r.condition) else "inf",
-            "samples": r.samples,
-            "warning": r.warning,
-        }
-
-
-def regression_of(outcome: Outcome) -> RegressionTest:
+def regression_of(outcome: Outcome) -> Regression:
     """(26), (27) over the impacts of a (disturbed) walk, about the gait's fixed point."""
-    run = outcome.run
-    gait = Scene.of(run).walked
+    gait = Scene.of(outcome.run).walked
     x_star = np.concatenate((gait.q_minus, gait.v_minus))
     x_minus = outcome.x_minus[:, : len(x_star)]
-    return RegressionTest(regress_multipliers(x_minus, x_star), run.controller)
+    return regress_multipliers(x_minus, x_star)
 
 
 def return_map_samples(run: Scenario, size: float = 0.05, count: int = 21) -> tuple[Array, Array]:

@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from biped_adrc.analysis.regression import Regression
 from biped_adrc.checks import Check
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.errors import OutputError
@@ -31,7 +32,7 @@ from biped_adrc.studies.plan import BOTH, Headline, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.pool import TaskProgress, run_tasks
 from biped_adrc.studies.results import Results
-from biped_adrc.studies.tables import findings, tables
+from biped_adrc.studies.tables import findings, notes, tables
 from biped_adrc.versions import versions
 from biped_adrc.viz.meshcat import animation_html
 from biped_adrc.viz.report import write_report
@@ -100,7 +101,7 @@ def _said(plan: Plan, r: Results, found: list[Claim]) -> dict[str, Any]:
         "claims_preface": PREFACE,
         "claims_words": MEANINGS,
         "claims": [claim.record() for claim in found],
-        "notes": _notes() + verdicts.recipe_notes(r, plan),
+        "notes": notes() + verdicts.recipe_notes(r, plan),
     }
 
 
@@ -112,7 +113,7 @@ def _numbers(plan: Plan, r: Results) -> dict[str, Any]:
         "multipliers": {c: r.multipliers[c].record() for c in BOTH if c in r.multipliers},
         "headline": {c: _three_steps(head) for c, head in r.heads.items()},
         "convergence": list(records(r.run_twice)),
-        "regression": {c: found.record() for c, found in r.regressions.items()},
+        "regression": {c: _regression(c, found) for c, found in r.regressions.items()},
     }
 
 
@@ -177,15 +178,9 @@ def _stored(head: Headline) -> Trajectory:
     return replace(head.trajectory, arcs=tuple(arcs))
 
 
-def _notes() -> list[str]:
-    return [
-        "x* as printed puts the swing foot 0.13 mm under the ground; q1..q4 were moved onto the section within "
-        "half a unit of their last printed digit before gait (a) was designed.",
-        "The paper prints no masses, polynomial coefficients or push amplitudes. The robot is RABBIT, whose "
-        "geometry fits x*; the push is stated in the settings.",
-        "The impulse ratio at impact is reported without a limit: the pinned model of the paper cannot slip.",
-        "A torque on the unactuated torso enters the zero dynamics; no tracking controller rejects it.",
-    ]
+def _regression(controller: str, found: Regression) -> dict[str, Any]:
+    names = ("magnitudes", "rank", "condition", "samples", "warning")
+    return {"controller": controller, **{name: getattr(found, name) for name in names}}
 
 
 def _animate(r: Results) -> str:
