@@ -140,6 +140,13 @@ class HeldJoint(HybridSystem):
 
 HELD_STEP = 5e-4
 """[s]"""
+HELD = (
+    "tracking error per unit disturbance on a held joint, simulated [s^2]",
+    "the same at half the step [s^2]",
+    "the same by (23) corrected [s^2]",
+    "the same by (23) as printed [s^2]",
+)
+"""Figures of a held joint."""
 
 
 def held_joint(
@@ -219,10 +226,7 @@ def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
         between("order of the exponential method, Table I times 0.05", "law", etd, 3.7, 4.3),
     ]
     figures = {
-        "tracking error per unit disturbance on a held joint, simulated [s^2]": simulated,
-        "the same at half the step [s^2]": half,
-        "the same by (23) corrected [s^2]": corrected,
-        "the same by (23) as printed [s^2]": printed,
+        **dict(zip(HELD, (simulated, half, corrected, printed), strict=True)),
         "order of the exponential method with Table I itself": etd_table,
         "error of the exponential method with Table I at 0.5 ms over 0.1 s [rad]": error,
     }

@@ -65,14 +65,8 @@ def cycles(preset: str) -> tuple[Cycle, ...]:
 
 def _cycle(preset: str, gait: str, controller: str, theta: str) -> Cycle:
     h = declared()["steps"]["plain"]
-    run = Scenario(
-        controller,
-        preset=preset,
-        gait=gait,
-        solve_theta=theta == "solved",
-        method=method(controller),
-        engine=COMPILED,
-    )
+    run = Scenario(controller, preset=preset, gait=gait, solve_theta=theta == "solved")
+    run = replace(run, method=method(controller), engine=COMPILED)
     made, rates = [], []
     biped, of = nominal(preset, gait)
     for step in (h, 0.5 * h):

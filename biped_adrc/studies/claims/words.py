@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
 from typing import Any, NamedTuple
 
 from biped_adrc.checks import Check, at_least, at_most
+from biped_adrc.resources import packaged
 from biped_adrc.studies.claims.admissible import convergence, declared
 from biped_adrc.viz.report import CLAIM_COLUMNS
 
@@ -23,8 +22,7 @@ NOT_TESTABLE = "not testable"
 @cache
 def texts() -> dict[str, Any]:
     """The file claims.toml: the rows of the table in words, by name."""
-    text = files("biped_adrc.studies.claims").joinpath("claims.toml").read_text("utf-8")
-    return {name: _joined(value) for name, value in tomllib.loads(text).items()}
+    return dict(_joined(packaged("biped_adrc.studies.claims", "claims.toml")))
 
 
 def _joined(value: Any) -> Any:
@@ -135,10 +133,8 @@ class Tally:
         text = "no case is converged"
         if self.firm:
             found = share(self.held, len(self.firm))
-            text = (
-                f"{self.held} of {len(self.firm)}, between {found.low:.2f} and {found.high:.2f} with 95 "
-                "%"
-            )
+            between = f"between {found.low:.2f} and {found.high:.2f} with 95 %"
+            text = f"{self.held} of {len(self.firm)}, {between}"
         text += fewer(len(self.cases), self.declared)
         if self.marginal:
             text += f"; marginal: {'; '.join(self.marginal)}"
@@ -200,22 +196,26 @@ class Claim:
         return {key: getattr(self, key) for key in CLAIM_COLUMNS}
 
 
+def limited(
+    name: str,
+    figures: Iterable[tuple[str, Figure]],
+    limit: float,
+    declared: int,
+    bound: Sequence[float] | None = None,
+    **values: Any,
+) -> Claim:
+    """The row of a claim whose cases, (name, figure) each, hold for a number <= limit; further as of `row`."""
+    cases = tuple(below_limit(case, figure, limit, bound) for case, figure in figures)
+    return row(name, Tally(cases, declared), **values)
+
+
 def judged(
     claim: str, where: str, tally: Tally, number: str, reason: str, asserted: bool = False
 ) -> Claim:
     """The row of a claim that was tried on cases; `asserted` makes a check of it."""
     value = tally.held / len(tally.cases) if tally.cases else math.nan
-    return Claim(
-        claim,
-        where,
-        tally.word,
-        number,
-        reason,
-        tally.share,
-        tally.convergence,
-        value if asserted else None,
-        len(tally.marginal),
-    )
+    said = (tally.word, number, reason, tally.share, tally.convergence)
+    return Claim(claim, where, *said, value if asserted else None, len(tally.marginal))
 
 
 def against(found: int, count: int) -> str:
@@ -227,11 +227,9 @@ def against(found: int, count: int) -> str:
 
 def row(name: str, tally: Tally, **values: Any) -> Claim:
     """The row of claims.toml for a claim that was tried on cases, with these values in its texts."""
-    said = _said(name, values)
-    asserted = bool(said.get("asserted"))
-    return judged(
-        said["claim"], said["where"], tally, said["number"], said["reason"], asserted=asserted
-    )
+    x = _said(name, values)
+    asserted = bool(x.get("asserted"))
+    return judged(x["claim"], x["where"], tally, x["number"], x["reason"], asserted=asserted)
 
 
 def told(name: str, word: str = "", values: Mapping[str, Any] | None = None, **rest: Any) -> Claim:
@@ -257,20 +255,13 @@ def claim_checks(claims: Sequence[Claim]) -> list[Check]:
     And no case of any claim may be marginal.
     """
     kind = "reproduced"
-    doubtful = at_most(
-        "claims: cases whose number or verdict is another at half the step",
-        "law",
-        sum(c.marginal for c in claims),
-        0,
+    doubtful = "claims: cases whose number or verdict is another at half the step"
+    shares = (
+        at_least(f"claim, {c.where}: {c.claim}: share of its cases", kind, c.asserted, 1.0)
+        for c in claims
+        if c.asserted is not None
     )
-    return [
-        doubtful,
-        *(
-            at_least(f"claim, {c.where}: {c.claim}: share of its cases", kind, c.asserted, 1.0)
-            for c in claims
-            if c.asserted is not None
-        ),
-    ]
+    return [at_most(doubtful, "law", sum(c.marginal for c in claims), 0), *shares]
 
 
 class Span(tuple[float, ...]):

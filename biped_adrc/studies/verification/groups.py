@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from importlib.resources import files
 
 from biped_adrc.errors import InputError
+from biped_adrc.resources import packaged
 from biped_adrc.studies.verification.frost_urdf import sense_rows
 from biped_adrc.studies.verification.gaits import (
     PRESETS,
@@ -91,8 +90,8 @@ def groups() -> tuple[Group, ...]:
         "hip": (published_force_rows, *pushed),
         "senses": (sense_rows,),
     }
-    text = files("biped_adrc.studies.verification").joinpath("groups.toml").read_text("utf-8")
-    return tuple(Group(n, **said, makers=makers[n]) for n, said in tomllib.loads(text).items())
+    texts = packaged("biped_adrc.studies.verification", "groups.toml")
+    return tuple(Group(n, **said, makers=makers[n]) for n, said in texts.items())
 
 
 def group_named(name: str) -> Group:
