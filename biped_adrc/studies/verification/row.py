@@ -15,6 +15,7 @@ from enum import Enum
 from biped_adrc import checks
 from biped_adrc.checks import Check
 from biped_adrc.errors import InputError
+from biped_adrc.resources import packaged
 
 
 class Measure(Enum):
@@ -26,15 +27,8 @@ class Measure(Enum):
 
 
 COLUMNS = (
-    "system",
-    "quantity",
-    "expected",
-    "found",
-    "difference",
-    "tolerance",
-    "source",
-    "note",
-    "verdict",
+    *("system", "quantity", "expected", "found", "difference"),
+    *("tolerance", "source", "note", "verdict"),
 )
 
 
@@ -112,3 +106,13 @@ class Row:
 def at_most(system: str, quantity: str, limit: float, found: float, source: str) -> Row:
     """A row that holds up to its limit."""
     return Row(system, quantity, limit, found, 0.0, source, Measure.AT_MOST)
+
+
+def published(name: str, *found: float, note: str = "") -> tuple[Row, ...]:
+    """The rows of published.toml by name, each beside what was found here."""
+    said = packaged("biped_adrc.studies.verification", "published.toml")[name]
+    note = note or said.get("note", "")
+    return tuple(
+        Row(said["system"], q, x, float(here), said.get("tolerance"), said["source"], note=note)
+        for (q, x), here in zip(said["expected"].items(), found, strict=True)
+    )
