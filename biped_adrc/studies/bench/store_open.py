@@ -117,17 +117,9 @@ def _create(db: sqlite3.Connection, about: About) -> None:
     db.execute(f"PRAGMA user_version = {FORMAT}")
     for statement in SCHEMA.split(";")[:-1]:
         db.execute(statement)
-    db.execute(
-        "INSERT INTO study VALUES (1, ?, ?, ?, ?, ?, ?)",
-        (
-            about.name,
-            about.hash,
-            text_of(about.configuration),
-            text_of(about.versions),
-            about.points,
-            created,
-        ),
-    )
+    texts = text_of(about.configuration), text_of(about.versions)
+    told = (about.name, about.hash, *texts, about.points, created)
+    db.execute("INSERT INTO study VALUES (1, ?, ?, ?, ?, ?, ?)", told)
     db.execute("COMMIT")
 
 

@@ -10,8 +10,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.resources import packaged
 from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.studies.verification import frost_urdf, gaits, passive, rabbit, three_link
-from biped_adrc.studies.verification.gaits import PRESETS
-from biped_adrc.studies.verification.row import Row
+from biped_adrc.studies.verification.row import PRESETS, Row
 
 DESIGNED = ("identified", "tac2003")
 Maker = Callable[[], tuple[Row, ...]]

@@ -36,7 +36,7 @@ from biped_adrc.studies.cycle_stability import gait_cycle
 from biped_adrc.studies.gait_design import DesignedGait, design_gait
 from biped_adrc.studies.hip_push import HipCase, PushedWalk
 from biped_adrc.studies.tables import PRINTED_TABLE_I
-from biped_adrc.studies.verification.row import Measure, Row, at_most
+from biped_adrc.studies.verification.row import PRESETS, Row, at_most, nothing
 from biped_adrc.walker import Walker
 
 PAPER = "the paper, section VI"
@@ -46,8 +46,7 @@ def poles_row() -> tuple[Row, ...]:
     """Table I is printed in whole rad/s."""
     gap = np.abs(np.array(PRINTED_TABLE_I, dtype=float) - np.array(TABLE_I))
     quantity = "180 x 1.8^k, k = 0..8: largest gap to Table I [rad/s]"
-    worst = float(np.max(gap))
-    return (Row("observer", quantity, 0.0, worst, 0.5, "the paper, Table I", Measure.ABSOLUTE),)
+    return (nothing("observer", quantity, np.max(gap), 0.5, "the paper, Table I"),)
 
 
 def fixed_point_rows(preset: str) -> tuple[Row, ...]:
@@ -60,9 +59,9 @@ def fixed_point_rows(preset: str) -> tuple[Row, ...]:
     built = "the gait is designed through x*; half a unit of the last printed digit"
     height = abs(float(biped.swing_foot(q)[1]))
     gaps = (
-        ("q1..q4 after a simulated step: largest gap to x* [rad]", float(np.max(gap[:4])), 5e-4),
-        ("q5: gap to x* [rad]", float(gap[4]), 5e-5),
-        ("rates: largest gap to x* [rad/s]", float(np.max(gap[5:])), 5e-4),
+        ("q1..q4 after a simulated step: largest gap to x* [rad]", np.max(gap[:4]), 5e-4),
+        ("q5: gap to x* [rad]", gap[4], 5e-5),
+        ("rates: largest gap to x* [rad/s]", np.max(gap[5:]), 5e-4),
     )
     after = biped.impact(q, v)
     delta = biped.angular_momentum(after.q, after.v) / biped.angular_momentum(q, v)
@@ -70,11 +69,8 @@ def fixed_point_rows(preset: str) -> tuple[Row, ...]:
     momenta = "(sigma+ / sigma-)^2 at the printed x*"
     foot, digits = "height of the swing foot at x* as printed [m]", "the angles have three decimals"
     return (
-        Row(name, foot, 0.0, height, 5e-4, PAPER, Measure.ABSOLUTE, digits),
-        *(
-            Row(name, quantity, 0.0, found, limit, PAPER, Measure.ABSOLUTE, built)
-            for quantity, found, limit in gaps
-        ),
+        nothing(name, foot, height, 5e-4, PAPER, digits),
+        *(nothing(name, *gap, PAPER, built) for gap in gaps),
         Row(name, "largest multiplier of the walk", delta**2, multiplier, 1e-3, momenta),
     )
 
@@ -137,17 +133,9 @@ BESIDE = 0.05
 
 def published_force_rows() -> tuple[Row, ...]:
     """The force that stops the gait, beside the published 3 N, in every preset."""
-    return tuple(
-        Row(
-            f"RABBIT {preset}, v0.5",
-            "rearward force that stops it, by quadrature [N]",
-            3.0,
-            HipCase("NPD", stride=False, preset=preset).predicted(),
-            None,
-            ANOTHER,
-        )
-        for preset in ("identified", "identified-bare", "tac2003")
-    )
+    forces = {p: HipCase("NPD", stride=False, preset=p).predicted() for p in PRESETS}
+    said = "rearward force that stops it, by quadrature [N]"
+    return tuple(Row(f"RABBIT {p}, v0.5", said, 3.0, F, None, ANOTHER) for p, F in forces.items())
 
 
 def hip_rows(tracking: str, steps: int = 25) -> tuple[Row, ...]:
@@ -157,27 +145,13 @@ def hip_rows(tracking: str, steps: int = 25) -> tuple[Row, ...]:
     below, above = (1.0 - BESIDE) * force, (1.0 + BESIDE) * force
     walked, stopped = PushedWalk.of(case, below), PushedWalk.of(case, above)
     held = PushedWalk.of(HipCase(tracking, stride=True, steps=steps), above)
-    made = f"steps of {steps}"
+    made, on = f"steps of {steps} at {below:.2f} N", f"walks on at {above:.2f} N (1 or 0)"
+    speed, kept = f"speed at {above:.2f} N, mean of the last five steps [m/s]", held.speed() or 0.0
+    after, asked = f"it stops after {len(stopped.speeds)}", "the speed the PI is asked for"
     return (
-        Row(name, f"{made} at {below:.2f} N", steps, len(walked.speeds), 0.0, PREDICTED),
-        Row(
-            name,
-            f"walks on at {above:.2f} N (1 or 0)",
-            0.0,
-            float(stopped.walks),
-            0.0,
-            PREDICTED,
-            Measure.ABSOLUTE,
-            f"it stops after {len(stopped.speeds)}",
-        ),
-        Row(
-            f"{name} with PI",
-            f"speed at {above:.2f} N, mean of the last five steps [m/s]",
-            0.5,
-            held.speed() or 0.0,
-            1e-3,
-            "the speed the PI is asked for",
-        ),
+        Row(name, made, steps, len(walked.speeds), 0.0, PREDICTED),
+        nothing(name, on, stopped.walks, 0.0, PREDICTED, after),
+        Row(f"{name} with PI", speed, 0.5, kept, 1e-3, asked),
     )
 
 
@@ -213,7 +187,7 @@ def through_rows(preset: str) -> tuple[Row, ...]:
     flat = "the minimum is flat"
     other = "stored gait, found by another optimiser"
     return (
-        Row(name, rates, 0.0, gap, 1e-6, ASKED, Measure.ABSOLUTE),
+        nothing(name, rates, gap, 1e-6, ASKED),
         Row(name, "int u'u dt / step [N^2 m s]", least, found.objective, 1e-3, other, note=flat),
         *_common(name, found, spent),
     )

@@ -17,6 +17,9 @@ from biped_adrc.checks import Check
 from biped_adrc.errors import InputError
 from biped_adrc.resources import packaged
 
+PRESETS = ("identified", "identified-bare", "tac2003")
+"""Of RABBIT."""
+
 
 class Measure(Enum):
     """How found and expected are compared; the values are the words in the table."""
@@ -106,6 +109,13 @@ class Row:
 def at_most(system: str, quantity: str, limit: float, found: float, source: str) -> Row:
     """A row that holds up to its limit."""
     return Row(system, quantity, limit, found, 0.0, source, Measure.AT_MOST)
+
+
+def nothing(
+    system: str, quantity: str, found: float, tolerance: float, source: str, note: str = ""
+) -> Row:
+    """A row that holds where the number found is within its tolerance of 0."""
+    return Row(system, quantity, 0.0, float(found), tolerance, source, Measure.ABSOLUTE, note)
 
 
 def published(name: str, *found: float, note: str = "") -> tuple[Row, ...]:
