@@ -11,6 +11,7 @@ taken for granted. Walks start on the orbit of their gait; the force (-force, 0)
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -274,20 +275,13 @@ def hip_push(
             "no preset of RABBIT was given, expected at least one, such as 'identified'"
         )
     base = HipCase("NPD", False) if base is None else base
-    cases = [
-        replace(base, preset=preset, tracking=law, stride=stride)
-        for preset in presets
-        for law in CONTROLLERS
-        for stride in (False, True)
-    ]
+    every = itertools.product(presets, CONTROLLERS, (False, True))
+    cases = [replace(base, preset=p, tracking=law, stride=stride) for p, law, stride in every]
     tasks = [Task(f"{c.preset}, {c.name}", hip_limit, (c,)) for c in cases]
     limits = [found.value for found in run_tasks(tasks, workers, progress)]
-    kept = [
-        (replace(x.case, stride=True), x.stops.force + more)
-        for x in limits
-        if not x.case.stride
-        for more in (0.0, above)
-    ]
+    alone = [x for x in limits if not x.case.stride]
+    forces = [(x.case, x.stops.force + more) for x in alone for more in (0.0, above)]
+    kept = [(replace(case, stride=True), force) for case, force in forces]
     tasks = [Task(f"{c.preset}, {c.name}, {F:g} N", PushedWalk.of, (c, F)) for c, F in kept]
     walks = [found.value for found in run_tasks(tasks, workers, progress)]
     pairs = tuple((c, w) for (c, _), w in zip(kept, walks, strict=True))

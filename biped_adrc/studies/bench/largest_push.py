@@ -8,6 +8,7 @@ an interval of one seed: over seeds it stays one, open above where the highest r
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -99,13 +100,8 @@ def searches(
     setting: Callable[[str], Mapping[str, Any]] = lambda controller: {},
 ) -> list[Search]:
     """All of them, not yet begun; setting: of a controller, in place of its own."""
-    return [
-        Search(controller, direction, phase, seed, setting=setting(controller))
-        for controller in controllers
-        for direction in DIRECTIONS
-        for phase in PHASES
-        for seed in range(seeds)
-    ]
+    every = itertools.product(controllers, DIRECTIONS, PHASES, range(seeds))
+    return [Search(*one, setting=setting(one[0])) for one in every]
 
 
 def largest_pushes(begun: Sequence[Search], carry: Carry) -> list[Search]:

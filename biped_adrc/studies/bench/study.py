@@ -11,9 +11,7 @@ very many numbers some, evenly), all combinations of what is named by words, and
 
 from __future__ import annotations
 
-import hashlib
 import itertools
-import json
 import math
 from collections.abc import Iterator, Sequence
 from typing import Any, Literal
@@ -22,7 +20,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from biped_adrc.errors import BipedError, InputError
-from biped_adrc.studies.bench.chunk import Point
+from biped_adrc.studies.bench.chunk import Point, key_of, text_of
 from biped_adrc.studies.bench.parameters import Value, nested, trial
 from biped_adrc.types import Array
 
@@ -162,8 +160,7 @@ class Study(BaseModel):
     @property
     def hash(self) -> str:
         """The same for two studies that differ in their description only."""
-        text = json.dumps(self.model_dump(mode="json", exclude={"description"}), sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()[:32]
+        return key_of(text_of(self.model_dump(mode="json", exclude={"description"})))
 
     def points(self) -> Iterator[Point]:
         """One after the other; where values do not fit together the record has them as they are."""

@@ -202,12 +202,9 @@ def _seeds(r: _Reader, given: Any) -> tuple[int, ...]:
         return ()
     if type(given) is int and 1 <= given <= MOST:
         return tuple(range(given))
-    fits = isinstance(given, list) and given
-    if (
-        not fits
-        or not all(type(x) is int and 0 <= x <= MOST_SEED for x in given)
-        or len(set(given)) < len(given)
-    ):
+    found = given if isinstance(given, list) else []
+    seeds = {x for x in found if type(x) is int and 0 <= x <= MOST_SEED}
+    if not found or len(seeds) < len(found):
         r.wrong("study.seeds", f"found {given!r}, expected how many, or a list of different seeds")
         return ()
     return tuple(given)

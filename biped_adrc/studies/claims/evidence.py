@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.regression import regress_multipliers
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.engine.choice import COMPILED
@@ -67,16 +66,17 @@ def _cycle(preset: str, gait: str, controller: str, theta: str) -> Cycle:
     h = declared()["steps"]["plain"]
     run = Scenario(controller, preset=preset, gait=gait, solve_theta=theta == "solved")
     run = replace(run, method=method(controller), engine=COMPILED)
-    made, rates = [], []
     biped, of = nominal(preset, gait)
-    for step in (h, 0.5 * h):
+
+    def at(step: float) -> tuple[float, float]:
         try:
             orbit = poincare(replace(run, h=step), with_states=False).orbit
-            made.append(float(abs(orbit.multipliers[0])))
-            rates.append(float(biped.phase @ orbit.x_minus[biped.n : 2 * biped.n]))
         except BipedError:
-            made.append(float("nan"))
-            rates.append(float("nan"))
+            return float("nan"), float("nan")
+        rate = biped.phase @ orbit.x_minus[biped.n : 2 * biped.n]
+        return float(abs(orbit.multipliers[0])), float(rate)
+
+    made, rates = zip(at(h), at(0.5 * h), strict=True)
     name = f"gait ({'a' if gait == 'published' else 'b'}), {preset}, {controller}, Theta'' {theta}"
     return Cycle(name, preset, gait, controller, theta, Figure(*made), Figure(*rates), of.period)
 
@@ -114,11 +114,9 @@ def needs(preset: str) -> tuple[Needs, ...]:
 def _needs(preset: str, gait: str) -> Needs:
     h = declared()["steps"]["needs"]
     run = Scenario("NPD", preset=preset, gait=gait, engine=COMPILED)
-    steps: list[Certificate] = []
     made = prepared(run)
-    for step in (h, 0.5 * h):
-        found = watched(made.walker, made.gait, made.simulate(step, 2)).certificates
-        steps.append(found[-1])
+    walks = (made.simulate(step, 2) for step in (h, 0.5 * h))
+    steps = [watched(made.walker, made.gait, walk).certificates[-1] for walk in walks]
     why, at_half = (tuple(one.illegal().values()) for one in steps)
     biped = nominal(preset, gait)[0]
 
@@ -162,17 +160,15 @@ def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
     same = True
     h = declared()["steps"]["plain"]
     for c, run in runs.items():
-        peaks, delays, impacts = [], [], []
         ready = prepared(run)
-        for step in (h, 0.5 * h):
-            walk = ready.simulate(step, run.impacts)
-            found = tracks(ready, walk)
-            # NumPy's, since max passes over the NaN of a step that never ends
-            peaks.append(float(np.max([t.peak for t in found])))
-            delays.append(float(np.max([abs(t.period - ready.gait.period) for t in found])))
-            impacts.append(len(walk.events(FOOT_STRIKE)))
+        walks = [ready.simulate(step, run.impacts) for step in (h, 0.5 * h)]
+        found = [tracks(ready, walk) for walk in walks]
+        # NumPy's, since max passes over the NaN of a step that never ends
+        peak[c] = Figure(*(float(np.max([t.peak for t in at])) for at in found))
+        late = ([abs(t.period - ready.gait.period) for t in at] for at in found)
+        delay[c] = Figure(*(float(np.max(at)) for at in late))
+        impacts = [len(walk.events(FOOT_STRIKE)) for walk in walks]
         made[c], same = min(impacts) == run.impacts, same and impacts[0] == impacts[1]
-        peak[c], delay[c] = Figure(*peaks), Figure(*delays)
     return Pair(name, peak, delay, made, same)
 
 
