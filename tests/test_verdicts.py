@@ -21,7 +21,8 @@ from biped_adrc.model.limits import KnownLimits
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies import reproduction, verdicts
-from biped_adrc.studies.claims.words import Case, Claim, Figure, Tally, judged
+from biped_adrc.studies.claims.tally import Case, Figure, Tally
+from biped_adrc.studies.claims.words import Claim, judged
 from biped_adrc.studies.convergence import convergence_check
 from biped_adrc.studies.cycle_stability import PoincareResult
 from biped_adrc.studies.laws import walk_laws, work_identity

@@ -228,31 +228,31 @@ class HipPush:
 
     def text(self) -> str:
         """For a reader."""
-        lines = ["preset            controller     stops at [N]  by quadrature  speed below [m/s]"]
-        for x in self.limits:
-            lines.append(
-                f"{x.case.preset:<17} {x.case.name:<14} {x.stops.force:12.1f} {x.predicted:14.2f} "
-                f"{_shown(x.below.speed()):>18}"
-            )
-        lines += [
-            "",
-            "preset            controller        force [N]  outcome     speed [m/s]  peak [N m]",
-        ]
-        for case, w in self.kept:
-            peak = None if w.legality is None else w.legality.peak_torque
-            lines.append(
-                f"{case.preset:<17} {case.name:<14} {w.force:12.1f}  {w.outcome:<10} "
-                f"{_shown(w.speed()):>12} {_shown(peak, 1):>11}"
-            )
-        lines += [
-            "",
-            "preset            direction      gain [m/s per rad]  per torque [m/s per N m]",
-        ]
-        for preset, merits in self.directions.items():
-            lines += [
-                f"{preset:<17} {d.name:<14} {d.static_gain:18.3f} {d.merit:25.5f}" for d in merits
-            ]
-        return "\n".join(lines)
+        stops = (
+            f"{_named(x.case)} {x.stops.force:12.1f} {x.predicted:14.2f} {_shown(x.below.speed()):>18}"
+            for x in self.limits
+        )
+        kept = (
+            f"{_named(case)} {w.force:12.1f}  {w.outcome:<10} {_shown(w.speed()):>12} "
+            f"{_shown(w.legality.peak_torque if w.legality else None, 1):>11}"
+            for case, w in self.kept
+        )
+        merits = (
+            f"{preset:<17} {d.name:<14} {d.static_gain:18.3f} {d.merit:25.5f}"
+            for preset, found in self.directions.items()
+            for d in found
+        )
+        tables = {
+            "controller     stops at [N]  by quadrature  speed below [m/s]": stops,
+            "controller        force [N]  outcome     speed [m/s]  peak [N m]": kept,
+            "direction      gain [m/s per rad]  per torque [m/s per N m]": merits,
+        }
+        texts = (["preset            " + head, *rows] for head, rows in tables.items())
+        return "\n\n".join(map("\n".join, texts))
+
+
+def _named(case: HipCase) -> str:
+    return f"{case.preset:<17} {case.name:<14}"
 
 
 def _shown(x: float | None, digits: int = 4) -> str:

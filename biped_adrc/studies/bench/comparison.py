@@ -15,13 +15,7 @@ from biped_adrc.studies.bench import conditions as given
 from biped_adrc.studies.bench.cell import Cell, Row
 from biped_adrc.studies.bench.chunk import NO_WALK
 from biped_adrc.studies.bench.conditions import BANDWIDTH, BASE, COMPARED, CONDITIONS, walked_again
-from biped_adrc.studies.bench.largest_push import (
-    Carry,
-    Largest,
-    gathered,
-    largest_pushes,
-    searches,
-)
+from biped_adrc.studies.bench.largest_push import Carry, Largest, gathered, largest_pushes, searches
 
 PUSH_SEEDS = 5
 """Seeds of the largest pushes, at most."""

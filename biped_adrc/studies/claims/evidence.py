@@ -20,6 +20,7 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.claims import evidence
 from biped_adrc.studies.claims.admissible import Member, declared, members, method
 from biped_adrc.studies.claims.orders import Order, orders
+from biped_adrc.studies.claims.tally import Figure
 from biped_adrc.studies.claims.walks import (
     MemberOutcome,
     nominal,
@@ -28,7 +29,6 @@ from biped_adrc.studies.claims.walks import (
     tried,
     tried_all,
 )
-from biped_adrc.studies.claims.words import Figure
 from biped_adrc.studies.cycle_stability import poincare
 from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.studies.pool import Task

@@ -10,23 +10,19 @@ from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies.claims.admissible import convergence, declared, in_all
 from biped_adrc.studies.claims.evidence import Jumps, Pair
 from biped_adrc.studies.claims.orders import Order
-from biped_adrc.studies.claims.walks import MemberOutcome, quotient
-from biped_adrc.studies.claims.words import (
+from biped_adrc.studies.claims.tally import (
     CONTRADICTED,
     NOT_TESTABLE,
     Case,
-    Claim,
     Figure,
-    Span,
     Tally,
     against,
     below_limit,
     changes,
     fewer,
-    limited,
-    row,
-    told,
 )
+from biped_adrc.studies.claims.walks import MemberOutcome, quotient
+from biped_adrc.studies.claims.words import Claim, Span, limited, row, told
 from biped_adrc.studies.laws import HELD
 
 

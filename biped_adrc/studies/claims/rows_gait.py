@@ -18,22 +18,18 @@ from biped_adrc.studies.claims.evidence import (
     longest_step,
     noise_spectrum,
 )
-from biped_adrc.studies.claims.words import (
+from biped_adrc.studies.claims.tally import (
     CONTRADICTED,
     DEPENDS,
     NOT_TESTABLE,
     Case,
-    Claim,
     Figure,
-    Span,
     Tally,
     above_limit,
     below_limit,
     fewer,
-    limited,
-    row,
-    told,
 )
+from biped_adrc.studies.claims.words import Claim, Span, limited, row, told
 
 PRINTED_SPEED = float(X_STAR[5] + 0.5 * X_STAR[7] + X_STAR[9])
 """Theta' of x* [rad/s], Theta = q5 + q1 + q3 / 2."""

@@ -7,19 +7,9 @@ from collections.abc import Mapping, Sequence
 
 from biped_adrc.studies.claims import admissible
 from biped_adrc.studies.claims.admissible import convergence, declared
+from biped_adrc.studies.claims.tally import NOT_TESTABLE, Case, Figure, Tally, above_limit
 from biped_adrc.studies.claims.walks import MemberOutcome, Walked
-from biped_adrc.studies.claims.words import (
-    NOT_TESTABLE,
-    Case,
-    Claim,
-    Figure,
-    Span,
-    Tally,
-    above_limit,
-    limited,
-    row,
-    told,
-)
+from biped_adrc.studies.claims.words import Claim, Span, limited, row, told
 from biped_adrc.studies.push_map import Cell, certain
 
 Members = Sequence[MemberOutcome]
