@@ -197,19 +197,16 @@ class PoincareResult:
 
     def record(self) -> dict[str, Any]:
         """As plain values."""
+        half = None if self.half is None else np.abs(self.half.orbit.multipliers).tolist()
         return {
-            "controller": self.controller,
-            "preset": self.preset,
-            "reset": self.reset,
+            **{name: getattr(self, name) for name in ("controller", "preset", "reset")},
             "coordinates": len(self.orbit.multipliers),
             "magnitudes": np.abs(self.orbit.multipliers).tolist(),
             "x_minus": self.orbit.x_minus[:10].tolist(),
             "residual": self.orbit.residual,
             "delta_squared": self.delta_squared,
             "stable": self.orbit.stable,
-            "magnitudes_at_half_the_step": None
-            if self.half is None
-            else np.abs(self.half.orbit.multipliers).tolist(),
+            "magnitudes_at_half_the_step": half,
         }
 
 
@@ -228,14 +225,8 @@ def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
     biped, gait = scene.biped, scene.walked
     # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
     orbit = P.fixed_point(guess if with_states else guess[: 2 * biped.n])
-    return PoincareResult(
-        run.controller,
-        biped.preset,
-        run.reset,
-        with_states,
-        orbit,
-        ZeroDynamics.of(biped, gait.constraint).delta ** 2,
-    )
+    delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
+    return PoincareResult(run.controller, biped.preset, run.reset, with_states, orbit, delta2)
 
 
 def regression_of(outcome: Outcome) -> Regression:

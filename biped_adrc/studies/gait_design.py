@@ -147,16 +147,8 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
             "is its step cut short by the foot touching early?"
         )
     delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
-    return DesignedGait(
-        gait,
-        request,
-        optimum.objective,
-        certificate,
-        delta2,
-        gap,
-        optimum.iterations,
-        optimum.seconds,
-    )
+    effort = optimum.iterations, optimum.seconds
+    return DesignedGait(gait, request, optimum.objective, certificate, delta2, gap, *effort)
 
 
 MOST_SPEEDS = 1000
@@ -258,16 +250,9 @@ def design_recipe_orbit(biped: Biped, parameters: RecipeParameters | None = None
         orbit = ReturnMap(walker, RK4(1e-3)).fixed_point(guess)
     except SimulationError as error:
         return replace(gait, provenance={**gait.provenance, "cycle": f"none found: {error}"})
-    n = biped.n
-    found = replace(
-        gait,
-        q_minus=orbit.x_minus[:n],
-        v_minus=orbit.x_minus[n : 2 * n],
-        provenance={
-            **gait.provenance,
-            "cycle": "fixed point of the return map under NPD, Table II, continuous time; largest "
-            f"multiplier {abs(orbit.multipliers[0]):.4f}",
-        },
-    )
+    q, v = np.split(orbit.x_minus[: 2 * biped.n], 2)
+    said = "fixed point of the return map under NPD, Table II, continuous time; largest multiplier"
+    told = {**gait.provenance, "cycle": f"{said} {abs(orbit.multipliers[0]):.4f}"}
+    found = replace(gait, q_minus=q, v_minus=v, provenance=told)
     step = walk(walker, found, 1, RK4(1e-3))
     return replace(found, period=step.trajectory.t_end)

@@ -126,7 +126,8 @@ class PushedWalk:
     def of(cls, case: HipCase, force: float) -> PushedWalk:
         """Simulate it."""
         made = case.walk(force)
-        arcs = tuple(arc for arc in made.trajectory.arcs if arc.mode.step <= _finished(made))
+        count = len(made.trajectory.events(FOOT_STRIKE))
+        arcs = tuple(arc for arc in made.trajectory.arcs if arc.mode.step <= count)
         finished = replace(made, trajectory=replace(made.trajectory, arcs=arcs))
         steps = finished.certificates if arcs else ()
         return cls(
@@ -150,10 +151,6 @@ class PushedWalk:
     def speed(self, last: int = 5) -> float | None:
         """Mean of the last steps [m/s]."""
         return float(np.mean(self.speeds[-last:])) if self.speeds else None
-
-
-def _finished(made: Walk) -> int:
-    return len(made.trajectory.events(FOOT_STRIKE))
 
 
 MOST = 1000
@@ -285,9 +282,6 @@ def hip_push(
     tasks = [Task(f"{c.preset}, {c.name}, {F:g} N", PushedWalk.of, (c, F)) for c, F in kept]
     walks = [found.value for found in run_tasks(tasks, workers, progress)]
     pairs = tuple((c, w) for (c, _), w in zip(kept, walks, strict=True))
-    return HipPush(tuple(limits), pairs, {p: _merits(replace(base, preset=p)) for p in presets})
-
-
-def _merits(case: HipCase) -> tuple[DirectionMerit, ...]:
-    biped, gait, _ = case.parts()
-    return direction_merits(gait, biped)
+    parts = {preset: replace(base, preset=preset).parts() for preset in presets}
+    merits = {preset: direction_merits(one.gait, one.biped) for preset, one in parts.items()}
+    return HipPush(tuple(limits), pairs, merits)

@@ -62,13 +62,11 @@ def model_laws(preset: str, samples: int = 500, seed: int = 1) -> list[Check]:
         lost = b.kinetic_energy(q, v) - b.kinetic_energy(hit.q, hit.v)
         growth = float(np.maximum(growth, -lost / b.kinetic_energy(q, v)))
     some = -(-samples // MOMENTA)
+    of_leg = "impact: change of the angular momentum of the old leg about its joints, relative"
     named = {
         "pinned against floating model, D_s and Omega, relative": (agree, samples),
         "impact: change of the angular momentum about the new foot, relative": (kept[0], some),
-        "impact: change of the angular momentum of the old leg about its joints, relative": (
-            kept[1],
-            some,
-        ),
+        of_leg: (kept[1], some),
         "impact: momentum, pinned at the new foot against floating, relative": (kept[2], some),
         "kinetic energy gained at impact, relative": (growth, samples),
     }
@@ -213,16 +211,11 @@ def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
     etd_table, error = exponential_order(preset, 1.0)
     gap = abs(simulated - corrected) / corrected
     change = abs(simulated - half) / half
+    held, sampled = "tracking error on a held joint", "order of continuous against sampled control"
     checks = [
-        at_most(
-            "tracking error on a held joint, change when the step is halved", "law", change, 0.01
-        ),
-        at_most(
-            "tracking error on a held joint against (23) corrected, relative", "law", gap, 1e-3
-        ),
-        between(
-            "order of continuous against sampled control in the period", "law", order, 0.9, 1.1
-        ),
+        at_most(f"{held}, change when the step is halved", "law", change, 0.01),
+        at_most(f"{held} against (23) corrected, relative", "law", gap, 1e-3),
+        between(f"{sampled} in the period", "law", order, 0.9, 1.1),
         between("order of the exponential method, Table I times 0.05", "law", etd, 3.7, 4.3),
     ]
     figures = {

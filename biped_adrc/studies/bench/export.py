@@ -7,7 +7,7 @@ import itertools
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import replacing, write_bytes
@@ -43,11 +43,8 @@ def export_csv(results: Sweep, path: Path) -> None:
         writer = csv.writer(file)
         writer.writerow(names)
         for row in results.rows():
-            writer.writerow([_field(row.get(name)) for name in names])
-
-
-def _field(x: Any) -> Any:
-    return repr(float(x)) if isinstance(x, float) else x
+            found = map(row.get, names)
+            writer.writerow([repr(float(x)) if isinstance(x, float) else x for x in found])
 
 
 def check_kind(kind: str) -> None:
@@ -72,7 +69,8 @@ def export_parquet(results: Sweep, path: Path) -> None:
     rows = results.rows()
     with replacing(path) as temporary, parquet.ParquetWriter(temporary, schema) as writer:
         while block := list(itertools.islice(rows, BLOCK)):
-            columns = [[_as(kind, row.get(name)) for row in block] for name, kind in kinds.items()]
+            found = {name: [row.get(name) for row in block] for name in kinds}
+            columns = [[x if x is None else kinds[n](x) for x in xs] for n, xs in found.items()]
             writer.write_table(pa.table(columns, schema=schema))
 
 
@@ -90,10 +88,6 @@ def _kind(types: set[type]) -> type:
     if len(types) == 1:
         return next(iter(types))
     return float if types and types <= {int, float} else str
-
-
-def _as(kind: type, x: Any) -> Any:
-    return None if x is None else kind(x)
 
 
 def sweep_map(results: Sweep, maps: Maps) -> Figure:

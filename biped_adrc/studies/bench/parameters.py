@@ -211,11 +211,8 @@ def _check(name: str, x: Any, given: Any = None) -> None:
         text = reasons[0]["msg"].removeprefix("Value error, ").replace("Input should", "should")
         in_si = "" if x == given or isinstance(x, str) else f", {x:g} in SI"
         said = "" if given is None else f"found {given!r}{in_si}: "
-        raise Refused(f"{said}{text}{_bracket(name)}") from None
-
-
-def _bracket(name: str) -> str:
-    return f" [{unit(name)}]" if is_number(name) and unit(name) != "1" else ""
+        of = f" [{unit(name)}]" if is_number(name) and unit(name) != "1" else ""
+        raise Refused(f"{said}{text}{of}") from None
 
 
 def _types(name: str) -> tuple[Any, ...]:

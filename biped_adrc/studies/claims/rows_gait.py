@@ -82,7 +82,7 @@ def recipe_speed(cycles: Sequence[Cycle]) -> Claim:
         speed=PRINTED_SPEED,
         rates=shown,
         percent=100.0 * limit,
-        hangs_on=_hangs_on(cycles, _farthest(cycles)),
+        hangs_on=_hangs_on(cycles),
     )
 
 
@@ -92,13 +92,10 @@ def _speeds(cycles: Sequence[Cycle], limit: float) -> Tally:
     return Tally(tuple(cases), in_all(1))
 
 
-def _farthest(cycles: Sequence[Cycle]) -> float:
-    """Largest deviation from the printed speed, as a share; NaN without a cycle."""
-    return float(np.max([abs(c.rate.at_half / PRINTED_SPEED - 1.0) for c in cycles] or [math.nan]))
-
-
-def _hangs_on(cycles: Sequence[Cycle], worst: float) -> str:
+def _hangs_on(cycles: Sequence[Cycle]) -> str:
     """What another limit, the whole percentage below the largest deviation, would have made of it."""
+    apart = [abs(c.rate.at_half / PRINTED_SPEED - 1.0) for c in cycles]
+    worst = float(np.max(apart or [math.nan]))
     if math.isnan(worst):
         return ""
     lower = math.floor(100.0 * worst)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from biped_adrc.studies.claims import admissible
 from biped_adrc.studies.claims.admissible import convergence, declared
 from biped_adrc.studies.claims.tally import NOT_TESTABLE, Case, Figure, Tally, above_limit
@@ -90,7 +92,9 @@ def _doubtful(w: Walked) -> bool:
 def unaffected(members: Members) -> Claim:
     """Figure 6: the cycle in (Theta, Theta') under ADRC."""
     steps, limit = declared()["steps"], declared()["limits"]["cycle"]
-    size = [Figure(*(_size(v) for v in o.walked["ADRC"].rate)) for o in members]
+    # infinite where there is no impact: that cycle is lost
+    rates = [np.abs(o.walked["ADRC"].rate) for o in members]
+    size = [Figure(*np.where(np.isnan(rate), np.inf, rate).tolist()) for rate in rates]
     bound = (steps["convergence"], steps["round_off_rate"])
     return limited(
         "unaffected",
@@ -101,11 +105,6 @@ def unaffected(members: Members) -> Claim:
         adrc=max((f.at_half for f in size), default=math.nan),
         npd=Span(abs(o.walked["NPD"].rate.at_half) for o in members),
     )
-
-
-def _size(rate: float) -> float:
-    """Infinite where there is no impact: that cycle is lost."""
-    return math.inf if math.isnan(rate) else abs(rate)
 
 
 def legal(members: Members) -> Claim:
