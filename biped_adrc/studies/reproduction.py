@@ -69,7 +69,7 @@ def reproduce(
     }
     summary: dict[str, Any] = plain(made)
     for c, head in r.heads.items():
-        replay(head.outcome.run, _stored(head)).save(out / f"walk-{c.lower()}.npz")
+        _save(head, out / f"walk-{c.lower()}.npz")
     pictures = draw_all(plan, r, out, workers)
     animation = _animate(r)
     write_text(out / "walk.html", animation)
@@ -162,6 +162,10 @@ def _three_steps(head: Headline) -> dict[str, Any]:
 
 STORED_APART = 1e-3
 """[s] between the stored nodes of a headline run, but for the single supports with fine steps."""
+
+
+def _save(head: Headline, path: Path) -> None:
+    replay(head.outcome.run, _stored(head)).save(path)
 
 
 def _stored(head: Headline) -> Trajectory:
