@@ -104,8 +104,7 @@ def run_study(
     crew = workers_of(workers)
     f = _Flight(function, store, crew, crew.start(), total, progress, first)
     count = crew.count(f.executor)
-    several = LARGEST_CHUNK if total is None else (total - len(store)) // (4 * count)
-    size = chunk or max(1, min(LARGEST_CHUNK, several))
+    size = chunk or _chunk_size(count, None if total is None else total - len(store))
     try:
         jobs = f.missing(map(point, records))
         while part := tuple(itertools.islice(jobs, size)):
@@ -120,6 +119,11 @@ def run_study(
         raise
     crew.stop(f.executor, False)
     return Summary(f.done, f.fresh, f.deaths)
+
+
+def _chunk_size(workers: int, runs: int | None) -> int:
+    """So that every worker has several."""
+    return LARGEST_CHUNK if runs is None else max(1, min(LARGEST_CHUNK, runs // (4 * workers)))
 
 
 @dataclass
