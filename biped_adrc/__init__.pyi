@@ -78,8 +78,8 @@ from biped_adrc.scenario.walk import walk as walk
 from biped_adrc.studies.cycle_stability import cycle_stability as cycle_stability
 from biped_adrc.studies.cycle_stability import find_cycle as find_cycle
 from biped_adrc.studies.gait_design import DesignedGait as DesignedGait
+from biped_adrc.studies.gait_design import GaitLibrary as GaitLibrary
 from biped_adrc.studies.gait_design import design_gait as design_gait
-from biped_adrc.studies.gait_library import GaitLibrary as GaitLibrary
 from biped_adrc.timing import ContinuousTime as ContinuousTime
 from biped_adrc.timing import SampledTime as SampledTime
 from biped_adrc.walker import Walker as Walker

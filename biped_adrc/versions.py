@@ -37,6 +37,13 @@ def packages(names: Iterable[str]) -> dict[str, str]:
     return found
 
 
+def differences(found: Mapping[str, str], expected: Mapping[str, str]) -> str:
+    """Which versions differ, in words; empty when none does."""
+    names = sorted({*found, *expected})
+    pairs = [(name, found.get(name), expected.get(name)) for name in names]
+    return "; ".join(f"{name} {a} there, {b} here" for name, a, b in pairs if a != b)
+
+
 def versions() -> dict[str, str]:
     """For records: of Python, the platform and what the numbers depend on."""
     found = {"python": platform.python_version(), "platform": platform.platform()}

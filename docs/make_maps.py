@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from biped_adrc.files import write_bytes, write_text
-from biped_adrc.studies.bench.maps import sweep_map
+from biped_adrc.studies.bench.export import sweep_map
 from biped_adrc.studies.bench.run import run_trials
 from biped_adrc.studies.bench.study_file import load_study
 from biped_adrc.studies.bench.sweep import Sweep, sweep

@@ -13,7 +13,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.run import execute
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.poincare import speed_slope
+from biped_adrc.studies.cycle_stability import speed_slope
 
 
 @pytest.fixture(scope="module")

@@ -14,10 +14,10 @@ from biped_adrc.files import plain
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.studies.claims import evidence, rows_control, rows_gait, rows_push
 from biped_adrc.studies.claims.admissible import Member, convergence, declared, members
-from biped_adrc.studies.claims.evidence import Cycle, Jumps, Needs, Pair, Start
-from biped_adrc.studies.claims.gathered import Evidence
+from biped_adrc.studies.claims.evidence import Cycle, Evidence, Jumps, Needs, Pair, Start
 from biped_adrc.studies.claims.orders import Order, bandwidth_with
 from biped_adrc.studies.claims.table import rows
+from biped_adrc.studies.claims.tally import Case, Figure, Tally, below_limit, changes
 from biped_adrc.studies.claims.walks import (
     MemberOutcome,
     Prepared,
@@ -29,17 +29,7 @@ from biped_adrc.studies.claims.walks import (
     prepared,
     tried,
 )
-from biped_adrc.studies.claims.words import (
-    MEANINGS,
-    Case,
-    Claim,
-    Figure,
-    Tally,
-    below_limit,
-    changes,
-    claim_checks,
-    span,
-)
+from biped_adrc.studies.claims.words import MEANINGS, Claim, claim_checks, span
 from biped_adrc.studies.push_map import Cell, Fate
 from biped_adrc.studies.results import Results
 from biped_adrc.viz.pages import CLAIM_COLUMNS

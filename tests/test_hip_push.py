@@ -16,8 +16,16 @@ from biped_adrc.analysis.stride_gain import (
     direction_merits,
 )
 from biped_adrc.errors import GaitError, InputError, SimulationError
-from biped_adrc.studies.hip_case import HipCase, PushedWalk
-from biped_adrc.studies.hip_push import MOST, HipLimit, HipPush, first_failure, hip_limit, hip_push
+from biped_adrc.studies.hip_push import (
+    MOST,
+    HipCase,
+    HipLimit,
+    HipPush,
+    PushedWalk,
+    first_failure,
+    hip_limit,
+    hip_push,
+)
 
 STEPS = 3
 """Of the tests; the study asks for 25."""

@@ -15,9 +15,9 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.model.robots import KnownLimits
 from biped_adrc.scenario.run import execute
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.findings import _push
 from biped_adrc.studies.plan import Plan
 from biped_adrc.studies.results import Results
+from biped_adrc.studies.tables import _push
 
 KNOWN = KnownLimits(0.6, 150.0, 5e-3)
 WEIGHT = 300.0

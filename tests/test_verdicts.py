@@ -21,15 +21,15 @@ from biped_adrc.model.robots import KnownLimits
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies import reproduction, verdicts
-from biped_adrc.studies.claims.words import Case, Claim, Figure, Tally, judged
+from biped_adrc.studies.claims.tally import Case, Figure, Tally
+from biped_adrc.studies.claims.words import Claim, judged
 from biped_adrc.studies.convergence import convergence_check
-from biped_adrc.studies.findings import _torso
+from biped_adrc.studies.cycle_stability import PoincareResult
 from biped_adrc.studies.laws import walk_laws, work_identity
 from biped_adrc.studies.plan import Plan, RecipeResult
-from biped_adrc.studies.poincare import PoincareResult
 from biped_adrc.studies.pool import Timed
 from biped_adrc.studies.results import Results
-from biped_adrc.studies.tables import _runs
+from biped_adrc.studies.tables import _runs, _torso
 
 CERTIFICATE = Certificate(
     step=1,

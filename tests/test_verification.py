@@ -17,14 +17,13 @@ from biped_adrc.model.robots import robot_names
 from biped_adrc.studies.verification import (
     frost_urdf,
     gaits,
-    paper,
     passive,
     rabbit,
     three_link,
 )
-from biped_adrc.studies.verification.design import SPEEDS, design_rows
 from biped_adrc.studies.verification.groups import Group, Maker, group_named, groups
-from biped_adrc.studies.verification.row import COLUMNS, Measure, Row, at_most
+from biped_adrc.studies.verification.rabbit import SPEEDS, design_rows
+from biped_adrc.studies.verification.row import COLUMNS, PRESETS, Measure, Row, at_most
 
 PARTS: dict[str, Maker] = {
     "bouncing ball": passive.ball_rows,
@@ -36,8 +35,8 @@ PARTS: dict[str, Maker] = {
     "three-link walker": three_link.three_link_rows,
     "1.05 m/s as printed": rabbit.printed_rows,
     "1.05 m/s designed": rabbit.designed_rows,
-    "Table I": paper.poles_row,
-    "x* identified": partial(paper.fixed_point_rows, "identified"),
+    "Table I": rabbit.poles_row,
+    "x* identified": partial(rabbit.fixed_point_rows, "identified"),
     "other coordinates": frost_urdf.sense_rows,
     "multipliers of the compass": partial(gaits.robot_rows, "compass"),
     "multipliers of the simplest walker": partial(gaits.robot_rows, "simplest"),
@@ -97,7 +96,7 @@ def test_rows_hold(name: str) -> None:
     check(PARTS[name]())
 
 
-@pytest.mark.parametrize("preset", gaits.PRESETS)
+@pytest.mark.parametrize("preset", PRESETS)
 def test_work_of_every_stored_gait(preset: str) -> None:
     rows = gaits.work_rows(preset)
     assert len(rows) == len(gaits.invariant_gaits(preset))
@@ -105,7 +104,7 @@ def test_work_of_every_stored_gait(preset: str) -> None:
 
 
 @pytest.mark.parametrize("gait", ["published", "v1.1"])
-@pytest.mark.parametrize("preset", gaits.PRESETS)
+@pytest.mark.parametrize("preset", PRESETS)
 def test_multiplier_of_stored_gaits(preset: str, gait: str) -> None:
     check(gaits.multiplier_rows(preset, gait))
 
@@ -113,7 +112,7 @@ def test_multiplier_of_stored_gaits(preset: str, gait: str) -> None:
 def test_groups_are_complete() -> None:
     """Every stored gait but the one whose impact leaves its constraint, every robot and every speed."""
     count = {group.name: len(group.makers) for group in groups()}
-    stored = {preset: set(gaits.invariant_gaits(preset)) for preset in gaits.PRESETS}
+    stored = {preset: set(gaits.invariant_gaits(preset)) for preset in PRESETS}
     for preset, names in stored.items():
         assert names == set(gait_names("rabbit", preset)) - {"recipe"}
         assert names >= {"published", *(f"v{speed:g}" for speed in SPEEDS)}

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
-from rich.progress import Progress
 from rich.table import Table
 
 from biped_adrc.cli.app import app, command, console
-from biped_adrc.cli.sweep import interrupted, say, study_bar, study_workers
-
-if TYPE_CHECKING:
-    from biped_adrc.studies.bench.execute import Progress as Done
+from biped_adrc.cli.sweep import (
+    InThreads,
+    Number,
+    OtherVersions,
+    Scheduler,
+    carried_out,
+    say,
+    study_workers,
+)
 
 
 @app.command()
@@ -39,54 +42,23 @@ def compare(
             help="Look by bisection for the largest push walked legally, and with all steps made."
         ),
     ] = True,
-    workers: Annotated[
-        int | None, typer.Option(help="Processes or threads; by default one per core.")
-    ] = None,
-    threads: Annotated[
-        bool, typer.Option("--threads", help="Threads in place of processes.")
-    ] = False,
-    scheduler: Annotated[
-        str | None, typer.Option(help="Address of a Dask scheduler, such as tcp://host:8786.")
-    ] = None,
-    other_versions: Annotated[
-        bool, typer.Option("--other-versions", help="Go on with results of other versions.")
-    ] = False,
+    workers: Number = None,
+    threads: InThreads = False,
+    scheduler: Scheduler = None,
+    other_versions: OtherVersions = False,
 ) -> None:
     """Which controller walks legally under what: controllers x conditions x seeds, with intervals and tests."""
     from biped_adrc.studies.bench.compare_study import RESULTS, run_comparison
     from biped_adrc.studies.bench.conditions import COMPARED, CONDITIONS
 
     crew = study_workers(workers, threads, scheduler)
-    with study_bar() as shown:
-        try:
-            summary = run_comparison(
-                out,
-                command(),
-                _names(controllers, COMPARED),
-                _names(conditions, tuple(CONDITIONS)),
-                seeds,
-                pushes,
-                crew,
-                _progress(shown),
-                other_versions,
-            )
-        except KeyboardInterrupt:
-            shown.stop()
-            raise interrupted(out / RESULTS) from None
+    asked = _names(controllers, COMPARED), _names(conditions, tuple(CONDITIONS)), seeds, pushes
+    with carried_out(
+        "walking", out / RESULTS, None, "{:.0f} s left in this round".format
+    ) as progress:
+        summary = run_comparison(out, command(), *asked, crew, progress, other_versions)
     _print(summary)
     say(f"written to {out}: comparison.html, summary.json, figures, {RESULTS}")
-
-
-def _progress(shown: Progress) -> Callable[[Done], None]:
-    task = shown.add_task("walking", total=None, left="")
-
-    def progress(p: Done) -> None:
-        left = "" if p.left is None else f"{p.left:.0f} s left in this round"
-        shown.update(task, completed=p.done, total=p.total, left=left)
-        if p.note:
-            shown.console.print(p.note, markup=False)
-
-    return progress
 
 
 def _names(text: str | None, every: tuple[str, ...]) -> tuple[str, ...]:
@@ -99,13 +71,7 @@ def _print(summary: dict[str, Any]) -> None:
 
     controllers = list(summary["controllers"])
     table = Table("condition", *controllers, title="legal walks, % (all that make all steps, %)")
-    found = {
-        (
-            c["condition"],
-            c["controller"],
-        ): f"{100 * c['legal'][0]:.0f} ({100 * c['survived'][0]:.0f})"
-        for c in summary["cells"]
-    }
+    found = {(c["condition"], c["controller"]): _shares(c) for c in summary["cells"]}
     for condition in summary["conditions"]:
         table.add_row(condition, *(found[condition, name] for name in controllers))
     say(nominal_text(summary["nominal"]))
@@ -113,3 +79,7 @@ def _print(summary: dict[str, Any]) -> None:
     say(summary["settings"])
     for line in (line for family in summary["findings"].values() for line in family):
         say(line)
+
+
+def _shares(cell: dict[str, Any]) -> str:
+    return f"{100 * cell['legal'][0]:.0f} ({100 * cell['survived'][0]:.0f})"

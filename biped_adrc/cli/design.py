@@ -75,8 +75,7 @@ def gait_library(
 ) -> None:
     """Design a gait for every speed, each from a cold start, and store those that were found."""
     from biped_adrc.model.biped import Biped
-    from biped_adrc.studies.gait_design import design_gait
-    from biped_adrc.studies.gait_library import speeds_named
+    from biped_adrc.studies.gait_design import design_gait, speeds_named
 
     biped = Biped.load(robot, preset)
     table = Table("m/s", "step [m]", "torque [N m]", "friction", "delta^2", "transport", "s")

@@ -28,7 +28,7 @@ def gait_recipe(preset: str = "identified", out: Path | None = None) -> None:
     """Design gait (b): hip sine, inverse kinematics and polynomial regression, section IV."""
     out = None if out is None else output_path(out, GAITS, default=True)
     from biped_adrc.model.biped import Biped
-    from biped_adrc.studies.recipe_orbit import design_recipe_orbit
+    from biped_adrc.studies.gait_design import design_recipe_orbit
 
     _save(design_recipe_orbit(Biped.load("rabbit", preset)), out)
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -20,21 +22,25 @@ if TYPE_CHECKING:
     from biped_adrc.viz.sweep_maps import Maps
 
 
+Number = Annotated[int | None, typer.Option(help="Processes or threads; by default one per core.")]
+InThreads = Annotated[bool, typer.Option("--threads", help="Threads in place of processes.")]
+Scheduler = Annotated[
+    str | None, typer.Option(help="Address of a Dask scheduler, such as tcp://host:8786.")
+]
+OtherVersions = Annotated[
+    bool, typer.Option("--other-versions", help="Go on with results of other versions.")
+]
+
+
 @app.command()
 def sweep(
     study: Annotated[Path, typer.Argument(help="The study, a TOML file.")],
     out: Annotated[
         Path, typer.Option("--out", "-o", help="Folder of the results; a study goes on there.")
     ],
-    workers: Annotated[
-        int | None, typer.Option(help="Processes or threads; by default one per core.")
-    ] = None,
-    threads: Annotated[
-        bool, typer.Option("--threads", help="Threads in place of processes.")
-    ] = False,
-    scheduler: Annotated[
-        str | None, typer.Option(help="Address of a Dask scheduler, such as tcp://host:8786.")
-    ] = None,
+    workers: Number = None,
+    threads: InThreads = False,
+    scheduler: Scheduler = None,
     export: Annotated[
         list[str] | None, typer.Option(help="Write the results as csv or parquet too.")
     ] = None,
@@ -51,36 +57,37 @@ def sweep(
     no_run: Annotated[
         bool, typer.Option("--no-run", help="Export and draw what is finished, walk nothing.")
     ] = False,
-    other_versions: Annotated[
-        bool, typer.Option("--other-versions", help="Go on with results of other versions.")
-    ] = False,
+    other_versions: OtherVersions = False,
 ) -> None:
     """Walk every point of a study, on all cores or a cluster; what is finished is never lost."""
-    from biped_adrc.studies.bench.rehearsal import rehearse
+    from biped_adrc.studies.bench.export import check_kind, write_map
+    from biped_adrc.studies.bench.export import export as export_results
+    from biped_adrc.studies.bench.study import rehearse
     from biped_adrc.studies.bench.study_file import load_study
 
     found = load_study(study)
     maps = [_maps(text, found) for text in plot or ()]
-    _check_kinds(export or [])
+    for kind in export or []:
+        check_kind(kind)
     crew = study_workers(workers, threads, scheduler)
     if dry_run:
         rehearse(found)
         _print_study(found)
         return
-    done = _finished(found, out) if no_run else _run(found, out, crew, other_versions)
+    if no_run:
+        done = _finished(found, out)
+    else:
+        from biped_adrc.studies.bench.sweep import RESULTS
+        from biped_adrc.studies.bench.sweep import sweep as run
+
+        with carried_out(found.name, out / RESULTS, found.count, _clock) as progress:
+            done = run(found, out, crew, progress=progress, other_versions=other_versions)
     _print_statuses(done)
-    _write(done, out, export or [], maps)
-
-
-def _check_kinds(kinds: list[str]) -> None:
-    """Raises InputError."""
-    from biped_adrc.studies.bench.export import KINDS, check_parquet
-
-    for kind in kinds:
-        if kind not in KINDS:
-            raise InputError(f"--export is '{kind}', expected one of {list(KINDS)}")
-        if kind == "parquet":
-            check_parquet()
+    for kind in export or []:
+        export_results(done, out / f"results.{kind}")
+        say(f"written to {out / f'results.{kind}'}")
+    for m in maps:
+        say(f"written to {write_map(done, m, out)}")
 
 
 def _finished(study: Study, out: Path) -> Sweep:
@@ -118,40 +125,33 @@ def interrupted(results: Path) -> typer.Exit:
     return typer.Exit(EXIT_INTERRUPTED)
 
 
-def _run(study: Study, out: Path, crew: Workers, other_versions: bool) -> Sweep:
-    from biped_adrc.studies.bench.sweep import RESULTS
-    from biped_adrc.studies.bench.sweep import sweep as run
-
-    with study_bar() as shown:
-        task = shown.add_task(study.name, total=study.count, left="")
+@contextmanager
+def carried_out(
+    name: str, results: Path, total: int | None, left: Callable[[float], str]
+) -> Iterator[Callable[[Done], None]]:
+    """A bar of the walks of a study, to be told how far it is; left: in words, of seconds."""
+    text = TextColumn("{task.description:<24.24}", markup=False)
+    told = TextColumn("{task.fields[left]}")
+    columns = (text, BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), told)
+    with Progress(*columns, console=console) as shown:
+        task = shown.add_task(name, total=total, left="")
 
         def progress(p: Done) -> None:
-            left = "" if p.left is None else f"{_clock(p.left)} left"
-            shown.update(task, completed=p.done, left=left)
+            words = "" if p.left is None else left(p.left)
+            shown.update(task, completed=p.done, total=p.total, left=words)
             if p.note:
                 shown.console.print(p.note, markup=False)
 
         try:
-            return run(study, out, crew, progress=progress, other_versions=other_versions)
+            yield progress
         except KeyboardInterrupt:
             shown.stop()
-            raise interrupted(out / RESULTS) from None
-
-
-def study_bar() -> Progress:
-    return Progress(
-        TextColumn("{task.description:<24.24}", markup=False),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TextColumn("{task.fields[left]}"),
-        console=console,
-    )
+            raise interrupted(results) from None
 
 
 def _clock(seconds: float) -> str:
     minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes // 60}:{minutes % 60:02}:{rest:02}"
+    return f"{minutes // 60}:{minutes % 60:02}:{rest:02} left"
 
 
 def study_workers(number: int | None, threads: bool, scheduler: str | None) -> Workers:
@@ -214,16 +214,3 @@ def _print_study(study: Study) -> None:
     say(f"{study.name}: {study.count} points, over {', '.join(study.varied) or 'nothing'}")
     first = next(study.points())
     say(f"the first of them: {dict(first.at)}")
-
-
-def _write(done: Sweep, out: Path, kinds: list[str], maps: list[Maps]) -> None:
-    for kind in kinds:
-        from biped_adrc.studies.bench.export import export
-
-        path = out / f"results.{kind}"
-        export(done, path)
-        say(f"written to {path}")
-    for m in maps:
-        from biped_adrc.studies.bench.maps import write_map
-
-        say(f"written to {write_map(done, m, out)}")

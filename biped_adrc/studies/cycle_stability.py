@@ -2,11 +2,13 @@
 
 A robot with motors walks a stored gait under NPD or ADRC, one without walks its known cycle down a slope. The
 cycle is found by Newton on the return map. The regression (26), (27) is fed as the paper's: with the states
-before the impacts of a walk that starts beside the cycle.
+before the impacts of a walk that starts beside the cycle. `poincare` is the test of the reproduction: fixed
+point, multipliers by central differences, delta^2.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -28,10 +30,13 @@ from biped_adrc.analysis.stability import (
 from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.reference import TimeReference
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots import Limits
 from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.run import SETTLES, Cycle, known_cycle, method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import default_method
@@ -166,3 +171,90 @@ def walk_beside(P: ReturnMap, x_star: Array, impacts: int) -> Array:
             f"{run.status.value}; ask for fewer"
         )
     return np.array([event.x_minus[: 2 * n] for event in run.events(FOOT_STRIKE)])
+
+
+@dataclass(frozen=True)
+class PoincareResult:
+    """A fixed point and its multipliers; `with_states` says whether the controller's states count."""
+
+    controller: str
+    preset: str
+    reset: str
+    with_states: bool
+    orbit: PeriodicOrbit
+    delta_squared: float
+    half: PoincareResult | None = None
+    """The same at half the step."""
+
+    @property
+    def gap(self) -> float:
+        """Largest difference of a multiplier's magnitude from that at half the step; infinite without one."""
+        if self.half is None:
+            return math.inf
+        one, other = (np.sort(np.abs(r.orbit.multipliers)) for r in (self, self.half))
+        return float(np.max(np.abs(one - other)))
+
+    def record(self) -> dict[str, Any]:
+        """As plain values."""
+        half = None if self.half is None else np.abs(self.half.orbit.multipliers).tolist()
+        return {
+            **{name: getattr(self, name) for name in ("controller", "preset", "reset")},
+            "coordinates": len(self.orbit.multipliers),
+            "magnitudes": np.abs(self.orbit.multipliers).tolist(),
+            "x_minus": self.orbit.x_minus[:10].tolist(),
+            "residual": self.orbit.residual,
+            "delta_squared": self.delta_squared,
+            "stable": self.orbit.stable,
+            "magnitudes_at_half_the_step": half,
+        }
+
+
+def poincare_twice(run: Scenario) -> PoincareResult:
+    """As `poincare` at the run's step, or 1 ms, and at half of it."""
+    h = run.h or 1e-3
+    found = poincare(replace(run, h=h))
+    return replace(found, half=poincare(replace(run, h=0.5 * h)))
+
+
+def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
+    """Fixed point by Newton and multipliers by central differences, without disturbances."""
+    cycle = gait_map(replace(run, h=run.h or 1e-3, method=None), with_states)
+    P, guess = cycle.P, cycle.guess
+    scene = Scene.of(run)
+    biped, gait = scene.biped, scene.walked
+    # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
+    orbit = P.fixed_point(guess if with_states else guess[: 2 * biped.n])
+    delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
+    return PoincareResult(run.controller, biped.preset, run.reset, with_states, orbit, delta2)
+
+
+def regression_of(outcome: Outcome) -> Regression:
+    """(26), (27) over the impacts of a (disturbed) walk, about the gait's fixed point."""
+    gait = Scene.of(outcome.run).walked
+    x_star = np.concatenate((gait.q_minus, gait.v_minus))
+    x_minus = outcome.x_minus[:, : len(x_star)]
+    return regress_multipliers(x_minus, x_star)
+
+
+def return_map_samples(run: Scenario, size: float = 0.05, count: int = 21) -> tuple[Array, Array]:
+    """theta' before one impact against theta' before the next, for scaled speeds of the fixed point.
+
+    Returns both (count,) [rad/s]; NaN where the walker does not come back.
+    """
+    P, scene = gait_map(run, observer_states=False).P, Scene.of(run)
+    biped, gait = scene.biped, scene.walked
+    before = np.linspace(1.0 - size, 1.0 + size, count)
+    after = np.full(count, np.nan)
+    c = biped.phase
+    for i, factor in enumerate(before):
+        x = np.concatenate((gait.q_minus, factor * gait.v_minus))
+        image = P.lift(P(P.project(x)))
+        after[i] = c @ image[biped.n : 2 * biped.n]
+    return before * float(c @ gait.v_minus), after
+
+
+def speed_slope(biped: Biped, samples: tuple[Array, Array]) -> float:
+    """Slope of the return map in Theta' at its middle, by central difference."""
+    before, after = samples
+    i = len(before) // 2
+    return float((after[i + 1] - after[i - 1]) / (before[i + 1] - before[i - 1]))

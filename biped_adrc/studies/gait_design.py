@@ -1,22 +1,31 @@
-"""A gait from a wish: designed on the zero dynamics, then walked and certified before it is handed over."""
+"""A gait from a wish: designed on the zero dynamics, then walked and certified before it is handed over.
+
+Libraries of gaits over speed, stored as one readable file each, and gait (b) of the paper, as it walks:
+the fixed point of the closed loop, since the impact leaves its constraint.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate
+from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.columns import columns
 from biped_adrc.control.npd import NPDController
-from biped_adrc.errors import GaitError
+from biped_adrc.errors import GaitError, InputError, SimulationError
 from biped_adrc.gait.design.ipopt import Progress
 from biped_adrc.gait.design.optimise import Optimum, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
-from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.gait import Gait, load_gait
+from biped_adrc.gait.recipe import RecipeParameters, design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.hybrid.integrators import Adaptive
+from biped_adrc.hybrid.integrators import RK4, Adaptive
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots import KnownLimits
 from biped_adrc.scenario.walk import walk
@@ -138,13 +147,112 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
             "is its step cut short by the foot touching early?"
         )
     delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
-    return DesignedGait(
-        gait,
-        request,
-        optimum.objective,
-        certificate,
-        delta2,
-        gap,
-        optimum.iterations,
-        optimum.seconds,
-    )
+    effort = optimum.iterations, optimum.seconds
+    return DesignedGait(gait, request, optimum.objective, certificate, delta2, gap, *effort)
+
+
+MOST_SPEEDS = 1000
+
+
+@dataclass(frozen=True)
+class GaitLibrary:
+    """Gaits of one robot by speed [m/s], slowest first."""
+
+    gaits: Mapping[float, Gait]
+
+    def __post_init__(self) -> None:
+        if not self.gaits:
+            raise GaitError("a gait library needs at least one gait; found none")
+        if not all(speed > 0.0 for speed in self.gaits):
+            raise GaitError(f"speeds are {list(self.gaits)} m/s, expected positive numbers")
+        object.__setattr__(self, "gaits", dict(sorted(self.gaits.items())))
+
+    @property
+    def speeds(self) -> tuple[float, ...]:
+        """[m/s]."""
+        return tuple(self.gaits)
+
+    def nearest(self, speed: float) -> Gait:
+        """The gait whose speed is nearest."""
+        return self.gaits[min(self.gaits, key=lambda known: abs(known - speed))]
+
+    def save(self, folder: Path | str) -> tuple[Path, ...]:
+        """One file per gait, named by it and its preset. Raises GaitError for two of one name, OutputError."""
+        paths = [Path(folder) / g.file_name for g in self.gaits.values()]
+        twice = sorted({path.name for path in paths if paths.count(path) > 1})
+        if twice:
+            raise GaitError(f"several gaits would be written to {twice}; give them different names")
+        for path, gait in zip(paths, self.gaits.values(), strict=True):
+            gait.save(path)
+        return tuple(paths)
+
+    @classmethod
+    def load(cls, folder: Path | str, biped: Biped) -> GaitLibrary:
+        """The gaits of a folder that are of this robot and preset. Raises GaitError."""
+        gaits = {}
+        for path in sorted(Path(folder).glob(f"*-{biped.preset}.json")):
+            if _robot_of(path) == biped.description.name:
+                gait = load_gait(path, biped)
+                gaits[speed_of(gait, biped)] = gait
+        if not gaits:
+            raise GaitError(
+                f"folder '{folder}' has no gait of robot '{biped.description.name}', preset "
+                f"'{biped.preset}'; 'biped-adrc gait library' writes them"
+            )
+        return cls(gaits)
+
+
+def _robot_of(path: Path) -> str:
+    """The robot a gait file says it is of; empty where it says none."""
+    try:
+        return str(json.loads(path.read_text(encoding="utf-8")).get("robot", ""))
+    except (OSError, ValueError, AttributeError):
+        return ""
+
+
+def speed_of(gait: Gait, biped: Biped) -> float:
+    """Average speed along the ground [m/s]."""
+    return float(np.hypot(*biped.swing_foot(gait.q_minus)) / gait.period)
+
+
+def speeds_named(text: str) -> tuple[float, ...]:
+    """Speeds [m/s] from "0.4,0.5" or "0.4:1.1:0.1", the last one counted where it is met. Raises InputError."""
+    try:
+        if ":" in text:
+            first, last, by = (float(word) for word in text.split(":"))
+            if not (by > 0.0 and last >= first and (last - first) / by < MOST_SPEEDS):
+                raise ValueError
+            count = math.floor((last - first) / by + 1e-9) + 1
+            return tuple(round(first + k * by, 9) for k in range(count))
+        return tuple(float(word) for word in text.split(","))
+    except ValueError:
+        raise InputError(
+            f"speeds are '{text}', expected numbers as '0.4,0.5,0.6' or FIRST:LAST:STEP as '0.4:1.1:0.1' [m/s]"
+        ) from None
+
+
+SETTLE = 25
+"""Impacts walked before Newton starts."""
+
+
+def design_recipe_orbit(biped: Biped, parameters: RecipeParameters | None = None) -> Gait:
+    """Gait (b) with the pre-impact state of its walking cycle under NPD.
+
+    When no cycle is found the state of the zero dynamics is kept, and the provenance says so.
+    """
+    gait = design_recipe_gait(biped, parameters)
+    walker = Walker(biped, NPDController(gait.constraint))
+    settled = walk(walker, gait, SETTLE, RK4(1e-3))
+    try:
+        if not settled.trajectory.status.ok:
+            raise SimulationError(settled.trajectory.status.value)
+        guess = settled.trajectory.before(FOOT_STRIKE)[-1]
+        orbit = ReturnMap(walker, RK4(1e-3)).fixed_point(guess)
+    except SimulationError as error:
+        return replace(gait, provenance={**gait.provenance, "cycle": f"none found: {error}"})
+    q, v = np.split(orbit.x_minus[: 2 * biped.n], 2)
+    said = "fixed point of the return map under NPD, Table II, continuous time; largest multiplier"
+    told = {**gait.provenance, "cycle": f"{said} {abs(orbit.multipliers[0]):.4f}"}
+    found = replace(gait, q_minus=q, v_minus=v, provenance=told)
+    step = walk(walker, found, 1, RK4(1e-3))
+    return replace(found, period=step.trajectory.t_end)

@@ -3,23 +3,155 @@
 Tracking cannot reject a force that enters the unactuated row: Westervelt, Grizzle, Canudas de Wit (IEEE CDC
 2003) report that 3 N stop a gait of 0.50 m/s under any inner loop, and that a PI from step to step recovers
 it. Here the smallest force, a multiple of `resolution`, with which the simulated walk does not make all its
-steps is searched under NPD and ADRC, alone and inside the PI of `control.stride`, beside the force that
-the quadratures of `analysis.forced_steps` find without a simulation. The search starts from that force, and
-both sides of what it returns were simulated. That more force is never better is taken for granted.
+steps is searched under NPD and ADRC, alone and inside the PI of `control.stride` with the gains of its triple
+pole, beside the force that the quadratures of `analysis.forced_steps` find without a simulation. The search
+starts from that force, and both sides of what it returns were simulated. That more force is never better is
+taken for granted. Walks start on the orbit of their gait; the force (-force, 0) acts from the first instant on.
 """
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.stride_gain import DirectionMerit, direction_merits
+from biped_adrc.analysis.forced_steps import stopping_force
+from biped_adrc.analysis.legality import Legality, outcome_of
+from biped_adrc.analysis.stride_gain import STANCE_KNEE, DirectionMerit, direction_merits
+from biped_adrc.control.base import Controller
+from biped_adrc.control.stride import StridePI
 from biped_adrc.errors import InputError, SimulationError
-from biped_adrc.studies.hip_case import HipCase, PushedWalk
+from biped_adrc.gait.gait import Gait
+from biped_adrc.hybrid.status import Status
+from biped_adrc.model.biped import Biped
+from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.registry import find
+from biped_adrc.scenario.run import walk_scenario
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.studies.pool import Task, TaskProgress, run_tasks
+from biped_adrc.walker import FOOT_STRIKE
+
+
+class Parts(NamedTuple):
+    """The robot, the gait and the controller of a case."""
+
+    biped: Biped
+    gait: Gait
+    law: Controller
+
+
+@dataclass(frozen=True)
+class HipCase:
+    """One walker to be pushed. h [s]: of RK4 under NPD, of the exponential method under ADRC.
+
+    stride: whether the PI goes around the tracking; limit [rad]: its bound on |beta|.
+    Raises InputError for what no scenario is, or a resolution [N] that is not positive.
+    """
+
+    tracking: str
+    stride: bool
+    preset: str = "identified-bare"
+    gait: str = "v0.5"
+    direction: tuple[float, ...] = STANCE_KNEE
+    limit: float = 0.5
+    steps: int = 25
+    resolution: float = 0.1
+    h: float = 1e-3
+
+    def __post_init__(self) -> None:
+        self.scenario(0.0)
+        find("controller", self.tracking)
+        if not (math.isfinite(self.resolution) and self.resolution > 0):
+            raise InputError(f"the resolution is {self.resolution} N, expected a positive number")
+
+    @property
+    def name(self) -> str:
+        """Of the controller."""
+        return f"{self.tracking} with PI" if self.stride else self.tracking
+
+    def scenario(self, force: float) -> Scenario:
+        """The walk from the gait's orbit under a rearward force [N], which acts from its first instant on."""
+        around = {"inner": self.tracking, "direction": self.direction, "limit": self.limit}
+        return Scenario(
+            controller="stride PI" if self.stride else self.tracking,
+            own=around if self.stride else {},
+            preset=self.preset,
+            gait=self.gait,
+            impacts=self.steps,
+            h=self.h,
+            push="hip force",
+            pushed_step=1,
+            force=force,
+            direction=math.pi,
+        )
+
+    def parts(self) -> Parts:
+        """What walks; the gains of the PI are those of the triple pole."""
+        scene = Scene.of(self.scenario(0.0))
+        walker = build(self.scenario(0.0), scene)
+        return Parts(scene.biped, scene.walked, walker.controller)
+
+    def walk(self, force: float) -> Walk:
+        """The walk under this force [N]."""
+        return walk_scenario(self.scenario(force))
+
+    def predicted(self) -> float:
+        """The force [N] that stops it according to the quadratures."""
+        biped, gait, law = self.parts()
+        stride = law if isinstance(law, StridePI) else None
+        return stopping_force(gait, biped, self.steps, stride)
+
+
+@dataclass(frozen=True)
+class PushedWalk:
+    """What one force did, and what the finished steps needed; None where there is no finished step."""
+
+    force: float
+    """Rearward [N]."""
+    status: Status
+    speeds: tuple[float, ...]
+    """L / T of every finished step [m/s]."""
+    legality: Legality | None
+    """Of the finished steps, within the limits of the robot's record."""
+    clearance: float | None
+    """Least height of the swing foot inside a step [m]."""
+
+    @classmethod
+    def of(cls, case: HipCase, force: float) -> PushedWalk:
+        """Simulate it."""
+        made = case.walk(force)
+        count = len(made.trajectory.events(FOOT_STRIKE))
+        arcs = tuple(arc for arc in made.trajectory.arcs if arc.mode.step <= count)
+        finished = replace(made, trajectory=replace(made.trajectory, arcs=arcs))
+        steps = finished.certificates if arcs else ()
+        return cls(
+            force,
+            made.trajectory.status,
+            tuple(step.step_length / step.duration for step in steps),
+            finished.legality if arcs else None,
+            min((step.clearance for step in steps), default=None),
+        )
+
+    @property
+    def walks(self) -> bool:
+        """Whether all steps were made."""
+        return self.status.ok
+
+    @property
+    def outcome(self) -> str:
+        """One of the words in `analysis.legality.OUTCOMES`."""
+        return outcome_of(self.status, False) if self.legality is None else self.legality.outcome
+
+    def speed(self, last: int = 5) -> float | None:
+        """Mean of the last steps [m/s]."""
+        return float(np.mean(self.speeds[-last:])) if self.speeds else None
+
 
 MOST = 1000
 """Multiples of the resolution after which a search gives up."""
@@ -93,31 +225,31 @@ class HipPush:
 
     def text(self) -> str:
         """For a reader."""
-        lines = ["preset            controller     stops at [N]  by quadrature  speed below [m/s]"]
-        for x in self.limits:
-            lines.append(
-                f"{x.case.preset:<17} {x.case.name:<14} {x.stops.force:12.1f} {x.predicted:14.2f} "
-                f"{_shown(x.below.speed()):>18}"
-            )
-        lines += [
-            "",
-            "preset            controller        force [N]  outcome     speed [m/s]  peak [N m]",
-        ]
-        for case, w in self.kept:
-            peak = None if w.legality is None else w.legality.peak_torque
-            lines.append(
-                f"{case.preset:<17} {case.name:<14} {w.force:12.1f}  {w.outcome:<10} "
-                f"{_shown(w.speed()):>12} {_shown(peak, 1):>11}"
-            )
-        lines += [
-            "",
-            "preset            direction      gain [m/s per rad]  per torque [m/s per N m]",
-        ]
-        for preset, merits in self.directions.items():
-            lines += [
-                f"{preset:<17} {d.name:<14} {d.static_gain:18.3f} {d.merit:25.5f}" for d in merits
-            ]
-        return "\n".join(lines)
+        stops = (
+            f"{_named(x.case)} {x.stops.force:12.1f} {x.predicted:14.2f} {_shown(x.below.speed()):>18}"
+            for x in self.limits
+        )
+        kept = (
+            f"{_named(case)} {w.force:12.1f}  {w.outcome:<10} {_shown(w.speed()):>12} "
+            f"{_shown(w.legality.peak_torque if w.legality else None, 1):>11}"
+            for case, w in self.kept
+        )
+        merits = (
+            f"{preset:<17} {d.name:<14} {d.static_gain:18.3f} {d.merit:25.5f}"
+            for preset, found in self.directions.items()
+            for d in found
+        )
+        tables = {
+            "controller     stops at [N]  by quadrature  speed below [m/s]": stops,
+            "controller        force [N]  outcome     speed [m/s]  peak [N m]": kept,
+            "direction      gain [m/s per rad]  per torque [m/s per N m]": merits,
+        }
+        texts = (["preset            " + head, *rows] for head, rows in tables.items())
+        return "\n\n".join(map("\n".join, texts))
+
+
+def _named(case: HipCase) -> str:
+    return f"{case.preset:<17} {case.name:<14}"
 
 
 def _shown(x: float | None, digits: int = 4) -> str:
@@ -140,26 +272,16 @@ def hip_push(
             "no preset of RABBIT was given, expected at least one, such as 'identified'"
         )
     base = HipCase("NPD", False) if base is None else base
-    cases = [
-        replace(base, preset=preset, tracking=law, stride=stride)
-        for preset in presets
-        for law in CONTROLLERS
-        for stride in (False, True)
-    ]
+    every = itertools.product(presets, CONTROLLERS, (False, True))
+    cases = [replace(base, preset=p, tracking=law, stride=stride) for p, law, stride in every]
     tasks = [Task(f"{c.preset}, {c.name}", hip_limit, (c,)) for c in cases]
     limits = [found.value for found in run_tasks(tasks, workers, progress)]
-    kept = [
-        (replace(x.case, stride=True), x.stops.force + more)
-        for x in limits
-        if not x.case.stride
-        for more in (0.0, above)
-    ]
+    alone = [x for x in limits if not x.case.stride]
+    forces = [(x.case, x.stops.force + more) for x in alone for more in (0.0, above)]
+    kept = [(replace(case, stride=True), force) for case, force in forces]
     tasks = [Task(f"{c.preset}, {c.name}, {F:g} N", PushedWalk.of, (c, F)) for c, F in kept]
     walks = [found.value for found in run_tasks(tasks, workers, progress)]
     pairs = tuple((c, w) for (c, _), w in zip(kept, walks, strict=True))
-    return HipPush(tuple(limits), pairs, {p: _merits(replace(base, preset=p)) for p in presets})
-
-
-def _merits(case: HipCase) -> tuple[DirectionMerit, ...]:
-    biped, gait, _ = case.parts()
-    return direction_merits(gait, biped)
+    parts = {preset: replace(base, preset=preset).parts() for preset in presets}
+    merits = {preset: direction_merits(one.gait, one.biped) for preset, one in parts.items()}
+    return HipPush(tuple(limits), pairs, merits)

@@ -60,13 +60,11 @@ def model_laws(preset: str, samples: int = 500, seed: int = 1) -> list[Check]:
         lost = b.kinetic_energy(q, v) - b.kinetic_energy(hit.q, hit.v)
         growth = float(np.maximum(growth, -lost / b.kinetic_energy(q, v)))
     some = -(-samples // MOMENTA)
+    of_leg = "impact: change of the angular momentum of the old leg about its joints, relative"
     named = {
         "pinned against floating model, D_s and Omega, relative": (agree, samples),
         "impact: change of the angular momentum about the new foot, relative": (kept[0], some),
-        "impact: change of the angular momentum of the old leg about its joints, relative": (
-            kept[1],
-            some,
-        ),
+        of_leg: (kept[1], some),
         "impact: momentum, pinned at the new foot against floating, relative": (kept[2], some),
         "kinetic energy gained at impact, relative": (growth, samples),
     }
@@ -138,6 +136,13 @@ class HeldJoint(HybridSystem):
 
 HELD_STEP = 5e-4
 """[s]"""
+HELD = (
+    "tracking error per unit disturbance on a held joint, simulated [s^2]",
+    "the same at half the step [s^2]",
+    "the same by (23) corrected [s^2]",
+    "the same by (23) as printed [s^2]",
+)
+"""Figures of a held joint."""
 
 
 def held_joint(
@@ -204,23 +209,15 @@ def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
     etd_table, error = exponential_order(preset, 1.0)
     gap = abs(simulated - corrected) / corrected
     change = abs(simulated - half) / half
+    held, sampled = "tracking error on a held joint", "order of continuous against sampled control"
     checks = [
-        at_most(
-            "tracking error on a held joint, change when the step is halved", "law", change, 0.01
-        ),
-        at_most(
-            "tracking error on a held joint against (23) corrected, relative", "law", gap, 1e-3
-        ),
-        between(
-            "order of continuous against sampled control in the period", "law", order, 0.9, 1.1
-        ),
+        at_most(f"{held}, change when the step is halved", "law", change, 0.01),
+        at_most(f"{held} against (23) corrected, relative", "law", gap, 1e-3),
+        between(f"{sampled} in the period", "law", order, 0.9, 1.1),
         between("order of the exponential method, Table I times 0.05", "law", etd, 3.7, 4.3),
     ]
     figures = {
-        "tracking error per unit disturbance on a held joint, simulated [s^2]": simulated,
-        "the same at half the step [s^2]": half,
-        "the same by (23) corrected [s^2]": corrected,
-        "the same by (23) as printed [s^2]": printed,
+        **dict(zip(HELD, (simulated, half, corrected, printed), strict=True)),
         "order of the exponential method with Table I itself": etd_table,
         "error of the exponential method with Table I at 0.5 ms over 0.1 s [rad]": error,
     }

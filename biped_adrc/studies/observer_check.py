@@ -128,14 +128,7 @@ class DelayCase(NamedTuple):
         q, v = self.gait.start(self.biped)
         v = v + NUDGE * (np.arange(len(v)) == 0)
         h = _step(self.observer, controller)
-        run = walk(
-            walker,
-            self.gait,
-            self.impacts,
-            RK4(h),
-            start=(q, v),
-            engine="compiled",
-        )
+        run = walk(walker, self.gait, self.impacts, RK4(h), start=(q, v), engine="compiled")
         limit = "no torque limit" if torque_limit is None else f"within {torque_limit:g} N m"
         words = f"{1e6 * delay:.4g} us {'known' if self.known else 'hidden'}, {limit}"
         name, errors = observer_name(self.observer), step_errors(self.gait, run.trajectory)
@@ -152,17 +145,9 @@ def check_delay(case: DelayCase) -> DelayCheck:
     below, finer = (case.walked(BELOW * margin, order) for order in (ORDER, FINER))
     count = min(len(below.errors), len(finer.errors))
     change = float(np.max(np.abs(below.errors[:count] - finer.errors[:count])))
-    limit = case.biped.description.peak_torque
-    return DelayCheck(
-        observer_name(case.observer),
-        case.known,
-        margin,
-        below,
-        case.walked(ABOVE * margin),
-        robot_margin(case),
-        change,
-        case.walked(ABOVE * margin, torque_limit=limit),
-    )
+    limited = case.walked(ABOVE * margin, torque_limit=case.biped.description.peak_torque)
+    walks = (below, case.walked(ABOVE * margin), robot_margin(case), change, limited)
+    return DelayCheck(observer_name(case.observer), case.known, margin, *walks)
 
 
 def robot_margin(case: DelayCase) -> float:

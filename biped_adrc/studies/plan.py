@@ -18,10 +18,10 @@ from biped_adrc.scenario.push import Push, joints_push
 from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.claims.admissible import method
-from biped_adrc.studies.claims.gathered import claim_tasks
+from biped_adrc.studies.claims.evidence import claim_tasks
+from biped_adrc.studies.cycle_stability import poincare_twice, return_map_samples
 from biped_adrc.studies.laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.studies.pair import CONTROLLERS
-from biped_adrc.studies.poincare import poincare_twice, return_map_samples
 from biped_adrc.studies.pool import Task
 from biped_adrc.studies.push_map import PATTERNS, push_map, pushes
 
@@ -189,22 +189,17 @@ def recipe_result(preset: str, controller: str) -> RecipeResult:
     try:
         gait = load_gait("recipe", biped)
         found = execute_twice(run)
-        record = {
-            "status": found.status,
-            "impacts": found.impacts,
-            "peak_error": found.peak_error,
-            "peak_torque": found.peak_torque,
-            "impact_rate_jump": impact_smoothness(gait, biped).tolist(),
-        }
+        names = ("status", "impacts", "peak_error", "peak_torque")
+        record = {name: getattr(found, name) for name in names}
+        record["impact_rate_jump"] = impact_smoothness(gait, biped).tolist()
         if found.certificates:
             last = found.certificates[-1]
             record |= {"certificate": last.record(), "violations": list(last.violations())}
         cycle = poincare_twice(replace(run, h=1e-3))
-        orbit = cycle.orbit
-        gap = orbit.x_minus[: 2 * biped.n] - X_STAR
+        orbit, x_minus = cycle.orbit, cycle.orbit.x_minus[: 2 * biped.n]
         record |= {
-            "x_minus": orbit.x_minus[: 2 * biped.n].tolist(),
-            "distance_to_x_star": gap.tolist(),
+            "x_minus": x_minus.tolist(),
+            "distance_to_x_star": (x_minus - X_STAR).tolist(),
             "multipliers": abs(orbit.multipliers).tolist(),
             "multipliers_change": cycle.gap,
             "stable": orbit.stable,

@@ -9,6 +9,7 @@ Every walk is carried out at two steps. A cell in which they end differently is 
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -162,13 +163,8 @@ def pushes(
     limits: Sequence[float | None],
 ) -> list[Tried]:
     """All of them, the limits slowest and the onsets fastest."""
-    return [
-        Tried(onset, amplitude, pattern, limit)
-        for limit in limits
-        for pattern in patterns
-        for amplitude in amplitudes
-        for onset in onsets
-    ]
+    every = itertools.product(limits, patterns, amplitudes, onsets)
+    return [Tried(onset, amplitude, of, limit) for limit, of, amplitude, onset in every]
 
 
 def settings_of(cells: Sequence[Cell]) -> Iterator[tuple[str, list[Cell]]]:

@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from biped_adrc.analysis.regression import Regression
 from biped_adrc.checks import Check
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.errors import OutputError
@@ -20,19 +21,18 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.scenario.stored import replay
 from biped_adrc.studies import verdicts
-from biped_adrc.studies.claims.gathered import gathered
+from biped_adrc.studies.claims.evidence import gathered
 from biped_adrc.studies.claims.table import claims
 from biped_adrc.studies.claims.words import MEANINGS, PREFACE, Claim, claim_checks
 from biped_adrc.studies.convergence import observed_order, records
 from biped_adrc.studies.figures import push_window
-from biped_adrc.studies.findings import findings
 from biped_adrc.studies.laws import work_identity
 from biped_adrc.studies.pictures import draw_all
 from biped_adrc.studies.plan import BOTH, Headline, Plan
 from biped_adrc.studies.plan import tasks as planned_tasks
 from biped_adrc.studies.pool import TaskProgress, run_tasks
 from biped_adrc.studies.results import Results
-from biped_adrc.studies.tables import tables
+from biped_adrc.studies.tables import findings, notes, tables
 from biped_adrc.versions import versions
 from biped_adrc.viz.meshcat import Look, animation_html
 from biped_adrc.viz.pages import write_report
@@ -101,7 +101,7 @@ def _said(plan: Plan, r: Results, found: list[Claim]) -> dict[str, Any]:
         "claims_preface": PREFACE,
         "claims_words": MEANINGS,
         "claims": [claim.record() for claim in found],
-        "notes": _notes() + verdicts.recipe_notes(r, plan),
+        "notes": notes() + verdicts.recipe_notes(r, plan),
     }
 
 
@@ -113,7 +113,7 @@ def _numbers(plan: Plan, r: Results) -> dict[str, Any]:
         "multipliers": {c: r.multipliers[c].record() for c in BOTH if c in r.multipliers},
         "headline": {c: _three_steps(head) for c, head in r.heads.items()},
         "convergence": list(records(r.run_twice)),
-        "regression": {c: found.record() for c, found in r.regressions.items()},
+        "regression": {c: _regression(c, found) for c, found in r.regressions.items()},
     }
 
 
@@ -178,15 +178,9 @@ def _stored(head: Headline) -> Trajectory:
     return replace(head.trajectory, arcs=tuple(arcs))
 
 
-def _notes() -> list[str]:
-    return [
-        "x* as printed puts the swing foot 0.13 mm under the ground; q1..q4 were moved onto the section within "
-        "half a unit of their last printed digit before gait (a) was designed.",
-        "The paper prints no masses, polynomial coefficients or push amplitudes. The robot is RABBIT, whose "
-        "geometry fits x*; the push is stated in the settings.",
-        "The impulse ratio at impact is reported without a limit: the pinned model of the paper cannot slip.",
-        "A torque on the unactuated torso enters the zero dynamics; no tracking controller rejects it.",
-    ]
+def _regression(controller: str, found: Regression) -> dict[str, Any]:
+    names = ("magnitudes", "rank", "condition", "samples", "warning")
+    return {"controller": controller, **{name: getattr(found, name) for name in names}}
 
 
 def _animate(r: Results) -> str:

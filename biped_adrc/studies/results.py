@@ -6,10 +6,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from biped_adrc.analysis.regression import Regression
 from biped_adrc.checks import Check
 from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.studies.cycle_stability import PoincareResult, regression_of
 from biped_adrc.studies.plan import BOTH, Headline, Plan, RecipeResult
-from biped_adrc.studies.poincare import PoincareResult, RegressionTest, regression_of
 from biped_adrc.studies.push_map import Cell
 from biped_adrc.types import Array
 
@@ -55,7 +56,7 @@ class Results:
         return {c: self.headline[c][0] for c in BOTH if c in self.headline}
 
     @property
-    def regressions(self) -> dict[str, RegressionTest]:
+    def regressions(self) -> dict[str, Regression]:
         """(26), (27) on the pushed walks."""
         return {c: regression_of(head.outcome) for c, head in self.heads.items()}
 

@@ -8,11 +8,7 @@ from biped_adrc.checks import Check, at_least, at_most, below
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.scenario.build import Scene
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.studies.convergence import (
-    MULTIPLIER_ROUND_OFF,
-    convergence_check,
-    observed_order,
-)
+from biped_adrc.studies.convergence import MULTIPLIER_ROUND_OFF, convergence_check, observed_order
 from biped_adrc.studies.plan import BOTH, Plan
 from biped_adrc.studies.results import Results
 from biped_adrc.types import Array
@@ -27,14 +23,10 @@ def distance(outcome: Outcome) -> float:
 
 def consistency_checks(plan: Plan, r: Results) -> list[Check]:
     """Gait (a) closes on the published x* under both controllers in every preset."""
+    walks = {f"{_gait(name, 'a')}: distance to x*": o for name, o in r.nominal(plan)}
     return [
-        at_most(
-            f"{_gait(name, 'a')}: distance to x* after {o.impacts} impacts",
-            "consistency",
-            distance(o),
-            5e-4,
-        )
-        for name, o in r.nominal(plan)
+        at_most(f"{name} after {o.impacts} impacts", "consistency", distance(o), 5e-4)
+        for name, o in walks.items()
     ]
 
 
@@ -64,13 +56,9 @@ def multiplier_checks(r: Results) -> list[Check]:
     """The multiplier of the walking cycle is delta^2; everything is inside the unit circle."""
     npd = r.multipliers["NPD"]
     sizes = np.abs(npd.orbit.multipliers)
+    closed = "NPD: largest multiplier against delta^2 of the zero dynamics"
     found = [
-        at_most(
-            "NPD: largest multiplier against delta^2 of the zero dynamics",
-            "law",
-            abs(sizes[0] - npd.delta_squared),
-            1e-5,
-        ),
+        at_most(closed, "law", abs(sizes[0] - npd.delta_squared), 1e-5),
         below("NPD: the other eight multipliers", "reproduced", sizes[1], 1e-3),
     ]
     for name, what in (

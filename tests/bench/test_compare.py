@@ -12,8 +12,14 @@ from biped_adrc.studies.bench import compare_study
 from biped_adrc.studies.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS, Cell
 from biped_adrc.studies.bench.compare_study import RESULTS, run_comparison
 from biped_adrc.studies.bench.comparison import NOMINAL, compare
-from biped_adrc.studies.bench.conditions import COMPARED, CONDITIONS, record
-from biped_adrc.studies.bench.equal_bandwidth import BANDWIDTH, OWN, equal_record
+from biped_adrc.studies.bench.conditions import (
+    BANDWIDTH,
+    COMPARED,
+    CONDITIONS,
+    OWN,
+    equal_record,
+    record,
+)
 from biped_adrc.studies.bench.largest_push import (
     DIRECTIONS,
     LADDER,

@@ -19,8 +19,8 @@ from standin import about, records, results, rows
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.studies.bench import execute
 from biped_adrc.studies.bench import workers as of_workers
+from biped_adrc.studies.bench.chunk import Point, point
 from biped_adrc.studies.bench.execute import LOOK_UP, MOST_DEATHS, run_study
-from biped_adrc.studies.bench.points import Point, point
 from biped_adrc.studies.bench.store_open import open_store, read_store
 from biped_adrc.studies.bench.workers import Processes, Threads
 

@@ -6,8 +6,7 @@ import pytest
 
 from biped_adrc.studies.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS
 from biped_adrc.studies.bench.comparison import compare
-from biped_adrc.studies.bench.conditions import CONDITIONS
-from biped_adrc.studies.bench.equal_bandwidth import BANDWIDTH
+from biped_adrc.studies.bench.conditions import BANDWIDTH, CONDITIONS
 from biped_adrc.studies.bench.findings import answers, bandwidth_decides, sentences
 from biped_adrc.studies.bench.largest_push import PHASES
 from biped_adrc.studies.bench.run import COLUMNS

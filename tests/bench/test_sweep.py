@@ -21,13 +21,11 @@ from biped_adrc.cli import sweep as _  # noqa: F401
 from biped_adrc.errors import InputError, OutputError
 from biped_adrc.resources import data_folder
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.bench.build import scene_of
+from biped_adrc.studies.bench.build import files_of_study, scene_of
 from biped_adrc.studies.bench.cluster import Cluster
-from biped_adrc.studies.bench.export import export
-from biped_adrc.studies.bench.maps import sweep_map, write_map
-from biped_adrc.studies.bench.named_files import files_of_study
-from biped_adrc.studies.bench.rehearsal import rehearse
+from biped_adrc.studies.bench.export import export, sweep_map, write_map
 from biped_adrc.studies.bench.run import run_trials
+from biped_adrc.studies.bench.study import rehearse
 from biped_adrc.studies.bench.study_file import read_study
 from biped_adrc.studies.bench.sweep import Table, load_sweep, sweep
 from biped_adrc.studies.bench.workers import Processes, Threads

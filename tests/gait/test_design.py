@@ -21,8 +21,13 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlanarTree, ground_reaction, point, turned
 from biped_adrc.model.robots import robot_names
-from biped_adrc.studies.gait_design import DesignedGait, design_gait
-from biped_adrc.studies.gait_library import GaitLibrary, speed_of, speeds_named
+from biped_adrc.studies.gait_design import (
+    DesignedGait,
+    GaitLibrary,
+    design_gait,
+    speed_of,
+    speeds_named,
+)
 
 SPEEDS = tuple(round(0.4 + 0.1 * k, 1) for k in range(8))
 

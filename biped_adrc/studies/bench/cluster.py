@@ -14,11 +14,12 @@ from typing import Any, ClassVar
 
 from biped_adrc.errors import InputError
 from biped_adrc.studies.bench.workers import Workers, WorkersError
-from biped_adrc.versions import numerical_versions
+from biped_adrc.versions import differences, numerical_versions
 
 TIMEOUT = 10.0
 """[s] for a scheduler to answer, and for its first worker."""
 
+PRINTED = "tcp://host:8786, which 'dask scheduler' prints when it starts"
 ADDRESS = re.compile(r"(?:(?:tcp|tls)://)?(?:\[[0-9a-fA-F:.]+\]|[\w.-]+):([0-9]{1,5})")
 
 
@@ -44,12 +45,12 @@ class Cluster(Workers):
             raise
         return _Checked(client, client.get_executor(pure=False), numerical_versions())
 
-    def count(self, executor: Executor) -> int:
-        return max(1, sum(_of(executor).client.nthreads().values()))
+    def count(self, executor: Any) -> int:
+        return max(1, sum(executor.client.nthreads().values()))
 
-    def stop(self, executor: Executor, now: bool) -> None:
+    def stop(self, executor: Any, now: bool) -> None:
         executor.shutdown(wait=not now)
-        _of(executor).client.close(timeout=2)
+        executor.client.close(timeout=2)
 
     def restart(self, executor: Executor) -> Executor:
         """The scheduler has put others in the place of workers that died."""
@@ -60,8 +61,8 @@ class Cluster(Workers):
 
         return super().broken(error) or isinstance(error, KilledWorker)
 
-    def check(self, executor: Executor) -> None:
-        client = _of(executor).client
+    def check(self, executor: Any) -> None:
+        client = executor.client
         comm = client.scheduler_comm
         if client.status != "running" or comm is None or comm.comm.closed():
             raise WorkersError(
@@ -87,11 +88,7 @@ def _check_workers(client: Any, address: str, timeout: float) -> None:
 
 def difference(found: Mapping[str, str] | str, expected: Mapping[str, str]) -> str:
     """Which versions differ; empty when none does. Text in their place is what went wrong there."""
-    if isinstance(found, str):
-        return found
-    names = sorted({*found, *expected})
-    pairs = [(name, found.get(name), expected.get(name)) for name in names]
-    return "; ".join(f"{name} {a} there, {b} here" for name, a, b in pairs if a != b)
+    return found if isinstance(found, str) else differences(found, expected)
 
 
 def _refusal(who: str, text: str) -> str:
@@ -108,24 +105,18 @@ def _client(address: str, timeout: float) -> Any:
         raise InputError(
             "a study on a Dask cluster needs Dask, which is not installed; pip install 'biped-adrc[cluster]'"
         ) from error
-    _check_address(address)
+    match = ADDRESS.fullmatch(address)
+    if match is None or not 0 < int(match[1]) < 2**16:
+        raise InputError(
+            f"the address of the Dask scheduler is '{address}', expected one such as {PRINTED}"
+        )
     try:
         return connect(address, timeout=timeout, set_as_default=False)  # type: ignore[no-untyped-call]
     except (OSError, ValueError, TypeError, TimeoutError, ImportError) as error:
         raise InputError(
             f"no Dask scheduler answers at '{address}' within {timeout:g} s ({type(error).__name__}: {error}); "
-            "expected an address such as tcp://host:8786, which 'dask scheduler' prints when it starts"
+            f"expected an address such as {PRINTED}"
         ) from error
-
-
-def _check_address(address: str) -> None:
-    """Raises InputError."""
-    match = ADDRESS.fullmatch(address)
-    if match is None or not 0 < int(match[1]) < 2**16:
-        raise InputError(
-            f"the address of the Dask scheduler is '{address}', expected one such as tcp://host:8786, which "
-            "'dask scheduler' prints when it starts"
-        )
 
 
 def _asked() -> Callable[[], Any]:
@@ -161,9 +152,3 @@ class _Checked(Executor):
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         self.inner.shutdown(wait=wait and not cancel_futures)
-
-
-def _of(executor: Executor) -> _Checked:
-    if not isinstance(executor, _Checked):
-        raise TypeError(f"{executor!r} was not started by a cluster")
-    return executor

@@ -6,28 +6,26 @@ its record.
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
 
-from biped_adrc.files import write_bytes, write_text
+from biped_adrc.files import write_text
 from biped_adrc.model.robots import Limits
 from biped_adrc.scenario.registry import find, is_own, source_hash, words
 from biped_adrc.studies.bench.build import scene_of
 from biped_adrc.studies.bench.cell import IMPULSE, Row, is_legal, number
+from biped_adrc.studies.bench.chunk import Point, key_of, text_of
 from biped_adrc.studies.bench.comparison import NOMINAL, Comparison, check, compare
-from biped_adrc.studies.bench.conditions import BASE, COMPARED, CONDITIONS
-from biped_adrc.studies.bench.equal_bandwidth import NOT_ALIKE, OWN
+from biped_adrc.studies.bench.conditions import BASE, COMPARED, CONDITIONS, NOT_ALIKE, OWN
 from biped_adrc.studies.bench.execute import LARGEST_CHUNK, Progress, run_study
 from biped_adrc.studies.bench.findings import answers, sentences
 from biped_adrc.studies.bench.parameters import trial
-from biped_adrc.studies.bench.points import Point, key_of, text_of
 from biped_adrc.studies.bench.run import run_trials
 from biped_adrc.studies.bench.store import About, Store
 from biped_adrc.studies.bench.store_open import open_store
@@ -54,11 +52,12 @@ class Stored:
     store: Store
     workers: Workers | Executor | int | None
     progress: Callable[[Progress], None] | None
-    walks: int = field(default=0)
+    walks: int = 0
     """Walked or found, so far."""
 
     def __call__(self, records: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
         points = [_point(record) for record in records]
+        keys = [key_of(text_of(point.record)) for point in points]
         run_study(
             run_trials,
             points,
@@ -70,7 +69,6 @@ class Stored:
             first=self.walks,
         )
         self.walks += len(points)
-        keys = [key_of(text_of(point.record)) for point in points]
         rows = self.store.rows(keys)
         return [rows[key] for key in keys]
 
@@ -103,11 +101,10 @@ def run_comparison(
         "seeds": seeds,
         "pushes": pushes,
     }
-    name = hashlib.sha256(json.dumps(asked, sort_keys=True).encode()).hexdigest()[:32]
     sources = {
         f"source {c}": source_hash(find("controller", c).load()) for c in controllers if is_own(c)
     }
-    about = About("comparison", name, asked, {**numerical_versions(), **sources})
+    about = About("comparison", key_of(text_of(asked)), asked, {**numerical_versions(), **sources})
     check_folder(out)
     workers_of(workers).prepare()
     with open_store(out / RESULTS, about, other_versions) as store:
@@ -130,22 +127,18 @@ def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, A
         "conditions": {name: CONDITIONS[name].words for name in found.conditions},
         "cells": [cell.row() for cell in found.cells],
         "equal_bandwidth": [
-            {
-                "own": found.cell(x.controller, x.condition).row()
-                | {"bandwidth": OWN[x.controller]},
-                "equal": x.row(),
-            }
+            {"own": replace(own, bandwidth=OWN[x.controller]).row(), "equal": x.row()}
             for x in found.equal
+            for own in [found.cell(x.controller, x.condition)]
         ],
         "pushes": [push.row() for push in found.pushes],
         "tests": [answer.row() for answer in found_out],
         "base": dict(BASE),
         "versions": dict(numerical_versions()),
     }
-    drawn = draw(summary)
-    for name, svg in drawn.items():
-        write_bytes(out / f"{name}.svg", svg)
-    texts = {name: svg.decode("utf-8") for name, svg in drawn.items()}
+    texts = {name: svg.decode("utf-8") for name, svg in draw(summary).items()}
+    for name, svg in texts.items():
+        write_text(out / f"{name}.svg", svg)
     write_text(out / "comparison.html", comparison_html(summary, texts))
     write_text(out / "summary.json", json.dumps(summary, indent=1) + "\n")
     return summary
@@ -154,11 +147,8 @@ def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, A
 def nominal(row: Row) -> dict[str, Any]:
     """What the undisturbed gait needs of ground and motors, and what is illegal about it, in words."""
     needs = {name: number(row, name) for name in NEEDS}
-    broken = [
-        words
-        for name, words in {**REASONS, IMPULSE: "impulse at impact"}.items()
-        if row.get(name) == 1
-    ]
+    reasons = {**REASONS, IMPULSE: "impulse at impact"}
+    broken = [words for name, words in reasons.items() if row.get(name) == 1]
     return {
         "trial": dict(NOMINAL),
         "status": str(row["status"]),

@@ -7,26 +7,15 @@ medians are over the walks that make all their steps legally and have bootstrap 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.registry import find, is_own, names
+from biped_adrc.studies.bench import conditions as given
 from biped_adrc.studies.bench.cell import Cell, Row
 from biped_adrc.studies.bench.chunk import NO_WALK
-from biped_adrc.studies.bench.conditions import BASE, COMPARED, CONDITIONS, record
-from biped_adrc.studies.bench.equal_bandwidth import (
-    BANDWIDTH,
-    equal_record,
-    equal_values,
-    walked_again,
-)
-from biped_adrc.studies.bench.largest_push import (
-    Carry,
-    Largest,
-    gathered,
-    largest_pushes,
-    searches,
-)
+from biped_adrc.studies.bench.conditions import BANDWIDTH, BASE, COMPARED, CONDITIONS, walked_again
+from biped_adrc.studies.bench.largest_push import Carry, Largest, gathered, largest_pushes, searches
 
 PUSH_SEEDS = 5
 """Seeds of the largest pushes, at most."""
@@ -34,8 +23,7 @@ NOMINAL = {k: v for k, v in BASE.items() if k != "start_speed_spread"} | {"contr
 """The trial that nothing disturbs, started on the gait: what the gait itself needs."""
 
 
-@dataclass(frozen=True)
-class Comparison:
+class Comparison(NamedTuple):
     """What a comparison found."""
 
     controllers: tuple[str, ...]
@@ -62,18 +50,14 @@ class Comparison:
 
 def check(controllers: Sequence[str], conditions: Sequence[str], seeds: int) -> None:
     """Raise InputError for a name that there is not, twice the same, or no seeds."""
-    for kind, given, known in (
-        ("controller", controllers, names("controller")),
-        ("condition", conditions, tuple(CONDITIONS)),
+    own = tuple(filter(is_own, controllers))
+    for kind, asked, known, more in (
+        ("controller", controllers, names("controller"), own),
+        ("condition", conditions, tuple(CONDITIONS), ()),
     ):
-        wrong = [
-            name
-            for name in given
-            if name not in known and not (kind == "controller" and is_own(name))
-        ]
-        if wrong or not given or len(set(given)) < len(given):
+        if not asked or not {*asked} <= {*known, *more} or len(set(asked)) < len(asked):
             raise InputError(
-                f"the comparison names the {kind}s {list(given)}, expected different ones of {list(known)}"
+                f"the comparison names the {kind}s {list(asked)}, expected different ones of {list(known)}"
             )
     for name in controllers:
         find("controller", name).load()
@@ -90,33 +74,23 @@ def compare(
 ) -> Comparison:
     """The whole comparison; `carry` walks trials, here or anywhere. Raises InputError as `check`."""
     check(controllers, conditions, seeds)
-    names = [(c, d) for c in controllers for d in conditions]
-    again = [(c, d) for c in walked_again(controllers) for d in conditions]
+    again = walked_again(controllers)
+    cells = [(c, d, None) for c in controllers for d in conditions]
+    equal = [(c, d, BANDWIDTH) for c in again for d in conditions]
     records = [
         NOMINAL,
-        *(record(d, c, seed) for c, d in names for seed in range(seeds)),
-        *(equal_record(d, c, seed) for c, d in again for seed in range(seeds)),
+        *(given.record(d, c, seed) for c, d, _ in cells for seed in range(seeds)),
+        *(given.equal_record(d, c, seed) for c, d, _ in equal for seed in range(seeds)),
     ]
     nominal, *rows = walked_rows(carry(records))
-    parts = [tuple(rows[i : i + seeds]) for i in range(0, len(rows), seeds)]
-    cells = [Cell(*name, part) for name, part in zip(names, parts, strict=False)]
-    equal = [
-        Cell(*name, part, BANDWIDTH) for name, part in zip(again, parts[len(names) :], strict=True)
-    ]
-    found: list[Largest] = []
-    if pushes:
-        few = min(seeds, PUSH_SEEDS)
-        begun = searches(controllers, few) + searches(walked_again(controllers), few, equal_values)
-        found = gathered(largest_pushes(begun, lambda records: walked_rows(carry(records))))
-    return Comparison(
-        tuple(controllers),
-        tuple(conditions),
-        seeds,
-        nominal,
-        tuple(cells),
-        tuple(equal),
-        tuple(found),
-    )
+    parts = (tuple(rows[i : i + seeds]) for i in range(0, len(rows), seeds))
+    found = [Cell(c, d, part, w) for (c, d, w), part in zip([*cells, *equal], parts, strict=True)]
+    few = min(seeds, PUSH_SEEDS) if pushes else 0
+    begun = searches(controllers, few) + searches(again, few, given.equal_values)
+    done = largest_pushes(begun, lambda records: walked_rows(carry(records)))
+    split, largest = len(cells), tuple(gathered(done))
+    told = tuple(controllers), tuple(conditions), seeds, nominal
+    return Comparison(*told, tuple(found[:split]), tuple(found[split:]), largest)
 
 
 def walked_rows(rows: Sequence[Row]) -> Sequence[Row]:

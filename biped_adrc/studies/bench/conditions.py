@@ -2,107 +2,68 @@
 
 The base is a sampled controller with exact sensors and RABBIT's 150 N m; every walk starts a little off the
 gait's speed, by its seed. What is random in a condition is drawn anew for every seed, and is the same for all
-controllers.
+controllers. Each controller runs at its author's or its example's settings, and those with an observer once
+more with all poles at the geometric mean of Table I, so that what is left between two of them is not bandwidth.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from biped_adrc.observers.gpi import TABLE_I
+from biped_adrc.resources import packaged
+from biped_adrc.scenario.registry import find
 
 
-@dataclass(frozen=True)
-class Condition:
+class Condition(NamedTuple):
     """words: for a reader. values: of a scenario."""
 
     words: str
     values: Mapping[str, Any]
 
 
-BASE: Mapping[str, Any] = {
-    "impacts": 25,
-    "period": 1e-3,
-    "torque_limit": 150.0,
-    "start_speed_spread": 0.02,
-}
-JOINTS = "q1,q2,q3,q4"
-AFTERWARDS = 3
-"""Single support in which pulses come."""
-
+SAID: Mapping[str, Any] = packaged("biped_adrc.studies.bench", "comparison.toml")
+"""The file comparison.toml."""
+BASE: Mapping[str, Any] = SAID["base"]
 COMPARED = ("PD", "NPD", "ADRC", "ADRC output", "LESO", "DOB", "CLF-QP")
 """Controllers, in the order of the tables."""
-CONDITIONS: dict[str, Condition] = {
-    "nothing": Condition(
-        "a start 2 % (rms) faster or slower than the gait, as everywhere below", {}
-    ),
-    "push on joints": Condition(
-        "up to 100 N m on each joint for 0.2 s in step 3, signs and onset drawn",
-        {"push": "pulse", "on": "random joints", "amplitude": 100.0, "pushed_step": AFTERWARDS},
-    ),
-    "sine on joints": Condition(
-        "20 N m at 5 Hz on q1 to q4, all the way",
-        {
-            "push": "sine",
-            "on": JOINTS,
-            "amplitude": 20.0,
-            "pushed_step": 1,
-            "onset": 0.0,
-            "duration": 60.0,
-        },
-    ),
-    "noise on joints": Condition(
-        "15 N m (rms) up to 15 Hz on q1 to q4, all the way",
-        {
-            "push": "noise",
-            "on": JOINTS,
-            "amplitude": 15.0,
-            "pushed_step": 1,
-            "onset": 0.0,
-            "duration": 60.0,
-            "frequency": 15.0,
-        },
-    ),
-    "push on the torso": Condition(
-        "30 N m on the unactuated torso for 0.2 s in step 3, onset drawn: unmatched",
-        {"push": "pulse", "on": "q5", "amplitude": 30.0, "pushed_step": AFTERWARDS},
-    ),
-    "pull at the torso": Condition(
-        "3 N backwards on the torso for good from step 3: unmatched",
-        {
-            "push": "step",
-            "on": "link torso",
-            "force": 3.0,
-            "direction": math.pi,
-            "pushed_step": AFTERWARDS,
-            "onset": 0.0,
-        },
-    ),
-    "wrong model": Condition(
-        "masses and inertias off by up to 20 %, centres of mass by 10 %",
-        {"mass_error": 0.2, "inertia_error": 0.2, "com_error": 0.1},
-    ),
-    "wrong impact": Condition(
-        "every rate after an impact off by up to 5 %", {"impact_error": 0.05}
-    ),
-    "uneven ground": Condition("footholds 3 mm (rms) up and down", {"ground_rms": 3e-3}),
-    "delay": Condition("torques act 2 ms late, unknown to the controller", {"delay": 2e-3}),
-    "encoders": Condition(
-        "8192 counts per revolution, rates from differences, every 1 ms",
-        {"counts": 8192.0, "velocity": "differences"},
-    ),
-    "RABBIT": Condition(
-        "the robot's own: every 1.5 ms, 8192 counts, joint friction that no model has",
-        {"hardware": "rabbit", "period": 1.5e-3},
-    ),
+CONDITIONS = {
+    name: Condition(said["words"], {k: x for k, x in said.items() if k != "words"})
+    for name, said in SAID["conditions"].items()
 }
 """By name, in the order of the table."""
 
+BANDWIDTH = math.exp(sum(math.log(abs(p)) for p in TABLE_I) / len(TABLE_I))
+"""Geometric mean of the poles of Table I [rad/s]."""
+OWN = {
+    **dict.fromkeys(("ADRC", "ADRC output"), BANDWIDTH),
+    **{name: float(find("controller", name).defaults["bandwidth"]) for name in ("LESO", "DOB")},
+}
+"""The controllers with an observer, and the bandwidth of their own settings [rad/s]: of Table I the geometric
+mean; LESO's walks with encoders at 1 kHz."""
+ORDER = dict.fromkeys(("ADRC", "ADRC output"), len(TABLE_I) - 2)
+"""m of the observer, where the trial has to say it with a bandwidth."""
+NOT_ALIKE: str = SAID["texts"]["settings"].format(**OWN)
 
-def record(
-    condition: str, controller: str, seed: int, base: Mapping[str, Any] = BASE
-) -> dict[str, Any]:
+
+def record(condition: str, controller: str, seed: int) -> dict[str, Any]:
     """The values of one trial."""
-    values = CONDITIONS[condition].values
-    return {**base, **values, "controller": controller, "seed": seed}
+    return {**BASE, **CONDITIONS[condition].values, "controller": controller, "seed": seed}
+
+
+def walked_again(controllers: Sequence[str]) -> list[str]:
+    """Those of the controllers that have an observer."""
+    return [c for c in controllers if c in OWN]
+
+
+def equal_values(controller: str) -> dict[str, Any]:
+    """Of a trial, beside what it has."""
+    order = {"order": ORDER[controller]} if controller in ORDER else {}
+    return {"bandwidth": BANDWIDTH, **order}
+
+
+def equal_record(condition: str, controller: str, seed: int) -> dict[str, Any]:
+    """The values of one trial at equal bandwidth."""
+    return record(condition, controller, seed) | equal_values(controller)

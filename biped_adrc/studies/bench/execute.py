@@ -16,8 +16,17 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from biped_adrc.errors import BipedError, InputError
-from biped_adrc.studies.bench.chunk import CRASHED, Function, Made, made, run_chunk
-from biped_adrc.studies.bench.points import Point, key_of, point, text_of
+from biped_adrc.studies.bench.chunk import (
+    CRASHED,
+    Function,
+    Made,
+    Point,
+    key_of,
+    made,
+    point,
+    run_chunk,
+    text_of,
+)
 from biped_adrc.studies.bench.store import Placed, Ran, Store
 from biped_adrc.studies.bench.workers import (
     Workers,
@@ -105,7 +114,8 @@ def run_study(
         while f.pending:
             f.collect()
     except BaseException:
-        f.abandon()
+        with undisturbed():  # Ctrl-C once more
+            f.abandon()
         raise
     crew.stop(f.executor, False)
     return Summary(f.done, f.fresh, f.deaths)
@@ -143,22 +153,18 @@ class _Flight:
 
         Where the points lie is stored on the way.
         """
-        position = self.first
         late: list[Job] = []
+        places = itertools.count(self.first)
         while batch := list(itertools.islice(points, LOOK_UP)):
             jobs = [_job(p) for p in batch]
-            self.store.place(
-                Placed(position + i, job.key, text_of(p.at))
-                for i, (job, p) in enumerate(zip(jobs, batch, strict=True))
-            )
-            position += len(batch)
-            keys = [job.key for job in jobs]
-            there, crashed = self.store.finished(keys), self.store.crashed(keys)
-            new = {job.key: job for job in jobs if job.key not in there | self.keys}
+            told = zip(jobs, batch, strict=True)
+            self.store.place(Placed(next(places), job.key, text_of(p.at)) for job, p in told)
+            crashed = self.store.crashed([job.key for job in jobs])
+            new = {j.key: j for j in jobs if crashed.get(j.key, True) and j.key not in self.keys}
             self.done += len(batch) - len(new)
             self.keys |= new.keys()
             self.tell()
-            self.known |= crashed & new.keys()
+            self.known |= crashed.keys() & new.keys()
             late += [job for job in new.values() if job.key in crashed]
             yield from (job for job in new.values() if job.key not in crashed)
         yield from late
@@ -177,18 +183,18 @@ class _Flight:
 
     def collect(self) -> None:
         """Store what is finished; wait for it where nothing is."""
+        suspects = self.died()
+        while suspects and self.pending:  # they would be suspects too
+            suspects += self.died()
+        for chunk in suspects:
+            self.alone(chunk)
+
+    def died(self) -> list[Chunk]:
+        """Wait for chunks and store them; those of them whose worker died."""
         finished, _ = wait(self.pending, PATIENCE, FIRST_COMPLETED)
         if not finished:
             self.crew.check(self.executor)
-        suspects = [chunk for future in finished if (chunk := self.take(future)) is not None]
-        if suspects:
-            while self.pending:  # they would be suspects too
-                finished, _ = wait(self.pending, PATIENCE, FIRST_COMPLETED)
-                if not finished:
-                    self.crew.check(self.executor)
-                suspects += [c for future in finished if (c := self.take(future)) is not None]
-            for chunk in suspects:
-                self.alone(chunk)
+        return [chunk for future in finished if (chunk := self.take(future)) is not None]
 
     def take(self, future: Future[list[Made]]) -> Chunk | None:
         """Store what has come; the chunk itself where its worker died."""
@@ -209,10 +215,10 @@ class _Flight:
     def alone(self, chunk: Chunk) -> None:
         """Run a chunk again with nothing beside it, so that it is known who kills a worker."""
         self.send(chunk)
-        (future,) = self.pending
-        while not wait(self.pending, PATIENCE).done:
-            self.crew.check(self.executor)
-        if self.take(future) is None:
+        died: list[Chunk] = []
+        while self.pending:
+            died += self.died()
+        if not died:
             return
         if len(chunk) > 1:
             for job in chunk:
@@ -244,8 +250,7 @@ class _Flight:
         self.tell("a worker process died; what it was running is run again")
 
     def keep(self, chunk: Chunk, rows: list[Made], died: bool = False) -> None:
-        pairs = zip(chunk, rows, strict=True)
-        self.store.add(_ran(job, row) for job, row in pairs)
+        self.store.add(map(_ran, chunk, rows))
         self.in_a_row = 0
         self.crashed_in_a_row = self.crashed_in_a_row if died else 0
         self.done += len(chunk)
@@ -254,11 +259,7 @@ class _Flight:
         self.tell()
 
     def abandon(self) -> None:
-        """End the workers, and store what they had finished; Ctrl-C once more does not disturb that."""
-        with undisturbed():
-            self._abandon()
-
-    def _abandon(self) -> None:
+        """End the workers, and store what they had finished."""
         for future in self.pending:
             future.cancel()
         self.crew.stop(self.executor, True)
@@ -266,9 +267,7 @@ class _Flight:
         for future, (chunk, _) in self.pending.items():
             if future.done() and not future.cancelled() and future.exception() is None:
                 with suppress(BipedError):
-                    self.store.add(
-                        _ran(job, row) for job, row in zip(chunk, future.result(), strict=True)
-                    )
+                    self.store.add(map(_ran, chunk, future.result()))
 
     def named(self, error: BaseException) -> BaseException:
         """An error of what is between this process and its workers."""
@@ -283,9 +282,8 @@ class _Flight:
     def tell(self, note: str = "") -> None:
         if self.progress is None:
             return
-        left = None
+        seconds, left = time.monotonic() - self.begin, None
         if self.total is not None and self.fresh:
-            seconds = time.monotonic() - self.begin
             left = seconds / self.fresh * max(self.total - self.done, 0)
         self.progress(Progress(self.done, self.total, self.fresh, left, note))
 

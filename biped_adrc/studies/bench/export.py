@@ -1,15 +1,22 @@
-"""Results as CSV or Parquet, row by row: what is varied, then the results; written whole or not at all."""
+"""Results as CSV or Parquet, row by row: what is varied, then the results; and drawn as maps."""
 
 from __future__ import annotations
 
 import csv
 import itertools
+from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from biped_adrc.errors import InputError
-from biped_adrc.files import replacing
-from biped_adrc.studies.bench.sweep import Sweep
+from biped_adrc.files import replacing, write_bytes
+from biped_adrc.studies.bench.sweep import PARAMETER, Sweep
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from biped_adrc.viz.sweep_maps import Maps
 
 KINDS = ("csv", "parquet")
 BLOCK = 10_000
@@ -36,26 +43,23 @@ def export_csv(results: Sweep, path: Path) -> None:
         writer = csv.writer(file)
         writer.writerow(names)
         for row in results.rows():
-            writer.writerow([_field(row.get(name)) for name in names])
+            found = map(row.get, names)
+            writer.writerow([repr(float(x)) if isinstance(x, float) else x for x in found])
 
 
-def _field(x: Any) -> Any:
-    return repr(float(x)) if isinstance(x, float) else x
-
-
-def check_parquet() -> None:
-    """Raises InputError where Parquet cannot be written."""
-    try:
-        import pyarrow  # noqa: F401
-    except ImportError as error:
+def check_kind(kind: str) -> None:
+    """Raises InputError for a kind of file that there is not, or where Parquet cannot be written."""
+    if kind not in KINDS:
+        raise InputError(f"--export is '{kind}', expected one of {list(KINDS)}")
+    if kind == "parquet" and find_spec("pyarrow") is None:
         raise InputError(
             "an export to Parquet needs pyarrow, which is not installed; pip install 'biped-adrc[tables]'"
-        ) from error
+        )
 
 
 def export_parquet(results: Sweep, path: Path) -> None:
     """A column has one type: whole numbers, floats, true or false, text. Raises InputError and OutputError."""
-    check_parquet()
+    check_kind("parquet")
     import pyarrow as pa
     from pyarrow import parquet
 
@@ -65,7 +69,8 @@ def export_parquet(results: Sweep, path: Path) -> None:
     rows = results.rows()
     with replacing(path) as temporary, parquet.ParquetWriter(temporary, schema) as writer:
         while block := list(itertools.islice(rows, BLOCK)):
-            columns = [[_as(kind, row.get(name)) for row in block] for name, kind in kinds.items()]
+            found = {name: [row.get(name) for row in block] for name in kinds}
+            columns = [[x if x is None else kinds[n](x) for x in xs] for n, xs in found.items()]
             writer.write_table(pa.table(columns, schema=schema))
 
 
@@ -85,5 +90,23 @@ def _kind(types: set[type]) -> type:
     return float if types and types <= {int, float} else str
 
 
-def _as(kind: type, x: Any) -> Any:
-    return None if x is None else kind(x)
+def sweep_map(results: Sweep, maps: Maps) -> Figure:
+    """A figure of what is finished. Raises InputError for a column that there is not."""
+    from biped_adrc.viz.sweep_maps import sweep_map_figure
+
+    known = results.names()
+    renamed = {n: f"{PARAMETER}{n}" for n in results.study.varied if f"{PARAMETER}{n}" in known}
+    shown = {name: x for name in ("x", "y", "panel") if (x := getattr(maps, name)) is not None}
+    axes: dict[str, str] = {name: renamed.get(x, x) for name, x in shown.items()}
+    names = dict.fromkeys((*axes.values(), maps.value))
+    return sweep_map_figure(results.table(*names).columns, replace(maps, **axes))  # type: ignore[arg-type]
+
+
+def write_map(results: Sweep, maps: Maps, folder: Path) -> Path:
+    """The figure as a PNG in `folder`, named by what it shows. Raises InputError and OutputError."""
+    from biped_adrc.viz.style import render
+
+    shown = filter(None, (maps.x, maps.y, maps.panel, maps.value))
+    path = folder / f"map-{'-'.join(shown)}.png"
+    write_bytes(path, render(sweep_map(results, maps), "png"))
+    return path

@@ -9,15 +9,15 @@ interval of 95 %.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from biped_adrc.studies.bench.cell import Cell, is_legal, number
 from biped_adrc.studies.bench.comparison import Comparison
-from biped_adrc.studies.bench.conditions import record
+from biped_adrc.studies.bench.conditions import SAID, record
 from biped_adrc.studies.bench.largest_push import MATCHED, PHASES, Largest, median_span
 from biped_adrc.studies.bench.parameters import trial
 from biped_adrc.studies.bench.statistics import (
@@ -26,6 +26,7 @@ from biped_adrc.studies.bench.statistics import (
     Tested,
     holm,
     mcnemar,
+    median_ratio,
     paired_equal,
     paired_ratio,
     sign_test,
@@ -39,15 +40,11 @@ MARGIN = 1.1
 """A ratio of two medians nearer to 1 than this is not worth a sentence."""
 SPEED = 0.01
 """Changes of speed that differ by less than this are alike."""
-RATIOS = {
-    "peak_error": "largest tracking error",
-    "rms_torque": "rms torque",
-    "cost_of_transport": "cost of transport",
-}
+RATIOS = ("peak_error", "rms_torque", "cost_of_transport")
+"""Measures of which ratios are taken."""
 
 
-@dataclass(frozen=True)
-class Question:
+class Question(NamedTuple):
     """One question to the numbers, and what its test says."""
 
     family: str
@@ -57,76 +54,46 @@ class Question:
     words: str
     """What is said of this controller where the test carries it."""
     p: float
-    """Of this question alone."""
+    """Of this question alone, or corrected for all of its family."""
     beyond: bool
     """Whether the effect lies beyond the margin with its whole interval."""
     value: Interval | None = None
 
-
-@dataclass(frozen=True)
-class Answer:
-    """A question, its p-value corrected for all of its family, and whether it is carried."""
-
-    question: Question
-    p: float
-
     @property
     def carried(self) -> bool:
-        """Whether it may be said."""
-        return self.question.beyond and self.p < 1.0 - CONFIDENCE
+        """Whether it may be said, of a corrected p."""
+        return self.beyond and self.p < 1.0 - CONFIDENCE
 
     def row(self) -> dict[str, Any]:
         """As plain values."""
-        q = self.question
-        return {
-            "family": q.family,
-            "condition": q.condition,
-            "controller": q.controller,
-            "pairs": q.pairs,
-            "value": None if q.value is None else list(q.value),
-            "p": self.p,
-            "carried": self.carried,
-            "words": q.words,
-        }
+        found = self._asdict()
+        del found["beyond"]
+        words, value = found.pop("words"), found.pop("value")
+        p = found.pop("p")
+        value = None if value is None else list(value)
+        return {**found, "value": value, "p": p, "carried": self.carried, "words": words}
 
 
-def answers(c: Comparison) -> list[Answer]:
-    """To all questions that the walks allow."""
+def answers(c: Comparison) -> list[Question]:
+    """All questions that the walks allow, their p-values corrected for all of their family."""
     families: dict[str, list[Question]] = {}
     for q in _questions(c):
         families.setdefault(q.family, []).append(q)
     return [
-        Answer(q, p)
+        q._replace(p=p)
         for asked in families.values()
         for q, p in zip(asked, holm([q.p for q in asked]), strict=True)
     ]
 
 
-def sentences(found: Sequence[Answer]) -> dict[str, list[str]]:
+def sentences(found: Sequence[Question]) -> dict[str, list[str]]:
     """What is carried, by family: one sentence for each condition, and no family without one."""
-    words: dict[tuple[str, str], list[str]] = {}
-    for a in found:
-        if a.carried:
-            words.setdefault((a.question.family, a.question.condition), []).append(a.question.words)
     said: dict[str, list[str]] = {}
-    for (family, what), each in words.items():
-        said.setdefault(family, []).append(f"{what}: {OPENINGS[family]}: {'; '.join(each)}.")
+    for family, what in dict.fromkeys((q.family, q.condition) for q in found if q.carried):
+        words = [q.words for q in found if q.carried and (q.family, q.condition) == (family, what)]
+        opening = SAID["openings"][family]
+        said.setdefault(family, []).append(f"{what}: {opening}: {'; '.join(words)}.")
     return said
-
-
-OPENINGS = {
-    "legal": f"legal walks, in pairs of the same seed as {REFERENCE}",
-    **{
-        name: f"{text} as a multiple of that of {REFERENCE}, median over pairs of legal walks (95 %)"
-        for name, text in RATIOS.items()
-    },
-    "speed_change": f"the speed changes as under {REFERENCE}; median difference of the relative changes over "
-    "pairs of legal walks (95 %)",
-    EQUAL: "ratio of the largest errors of two observers at their own settings, and all at equal "
-    "bandwidth, median over pairs of legal walks (95 %)",
-    "pushes": f"the largest push that is walked legally, median over seeds, against that of {REFERENCE}",
-}
-"""What the sentences of a family are about."""
 
 
 def bandwidth_decides(condition: str) -> bool:
@@ -139,12 +106,10 @@ def bandwidth_decides(condition: str) -> bool:
 def _questions(c: Comparison) -> Iterable[Question]:
     others = [name for name in c.controllers if name != REFERENCE]
     if REFERENCE in c.controllers:
-        for condition in c.conditions:
-            if not bandwidth_decides(condition):
-                usual = c.cell(REFERENCE, condition)
-                for name in others:
-                    again = c.at_equal(name, condition)
-                    yield from _against(c.cell(name, condition), again, usual)
+        for condition in (what for what in c.conditions if not bandwidth_decides(what)):
+            for name in others:
+                cell, again = c.cell(name, condition), c.at_equal(name, condition)
+                yield from _against(cell, again, c.cell(REFERENCE, condition))
         for name in others:
             yield from _pushes(c.pushes, name)
     yield from _equal(c)
@@ -155,28 +120,19 @@ def _against(cell: Cell, again: Cell | None, usual: Cell) -> Iterable[Question]:
     settings = [cell] if again is None else [cell, again]
     yield _legality(settings, usual)
     for name in RATIOS:
-        each = [_ratio(x, usual, name) for x in settings]
+        each = [paired_ratio(*_pair(x, usual, name), MARGIN) for x in settings]
         if each[0] is not None:
             held = {_side(x) for x in each} in ({-1}, {1})
             yield _question(name, cell, each[0], held)
     unmatched = usual.medians({"peak_unmatched": ""})["peak_unmatched"]
     if unmatched is not None and unmatched.low > 0.0:
-        alike = [_difference(x, usual) for x in settings]
+        changes = (_pair(x, usual, "speed_change", positive=False) for x in settings)
+        alike = [paired_equal(*change, SPEED) for change in changes]
         if alike[0] is not None:
             held = all(
                 x is not None and x.value.low > -SPEED and x.value.high < SPEED for x in alike
             )
             yield _question("speed_change", cell, alike[0], held)
-
-
-def _ratio(cell: Cell, usual: Cell, name: str) -> Tested | None:
-    a, b = _both_legal([cell, usual], name)
-    return paired_ratio(a, b, MARGIN)
-
-
-def _difference(cell: Cell, usual: Cell) -> Tested | None:
-    a, b = _both_legal([cell, usual], "speed_change", positive=False)
-    return paired_equal(a, b, SPEED)
 
 
 def _side(found: Tested | None) -> int:
@@ -215,29 +171,30 @@ def _both_legal(cells: Sequence[Cell], name: str, positive: bool = True) -> list
     return [list(column) for column in zip(*found, strict=True)] or [[] for _ in cells]
 
 
+def _pair(x: Cell, y: Cell, name: str, positive: bool = True) -> tuple[list[float], list[float]]:
+    a, b = _both_legal([x, y], name, positive)
+    return a, b
+
+
 def _equal(c: Comparison) -> Iterable[Question]:
     """Whether the ratio of two observers' errors is another at equal bandwidth."""
-    for i, a in enumerate(c.equal):
-        for b in c.equal[i + 1 :]:
-            if a.condition == b.condition:
-                own = [c.cell(x.controller, x.condition) for x in (a, b)]
-                yield from _changed(own, [a, b])
+    for pair in itertools.combinations(c.equal, 2):
+        if pair[0].condition == pair[1].condition:
+            own = [c.cell(x.controller, x.condition) for x in pair]
+            yield from _changed(own, pair)
 
 
 def _changed(own: Sequence[Cell], equal: Sequence[Cell]) -> Iterable[Question]:
     errors = [np.array(x) for x in _both_legal([*own, *equal], "peak_error")]
     before, after = errors[0] / errors[1], errors[2] / errors[3]
-    found = paired_ratio(list(before), list(after), MARGIN)
+    found = paired_ratio(before.tolist(), after.tolist(), MARGIN)
     if found is None:
         return
-    ones = [1.0] * found.pairs
-    r, s = (paired_ratio(list(x), ones, 1.0) for x in (before, after))
-    assert r is not None
-    assert s is not None
-    turned = (r.value.high < 1.0 < s.value.low) or (s.value.high < 1.0 < r.value.low)
+    r, s = (median_ratio(x.tolist()) for x in (before, after))
+    turned = (r.high < 1.0 < s.low) or (s.high < 1.0 < r.low)
     text = (
-        f"{equal[0].controller} to {equal[1].controller} {_interval(r.value)} and {_interval(s.value)} in "
-        f"{found.pairs} pairs{', the order changes' if turned else ''}"
+        f"{equal[0].controller} to {equal[1].controller} {_interval(r)} and {_interval(s)} in {found.pairs} "
+        f"pairs{', the order changes' if turned else ''}"
     )
     yield _question(EQUAL, equal[0], found, _side(found) != 0, text)
 

@@ -8,6 +8,7 @@ an interval of one seed: over seeds it stays one, open above where the highest r
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -16,51 +17,34 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from biped_adrc.studies.bench.cell import is_legal, is_made
-from biped_adrc.studies.bench.conditions import BASE
+from biped_adrc.studies.bench.conditions import BASE, SAID
 
 LADDER = (0.0, 20.0, 40.0, 80.0, 160.0, 320.0)
 """[N m] or [N]."""
 RESOLUTION = 2.5
 """[N m] or [N], of the answer."""
-STEP = 3
-IMPACTS = 9
-"""Walked in all, seven of them from the push on."""
-
-DIRECTIONS: dict[str, Mapping[str, Any]] = {
-    "all joints +": {"on": "q1,q2,q3,q4"},
-    "all joints -": {"on": "-q1,-q2,-q3,-q4"},
-    "hips apart": {"on": "q1,-q2"},
-    "swing knee": {"on": "q4"},
-    "torso +": {"on": "q5"},
-    "torso -": {"on": "-q5"},
-}
+DIRECTIONS: Mapping[str, str] = SAID["directions"]
 """Joint patterns; the last two are unmatched."""
 MATCHED = tuple(DIRECTIONS)[:4]
-PHASES = {"early": 0.02, "middle": 0.12, "late": 0.22}
+PHASES: Mapping[str, float] = SAID["phases"]
 """Onset [s] in a step of about 0.42 s; pushes last 0.2 s."""
 
 Carry = Callable[[Sequence[Mapping[str, Any]]], Sequence[Mapping[str, Any]]]
 """Walks trials and returns their rows, in order."""
 
 
-@dataclass(frozen=True)
-class Bracket:
+class Bracket(NamedTuple):
     """Where the largest push lies: `low` passed, `high` did not [N m]; None for none yet."""
 
     low: float | None = None
     high: float | None = None
 
-    def climbed(self, amplitude: float, passed: bool) -> Bracket:
-        """After the next rung of the ladder."""
-        if self.high is not None:
-            return self
-        return replace(self, low=amplitude) if passed else replace(self, high=amplitude)
-
-    def halved(self, amplitude: float, passed: bool) -> Bracket:
+    def walked(self, amplitude: float, passed: bool) -> Bracket:
         """After a walk; one that is not inside says nothing."""
-        if self.low is None or self.high is None or not self.low < amplitude < self.high:
+        above = self.low is None or amplitude > self.low
+        if not (above and (self.high is None or amplitude < self.high)):
             return self
-        return replace(self, low=amplitude) if passed else replace(self, high=amplitude)
+        return self._replace(low=amplitude) if passed else self._replace(high=amplitude)
 
     @property
     def middle(self) -> float | None:
@@ -77,6 +61,9 @@ class Bracket:
         return self.low, math.inf if self.high is None else self.high
 
 
+NOTHING = Bracket()
+
+
 @dataclass(frozen=True)
 class Search:
     """One controller, direction, phase and seed."""
@@ -85,31 +72,26 @@ class Search:
     direction: str
     phase: str
     seed: int
-    survived: Bracket = Bracket()
-    legal: Bracket = Bracket()
+    survived: Bracket = NOTHING
+    legal: Bracket = NOTHING
     setting: Mapping[str, Any] = field(default_factory=dict)
     """Values of the trial in place of the controller's own."""
 
     def record(self, amplitude: float) -> dict[str, Any]:
         """The trial with this amplitude."""
-        return {
-            **BASE,
-            "impacts": IMPACTS,
-            "push": "pulse",
-            "duration": 0.2,
-            "pushed_step": STEP,
-            "onset": PHASES[self.phase],
-            **DIRECTIONS[self.direction],
-            "amplitude": amplitude,
-            "controller": self.controller,
-            "seed": self.seed,
-            **self.setting,
-        }
+        push = {"onset": PHASES[self.phase], "on": DIRECTIONS[self.direction]}
+        who = {"amplitude": amplitude, "controller": self.controller, "seed": self.seed}
+        return {**BASE, **SAID["push"], **push, **who, **self.setting}
 
     def middles(self) -> list[float]:
         """The amplitudes to walk next."""
         found = {b.middle for b in (self.survived, self.legal)}
         return sorted(a for a in found if a is not None)
+
+    def walked(self, amplitude: float, row: Mapping[str, Any]) -> Search:
+        """After a walk with this amplitude."""
+        survived = self.survived.walked(amplitude, is_made(row))
+        return replace(self, survived=survived, legal=self.legal.walked(amplitude, is_legal(row)))
 
 
 def searches(
@@ -118,41 +100,25 @@ def searches(
     setting: Callable[[str], Mapping[str, Any]] = lambda controller: {},
 ) -> list[Search]:
     """All of them, not yet begun; setting: of a controller, in place of its own."""
-    return [
-        Search(controller, direction, phase, seed, setting=setting(controller))
-        for controller in controllers
-        for direction in DIRECTIONS
-        for phase in PHASES
-        for seed in range(seeds)
-    ]
+    every = itertools.product(controllers, DIRECTIONS, PHASES, range(seeds))
+    return [Search(*one, setting=setting(one[0])) for one in every]
 
 
 def largest_pushes(begun: Sequence[Search], carry: Carry) -> list[Search]:
     """The searches, done."""
     found = list(begun)
+
+    def walk(asked: Sequence[tuple[int, float]]) -> None:
+        """Walk search i with amplitude a for all (i, a) asked, and narrow its intervals."""
+        rows = carry([found[i].record(a) for i, a in asked]) if asked else []
+        for (i, a), row in zip(asked, rows, strict=True):
+            found[i] = found[i].walked(a, row)
+
     for rung in LADDER:
-        asked = [(i, rung) for i, s in enumerate(found) if s.survived.high is None]
-        _walk(found, asked, carry, Bracket.climbed)
+        walk([(i, rung) for i, s in enumerate(found) if s.survived.high is None])
     while asked := [(i, a) for i, s in enumerate(found) for a in s.middles()]:
-        _walk(found, asked, carry, Bracket.halved)
+        walk(asked)
     return found
-
-
-def _walk(
-    found: list[Search],
-    asked: Sequence[tuple[int, float]],
-    carry: Carry,
-    after: Callable[[Bracket, float, bool], Bracket],
-) -> None:
-    """Walk search i with amplitude a for all (i, a) asked, and narrow its intervals."""
-    if not asked:
-        return
-    rows = carry([found[i].record(a) for i, a in asked])
-    for (i, a), row in zip(asked, rows, strict=True):
-        s = found[i]
-        found[i] = replace(
-            s, survived=after(s.survived, a, is_made(row)), legal=after(s.legal, a, is_legal(row))
-        )
 
 
 class Span(NamedTuple):
@@ -177,26 +143,23 @@ def whole_span(brackets: Sequence[Bracket]) -> Span:
     return Span(min(b.ends[0] for b in brackets), max(b.ends[1] for b in brackets))
 
 
-@dataclass(frozen=True)
-class Largest:
+class Largest(NamedTuple):
     """The largest push of one controller, over seeds: all steps made (`survived`), and legal."""
 
     controller: str
     direction: str
     phase: str
+    bandwidth: float | None
+    """Of the observer [rad/s]; None for the controller's own settings."""
     survived: tuple[Bracket, ...]
     legal: tuple[Bracket, ...]
-    bandwidth: float | None = None
-    """Of the observer [rad/s]; None for the controller's own settings."""
 
     def row(self) -> dict[str, Any]:
         """As plain values; beyond: seeds that passed the highest rung."""
-        kinds = {"survived": self.survived, "legal": self.legal}
+        found = self._asdict()
+        kinds = {kind: found.pop(kind) for kind in ("survived", "legal")}
         return {
-            "controller": self.controller,
-            "direction": self.direction,
-            "phase": self.phase,
-            "bandwidth": self.bandwidth,
+            **found,
             "seeds": len(self.legal),
             **{
                 kind: {
@@ -217,13 +180,6 @@ def gathered(done: Sequence[Search]) -> list[Largest]:
         key = (s.controller, s.direction, s.phase, s.setting.get("bandwidth"))
         found.setdefault(key, []).append(s)
     return [
-        Largest(
-            controller,
-            direction,
-            phase,
-            tuple(s.survived for s in here),
-            tuple(s.legal for s in here),
-            bandwidth,
-        )
-        for (controller, direction, phase, bandwidth), here in found.items()
+        Largest(*key, tuple(s.survived for s in here), tuple(s.legal for s in here))
+        for key, here in found.items()
     ]

@@ -1,20 +1,122 @@
 """What a study may vary: the values of a scenario by name, read with their units, types and ranges.
 
 A table of values is written with dots: "start.v5" stands for the value v5 of `start`, "own.gain" for a gain
-that a controller of one's own takes.
+that a controller of one's own takes. A quantity may be text, such as "1.5 ms" or "30 N m": a unit is a product
+of powers, "kg m^2/s^2", each symbol may carry a prefix, what follows a slash divides. Angles have a dimension
+of their own, so that a frequency [Hz] is not taken for a rate [rad/s].
 """
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Mapping
-from typing import Any, get_args
+from typing import Any, NamedTuple, get_args
 
 from pydantic import ValidationError
 
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.scenario import FIELDS, UNITS, Scenario
 from biped_adrc.scenario.values import unknown
-from biped_adrc.studies.bench.units import quantity
+
+
+class Unit(NamedTuple):
+    """A factor to SI, and powers of (m, kg, s, rad)."""
+
+    factor: float
+    powers: tuple[int, int, int, int]
+
+
+SYMBOLS: dict[str, Unit] = {
+    "m": Unit(1.0, (1, 0, 0, 0)),
+    "g": Unit(1e-3, (0, 1, 0, 0)),
+    "s": Unit(1.0, (0, 0, 1, 0)),
+    "Hz": Unit(1.0, (0, 0, -1, 0)),
+    "N": Unit(1.0, (1, 1, -2, 0)),
+    "J": Unit(1.0, (2, 1, -2, 0)),
+    "W": Unit(1.0, (2, 1, -3, 0)),
+    "rad": Unit(1.0, (0, 0, 0, 1)),
+}
+"""These take prefixes; N m of a torque and J are the same."""
+WHOLE: dict[str, Unit] = {
+    "1": Unit(1.0, (0, 0, 0, 0)),
+    "%": Unit(1e-2, (0, 0, 0, 0)),
+    "min": Unit(60.0, (0, 0, 1, 0)),
+    "deg": Unit(math.pi / 180.0, (0, 0, 0, 1)),
+    "rev": Unit(2.0 * math.pi, (0, 0, 0, 1)),
+    "rpm": Unit(2.0 * math.pi / 60.0, (0, 0, -1, 1)),
+}
+"""These do not."""
+PREFIXES = {"k": 1e3, "M": 1e6, "c": 1e-2, "m": 1e-3, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "n": 1e-9}
+MOST_POWER = 9
+"""Of a symbol in a unit."""
+
+_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+_FACTOR = re.compile(r"([^\d\s/*^·+-]+|1)(?:\^?(-?\d+))?")
+
+
+def quantity(text: str, unit: str) -> float:
+    """The number of `text` in `unit`, which it has where it names none. Raises ValueError with the reason."""
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        raise ValueError(f"expected a number [{unit}] or a number and its unit")
+    number, given = float(match[1]), match[2]
+    if not math.isfinite(number):
+        raise ValueError(f"{match[1]} is too large, expected a finite number [{unit}]")
+    if not given:
+        return number
+    found, expected = unit_of(given), unit_of(unit)
+    if found.powers != expected.powers:
+        raise ValueError(f"'{given}' is another dimension, expected a unit such as '{unit}'")
+    scaled = _scaled(number, found.factor / expected.factor)
+    if not math.isfinite(scaled):
+        raise ValueError(f"it is too large, expected a finite number [{unit}]")
+    return scaled
+
+
+def unit_of(text: str) -> Unit:
+    """A unit from its text. Raises ValueError for an unknown symbol or a power beyond `MOST_POWER`."""
+    factor, powers = 1.0, (0, 0, 0, 0)
+    over, *under = text.split("/")
+    for sign, part in [(1, over), *((-1, part) for part in under)]:
+        for word in re.split(r"[\s*·]+", part.strip()):
+            symbol, power = _factor(word, text)
+            factor *= symbol.factor ** (sign * power)
+            powers = tuple(  # type: ignore[assignment]
+                a + sign * power * b for a, b in zip(powers, symbol.powers, strict=True)
+            )
+    if not 0.0 < factor < math.inf:
+        raise ValueError(f"the unit '{text}' is out of range")
+    return Unit(factor, powers)
+
+
+def _factor(word: str, text: str) -> tuple[Unit, int]:
+    match = _FACTOR.fullmatch(word)
+    symbol = None if match is None else _symbol(match[1])
+    if match is None or symbol is None:
+        known = ", ".join([*SYMBOLS, *WHOLE])
+        raise ValueError(f"the unit '{text}' is not known; units are made of {known}")
+    power = match[2] or "1"
+    if len(power) > 4 or abs(int(power)) > MOST_POWER:
+        raise ValueError(f"the unit '{text}' has the power {power}, expected at most {MOST_POWER}")
+    return symbol, int(power)
+
+
+def _symbol(name: str) -> Unit | None:
+    if name in WHOLE or name in SYMBOLS:
+        return WHOLE.get(name) or SYMBOLS[name]
+    prefix, rest = PREFIXES.get(name[:1]), SYMBOLS.get(name[1:])
+    return None if prefix is None or rest is None else Unit(prefix * rest.factor, rest.powers)
+
+
+def _scaled(number: float, factor: float) -> float:
+    """number factor; by a decimal shift where it is one, so that 1.5 ms is 1.5e-3 and not its neighbour."""
+    digits = math.log10(factor)
+    shift = round(digits)
+    if abs(digits - shift) < 1e-12:
+        return float(f"{number!r}e{shift}") if "e" not in repr(number) else number * 10.0**shift
+    return number * factor
+
 
 TABLES = {"start": ("q1", "v1"), "own": ("NAME",), "mass": ("BODY",), "inertia": ("BODY",)}
 """Tables of a scenario, and what is in them."""
@@ -109,11 +211,8 @@ def _check(name: str, x: Any, given: Any = None) -> None:
         text = reasons[0]["msg"].removeprefix("Value error, ").replace("Input should", "should")
         in_si = "" if x == given or isinstance(x, str) else f", {x:g} in SI"
         said = "" if given is None else f"found {given!r}{in_si}: "
-        raise Refused(f"{said}{text}{_bracket(name)}") from None
-
-
-def _bracket(name: str) -> str:
-    return f" [{unit(name)}]" if is_number(name) and unit(name) != "1" else ""
+        of = f" [{unit(name)}]" if is_number(name) and unit(name) != "1" else ""
+        raise Refused(f"{said}{text}{of}") from None
 
 
 def _types(name: str) -> tuple[Any, ...]:

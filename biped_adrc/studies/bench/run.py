@@ -18,6 +18,7 @@ from biped_adrc.engine.batch import Case, Walked, run_case
 from biped_adrc.errors import BipedError
 from biped_adrc.hardware.meter import LARGEST_RATIO, Reading, reading
 from biped_adrc.hybrid.status import Status
+from biped_adrc.resources import packaged
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.bench.build import case, scene_of
 from biped_adrc.studies.bench.chunk import NO_WALK, REFUSED
@@ -25,45 +26,13 @@ from biped_adrc.studies.bench.parameters import trial
 
 Row = dict[str, float | int | str | None]
 
-COLUMNS = {
-    "status": "How the walk ended.",
-    "detail": "More of it in words.",
-    "survived": "1 when all foot strikes were made, 0 when not; None for what was no walk.",
-    "impacts": "Foot strikes made.",
-    "t_end": "[s]",
-    "peak_error": "Largest |q_b - h(Theta)| at the ticks [rad].",
-    "rms_error": "[rad]",
-    "peak_torque": "[N m]",
-    "rms_torque": "[N m]",
-    "work": "Sum of |u|'|dq_b| from tick to tick [J].",
-    "net_work": "Sum of u' dq_b [J]: the work of the held torques.",
-    "distance": "Sum of the steps [m].",
-    "cost_of_transport": "work / (weight distance).",
-    "speed": "distance / time [m/s].",
-    "speed_change": "Relative to the gait's.",
-    "last_speed": "Of the last two steps [m/s].",
-    "peak_matched": "Largest part, from the joints, of what the model does not know [rad/s^2].",
-    "peak_unmatched": "Largest part from the unactuated row [rad/s^2].",
-    "outcome": "fell, ended (as the status says), made (all steps) or legal (all steps legally).",
-    "legal": "1 when all foot strikes were made and all steps legally, 0 when not; None for what was no walk.",
-    "legal_impacts": "Foot strikes made before the first step that was not legal.",
-    "least_normal_force": "F_N at the ticks [N].",
-    "friction": "Largest |F_T| / F_N at the ticks; None where the ground never pushed.",
-    "share_outside": "Share of the ticks with the force outside the friction cone.",
-    "mean_normal_force": "Least F_N averaged over the window [N].",
-    "mean_friction": "Largest |F_T| / F_N of the averaged forces.",
-    "scuffing": "How deep the swing foot was in the ground, after the first 3 % of the gait's step [m].",
-    "impulse_ratio": "Largest |F_T| / F_N of the impacts; it makes no step illegal.",
-    "bad_normal_force": "1 when an averaged F_N was not positive, else 0.",
-    "bad_friction": "1 when an averaged force was outside the friction cone, else 0.",
-    "bad_torque": "1 when a torque was above the limit of the robot's record, else 0.",
-    "bad_scuffing": "1 when the swing foot scuffed, else 0.",
-    "bad_impulse": "1 when an impulse at impact asked for more friction than there is, else 0.",
-    "engine": "What ran.",
-}
+COLUMNS: Mapping[str, str] = packaged("biped_adrc.studies.bench", "columns.toml")
 """Of a row."""
 WORDS = ("status", "detail", "outcome", "engine")
 """Columns that are no numbers."""
+
+COUNTED = ("peak_error", "peak_torque", "work", "net_work", "peak_matched", "peak_unmatched")
+"""Columns that a meter counts under the same names."""
 
 _PREPARING = Lock()
 """Robots and generated code are shared by the threads of a process."""
@@ -131,15 +100,10 @@ def _meter(made: Case, walked: Walked, row: Row) -> Row:
     forward = isinstance(distance, float) and distance > 0.0
     cost = g.work / (w.plant.weight * distance) if forward else None  # type: ignore[operator]
     return {
-        "peak_error": g.peak_error,
+        **{name: getattr(g, name) for name in COUNTED},
         "rms_error": math.sqrt(g.square_error / ticks),
-        "peak_torque": g.peak_torque,
         "rms_torque": math.sqrt(g.square_torque / ticks),
-        "work": g.work,
-        "net_work": g.net_work,
         "cost_of_transport": cost,
-        "peak_matched": g.peak_matched,
-        "peak_unmatched": g.peak_unmatched,
         **_legality(made, walked, g),
     }
 
@@ -173,10 +137,6 @@ def _legality(made: Case, walked: Walked, g: Reading) -> Row:
 
 def _row(known: Row) -> Row:
     """All columns, None where there is no number."""
-    row: Row = {}
-    for name in COLUMNS:
-        x = known.get(name)
-        if isinstance(x, float):
-            x = float(x) if math.isfinite(x) else None
-        row[name] = x
-    return row
+    found = {k: float(x) if isinstance(x, float) else x for k, x in known.items()}
+    finite = {k: x for k, x in found.items() if not isinstance(x, float) or math.isfinite(x)}
+    return dict.fromkeys(COLUMNS) | finite

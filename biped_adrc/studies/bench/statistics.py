@@ -56,25 +56,28 @@ def paired_ratio(a: Sequence[float], b: Sequence[float], margin: float) -> Teste
 
     The p-value is that of two one-sided sign tests of "within a factor `margin` of 1", doubled.
     """
-    if len(a) == 0:
+    ratios = [x / y for x, y in zip(a, b, strict=True)]
+    if not ratios:
         return None
-    logs = [math.log(x / y) for x, y in zip(a, b, strict=True)]
-    found = median(logs)
+    logs, edge = [math.log(x) for x in ratios], math.log(margin)
+    beside = ([x < -edge for x in logs], [x > edge for x in logs])
+    p = min(1.0, 2.0 * min(map(_more_than_half, beside)))
+    return Tested(len(ratios), median_ratio(ratios), p)
+
+
+def median_ratio(ratios: Sequence[float]) -> Interval:
+    """Median of positive numbers, at least one, by their logarithms."""
+    found = median([math.log(x) for x in ratios])
     assert found is not None
-    edge = math.log(margin)
-    least = min(
-        _more_than_half([x < -edge for x in logs]), _more_than_half([x > edge for x in logs])
-    )
-    return Tested(len(logs), Interval(*(math.exp(x) for x in found)), min(1.0, 2.0 * least))
+    return Interval(*(math.exp(x) for x in found))
 
 
 def paired_equal(a: Sequence[float], b: Sequence[float], margin: float) -> Tested | None:
     """Median of a_i - b_i; None without pairs. The test: more than half of them within `margin` of 0."""
-    if len(a) == 0:
-        return None
     differences = [x - y for x, y in zip(a, b, strict=True)]
     found = median(differences)
-    assert found is not None
+    if found is None:
+        return None
     return Tested(len(differences), found, _more_than_half([abs(x) < margin for x in differences]))
 
 

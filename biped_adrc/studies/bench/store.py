@@ -22,8 +22,7 @@ from typing import Any, NamedTuple
 from filelock import FileLock
 
 from biped_adrc.errors import InputError, OutputError
-from biped_adrc.studies.bench.chunk import CRASHED, NO_WALK
-from biped_adrc.studies.bench.points import text_of
+from biped_adrc.studies.bench.chunk import CRASHED, NO_WALK, text_of
 from biped_adrc.studies.bench.workers import undisturbed
 
 
@@ -93,31 +92,21 @@ class Store:
                 ((*run, which) for run in runs),
             )
 
-    def crashed(self, keys: Sequence[str]) -> set[str]:
-        """Those of the keys whose processes died, the last time they were tried."""
-        return self._keys(keys, f"status = '{CRASHED}'")
-
-    def finished(self, keys: Sequence[str]) -> set[str]:
-        """Those of the keys whose runs need not be made again."""
-        return self._keys(keys, f"status IS NOT '{CRASHED}'")
-
-    def _keys(self, keys: Sequence[str], condition: str) -> set[str]:
-        marks = ",".join("?" * len(keys))
-        text = f"SELECT key FROM runs WHERE key IN ({marks}) AND {condition}"
-        with self._reading():
-            return {key for (key,) in self.connection.execute(text, tuple(keys))}
+    def crashed(self, keys: Sequence[str]) -> dict[str, bool]:
+        """Those of the keys that there are; true where the process died, the last time it was tried."""
+        return {key: status == CRASHED for key, status in self._of("status", keys)}
 
     def rows(self, keys: Sequence[str]) -> dict[str, dict[str, Any]]:
         """Rows of results by key, of those of the keys that are finished."""
-        found: dict[str, dict[str, Any]] = {}
+        return {key: self._plain(key, row) for key, row in self._of("row", keys)}
+
+    def _of(self, column: str, keys: Sequence[str]) -> Iterator[tuple[str, Any]]:
         for begin in range(0, len(keys), 500):
             part = keys[begin : begin + 500]
             marks = ",".join("?" * len(part))
-            text = f"SELECT key, row FROM runs WHERE key IN ({marks})"
+            text = f"SELECT key, {column} FROM runs WHERE key IN ({marks})"
             with self._reading():
-                for key, row in self.connection.execute(text, tuple(part)):
-                    found[key] = self._plain(key, row)
-        return found
+                yield from self.connection.execute(text, tuple(part))
 
     def __len__(self) -> int:
         """Finished runs."""

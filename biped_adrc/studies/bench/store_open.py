@@ -14,8 +14,9 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from biped_adrc.errors import InputError
-from biped_adrc.studies.bench.points import text_of
+from biped_adrc.studies.bench.chunk import text_of
 from biped_adrc.studies.bench.store import About, Store, cannot_write, damaged
+from biped_adrc.versions import differences
 
 APPLICATION = 0x62614452
 """SQLite's application_id of these files."""
@@ -116,17 +117,9 @@ def _create(db: sqlite3.Connection, about: About) -> None:
     db.execute(f"PRAGMA user_version = {FORMAT}")
     for statement in SCHEMA.split(";")[:-1]:
         db.execute(statement)
-    db.execute(
-        "INSERT INTO study VALUES (1, ?, ?, ?, ?, ?, ?)",
-        (
-            about.name,
-            about.hash,
-            text_of(about.configuration),
-            text_of(about.versions),
-            about.points,
-            created,
-        ),
-    )
+    texts = text_of(about.configuration), text_of(about.versions)
+    told = (about.name, about.hash, *texts, about.points, created)
+    db.execute("INSERT INTO study VALUES (1, ?, ?, ?, ?, ?, ?)", told)
     db.execute("COMMIT")
 
 
@@ -147,12 +140,10 @@ def _check_study(path: Path, found: About, asked: About, other_versions: bool) -
             f"'{asked.name}' ({asked.hash[:8]}){_difference(found, asked)}; it is left as it is, choose "
             "another folder"
         )
-    names = sorted({*found.versions, *asked.versions})
-    pairs = [(name, found.versions.get(name), asked.versions.get(name)) for name in names]
-    other = [f"{name} {a} there, {b} here" for name, a, b in pairs if a != b]
+    other = differences(found.versions, asked.versions)
     if other and not other_versions:
         raise InputError(
-            f"results file '{path}' was made with other versions, and numbers may differ: {'; '.join(other)}. "
+            f"results file '{path}' was made with other versions, and numbers may differ: {other}. "
             "Use another folder, or allow other versions (--other-versions); each run names its own"
         )
 

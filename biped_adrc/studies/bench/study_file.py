@@ -15,6 +15,7 @@ import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -33,9 +34,16 @@ from biped_adrc.studies.bench.parameters import (
     read,
     trial,
 )
-from biped_adrc.studies.bench.rehearsal import some_points
-from biped_adrc.studies.bench.samples import Draw, Range
-from biped_adrc.studies.bench.study import MOST_POINTS, SEED, Named, Study, too_many
+from biped_adrc.studies.bench.study import (
+    MOST_POINTS,
+    SEED,
+    Draw,
+    Named,
+    Range,
+    Study,
+    some_points,
+    too_many,
+)
 
 TABLES = ("study", "fixed", "grid", "random", "sobol", "cases")
 MOST = 1_000_000
@@ -66,21 +74,23 @@ def read_study(tables: Mapping[str, Any], where: str = "the study") -> Study:
     head = r.table(tables, "study")
     for key in head:
         r.known(key, ("name", "description", "seeds"), "study.")
-    fixed = r.values(r.table(tables, "fixed"), "fixed.")
-    grid = r.levels(r.table(tables, "grid"))
-    draw = _draw(r, tables)
     made = {
+        "fixed": r.each(r.table(tables, "fixed"), "fixed.", read),
+        "grid": r.each(r.table(tables, "grid"), "grid.", _levels),
+        "draw": _draw(r, tables),
         "name": r.text(head, "name", "study."),
         "description": r.text(head, "description", "study.", ""),
-        "fixed": fixed,
-        "grid": grid,
-        "draw": draw,
         "seeds": _seeds(r, head.get("seeds")),
         "cases": _cases(r, tables.get("cases", [])),
     }
     if not r.problems:
-        return _together(r, Study(**made), where)
-    raise _error(r, where)
+        study = Study(**made)
+        _check_together(r, study)
+        if not r.problems:
+            return study
+    if len(r.problems) == 1:
+        raise InputError(f"{where}, {r.problems[0]}")
+    raise InputError("\n  ".join([f"{where} has {len(r.problems)} problems:", *r.problems]))
 
 
 @dataclass
@@ -92,12 +102,17 @@ class _Reader:
     def wrong(self, key: str, text: object) -> None:
         self.problems.append(f"{key}: {text}")
 
-    def attempt(self, key: str, read: Callable[[], Any]) -> Any:
-        try:
-            return read()
-        except (Refused, ValidationError) as error:
-            self.wrong(key, reason(error))
-            return None
+    def each(
+        self, table: Mapping[str, Any], where: str, read: Callable[[str, Any], Any]
+    ) -> dict[str, Any]:
+        """What is read of each name and value of a table; None where that is refused."""
+        found = dict.fromkeys(table)
+        for name, x in table.items():
+            try:
+                found[name] = read(name, x)
+            except (Refused, ValidationError) as error:
+                self.wrong(f"{where}{name}", reason(error))
+        return found
 
     def known(self, key: str, names: tuple[str, ...], where: str) -> None:
         if key not in names:
@@ -125,18 +140,6 @@ class _Reader:
             self.wrong(f"{where}{key}", f"found {found!r}, expected a whole number from {least} on")
             return least
         return found
-
-    def values(self, table: Mapping[str, Any], where: str) -> dict[str, Value]:
-        return {
-            name: self.attempt(f"{where}{name}", lambda n=name, x=x: read(n, x))  # type: ignore[misc]
-            for name, x in table.items()
-        }
-
-    def levels(self, table: Mapping[str, Any]) -> dict[str, tuple[Value, ...]]:
-        return {
-            name: self.attempt(f"grid.{name}", lambda n=name, x=x: _levels(n, x)) or ()  # type: ignore[misc]
-            for name, x in table.items()
-        }
 
 
 def _levels(name: str, given: Any) -> tuple[Value, ...]:
@@ -185,12 +188,8 @@ def _draw(r: _Reader, tables: Mapping[str, Any]) -> Draw | None:
     kind: Any = kinds[0]
     table, where = r.table(tables, kind), f"{kind}."
     count, seed = r.natural(table, "count", where, 1), r.natural(table, "seed", where, 0)
-    keys = ("from", "to", "scale")
-    ranges = {
-        name: r.attempt(f"{where}{name}", lambda n=name, x=x: _range(n, x, keys))  # type: ignore[misc]
-        for name, x in table.items()
-        if name not in ("count", "seed")
-    }
+    rest = {name: x for name, x in table.items() if name not in ("count", "seed")}
+    ranges = r.each(rest, where, partial(_range, keys=("from", "to", "scale")))
     if not ranges:
         r.wrong(kind, "names no parameter; expected p = {from, to}")
     if r.problems:
@@ -203,15 +202,12 @@ def _seeds(r: _Reader, given: Any) -> tuple[int, ...]:
         return ()
     if type(given) is int and 1 <= given <= MOST:
         return tuple(range(given))
-    fits = isinstance(given, list) and given and all(map(_is_seed, given))
-    if not fits or len(set(given)) < len(given):
+    found = given if isinstance(given, list) else []
+    seeds = {x for x in found if type(x) is int and 0 <= x <= MOST_SEED}
+    if not found or len(seeds) < len(found):
         r.wrong("study.seeds", f"found {given!r}, expected how many, or a list of different seeds")
         return ()
     return tuple(given)
-
-
-def _is_seed(x: Any) -> bool:
-    return type(x) is int and 0 <= x <= MOST_SEED
 
 
 def _cases(r: _Reader, given: Any) -> tuple[Named, ...]:
@@ -223,15 +219,15 @@ def _cases(r: _Reader, given: Any) -> tuple[Named, ...]:
         where = f"cases[{i}]."
         name = r.text(case, "name", where)
         rest = flat({key: x for key, x in case.items() if key != "name"})
-        cases.append(Named(name=str(name), values=r.values(rest, where)))
+        cases.append(Named(name=str(name), values=r.each(rest, where, read)))
     names = [case.name for case in cases]
     if len(set(names)) < len(names):
         r.wrong("cases", f"have the names {names}, expected different ones")
     return tuple(cases)
 
 
-def _together(r: _Reader, study: Study, where: str) -> Study:
-    """Whether nothing is given in two places, and a point can be made of each case."""
+def _check_together(r: _Reader, study: Study) -> None:
+    """Whether nothing is given in two places, and the first point of each case where values do not fit."""
     drawn = () if study.draw is None else study.draw.ranges
     places: dict[str, Iterable[str]] = {"fixed": study.fixed, "grid": study.grid, "samples": drawn}
     places |= {f"cases[{i}]": case.values for i, case in enumerate(study.cases, 1)}
@@ -245,16 +241,7 @@ def _together(r: _Reader, study: Study, where: str) -> Study:
                 r.wrong(f"{place}.{name}", f"is given in '{seen[name]}' too; expected one place")
     if not r.problems and study.count > MOST_POINTS:
         r.wrong("study", too_many(study))
-    if not r.problems:
-        _look(r, study)
-    if r.problems:
-        raise _error(r, where)
-    return study
-
-
-def _look(r: _Reader, study: Study) -> None:
-    """Whether values fit together, up to the first point of each case where they do not."""
-    for case in study.cases or (None,):
+    for case in () if r.problems else study.cases or (None,):
         alone = study.model_copy(update={"cases": () if case is None else (case,)})
         for values, at in some_points(alone, SPREAD // max(len(study.cases), 1)):
             try:
@@ -262,9 +249,3 @@ def _look(r: _Reader, study: Study) -> None:
             except InputError as error:
                 r.wrong(f"at {at}", error)
                 break
-
-
-def _error(r: _Reader, where: str) -> InputError:
-    if len(r.problems) == 1:
-        return InputError(f"{where}, {r.problems[0]}")
-    return InputError("\n  ".join([f"{where} has {len(r.problems)} problems:", *r.problems]))

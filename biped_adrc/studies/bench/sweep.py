@@ -19,13 +19,12 @@ from pydantic import ValidationError
 
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.values import reason
+from biped_adrc.studies.bench.build import files_of_study, hashes, own_of_study
 from biped_adrc.studies.bench.chunk import Function
 from biped_adrc.studies.bench.execute import Progress, Summary, run_study
-from biped_adrc.studies.bench.named_files import files_of_study, hashes, own_of_study
-from biped_adrc.studies.bench.rehearsal import rehearse
 from biped_adrc.studies.bench.store import About, Result
 from biped_adrc.studies.bench.store_open import open_store, read_store
-from biped_adrc.studies.bench.study import MOST_POINTS, Study, too_many
+from biped_adrc.studies.bench.study import MOST_POINTS, Study, rehearse, too_many
 from biped_adrc.studies.bench.study_file import load_study
 from biped_adrc.studies.bench.workers import Workers, workers_of
 from biped_adrc.versions import numerical_versions

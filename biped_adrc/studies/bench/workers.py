@@ -52,9 +52,9 @@ class Workers(ABC):
     def count(self, executor: Executor) -> int:
         """How many chunks it runs at once."""
 
-    @abstractmethod
     def stop(self, executor: Executor, now: bool) -> None:
         """End the executor; `now` without waiting for what runs, where that can be."""
+        executor.shutdown(wait=True, cancel_futures=now)
 
     def restart(self, executor: Executor) -> Executor:
         """Another executor for one that broke. Raises the errors of `start`."""
@@ -71,17 +71,27 @@ class Workers(ABC):
 
 
 @dataclass(frozen=True)
-class Processes(Workers):
-    """Processes of this machine, forked from one with `preload` imported; they end with this one."""
+class Threads(Workers):
+    """Threads of this process; what they run is to be compiled code that lets go of Python's lock."""
 
     number: int | None = None
-    preload: tuple[str, ...] = PRELOADED
 
     def __post_init__(self) -> None:
-        _check_number(self.number)
+        if self.number is not None and self.number < 1:
+            raise InputError(f"the study asks for {self.number} workers, expected at least 1")
 
-    def count(self, executor: Executor) -> int:
-        return _number(self.number)
+    def count(self, executor: Executor | None = None) -> int:
+        return self.number or cores()
+
+    def start(self) -> Executor:
+        return ThreadPoolExecutor(self.count())
+
+
+@dataclass(frozen=True)
+class Processes(Threads):
+    """Processes of this machine, forked from one with `preload` imported; they end with this one."""
+
+    preload: tuple[str, ...] = PRELOADED
 
     def prepare(self) -> None:
         """Raises InputError in a process that is itself just starting."""
@@ -93,7 +103,7 @@ class Processes(Workers):
         self.prepare()
         context = multiprocessing.get_context("forkserver")
         context.set_forkserver_preload(list(self.preload))
-        executor = ProcessPoolExecutor(_number(self.number), context, initializer=_begin)
+        executor = ProcessPoolExecutor(self.count(), context, initializer=_begin)
         try:
             with held_back():
                 _start_forkserver()
@@ -114,7 +124,7 @@ class Processes(Workers):
             executor.shutdown(wait=False, cancel_futures=True)
             for process in processes:
                 process.terminate()
-        executor.shutdown(wait=True, cancel_futures=now)
+        super().stop(executor, now)
 
 
 def _start_forkserver() -> None:
@@ -128,12 +138,12 @@ def _start_forkserver() -> None:
 
 
 @contextmanager
-def undisturbed() -> Iterator[None]:
-    """Without Ctrl-C, where it would be heard."""
+def undisturbed(handler: Any = signal.SIG_IGN) -> Iterator[None]:
+    """Without Ctrl-C, where it would be heard; `handler` hears it instead."""
     if current_thread() is not main_thread():
         yield
         return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    before = signal.signal(signal.SIGINT, handler)
     try:
         yield
     finally:
@@ -143,50 +153,26 @@ def undisturbed() -> Iterator[None]:
 @contextmanager
 def held_back() -> Iterator[None]:
     """Ctrl-C is heard at the end, so that no process is started and not known of."""
-    if current_thread() is not main_thread():
-        yield
-        return
     came: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, _: came.append(number))
     try:
-        yield
+        with undisturbed(lambda number, _: came.append(number)):
+            yield
     finally:
-        signal.signal(signal.SIGINT, before or signal.SIG_DFL)
         if came:
             signal.raise_signal(signal.SIGINT)
 
 
 def _begin() -> None:
     """Ctrl-C reaches every process of the terminal, the parent alone answers it; without it no worker stays."""
+
+    def end_with_parent() -> None:
+        if (parent := multiprocessing.parent_process()) is not None:
+            parent.join()
+            os._exit(1)
+
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-    Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)
-
-
-@dataclass(frozen=True)
-class Threads(Workers):
-    """Threads of this process; what they run is to be compiled code that lets go of Python's lock."""
-
-    number: int | None = None
-
-    def __post_init__(self) -> None:
-        _check_number(self.number)
-
-    def count(self, executor: Executor) -> int:
-        return _number(self.number)
-
-    def start(self) -> ThreadPoolExecutor:
-        return ThreadPoolExecutor(_number(self.number))
-
-    def stop(self, executor: Executor, now: bool) -> None:
-        executor.shutdown(wait=True, cancel_futures=now)
+    Thread(target=end_with_parent, daemon=True).start()
 
 
 @dataclass(frozen=True)
@@ -217,17 +203,8 @@ def workers_of(given: Workers | Executor | int | None) -> Workers:
     return Given(given)
 
 
-def _number(asked: int | None) -> int:
-    return asked or cores()
-
-
 def cores() -> int:
     """Those that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
-
-
-def _check_number(number: int | None) -> None:
-    if number is not None and number < 1:
-        raise InputError(f"the study asks for {number} workers, expected at least 1")

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import tomllib
+import itertools
 from dataclasses import dataclass
-from functools import cache
-from importlib.resources import files
 from typing import Any
 
 from biped_adrc.engine.choice import COMPILED
+from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import Push, joints_push
 from biped_adrc.scenario.scenario import Scenario
 
 
-@cache
 def declared() -> dict[str, Any]:
     """The file admissible.toml."""
-    text = files("biped_adrc.studies.claims").joinpath("admissible.toml").read_text("utf-8")
-    return tomllib.loads(text)
+    return packaged("biped_adrc.studies.claims", "admissible.toml")
 
 
 @dataclass(frozen=True)
@@ -81,12 +78,10 @@ def members() -> tuple[Member, ...]:
     """The fraction of the full product that the file declares, always in the same order."""
     factors, fraction = declared()["factors"], declared()["fraction"]
     found = []
-    for i, j in ((i, j) for i in range(3) for j in range(3)):
-        three = _levels(fraction["three_levels"], i, j, 3)
-        for k, m in ((k, m) for k in range(2) for m in range(2)):
-            at = three | _levels(fraction["two_levels"], k, m, 2)
-            chosen = {name: factors[name][level] for name, level in at.items()}
-            found.append(Member(**(chosen | {"joints": tuple(chosen["joints"])})))
+    for i, j, k, m in itertools.product(range(3), range(3), range(2), range(2)):
+        at = _levels(fraction["three_levels"], i, j, 3) | _levels(fraction["two_levels"], k, m, 2)
+        chosen = {name: factors[name][level] for name, level in at.items()}
+        found.append(Member(**(chosen | {"joints": tuple(chosen["joints"])})))
     return tuple(found)
 
 

@@ -1,13 +1,13 @@
-"""Runs and closed forms on which the claims beside the push on the joints rest."""
+"""Runs and closed forms on which the claims beside the push on the joints rest, and the tasks for them."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.regression import regress_multipliers
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.engine.choice import COMPILED
@@ -17,11 +17,21 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.recording import watched
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.claims.admissible import Member, declared, method
-from biped_adrc.studies.claims.walks import MemberOutcome, nominal, prepared, tracks, tried
-from biped_adrc.studies.claims.words import Figure
+from biped_adrc.studies.claims import evidence
+from biped_adrc.studies.claims.admissible import Member, declared, members, method
+from biped_adrc.studies.claims.orders import Order, orders
+from biped_adrc.studies.claims.tally import Figure
+from biped_adrc.studies.claims.walks import (
+    MemberOutcome,
+    nominal,
+    prepared,
+    tracks,
+    tried,
+    tried_all,
+)
+from biped_adrc.studies.cycle_stability import poincare
 from biped_adrc.studies.pair import CONTROLLERS
-from biped_adrc.studies.poincare import poincare
+from biped_adrc.studies.pool import Task
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE
 
@@ -54,24 +64,19 @@ def cycles(preset: str) -> tuple[Cycle, ...]:
 
 def _cycle(preset: str, gait: str, controller: str, theta: str) -> Cycle:
     h = declared()["steps"]["plain"]
-    run = Scenario(
-        controller,
-        preset=preset,
-        gait=gait,
-        solve_theta=theta == "solved",
-        method=method(controller),
-        engine=COMPILED,
-    )
-    made, rates = [], []
+    run = Scenario(controller, preset=preset, gait=gait, solve_theta=theta == "solved")
+    run = replace(run, method=method(controller), engine=COMPILED)
     biped, of = nominal(preset, gait)
-    for step in (h, 0.5 * h):
+
+    def at(step: float) -> tuple[float, float]:
         try:
             orbit = poincare(replace(run, h=step), with_states=False).orbit
-            made.append(float(abs(orbit.multipliers[0])))
-            rates.append(float(biped.phase @ orbit.x_minus[biped.n : 2 * biped.n]))
         except BipedError:
-            made.append(float("nan"))
-            rates.append(float("nan"))
+            return float("nan"), float("nan")
+        rate = biped.phase @ orbit.x_minus[biped.n : 2 * biped.n]
+        return float(abs(orbit.multipliers[0])), float(rate)
+
+    made, rates = zip(at(h), at(0.5 * h), strict=True)
     name = f"gait ({'a' if gait == 'published' else 'b'}), {preset}, {controller}, Theta'' {theta}"
     return Cycle(name, preset, gait, controller, theta, Figure(*made), Figure(*rates), of.period)
 
@@ -109,11 +114,9 @@ def needs(preset: str) -> tuple[Needs, ...]:
 def _needs(preset: str, gait: str) -> Needs:
     h = declared()["steps"]["needs"]
     run = Scenario("NPD", preset=preset, gait=gait, engine=COMPILED)
-    steps: list[Certificate] = []
     made = prepared(run)
-    for step in (h, 0.5 * h):
-        found = watched(made.walker, made.gait, made.simulate(step, 2)).certificates
-        steps.append(found[-1])
+    walks = (made.simulate(step, 2) for step in (h, 0.5 * h))
+    steps = [watched(made.walker, made.gait, walk).certificates[-1] for walk in walks]
     why, at_half = (tuple(one.illegal().values()) for one in steps)
     biped = nominal(preset, gait)[0]
 
@@ -157,17 +160,15 @@ def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
     same = True
     h = declared()["steps"]["plain"]
     for c, run in runs.items():
-        peaks, delays, impacts = [], [], []
         ready = prepared(run)
-        for step in (h, 0.5 * h):
-            walk = ready.simulate(step, run.impacts)
-            found = tracks(ready, walk)
-            # NumPy's, since max passes over the NaN of a step that never ends
-            peaks.append(float(np.max([t.peak for t in found])))
-            delays.append(float(np.max([abs(t.period - ready.gait.period) for t in found])))
-            impacts.append(len(walk.events(FOOT_STRIKE)))
+        walks = [ready.simulate(step, run.impacts) for step in (h, 0.5 * h)]
+        found = [tracks(ready, walk) for walk in walks]
+        # NumPy's, since max passes over the NaN of a step that never ends
+        peak[c] = Figure(*(float(np.max([t.peak for t in at])) for at in found))
+        late = ([abs(t.period - ready.gait.period) for t in at] for at in found)
+        delay[c] = Figure(*(float(np.max(at)) for at in late))
+        impacts = [len(walk.events(FOOT_STRIKE)) for walk in walks]
         made[c], same = min(impacts) == run.impacts, same and impacts[0] == impacts[1]
-        peak[c], delay[c] = Figure(*peaks), Figure(*delays)
     return Pair(name, peak, delay, made, same)
 
 
@@ -299,3 +300,50 @@ def noise_spectrum() -> Array:
         for _ in range(k["draws"])
     ]
     return np.median(found, axis=0)
+
+
+PRESET_PARTS = ("cycles", "needs", "unmatched", "uncertainty", "pushed_recipe", "basin", "jumps")
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """Outcomes of all runs for the claims, over the presets that were asked for."""
+
+    members: tuple[MemberOutcome, ...]
+    cycles: tuple[Cycle, ...]
+    needs: tuple[Needs, ...]
+    unmatched: tuple[Pair, ...]
+    uncertainty: tuple[Pair, ...]
+    pushed_recipe: tuple[MemberOutcome, ...]
+    basin: tuple[Start, ...]
+    jumps: tuple[Jumps, ...]
+    orders: tuple[Order, ...]
+
+
+def preset_evidence(preset: str) -> dict[str, tuple[Any, ...]]:
+    """What is computed once for a preset, beside the members of the set."""
+    return {part: getattr(evidence, part)(preset) for part in PRESET_PARTS}
+
+
+def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task]:
+    """By name, the longest first."""
+    out = {}
+    for preset in presets:
+        of_preset = tuple(member for member in members() if member.preset == preset)
+        out[f"claims members {preset}"] = Task(
+            f"claims, {len(of_preset)} pushes, {preset}", tried_all, (of_preset,)
+        )
+    for preset in presets:
+        out[f"claims rest {preset}"] = Task(
+            f"claims, cycles and needs, {preset}", preset_evidence, (preset,)
+        )
+    out["claims orders"] = Task("claims, order of the observer", orders, (presets[0],))
+    return out
+
+
+def gathered(presets: tuple[str, ...], found: Mapping[str, Any]) -> Evidence:
+    """The evidence in the results of `claim_tasks`, by their names behind "claims"."""
+    rest = [found[f"rest {preset}"] for preset in presets]
+    parts = {part: tuple(x for one in rest for x in one[part]) for part in PRESET_PARTS}
+    tried = tuple(o for preset in presets for o in found[f"members {preset}"])
+    return Evidence(members=tried, orders=found["orders"], **parts)

@@ -11,8 +11,8 @@ from scipy.optimize import brentq
 from biped_adrc.analysis.observer_loop import observer_loop
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.studies.claims.admissible import Member, declared
+from biped_adrc.studies.claims.tally import Figure
 from biped_adrc.studies.claims.walks import walked
-from biped_adrc.studies.claims.words import Figure
 
 SLOW = 2.0 * np.pi * 5.0
 """[rad/s], a disturbance of 5 Hz."""

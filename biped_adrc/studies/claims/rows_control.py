@@ -10,22 +10,20 @@ from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.studies.claims.admissible import convergence, declared, in_all
 from biped_adrc.studies.claims.evidence import Jumps, Pair
 from biped_adrc.studies.claims.orders import Order
-from biped_adrc.studies.claims.walks import MemberOutcome, quotient
-from biped_adrc.studies.claims.words import (
+from biped_adrc.studies.claims.tally import (
     CONTRADICTED,
     NOT_TESTABLE,
     Case,
-    Claim,
     Figure,
-    Span,
     Tally,
     against,
     below_limit,
     changes,
     fewer,
-    row,
-    told,
 )
+from biped_adrc.studies.claims.walks import MemberOutcome, quotient
+from biped_adrc.studies.claims.words import Claim, Span, limited, row, told
+from biped_adrc.studies.laws import HELD
 
 
 def control_claims(
@@ -107,10 +105,11 @@ def model_uncertainty(pairs: Sequence[Pair]) -> list[Claim]:
 def independent_of_the_gait(outcomes: Sequence[MemberOutcome]) -> Claim:
     """The push on gait (b), whose impacts leave an error of their own."""
     limit = declared()["limits"]["ratio"]
-    cases = [below_limit(o.member.name, o.rejection, limit) for o in outcomes]
-    return row(
+    return limited(
         "independent_of_the_gait",
-        Tally(tuple(cases), in_all(1)),
+        ((o.member.name, o.rejection) for o in outcomes),
+        limit,
+        in_all(1),
         deviations=Span.of(o.rejection for o in outcomes),
         peaks=Span.of(o.tracking for o in outcomes),
     )
@@ -163,15 +162,7 @@ def hurwitz() -> Claim:
 
 def tends_to_zero(numerics: Mapping[str, float]) -> Claim:
     """(23) under a disturbance that goes on."""
-    simulated, half, corrected, printed = (
-        numerics.get(name, math.nan)
-        for name in (
-            "tracking error per unit disturbance on a held joint, simulated [s^2]",
-            "the same at half the step [s^2]",
-            "the same by (23) corrected [s^2]",
-            "the same by (23) as printed [s^2]",
-        )
-    )
+    simulated, half, corrected, printed = (numerics.get(name, math.nan) for name in HELD)
     amplitude, share = Figure(simulated, half), convergence()[0]
     seen = simulated > 0.0 and abs(simulated - corrected) <= 0.01 * corrected
     firm = amplitude.converged(share, 0.0)

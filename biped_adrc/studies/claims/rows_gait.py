@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
@@ -17,21 +18,18 @@ from biped_adrc.studies.claims.evidence import (
     longest_step,
     noise_spectrum,
 )
-from biped_adrc.studies.claims.words import (
+from biped_adrc.studies.claims.tally import (
     CONTRADICTED,
     DEPENDS,
     NOT_TESTABLE,
     Case,
-    Claim,
     Figure,
-    Span,
     Tally,
     above_limit,
     below_limit,
     fewer,
-    row,
-    told,
 )
+from biped_adrc.studies.claims.words import Claim, Span, limited, row, told
 
 PRINTED_SPEED = float(X_STAR[5] + 0.5 * X_STAR[7] + X_STAR[9])
 """Theta' of x* [rad/s], Theta = q5 + q1 + q3 / 2."""
@@ -55,23 +53,20 @@ def gait_claims(
     ]
 
 
-def _largest(cycles: Sequence[Cycle], declared_cycles: int) -> Tally:
-    below_one, round_off = math.nextafter(1.0, 0.0), declared()["limits"]["multiplier"]
-    bound = (convergence()[0], round_off)
-    cases = tuple(below_limit(c.name, c.multiplier, below_one, bound) for c in cycles)
-    return Tally(cases, declared_cycles)
+def stable(cycles: Sequence[Cycle], name: str = "stable", of_preset: int = 4) -> Claim:
+    """Gait (a), or gait (b) by its name in claims.toml, by central differences."""
+    bound = (convergence()[0], declared()["limits"]["multiplier"])
+    return limited(
+        name,
+        ((c.name, c.multiplier) for c in cycles),
+        math.nextafter(1.0, 0.0),
+        in_all(of_preset),
+        bound,
+        multipliers=Span.of(c.multiplier for c in cycles),
+    )
 
 
-def stable(cycles: Sequence[Cycle]) -> Claim:
-    """Gait (a), by central differences."""
-    found = Span.of(c.multiplier for c in cycles)
-    return row("stable", _largest(cycles, in_all(4)), multipliers=found)
-
-
-def recipe_stable(cycles: Sequence[Cycle]) -> Claim:
-    """Gait (b)."""
-    found = Span.of(c.multiplier for c in cycles)
-    return row("recipe_stable", _largest(cycles, in_all(2)), multipliers=found)
+recipe_stable = partial(stable, name="recipe_stable", of_preset=2)
 
 
 def recipe_speed(cycles: Sequence[Cycle]) -> Claim:
@@ -87,7 +82,7 @@ def recipe_speed(cycles: Sequence[Cycle]) -> Claim:
         speed=PRINTED_SPEED,
         rates=shown,
         percent=100.0 * limit,
-        hangs_on=_hangs_on(cycles, _farthest(cycles)),
+        hangs_on=_hangs_on(cycles),
     )
 
 
@@ -97,13 +92,10 @@ def _speeds(cycles: Sequence[Cycle], limit: float) -> Tally:
     return Tally(tuple(cases), in_all(1))
 
 
-def _farthest(cycles: Sequence[Cycle]) -> float:
-    """Largest deviation from the printed speed, as a share; NaN without a cycle."""
-    return float(np.max([abs(c.rate.at_half / PRINTED_SPEED - 1.0) for c in cycles] or [math.nan]))
-
-
-def _hangs_on(cycles: Sequence[Cycle], worst: float) -> str:
+def _hangs_on(cycles: Sequence[Cycle]) -> str:
     """What another limit, the whole percentage below the largest deviation, would have made of it."""
+    apart = [abs(c.rate.at_half / PRINTED_SPEED - 1.0) for c in cycles]
+    worst = float(np.max(apart or [math.nan]))
     if math.isnan(worst):
         return ""
     lower = math.floor(100.0 * worst)
@@ -138,9 +130,9 @@ def _two(f: Figure) -> str:
 def pinned_at_impact(needs: Sequence[Needs]) -> Claim:
     """The hypothesis of (6)."""
     limit = declared()["limits"]["friction"]
-    cases = [below_limit(n.name, n.impulse_ratio, limit) for n in needs]
+    found = [(n.name, n.impulse_ratio) for n in needs]
     ratios = Span.of(n.impulse_ratio for n in needs)
-    return row("pinned_at_impact", Tally(tuple(cases), in_all(2)), ratios=ratios)
+    return limited("pinned_at_impact", found, limit, in_all(2), ratios=ratios)
 
 
 def not_smooth(needs: Sequence[Needs]) -> Claim:

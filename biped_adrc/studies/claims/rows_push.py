@@ -5,21 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from biped_adrc.studies.claims import admissible
 from biped_adrc.studies.claims.admissible import convergence, declared
+from biped_adrc.studies.claims.tally import NOT_TESTABLE, Case, Figure, Tally, above_limit
 from biped_adrc.studies.claims.walks import MemberOutcome, Walked
-from biped_adrc.studies.claims.words import (
-    NOT_TESTABLE,
-    Case,
-    Claim,
-    Figure,
-    Span,
-    Tally,
-    above_limit,
-    below_limit,
-    row,
-    told,
-)
+from biped_adrc.studies.claims.words import Claim, Span, limited, row, told
 from biped_adrc.studies.push_map import Cell, certain
 
 Members = Sequence[MemberOutcome]
@@ -45,9 +37,11 @@ def _tally(cases: Sequence[Case]) -> Tally:
 def rejection(members: Members) -> Claim:
     """What the push adds to the error under ADRC, over what it adds under NPD."""
     limit = declared()["limits"]["ratio"]
-    return row(
+    return limited(
         "rejection",
-        _tally([below_limit(o.member.name, o.rejection, limit) for o in members]),
+        ((o.member.name, o.rejection) for o in members),
+        limit,
+        len(admissible.members()),
         npd=Span.of(o.walked["NPD"].deviation for o in members),
         adrc=Span.of(o.walked["ADRC"].deviation for o in members),
         ratios=Span.of(o.rejection for o in members),
@@ -61,9 +55,11 @@ def tracking(members: Members) -> Claim:
         theta: Span.of(o.walked["ADRC"].peak for o in members if o.member.theta == theta)
         for theta in declared()["factors"]["theta"]
     }
-    return row(
+    return limited(
         "tracking",
-        _tally([below_limit(o.member.name, o.tracking, limit) for o in members]),
+        ((o.member.name, o.tracking) for o in members),
+        limit,
+        len(admissible.members()),
         ratios=Span.of(o.tracking for o in members),
         **by_theta,
     )
@@ -78,15 +74,11 @@ def deviates(members: Members) -> Claim:
 
 def walks_on(members: Members) -> Claim:
     """Both controllers make the steps."""
-    cases = [
-        Case(
-            o.member.name,
-            o.walked["ADRC"].period,
-            all(w.made for w in o.walked.values()),
-            any(_doubtful(w) for w in o.walked.values()),
-        )
-        for o in members
-    ]
+    cases = []
+    for o in members:
+        each, period = o.walked.values(), o.walked["ADRC"].period
+        made, doubtful = all(w.made for w in each), any(map(_doubtful, each))
+        cases.append(Case(o.member.name, period, made, doubtful))
     npd, adrc = (sum(o.walked[c].made for o in members) for c in ("NPD", "ADRC"))
     steps = declared()["steps"]["impacts"]
     return row("walks_on", _tally(cases), steps=steps, npd=npd, adrc=adrc, count=len(members))
@@ -100,24 +92,19 @@ def _doubtful(w: Walked) -> bool:
 def unaffected(members: Members) -> Claim:
     """Figure 6: the cycle in (Theta, Theta') under ADRC."""
     steps, limit = declared()["steps"], declared()["limits"]["cycle"]
-    size = [Figure(*(_size(v) for v in o.walked["ADRC"].rate)) for o in members]
+    # infinite where there is no impact: that cycle is lost
+    rates = [np.abs(o.walked["ADRC"].rate) for o in members]
+    size = [Figure(*np.where(np.isnan(rate), np.inf, rate).tolist()) for rate in rates]
     bound = (steps["convergence"], steps["round_off_rate"])
-    return row(
+    return limited(
         "unaffected",
-        _tally(
-            [
-                below_limit(o.member.name, f, limit, bound)
-                for o, f in zip(members, size, strict=True)
-            ]
-        ),
+        zip((o.member.name for o in members), size, strict=True),
+        limit,
+        len(admissible.members()),
+        bound,
         adrc=max((f.at_half for f in size), default=math.nan),
         npd=Span(abs(o.walked["NPD"].rate.at_half) for o in members),
     )
-
-
-def _size(rate: float) -> float:
-    """Infinite where there is no impact: that cycle is lost."""
-    return math.inf if math.isnan(rate) else abs(rate)
 
 
 def legal(members: Members) -> Claim:
@@ -133,15 +120,10 @@ def critical_phase(members: Members, cells: Sequence[Cell] = ()) -> Claim:
     if cells:
         return _critical_phase_of_the_map(cells)
     lost = [o for o in members if not o.walked["NPD"].made]
-    cases = [
-        Case(
-            o.member.name,
-            o.walked["NPD"].peak,
-            o.walked["ADRC"].made,
-            not all(w.same for w in o.walked.values()),
-        )
-        for o in lost
-    ]
+    cases = []
+    for o in lost:
+        npd, adrc = o.walked["NPD"], o.walked["ADRC"]
+        cases.append(Case(o.member.name, npd.peak, adrc.made, not (npd.same and adrc.same)))
     tally = Tally(tuple(cases))
     counted = {"lost": len(lost), "count": len(members), "held": tally.held}
     if not cases:

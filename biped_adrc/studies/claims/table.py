@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from biped_adrc.studies.claims.gathered import Evidence, gathered
+from biped_adrc.studies.claims.evidence import Evidence, gathered
 from biped_adrc.studies.claims.rows_control import control_claims
 from biped_adrc.studies.claims.rows_gait import gait_claims
 from biped_adrc.studies.claims.rows_push import long_walk, push_claims

@@ -20,7 +20,7 @@ from biped_adrc.scenario.recording import watched
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.claims.admissible import Member, declared
-from biped_adrc.studies.claims.words import Figure
+from biped_adrc.studies.claims.tally import Figure
 from biped_adrc.studies.pair import CONTROLLERS
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Mode, Walker

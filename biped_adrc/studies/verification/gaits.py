@@ -32,7 +32,6 @@ from biped_adrc.studies.verification.row import Row, at_most
 from biped_adrc.types import Array
 from biped_adrc.walker import Walker
 
-PRESETS = ("identified", "identified-bare", "tac2003")
 FASTER = 0.01  # of the speed before impact, dimensionless
 ROBOTS = ("rimless_wheel", "compass", "simplest", "three_link", "rabbit")
 ENERGY = "energy lost at impact"

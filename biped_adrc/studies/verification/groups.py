@@ -2,37 +2,17 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from importlib.resources import files
 
 from biped_adrc.errors import InputError
-from biped_adrc.studies.verification.design import SPEEDS, design_rows, through_rows
-from biped_adrc.studies.verification.frost_urdf import sense_rows
-from biped_adrc.studies.verification.gaits import (
-    PRESETS,
-    ROBOTS,
-    invariant_gaits,
-    multiplier_rows,
-    robot_rows,
-    work_rows,
-)
-from biped_adrc.studies.verification.hip import hip_rows, published_force_rows
-from biped_adrc.studies.verification.paper import fixed_point_rows, poles_row
-from biped_adrc.studies.verification.passive import (
-    ball_rows,
-    compass_rows,
-    heavy_feet_rows,
-    short_step_rows,
-    simplest_rows,
-    wheel_rows,
-)
-from biped_adrc.studies.verification.rabbit import designed_rows, printed_rows
-from biped_adrc.studies.verification.row import Row
-from biped_adrc.studies.verification.three_link import three_link_rows
+from biped_adrc.resources import packaged
+from biped_adrc.studies.pair import CONTROLLERS
+from biped_adrc.studies.verification import frost_urdf, gaits, passive, rabbit, three_link
+from biped_adrc.studies.verification.row import PRESETS, Row
 
+DESIGNED = ("identified", "tac2003")
 Maker = Callable[[], tuple[Row, ...]]
 
 
@@ -48,44 +28,32 @@ class Group:
 
 def groups() -> tuple[Group, ...]:
     """All of them, in the order of the page."""
-    passive = (
-        ball_rows,
-        wheel_rows,
-        simplest_rows,
-        short_step_rows,
-        heavy_feet_rows,
-        compass_rows,
-    )
-    fixed_points = tuple(partial(fixed_point_rows, preset) for preset in PRESETS)
-    works = tuple(partial(work_rows, preset) for preset in PRESETS)
-    multipliers = tuple(
-        partial(multiplier_rows, preset, gait)
-        for preset in PRESETS
-        for gait in invariant_gaits(preset)
-    )
-    robots = tuple(partial(robot_rows, robot) for robot in ROBOTS)
-    designed = tuple(
-        partial(design_rows, preset, speed)
-        for preset in ("identified", "tac2003")
-        for speed in SPEEDS
-    )
-    example = (printed_rows, designed_rows, partial(designed_rows, 0.4))
-    pushed = tuple(partial(hip_rows, tracking) for tracking in ("NPD", "ADRC"))
-    through = tuple(partial(through_rows, preset) for preset in ("identified", "tac2003"))
+    speeds = [(preset, speed) for preset in DESIGNED for speed in rabbit.SPEEDS]
+    stored = [(preset, gait) for preset in PRESETS for gait in gaits.invariant_gaits(preset)]
+    walkers = ("ball", "wheel", "simplest", "short_step", "heavy_feet", "compass")
     makers: dict[str, tuple[Maker, ...]] = {
-        "passive": passive,
-        "three-link": (three_link_rows,),
-        "tac2003": example,
-        "paper": (poles_row, *fixed_points),
-        "work": works,
-        "multipliers": multipliers,
-        "robots": robots,
-        "design": (*designed, *through),
-        "hip": (published_force_rows, *pushed),
-        "senses": (sense_rows,),
+        "passive": tuple(getattr(passive, f"{name}_rows") for name in walkers),
+        "three-link": (three_link.three_link_rows,),
+        "tac2003": (rabbit.printed_rows, *(partial(rabbit.designed_rows, L) for L in (None, 0.4))),
+        "paper": (
+            rabbit.poles_row,
+            *(partial(rabbit.fixed_point_rows, preset) for preset in PRESETS),
+        ),
+        "work": tuple(partial(gaits.work_rows, preset) for preset in PRESETS),
+        "multipliers": tuple(partial(gaits.multiplier_rows, *pair) for pair in stored),
+        "robots": tuple(partial(gaits.robot_rows, robot) for robot in gaits.ROBOTS),
+        "design": (
+            *(partial(rabbit.design_rows, *pair) for pair in speeds),
+            *(partial(rabbit.through_rows, preset) for preset in DESIGNED),
+        ),
+        "hip": (
+            rabbit.published_force_rows,
+            *(partial(rabbit.hip_rows, c) for c in CONTROLLERS),
+        ),
+        "senses": (frost_urdf.sense_rows,),
     }
-    text = files("biped_adrc.studies.verification").joinpath("groups.toml").read_text("utf-8")
-    return tuple(Group(n, **said, makers=makers[n]) for n, said in tomllib.loads(text).items())
+    texts = packaged("biped_adrc.studies.verification", "groups.toml")
+    return tuple(Group(n, **said, makers=makers[n]) for n, said in texts.items())
 
 
 def group_named(name: str) -> Group:

@@ -22,17 +22,13 @@ from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.run import Cycle, known_cycle
-from biped_adrc.studies.verification.row import Row
+from biped_adrc.studies.verification.row import Row, published
 from biped_adrc.types import Array
 from biped_adrc.walker import Mode
 
 CLOSED = "closed form"
 MCGEER = "McGeer 1990, closed form"
-GARCIA = "Garcia et al. 1998"
-RECOMPUTED = "Garcia et al. 1998, digits recomputed from their equations"
 SCRIPT = "M. Garcia, pointfoot simulation of 1998 that goes with the paper"
-BHOUNSULE = "P. Bhounsule, passivewalker.m, 2009"
-GOSWAMI = "Goswami et al. 1998, digits recomputed from their model"
 FEET = 1e-7  # of the hip's mass, of the robot "simplest"
 
 
@@ -125,61 +121,36 @@ def simplest_rows() -> tuple[Row, ...]:
     step, q, v = solved(cycle)
     theta, rate = garcia_angles(cycle, q, v)
     period = step.duration * math.sqrt(cycle.P.walker.plant.description.gravity)
-    feet = f"feet of {FEET:g} of the hip's mass"
     heavy, heavier = (abs(solved(simplest(m))[0].multipliers[0]) for m in (1e-6, 1e-5))
     limit = heavy + (heavy - heavier) / 9.0
     script = abs(complex(-0.19120868949940, 0.55633363687106))
-    name = "simplest walker, long step"
     doubt = (
         f"massless feet, extrapolated from 1e-5 and 1e-6 of the hip's mass; a comment in the {SCRIPT} "
         f"gives {script:.6f}, {abs(script / limit - 1.0):.1e} beside both"
     )
     return (
-        Row(name, "theta* [rad]", 0.200310901, theta, 1e-6, GARCIA, note=feet),
-        Row(name, "theta'* [sqrt(g/l)]", -0.199832473, rate, 1e-6, GARCIA, note=feet),
-        Row(name, "period [sqrt(l/g)]", 3.882464, period, 1e-6, RECOMPUTED, note=feet),
-        Row(name, "largest multiplier", 0.589113, float(limit), 1e-6, RECOMPUTED, note=doubt),
+        *published("long_step", theta, rate),
+        *published("long_step_recomputed", period),
+        *published("long_step_multiplier", float(limit), note=doubt),
     )
 
 
 def short_step_rows() -> tuple[Row, ...]:
     """The shorter, unstable step."""
-    theta, rate = 0.19393736960624, -0.20386692731962
-    cycle = started_at(simplest(), theta, rate)
+    cycle = started_at(simplest(), 0.19393736960624, -0.20386692731962)
     step, q, v = solved(cycle)
-    found = garcia_angles(cycle, q, v)
-    name, note = "simplest walker, short step", f"feet of {FEET:g} of the hip's mass; unstable"
-    large, small = (float(m.real) for m in step.multipliers[:2])
-    doubt = "differs in the fourth digit, as the same script's multiplier of the long step does"
-    return (
-        Row(name, "theta* [rad]", theta, found[0], 1e-6, SCRIPT, note=note),
-        Row(name, "theta'* [sqrt(g/l)]", rate, found[1], 1e-6, SCRIPT, note=note),
-        Row(name, "first multiplier", 4.000, large, None, SCRIPT, note=doubt),
-        Row(name, "second multiplier", 0.459, small, None, SCRIPT, note=doubt),
-    )
+    multipliers = (float(m.real) for m in step.multipliers[:2])
+    angles = published("short_step", *garcia_angles(cycle, q, v))
+    return (*angles, *published("short_step_multipliers", *multipliers))
 
 
 def heavy_feet_rows() -> tuple[Row, ...]:
     """Feet of a thousandth of the hip's mass: their inertia counts."""
     cycle = simplest(1e-3)
     _, q, v = solved(cycle)
-    theta, rate = garcia_angles(cycle, q, v)
-    legs, spread = -float(q[0]), -float(v[0]) / math.sqrt(cycle.P.walker.plant.description.gravity)
-    expected = (0.200161072169750, -0.199906060087682, 0.400322144339512, -0.015805473227965)
-    names = ("stance angle [rad]", "its rate [sqrt(g/l)]", "between the legs [rad]")
-    return tuple(
-        Row(
-            "simplest walker, feet of 1e-3 of the hip's mass",
-            name,
-            published,
-            found,
-            1e-9,
-            BHOUNSULE,
-        )
-        for name, published, found in zip(
-            (*names, "its rate [sqrt(g/l)]"), expected, (theta, rate, legs, spread), strict=True
-        )
-    )
+    spread = -float(v[0]) / math.sqrt(cycle.P.walker.plant.description.gravity)
+    angles = published("heavy_feet", *garcia_angles(cycle, q, v), -float(q[0]))
+    return (*angles, *published("heavy_feet_spread", spread))
 
 
 def compass_rows() -> tuple[Row, ...]:
@@ -187,15 +158,5 @@ def compass_rows() -> tuple[Row, ...]:
     step, q, v = solved(known_cycle(Biped.load("compass")))
     pair = max(step.multipliers, key=lambda z: z.imag)
     real = min(step.multipliers, key=lambda z: abs(z.imag))
-    values = (
-        ("stance angle after impact [rad]", -0.2186688, math.pi - q[1]),
-        ("its rate [rad/s]", 1.0923836, -v[1]),
-        ("rate of the swing leg [rad/s]", 0.3773740, -(v[0] + v[1])),
-        ("multipliers of the pair, real part", -0.1997261, pair.real),
-        ("imaginary part", 0.5444761, pair.imag),
-        ("third multiplier", 0.1315726, real.real),
-    )
-    return tuple(
-        Row("compass gait, 3 degrees", name, expected, float(found), 1e-6, GOSWAMI)
-        for name, expected, found in values
-    )
+    state = (math.pi - q[1], -v[1], -(v[0] + v[1]))
+    return published("compass", *state, pair.real, pair.imag, real.real)

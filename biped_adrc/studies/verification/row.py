@@ -15,6 +15,10 @@ from enum import Enum
 from biped_adrc import checks
 from biped_adrc.checks import Check
 from biped_adrc.errors import InputError
+from biped_adrc.resources import packaged
+
+PRESETS = ("identified", "identified-bare", "tac2003")
+"""Of RABBIT."""
 
 
 class Measure(Enum):
@@ -26,15 +30,8 @@ class Measure(Enum):
 
 
 COLUMNS = (
-    "system",
-    "quantity",
-    "expected",
-    "found",
-    "difference",
-    "tolerance",
-    "source",
-    "note",
-    "verdict",
+    *("system", "quantity", "expected", "found", "difference"),
+    *("tolerance", "source", "note", "verdict"),
 )
 
 
@@ -112,3 +109,20 @@ class Row:
 def at_most(system: str, quantity: str, limit: float, found: float, source: str) -> Row:
     """A row that holds up to its limit."""
     return Row(system, quantity, limit, found, 0.0, source, Measure.AT_MOST)
+
+
+def nothing(
+    system: str, quantity: str, found: float, tolerance: float, source: str, note: str = ""
+) -> Row:
+    """A row that holds where the number found is within its tolerance of 0."""
+    return Row(system, quantity, 0.0, float(found), tolerance, source, Measure.ABSOLUTE, note)
+
+
+def published(name: str, *found: float, note: str = "") -> tuple[Row, ...]:
+    """The rows of published.toml by name, each beside what was found here."""
+    said = packaged("biped_adrc.studies.verification", "published.toml")[name]
+    note = note or said.get("note", "")
+    return tuple(
+        Row(said["system"], q, x, float(here), said.get("tolerance"), said["source"], note=note)
+        for (q, x), here in zip(said["expected"].items(), found, strict=True)
+    )
