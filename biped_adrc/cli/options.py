@@ -58,11 +58,14 @@ def _shown(text: Any) -> Any:
     return typer.Option(*entry.get("flags", ()), help=entry["help"])
 
 
-def of_scenario(*names: str, **flags: str) -> Callable[[Command], Command]:
+def of_scenario(
+    *names: str, controller: str = "ADRC", **flags: str
+) -> Callable[[Command], Command]:
     """Options for fields by name, or by a flag of another name, put in front of a command's own.
 
-    The command gets as `given` those that are on the command line.
+    The command gets as `given` those that are on the command line. controller: what it takes by default.
     """
+    usual = {"controller": f"{controller}; passive for a robot without motors"}
     shown = {**{name: "--" + name.replace("_", "-") for name in names}, **flags}
 
     def decorate(command: Command) -> Command:
@@ -75,7 +78,11 @@ def of_scenario(*names: str, **flags: str) -> Callable[[Command], Command]:
             p for p in signature(command, eval_str=True).parameters.values() if p.name != "given"
         ]
         first = Parameter("context", Parameter.KEYWORD_ONLY, annotation=typer.Context)
-        options = [first, *(_option(*pair) for pair in shown.items()), *own]
+        options = [
+            first,
+            *(_option(*pair, usual.get(pair[0], True)) for pair in shown.items()),
+            *own,
+        ]
         options = [p.replace(kind=Parameter.KEYWORD_ONLY) for p in options]
         with_given.__signature__ = signature(with_given).replace(parameters=options)  # type: ignore[attr-defined]
         with_given.__annotations__ = {}
@@ -84,7 +91,7 @@ def of_scenario(*names: str, **flags: str) -> Callable[[Command], Command]:
     return decorate
 
 
-def _option(name: str, flag: str) -> Parameter:
+def _option(name: str, flag: str, usual: str | bool) -> Parameter:
     field, default = FIELDS[name], DEFAULTS[name]
     kinds = [
         kind
@@ -95,7 +102,7 @@ def _option(name: str, flag: str) -> Parameter:
     unit = "" if UNITS[name] == "1" else f" [{UNITS[name]}]"
     help_text = f"{field.description.removesuffix('.')}{unit}."
     kind = kind if default is not None else kind | None
-    option = Annotated[kind, typer.Option(flag, help=help_text)]
+    option = Annotated[kind, typer.Option(flag, help=help_text, show_default=usual)]
     return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=option)
 
 

@@ -175,7 +175,7 @@ def _nominal(c: Certificate) -> str:
 
 
 @app.command()
-@of_scenario("robot", "preset", "gait", "controller")
+@of_scenario("robot", "preset", "gait", "controller", controller="NPD")
 @texts("poincare")
 def poincare(
     given: dict[str, Any],
@@ -184,7 +184,7 @@ def poincare(
     observer_states: bool = True,
     samples: int = 25,
 ) -> None:
-    """Fixed point of the return map, and its multipliers by every method beside each other; NPD by default."""
+    """Fixed point of the return map, and its multipliers by every method beside each other."""
     from biped_adrc.scenario.scenario import Scenario
     from biped_adrc.studies.cycle_stability import (
         cycle_of,

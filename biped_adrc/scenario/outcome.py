@@ -10,12 +10,12 @@ import numpy as np
 from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.quadrature import integrate
-from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE
 
 if TYPE_CHECKING:
     from biped_adrc.scenario.recording import Walk
+    from biped_adrc.scenario.scenario import Scenario
 
 
 @dataclass(frozen=True)

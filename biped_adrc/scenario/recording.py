@@ -19,12 +19,13 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.robots import Limits
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
-from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Walker
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from biped_adrc.scenario.scenario import Scenario
 
 
 def _nothing(t: float) -> tuple[Array, Array, Array]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from biped_adrc.engine.choice import COMPILED, simulate_by
 from biped_adrc.errors import InputError, check_count
@@ -17,9 +17,11 @@ from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.robots import Limits
 from biped_adrc.scenario.recording import Walk, watched
-from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array
 from biped_adrc.walker import Mode, Walker
+
+if TYPE_CHECKING:
+    from biped_adrc.scenario.scenario import Scenario
 
 
 class Part(NamedTuple):
