@@ -63,7 +63,7 @@ def path(k: ConstraintParameters, theta: float) -> tuple[Array, Array, Array]:
 
 def virtual_constraint(k: ConstraintParameters, q: Array, v: Array) -> ReferencePoint:
     """The reference at (q, v)."""
-    theta, dtheta = float(k.c @ q), float(k.c @ v)
+    theta, dtheta = float(k.c.dot(q)), float(k.c.dot(v))
     h, dh, ddh = path(k, theta)
     return ReferencePoint(h, dh * dtheta, dtheta**2 * ddh, dh[:, np.newaxis] * k.c)
 

@@ -31,7 +31,7 @@ class CurveParameters(NamedTuple):
 def curve(c: CurveParameters, s: float) -> tuple[Array, Array, Array]:
     """h, dh/ds, d2h/ds2 at s, each (p,)."""
     p = c.stacked.shape[0] // 3
-    values = c.stacked @ s**c.powers
+    values = c.stacked.dot(s**c.powers)
     return values[:p], values[p : 2 * p], values[2 * p :]
 
 
