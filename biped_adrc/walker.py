@@ -105,7 +105,13 @@ class Walker(ClosedLoop[Biped]):
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         if self.disturbance is None:
             return np.zeros(self.plant.n)
-        return self.disturbance.torque(t, mode.step, mode.start, q, v)
+        zeta = np.asarray(self.disturbance.torque(t, mode.step, mode.start, q, v))
+        if zeta.shape != q.shape:
+            raise InputError(
+                f"the torque of {type(self.disturbance).__name__} has shape {zeta.shape}, expected {q.shape}: "
+                "one number [N m] per coordinate"
+            )
+        return zeta
 
     def resultant(self, t: float, mode: Mode) -> Array:
         """Force from outside on the robot as a whole (2,) [N]."""

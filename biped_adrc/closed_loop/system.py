@@ -14,7 +14,7 @@ import numpy as np
 
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.semantics import Instant, Loop, Mode, Plant, instant, unknown
-from biped_adrc.control.base import Controller, Measurement, check_output, misshapen
+from biped_adrc.control.base import Controller, Measurement, check_output, check_state, misshapen
 from biped_adrc.errors import InputError, NotFiniteError, SimulationError
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware import held
@@ -142,7 +142,9 @@ class ClosedLoop(HybridSystem, Generic[P]):
         mode = Mode() if mode is None else mode
         m = self.measure(mode.start, np.asarray(q, dtype=float), np.asarray(v, dtype=float), mode)
         s, k = self.law.initial_state(m), self.held
-        check_output(self.controller, np.asarray(self.law.output(s, m)), self.plant.p)
+        u = np.asarray(self.law.output(s, m))
+        check_output(self.controller, u, self.plant.p)
+        check_state(self.law, s, m, u, self.swap)
         tail = np.zeros(0) if k is None else held.at_start(k, m.q, m.v, self.sensors)
         return np.concatenate((m.q, m.v, s, tail))
 

@@ -207,6 +207,18 @@ def misshapen(controller: Controller, u: Array, p: int) -> str:
     )
 
 
+def check_state(controller: Controller, s: Array, m: Measurement, u: Array, swap: Array) -> None:
+    """Raise InputError for a law of the state s that gives another number of numbers than s has."""
+    calls = {"flow": (s, m, u), "correct": (s, m), "predict": (s, m, u), "jump": (s, m, swap)}
+    for name, given in calls.items():
+        law = controller._law(name)
+        if law is not None and (shape := np.shape(law(*given))) != s.shape:
+            raise InputError(
+                f"law {name} of {type(controller).__name__} gives an array of shape {shape}, expected "
+                f"{s.shape} as its state"
+            )
+
+
 def check_output(controller: Controller, u: Array, p: int) -> None:
     """Raise InputError for a first output that is not one torque per motor, NotFiniteError for NaN."""
     if u.shape != (p,):

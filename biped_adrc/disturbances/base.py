@@ -62,7 +62,13 @@ class Disturbance(Composed):
         total = np.zeros(len(q))
         for law in self._laws:
             if law.acts(t, step, t_start):
-                total += law.torque(law.parameters, t, step, t_start, q, v)
+                zeta = law.torque(law.parameters, t, step, t_start, q, v)
+                if np.shape(zeta) != total.shape:
+                    raise InputError(
+                        f"the law torque of {type(self).__name__} gives an array of shape {np.shape(zeta)}, "
+                        f"expected {total.shape}: one number [N m] per coordinate"
+                    )
+                total += zeta
         return total
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:

@@ -33,6 +33,7 @@ from biped_adrc.engine.kernels.tables import (
 from biped_adrc.engine.machine import Machine, Text, remembered
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.symbols import Tracer, Untraceable, Vector, column, floats, run
+from biped_adrc.errors import InputError
 from biped_adrc.hybrid.integrators import OneStepMethod, no_coordinates
 from biped_adrc.split import SplitLaws
 from biped_adrc.timing import LONGEST_PERIOD, SampledTime
@@ -177,10 +178,10 @@ def disturbance_code(law: DisturbanceLaw, n: int) -> Machine:
     """With the functions `torque` and, where there is one, `resultant`. Raises NotCompiled."""
     parts = {"torque": (law.torque, n), "resultant": (law.resultant, 2)}
     given = {name: part for name, part in parts.items() if part[0] is not None}
-    texts = [law_text(part[0]) for part in given.values()]
-    texts += [law_text(law.active), skeleton(law.parameters), versions_text()]
-    key = hash_of("disturbance", n, *given, *texts)
     try:
+        texts = [law_text(part[0]) for part in given.values()]
+        texts += [law_text(law.active), skeleton(law.parameters), versions_text()]
+        key = hash_of("disturbance", n, *given, *texts)
         return remembered(key, list(given), lambda: _text(law, given, n))
     except Untraceable as error:
         raise NotCompiled(f"{error}; the run goes on in Python on the compiled plant") from error
@@ -188,16 +189,22 @@ def disturbance_code(law: DisturbanceLaw, n: int) -> Machine:
 
 def _text(law: DisturbanceLaw, parts: dict[str, Any], n: int) -> Text:
     if law.active is None:
-        return Text(module_text({name: _function(law, f, n) for name, (f, _) in parts.items()}))
-    functions = {"active": _function(law, law.active, n, timed=True)}
-    functions |= {f"{name}_acting": _function(law, f, n) for name, (f, _) in parts.items()}
+        return Text(module_text({name: _function(law, n, *part) for name, part in parts.items()}))
+    functions = {"active": _function(law, n, law.active, 1, timed=True)}
+    functions |= {f"{name}_acting": _function(law, n, *part) for name, part in parts.items()}
     guarded = [GUARDED.format(name=name, bytes=8 * size) for name, (_, size) in parts.items()]
     clear = "declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)"
     return Text("\n".join([module_text(functions), clear, *guarded]))
 
 
-def _function(law: DisturbanceLaw, part: Any, n: int, timed: bool = False) -> Function:
+def _function(law: DisturbanceLaw, n: int, part: Any, size: int, timed: bool = False) -> Function:
+    """A law of n coordinates on symbols. Raises InputError where it gives another number than `size`."""
     K, inp = Vector("K", count(law.parameters)), Vector("inp", 3 + 2 * n)
     k, at = K.like(law.parameters), (inp.take(), inp.take(), inp.take())
     state = () if timed else (inp.take(n), inp.take(n))
-    return Function(K.symbol, inp.symbol, column(run(Tracer(), part, k, *at, *state)))
+    found = column(run(Tracer(), part, k, *at, *state))
+    if found.numel() != size:
+        raise InputError(
+            f"law '{part.__qualname__}' of a disturbance gives {found.numel()} numbers, expected {size}"
+        )
+    return Function(K.symbol, inp.symbol, found)

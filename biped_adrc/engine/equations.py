@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,6 +32,7 @@ from biped_adrc.engine.symbols import (
     minimum,
     run,
 )
+from biped_adrc.errors import InputError
 from biped_adrc.hardware.held import HeldParameters, HeldSizes
 from biped_adrc.hardware.meter import Outside
 from biped_adrc.model.planar import PlantArrays
@@ -93,13 +93,26 @@ class Function(NamedTuple):
     out: Any
 
 
-def laws_on(trace: Tracer, laws: ControllerLaws, k: Any) -> ControllerLaws:
-    """The laws for symbols, without their parameters k; one that is not there leaves the state as it is."""
+def laws_on(trace: Tracer, laws: ControllerLaws, k: Any, p: int, size: int) -> ControllerLaws:
+    """The laws for symbols, without their parameters k; one that is not there leaves the state as it is.
 
-    def said(law: Any) -> Any:
-        return partial(run, trace, law, k) if law is not None else lambda s, *rest: s
+    Raises InputError for one that gives another number than p torques or `size` numbers of the state.
+    """
 
-    made = laws._replace(**{name: said(getattr(laws, name)) for name in LAWS})
+    def said(name: str) -> Any:
+        law, expected = getattr(laws, name), {"output": p, "estimate": None}.get(name, size)
+
+        def called(*arguments: Any) -> Any:
+            found = run(trace, law, k, *arguments)
+            if expected is not None and np.shape(found) != (expected,):
+                raise InputError(
+                    f"law {name} gives an array of shape {np.shape(found)}, expected ({expected},)"
+                )
+            return found
+
+        return called if law is not None else lambda s, *rest: s
+
+    made = laws._replace(**{name: said(name) for name in LAWS})
     return made if laws.estimate is not None else made._replace(estimate=lambda s, m: None)
 
 
@@ -181,7 +194,7 @@ class Equations:
             plant=PlanarRobot.of(make.robot, K.plant, K.friction),
             nominal=PlanarRobot.of(make.robot, model),
             exact=K.model is None and not K.friction,
-            law=laws_on(trace, make.laws, K.k),
+            law=laws_on(trace, make.laws, K.k, make.robot.p, make.size),
             held=K.held or None,
             swap=make.robot.swap,
             gain=K.impact_gain,

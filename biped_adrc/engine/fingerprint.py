@@ -1,19 +1,42 @@
-"""What generated code depends on, as one hash: the laws' code, the make of robot and parameters, versions."""
+"""What generated code depends on, as one hash: the laws' code, the make of robot and parameters, versions.
+
+A law is followed into everything that it can reach: functions, classes, objects, constants and, in modules, the
+attributes that it names. Libraries are told by name, this package by its source.
+"""
 
 from __future__ import annotations
 
+import dis
+import functools
 import hashlib
+import pickle
 import platform
+import sys
+import sysconfig
 import types
-from collections import namedtuple
+from collections.abc import Iterator
+from enum import Enum
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.engine.symbols import names_of
+from biped_adrc.engine.symbols import Untraceable, names_of
 from biped_adrc.versions import NEVER_TRACED, packages, source_text
+
+_PACKAGE = __name__.partition(".")[0]
+_FOLDERS = tuple(sysconfig.get_paths()[kind] for kind in ("stdlib", "purelib", "platlib"))
+_PLAIN = (types.NoneType, bool, int, float, complex, str, bytes, range, Enum, types.EllipsisType)
+_NAMED = (
+    *(types.MethodDescriptorType, types.WrapperDescriptorType, types.MemberDescriptorType),
+    *(types.GetSetDescriptorType, types.MethodWrapperType, types.ClassMethodDescriptorType),
+)
+_BARE = vars(NamedTuple("_Bare", [])) | {
+    "__firstlineno__": 0,
+    "_abc_impl": 0,
+    "__abstractmethods__": 0,
+}
 
 
 def hash_of(*parts: Any) -> str:
@@ -21,78 +44,178 @@ def hash_of(*parts: Any) -> str:
     return hashlib.sha256("\0".join(map(str, parts)).encode()).hexdigest()[:32]
 
 
-def law_text(law: Any, seen: set[Any] | None = None) -> str:
-    """The code of a law and of all functions that it reaches, and the constants that they use."""
-    seen = set() if seen is None else seen
-    if isinstance(law, type):
-        return _class_text(law)
-    if isinstance(law, tuple):
-        return "\n".join(law_text(part, seen) for part in law)
-    if not isinstance(law, types.FunctionType):
-        return constant_text(law)
-    if law in seen:
-        return law.__qualname__
-    seen.add(law)
-    names = sorted(names_of(law.__code__))
-    used = {name: law.__globals__[name] for name in names if name in law.__globals__}
-    closed = [cell.cell_contents for cell in law.__closure__ or ()]
-    parts = [law.__qualname__, _code_text(law.__code__), constant_text(law.__defaults__)]
-    parts += [constant_text(law.__kwdefaults__)]
-    parts += [f"{name}={_reached(value, names, seen)}" for name, value in used.items()]
-    return "\n".join([*parts, *(_reached(value, names, seen) for value in closed)])
+def law_text(law: Any) -> str:
+    """The code of a law and all that it reaches. Raises Untraceable where that cannot be told."""
+    return "\n".join(_Reach().tell(law))
 
 
-def _reached(value: Any, names: list[str], seen: set[Any]) -> str:
-    """A value, and what of these names is found in it where it is a module."""
-    inside: list[Any] = []
-    if isinstance(value, types.ModuleType) and value.__name__.split(".")[0] not in (
-        "numpy",
-        "math",
-    ):
-        inside = [getattr(value, name) for name in names if hasattr(value, name)]
-    return "\n".join([law_text(value, seen), *(law_text(x, seen) for x in inside)])
+def skeleton(tree: Any) -> str:
+    """Parameters without their floats: names, shapes, and what else there is, which decides."""
+    if isinstance(tree, tuple | list):
+        names = getattr(tree, "_fields", range(len(tree)))
+        inside = ", ".join(f"{name}={skeleton(x)}" for name, x in zip(names, tree, strict=True))
+        return f"{law_text(type(tree))}({inside})"
+    if isinstance(tree, np.ndarray) and tree.dtype.kind == "f":
+        return f"float{tree.shape}"
+    return "float" if isinstance(tree, float | np.floating) else law_text(tree)
 
 
-_PLAIN = {*vars(namedtuple("_Plain", ()))}
+class _Reach:
+    """Texts of what is reached, each thing once."""
 
+    def __init__(self) -> None:
+        self.seen: dict[Any, Any] = {}
 
-@lru_cache(maxsize=1024)
-def _class_text(cls: type) -> str:
-    """A class by name, a NamedTuple with the code of its own methods and properties."""
-    if not hasattr(cls, "_fields"):
-        return constant_text(cls)
-    own = [value for name, value in sorted(vars(cls).items()) if name not in _PLAIN]
-    laws = [x.fget if isinstance(x, property) else x for x in own]
-    methods = (law_text(x) for x in laws if isinstance(x, types.FunctionType))
-    return "\n".join([constant_text(cls), *methods])
+    def tell(self, x: Any, names: frozenset[str] = frozenset()) -> Iterator[str]:
+        """The texts of x; of a module those of the attributes with these names."""
+        if isinstance(x, _PLAIN):
+            yield f"{type(x).__qualname__} {x!r}"
+            return
+        module = isinstance(x, types.ModuleType)
+        key = (id(x), names) if module else id(x)
+        if key in self.seen:
+            yield f"again {getattr(x, '__qualname__', type(x).__qualname__)}"
+            return
+        self.seen[key] = x
+        yield f"{type(x).__module__}.{type(x).__qualname__}"
+        if isinstance(x, types.FunctionType):
+            yield from self.function(x)
+        elif module:
+            yield x.__name__
+            if not _known(x.__name__):
+                inside = {name: value for name, value in vars(x).items() if name in names}
+                yield from self.named(inside, names)
+        elif isinstance(x, type):
+            yield from self.class_(x)
+        else:
+            yield from self.value(x)
+
+    def function(self, x: types.FunctionType) -> Iterator[str]:
+        """Code, defaults, and what its names stand for, here and in modules that it imports."""
+        yield f"{x.__module__}.{x.__qualname__}"
+        if _known(x.__module__) and not x.__module__.startswith(_PACKAGE):
+            return
+        names = names_of(x.__code__) | _words(x.__code__)
+        yield _code_text(x.__code__)
+        if x.__defaults__ or x.__kwdefaults__:
+            yield from self.tell((x.__defaults__, x.__kwdefaults__))
+        scope = x.__globals__
+        used = {name: scope[name] for name in names if name in scope}
+        yield from self.named(used, names)
+        for cell in x.__closure__ or ():
+            yield from self.tell(cell.cell_contents, names)
+        for name in sorted(_imported(x.__code__)):
+            if name in sys.modules:
+                yield from self.tell(sys.modules[name], names)
+
+    def class_(self, x: type) -> Iterator[str]:
+        """By name; a class of the user's with all that it and its bases hold."""
+        yield f"{x.__module__}.{x.__qualname__}{getattr(x, '_fields', '')}"
+        for cls in x.__mro__:
+            if not _known(cls.__module__):
+                yield cls.__qualname__
+                yield from self.named({k: v for k, v in vars(cls).items() if k not in _BARE})
+
+    def named(self, values: dict[str, Any], names: frozenset[str] = frozenset()) -> Iterator[str]:
+        """Names and what they stand for."""
+        for name in sorted(values):
+            yield name
+            yield from self.tell(values[name], names)
+
+    def value(self, x: Any) -> Iterator[str]:
+        """An object by its parts, an array by its bytes."""
+        if isinstance(x, np.ndarray | np.generic) and x.dtype.kind != "O":
+            yield f"{x.dtype}{x.shape}{x.tobytes().hex()}"
+        elif isinstance(x, tuple | list | np.ndarray):
+            for part in x:
+                yield from self.tell(part)
+        elif isinstance(x, dict | types.MappingProxyType):
+            for pair in x.items():
+                yield from self.tell(pair)
+        elif isinstance(x, set | frozenset):
+            yield from sorted("\n".join(_Reach().tell(part)) for part in x)
+        elif isinstance(x, types.BuiltinFunctionType):
+            yield x.__qualname__
+            if x.__self__ is not None:
+                yield from self.tell(x.__self__)
+        elif isinstance(x, _NAMED):
+            yield x.__qualname__
+        elif isinstance(x, np.ufunc):
+            yield self.ufunc(x)
+        else:
+            yield from self.object(x)
+
+    def object(self, x: Any) -> Iterator[str]:
+        """What is inside an object of any class."""
+        inside = _inside(x)
+        if inside or not _known(type(x).__module__):
+            yield from self.class_(type(x))
+            yield from self.named(inside)
+            return
+        try:
+            yield pickle.dumps(x, protocol=4).hex()
+        except Exception as error:  # whatever a class of any library says
+            raise _untold(x) from error
+
+    def ufunc(self, x: np.ufunc) -> str:
+        """One of NumPy's by its name."""
+        if getattr(np, x.__name__, None) is not x:
+            raise _untold(x)
+        return x.__name__
 
 
 @lru_cache(maxsize=1024)
 def _code_text(code: types.CodeType) -> str:
-    inner = [_code_text(c) if isinstance(c, types.CodeType) else repr(c) for c in code.co_consts]
-    return f"{code.co_code.hex()} {code.co_names} {code.co_varnames} {inner}"
+    parts = [code.co_code.hex(), code.co_names, code.co_varnames, code.co_freevars]
+    for constant in code.co_consts:
+        inside = sorted(map(repr, constant)) if isinstance(constant, frozenset) else constant
+        parts.append(_code_text(inside) if isinstance(inside, types.CodeType) else repr(inside))
+    return " ".join(map(str, parts))
 
 
-def constant_text(value: Any) -> str:
-    """A constant by value, a class or module by name."""
-    if isinstance(value, np.ndarray):
-        return f"{value.dtype}{value.shape}{value.tobytes().hex()}"
-    if isinstance(value, types.ModuleType):
-        return value.__name__
-    if isinstance(value, type):
-        return f"{value.__module__}.{value.__qualname__}{getattr(value, '_fields', '')}"
-    return repr(value)
+def _inside(x: Any) -> dict[str, Any]:
+    """The parts of an object by name."""
+    wrapped = ("fget", "func", "__func__", "__self__", "args", "keywords", "__wrapped__")
+    wraps = (property, functools.cached_property, functools.partial, staticmethod, classmethod)
+    if isinstance(x, (*wraps, types.MethodType)) or hasattr(x, "cache_parameters"):
+        return {name: getattr(x, name) for name in wrapped if hasattr(x, name)}
+    slots = (name for cls in type(x).__mro__ for name in getattr(cls, "__slots__", ()))
+    found = {name: getattr(x, name) for name in slots if hasattr(x, name)}
+    return {**found, **getattr(x, "__dict__", {})}
 
 
-def skeleton(tree: Any) -> str:
-    """Parameters without their floats: names, shapes, and the ints, which decide."""
-    if isinstance(tree, tuple):
-        names = getattr(tree, "_fields", range(len(tree)))
-        inside = ", ".join(f"{name}={skeleton(x)}" for name, x in zip(names, tree, strict=True))
-        return f"{_class_text(type(tree))}({inside})"
-    if isinstance(tree, np.ndarray):
-        return f"float{tree.shape}" if tree.dtype.kind == "f" else constant_text(tree)
-    return "float" if isinstance(tree, float | np.floating) else repr(tree)
+def _untold(x: Any) -> Untraceable:
+    return Untraceable(
+        f"a law reaches {x!r}, a {type(x).__name__}, whose content cannot be told from outside"
+    )
+
+
+@lru_cache(maxsize=4096)
+def _known(module: str) -> bool:
+    """Whether a module is one of a library, or of this package where laws may come from."""
+    top, *rooms = module.split(".")
+    if top == _PACKAGE:
+        return not rooms or rooms[0] not in NEVER_TRACED
+    if top in sys.stdlib_module_names and top != "__main__":
+        return True
+    place = getattr(sys.modules.get(module), "__file__", None)
+    return place is not None and place.startswith(_FOLDERS)
+
+
+@lru_cache(maxsize=1024)
+def _words(code: types.CodeType) -> frozenset[str]:
+    """Texts in a piece of code that may be names, as for `getattr`."""
+    inner = (_words(x) for x in code.co_consts if isinstance(x, types.CodeType))
+    own = (x for x in code.co_consts if isinstance(x, str) and x.isidentifier())
+    return frozenset(own).union(*inner)
+
+
+@lru_cache(maxsize=1024)
+def _imported(code: types.CodeType) -> frozenset[str]:
+    """Names of modules that a piece of code imports."""
+    own = {x.argval for x in dis.get_instructions(code) if x.opname == "IMPORT_NAME"}
+    inner = (_imported(x) for x in code.co_consts if isinstance(x, types.CodeType))
+    return frozenset(own).union(*inner)
 
 
 @lru_cache(maxsize=1)

@@ -122,9 +122,21 @@ def _numbers(
 
 
 def _machine(make: Make, numbers: Numbers) -> Machine:
+    def traced(name: str) -> Function:
+        made: Function = getattr(Equations.of(make, numbers), name)()
+        return made
+
+    functions = {name: partial(traced, name) for name in Equations.names(make)}
+    try:
+        return generated(_key(make, numbers), functions)
+    except InputError as reason:
+        raise NotCompiled(f"{reason}; it runs in Python on the compiled plant") from reason
+
+
+def _key(make: Make, numbers: Numbers) -> str:
     split = () if make.split is None else make.split[3:]
     laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split))
-    key = hash_of(
+    return hash_of(
         "walker",
         skeleton(make.robot),
         laws,
@@ -135,15 +147,6 @@ def _machine(make: Make, numbers: Numbers) -> Machine:
         skeleton(numbers),
         versions_text(),
     )
-
-    def traced(name: str) -> Function:
-        made: Function = getattr(Equations.of(make, numbers), name)()
-        return made
-
-    try:
-        return generated(key, {name: partial(traced, name) for name in Equations.names(make)})
-    except InputError as reason:
-        raise NotCompiled(f"{reason}; it runs in Python on the compiled plant") from reason
 
 
 def product(k: int, p: int) -> Machine:

@@ -295,10 +295,14 @@ class Tracer:
         for old, new in self._substitutes:
             if value is old:
                 return new
-        if isinstance(value, tuple):
-            parts = [self._substitute(part) for part in value]
-            return value._make(parts) if hasattr(value, "_make") else tuple(parts)
+        if isinstance(value, tuple | list):
+            return rebuilt(value, [self._substitute(part) for part in value])
         return self(value)
+
+
+def rebuilt(like: Any, parts: list[Any]) -> Any:
+    """A tuple, NamedTuple or list of the same make with other parts."""
+    return like._make(parts) if hasattr(like, "_make") else type(like)(parts)
 
 
 def run(trace: Tracer, law: Any, *arguments: Any) -> Any:
@@ -344,8 +348,8 @@ class Vector:
 
     def like(self, tree: Any) -> Any:
         """The parameters of a law with their floats as symbols; ints stay what they are."""
-        if isinstance(tree, tuple) and hasattr(tree, "_fields"):
-            return type(tree)(*(self.like(x) for x in tree))
+        if isinstance(tree, tuple | list):
+            return rebuilt(tree, [self.like(x) for x in tree])
         if isinstance(tree, np.ndarray):
             return self.take(*tree.shape) if tree.dtype.kind == "f" else tree
         return self.take() if isinstance(tree, float | np.floating) else tree
@@ -353,7 +357,7 @@ class Vector:
 
 def floats(tree: Any) -> Iterator[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
-    if isinstance(tree, tuple) and hasattr(tree, "_fields"):
+    if isinstance(tree, tuple | list):
         for x in tree:
             yield from floats(x)
     elif isinstance(tree, np.ndarray):
