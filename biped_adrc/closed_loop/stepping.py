@@ -9,13 +9,21 @@ again from the states.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any
 
 import numpy as np
 
 from biped_adrc.closed_loop.semantics import Mode, Plant, landed, parts, torque_held
+from biped_adrc.closed_loop.stepping_plant import (
+    Advanced,
+    Contact,
+    PlantState,
+    SteppingPlant,
+    advanced,
+    check_swap,
+    started,
+)
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance
@@ -24,65 +32,10 @@ from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import Record, RunOptions
-from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Found, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
-
-ROUND_OFF = 1e-9
-"""[s] by which a plant's own clock may differ from the time that it was to reach."""
-
-
-class PlantState(NamedTuple):
-    """At t [s]: q and v (n,), and what else the plant needs to go on, numbers of its own (k,)."""
-
-    t: float
-    q: Array
-    v: Array
-    own: Array
-
-
-class Contact(NamedTuple):
-    """A touchdown, which ends a single support; or, with a status, what ends the run, such as a fall."""
-
-    name: str
-    impulse: Array = np.zeros(2)
-    """Of the ground (2,) [N s]."""
-    ends: Status | None = None
-
-
-class Advanced(NamedTuple):
-    """What a plant gives back: where it is, at `until` or just after the contacts, and how it came there."""
-
-    state: PlantState
-    contacts: tuple[Contact, ...]
-    nodes: tuple[PlantState, ...]
-    """The states passed, at least one; the last is that before the contacts, or `state`."""
-
-
-class SteppingPlant(Protocol):
-    """n coordinates, the first p of them with motors."""
-
-    @property
-    def n(self) -> int: ...
-    @property
-    def p(self) -> int: ...
-    @property
-    def swap(self) -> Any:
-        """Relabelling of the motors at a touchdown (p,), dtype int; `arange(p)` for none."""
-
-    def start(self, t: float, q: Array, v: Array) -> PlantState:
-        """The plant at rest in itself, moving with (q, v)."""
-
-    def advance(
-        self,
-        state: PlantState,
-        u: Array,
-        zeta: Callable[[float, Array, Array], Array],
-        until: float,
-    ) -> Advanced:
-        """On to `until` [s] or to the next contact, under u (p,) [N m] and zeta(t, q, v) (n,) [N m]."""
 
 
 @dataclass(frozen=True)
@@ -109,6 +62,7 @@ class SteppingLoop(ClosedLoop[Any]):
                 "give timing=SampledTime(period)"
             )
         self.check()
+        check_swap(self.plant)
         if self.motors is not None and self.motors.lag > 0.0:
             raise InputError(
                 f"the motors' lag is {self.motors.lag} s, expected 0: between ticks a plant that moves by "
@@ -131,7 +85,7 @@ class SteppingLoop(ClosedLoop[Any]):
     @property
     def own(self) -> int:
         still = np.zeros(self.plant.n)
-        return len(self.plant.start(0.0, still, still).own)
+        return len(started(self.plant, 0.0, still, still, None).own)
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         if self.disturbance is None:
@@ -140,7 +94,8 @@ class SteppingLoop(ClosedLoop[Any]):
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
         x, mode = super().initial_state(q, v, mode), Mode() if mode is None else mode
-        return self.with_plant(x, self.plant.start(mode.start, q, v))
+        n = self.plant.n
+        return self.with_plant(x, started(self.plant, mode.start, x[:n], x[n : 2 * n], self.own))
 
     def run(self, x0: Array, options: RunOptions, mode: Mode | None = None) -> Trajectory:
         """From x0; what happens on the way is in the status. Raises InputError for a start that is none."""
@@ -166,41 +121,54 @@ class SteppingLoop(ClosedLoop[Any]):
         def zeta(t: float, q: Array, v: Array) -> Array:
             return self.external(t, q, v, mode)
 
-        moved = self.plant.advance(state, u, zeta, until)
-        self.keep(x, u, (state, *moved.nodes), mode, record)
-        x_minus, t = self.with_plant(x, moved.nodes[-1]), moved.state.t
-        if not np.all(np.isfinite(x_minus)):
-            raise NotFiniteError(f"the state of the plant is not finite at t = {t:.6g} s")
-        if moved.contacts:
-            return t, x_minus, self.found(t, x_minus, mode, moved)
-        if not abs(t - until) <= ROUND_OFF:
-            raise InputError(
-                f"{type(self.plant).__name__}.advance came to {t} s without a contact, expected {until} s"
-            )
-        return until, x_minus, None
+        moved = advanced(self.plant, state, u, zeta, until)
+        passed = np.array([state.t, *(node.t for node in moved.nodes)])
+        rows = np.array([self.with_plant(x, s) for s in (state, *moved.nodes)])
+        good = np.logical_and.accumulate(np.all(np.isfinite(rows), axis=1))
+        self.keep(passed[good], rows[good], u, mode, record)
+        if not np.all(good):
+            last = np.max(passed[good], initial=t)
+            raise NotFiniteError(f"the state of the plant is not finite after t = {last:.6g} s")
+        t, x_minus = moved.state.t, rows[-1]
+        return t, x_minus, self.found(t, x_minus, mode, moved) if moved.contacts else None
 
     def found(self, t: float, x: Array, mode: Mode, moved: Advanced) -> Found:
-        """The event of the first contact, and the controller's jump."""
-        name, impulse, ends = moved.contacts[0]
+        """The event of the contacts, and the controller's jump."""
+        (name, impulse, ends), state = together(moved.contacts), moved.state
         if ends is not None:
             return Found(Event(name, t, x, None), None, ends)
-        after, state = Mode(mode.step + 1, t), moved.state
+        if not np.all(np.isfinite([*state.q, *state.v, *state.own, *impulse])):
+            raise NotFiniteError(
+                f"{name} at t = {t:.6g} s: its impulse or the state after it is not finite"
+            )
+        after = Mode(mode.step + 1, t)
         x_plus = self.with_plant(landed(self, t, x, state.q, state.v, impulse, after), state)
         return Found(Event(name, t, x, x_plus), (x_plus, after))
 
-    def keep(
-        self, x: Array, u: Array, states: tuple[PlantState, ...], mode: Mode, record: Record
-    ) -> None:
-        """Nodes with u, zeta and the observer's estimate; slopes of the rates by their differences."""
-        t, v = np.array([s.t for s in states]), np.array([s.v for s in states])
-        rows = np.array([self.with_plant(x, s) for s in states])
-        slopes, n = np.zeros_like(rows), self.plant.n
-        slopes[:, :n] = v
-        slopes[:-1, n : 2 * n] = np.diff(v, axis=0) / np.diff(t)[:, np.newaxis]
-        slopes[-1, n : 2 * n] = slopes[-2, n : 2 * n]
-        q, s = x[:n], parts(self, x)[2]
-        estimate = self.law.estimate(s, self.measure(states[0].t, q, v[0], mode))
+    def keep(self, t: Array, x: Array, u: Array, mode: Mode, record: Record) -> None:
+        """Each `store_every`-th of K nodes, t (K,) and x (K, ..), both ends among them.
+
+        With u, zeta and the observer's estimate; slopes of the rates are their differences.
+        """
+        if len(t) == 0:
+            return
+        slopes, n = np.zeros_like(x), self.plant.n
+        slopes[:, :n] = v = x[:, n : 2 * n]
+        if len(t) > 1:
+            a = np.diff(v, axis=0) / np.diff(t)[:, np.newaxis]
+            slopes[:, n : 2 * n] = np.vstack((a, a[-1:]))
+        q, s = x[0, :n], parts(self, x[0])[2]
+        estimate = self.law.estimate(s, self.measure(t[0], q, v[0], mode))
         xi = np.full(self.plant.p, np.nan) if estimate is None else estimate.disturbance
-        zeta = np.array([self.external(s.t, s.q, s.v, mode) for s in states])
-        count = len(t), 1
-        record.add(t, rows, slopes, u=np.tile(u, count), zeta=zeta, xi_estimate=np.tile(xi, count))
+        kept = np.unique(np.append(np.arange(0, len(t), record.every), len(t) - 1))
+        zeta = np.array([self.external(t[k], x[k, :n], v[k], mode) for k in kept])
+        count = len(kept), 1
+        read = {"u": np.tile(u, count), "zeta": zeta, "xi_estimate": np.tile(xi, count)}
+        record.add(t[kept], x[kept], slopes[kept], **read)
+
+
+def together(contacts: tuple[Contact, ...]) -> Contact:
+    """Those of one moment as one, as `Advanced.contacts` says."""
+    ends = tuple(contact for contact in contacts if contact.ends is not None)
+    names, impulses, statuses = zip(*(ends or contacts), strict=True)
+    return Contact("+".join(dict.fromkeys(names)), np.sum(impulses, axis=0), statuses[0])

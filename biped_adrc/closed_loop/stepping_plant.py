@@ -1,0 +1,221 @@
+"""The door for a plant that moves by itself, such as a simulator with contacts of its own: what it has to give.
+
+    advance(state, u, zeta, until) -> state, contacts, nodes
+
+`started` and `advanced` call the plant and check once what it gives. What breaks this contract is an
+InputError that names the plant's class, what was found and what was expected; an exception of the plant's own
+is a SimulationError. Values that are not finite pass: the loop ends the run with NOT_FINITE, as for any plant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from biped_adrc.errors import BipedError, InputError, SimulationError
+from biped_adrc.hybrid.integrators import StepFailed
+from biped_adrc.hybrid.status import Status
+from biped_adrc.types import Array, read_only
+
+ROUND_OFF = 1e-9
+"""[s] by which a plant's own clock may differ from the time that it was to reach."""
+
+
+class PlantState(NamedTuple):
+    """At t [s]: q and v (n,), and what else the plant needs to go on, numbers of its own (k,)."""
+
+    t: float
+    q: Array
+    v: Array
+    own: Array
+
+
+class Contact(NamedTuple):
+    """A touchdown, which ends a single support; or, with a status, what ends the run, such as a fall."""
+
+    name: str
+    impulse: Array = np.zeros(2)
+    """Of the ground (2,) [N s]."""
+    ends: Status | None = None
+
+
+class Advanced(NamedTuple):
+    """What a plant gives back: where it is, at `until` or just after the contacts, and how it came there.
+
+    Every state has arrays of its own: those in one buffer that is written over would all be the last.
+    """
+
+    state: PlantState
+    contacts: tuple[Contact, ...]
+    """All at the time of `state`, later than where `advance` began. They are one event: names joined by +,
+    impulses added. Where some of them end the run, only those count: a fall with a touchdown is a fall."""
+    nodes: tuple[PlantState, ...]
+    """The states passed, at least one, without that where `advance` began, at increasing times. The last is
+    the state just before the contacts, at the same time as `state`; without contacts it equals `state`."""
+
+
+class SteppingPlant(Protocol):
+    """n coordinates, the first p of them with motors. Arrays that it is given are read-only."""
+
+    @property
+    def n(self) -> int: ...
+    @property
+    def p(self) -> int: ...
+    @property
+    def swap(self) -> Any:
+        """Relabelling of the motors at a touchdown (p,), dtype int; `arange(p)` for none."""
+
+    def start(self, t: float, q: Array, v: Array) -> PlantState:
+        """The plant at rest in itself, moving with (q, v)."""
+
+    def advance(
+        self,
+        state: PlantState,
+        u: Array,
+        zeta: Callable[[float, Array, Array], Array],
+        until: float,
+    ) -> Advanced:
+        """On to `until` [s] or to the next contact, under u (p,) [N m] and zeta(t, q, v) (n,) [N m].
+
+        Where it cannot go on it raises `hybrid.integrators.StepFailed`, which ends the run with that status.
+        """
+
+
+def check_swap(plant: SteppingPlant) -> None:
+    """Raise InputError for a relabelling that is none of p motors."""
+    swap = np.asarray(plant.swap)
+    fits = swap.dtype.kind == "i" and swap.shape == (plant.p,)
+    if not fits or not np.array_equal(np.sort(swap), np.arange(plant.p)):
+        raise InputError(
+            f"{type(plant).__name__}.swap is {plant.swap!r}, expected an array of int with each of the numbers "
+            f"0 to {plant.p - 1} once"
+        )
+
+
+def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None) -> PlantState:
+    """What `plant.start` gives, with `own` numbers of its own; any number of them for None."""
+    who = f"{type(plant).__name__}.start"
+    found = _called(who, plant.start, t, read_only(q), read_only(v))
+    state = _state(who, found, len(q), own)
+    if state.t != t or not np.array_equal(state[1:3], (q, v)):
+        raise InputError(
+            f"{who} gives t = {state.t} s, q = {state.q}, v = {state.v}, expected those that it was given: "
+            f"t = {t} s, q = {q}, v = {v}"
+        )
+    return state
+
+
+def advanced(
+    plant: SteppingPlant,
+    state: PlantState,
+    u: Array,
+    zeta: Callable[[float, Array, Array], Array],
+    until: float,
+) -> Advanced:
+    """What `plant.advance` gives, its last times at `until` without round-off."""
+    who, (t, *arrays) = f"{type(plant).__name__}.advance", state
+    given = PlantState(t, *(read_only(numbers) for numbers in arrays)), read_only(u)
+    found = _called(who, plant.advance, *given, lambda *at: read_only(zeta(*at)), until)
+    if not isinstance(found, Advanced):
+        raise InputError(f"{who} gives {found!r:.60}, expected an Advanced(state, contacts, nodes)")
+    sizes = len(state.q), len(state.own)
+    nodes = [
+        _state(f"{who}: nodes[{k}]", node, *sizes)
+        for k, node in enumerate(_tuple(f"{who}: nodes", found.nodes))
+    ]
+    contacts = [
+        _contact(f"{who}: contacts[{k}]", contact)
+        for k, contact in enumerate(_tuple(f"{who}: contacts", found.contacts))
+    ]
+    after = _state(f"{who}: state", found.state, *sizes)
+    return _in_time(who, state.t, until, Advanced(after, tuple(contacts), tuple(nodes)))
+
+
+def _called(who: str, method: Callable[..., Any], *given: Any) -> Any:
+    """method(*given); what it raises of its own is a SimulationError that names it."""
+    try:
+        return method(*given)
+    except (BipedError, StepFailed):
+        raise
+    except Exception as error:
+        raise SimulationError(
+            f"{who} raised {type(error).__name__}: {error}; a plant that cannot go on raises "
+            "biped_adrc.hybrid.integrators.StepFailed"
+        ) from error
+
+
+def _numbers(what: str, found: Any, shape: tuple[int, ...]) -> Array:
+    """A copy in float64."""
+    try:
+        numbers = np.array(found, dtype=float)
+    except (TypeError, ValueError):
+        numbers = None
+    if numbers is None or numbers.shape != shape:
+        raise InputError(f"{what} is {found!r:.60}, expected numbers in an array of shape {shape}")
+    return numbers
+
+
+def _tuple(what: str, found: Any) -> tuple[Any, ...]:
+    if type(found) is not tuple:
+        raise InputError(f"{what} is {found!r:.60}, expected a tuple")
+    return found
+
+
+def _state(what: str, found: Any, n: int, own: int | None) -> PlantState:
+    if not isinstance(found, PlantState):
+        raise InputError(f"{what} is {found!r:.60}, expected a PlantState(t, q, v, own)")
+    return PlantState(
+        float(_numbers(f"{what}.t", found.t, ())),
+        _numbers(f"{what}.q", found.q, (n,)),
+        _numbers(f"{what}.v", found.v, (n,)),
+        _numbers(f"{what}.own", found.own, (np.size(found.own) if own is None else own,)),
+    )
+
+
+def _contact(what: str, found: Any) -> Contact:
+    if not isinstance(found, Contact) or not isinstance(found.name, str):
+        raise InputError(f"{what} is {found!r:.60}, expected a Contact(name, impulse, ends)")
+    if found.ends is not None and (not isinstance(found.ends, Status) or found.ends.ok):
+        raise InputError(
+            f"{what}.ends is {found.ends!r:.60}, expected None, or a Status that says why the run ends, as "
+            "Status.FELL"
+        )
+    return found._replace(impulse=_numbers(f"{what}.impulse", found.impulse, (2,)))
+
+
+def _in_time(who: str, begin: float, until: float, moved: Advanced) -> Advanced:
+    """`moved` with its last two times equal, and `until` where they are that but for round-off."""
+    _check_times(who, begin, until, moved)
+    *before, last = moved.nodes
+    if not moved.contacts and not all(map(_same, last[1:], moved.state[1:])):
+        raise InputError(
+            f"{who}: nodes[-1] is {last}, expected the same as state, {moved.state}, without a contact"
+        )
+    end = until if abs(moved.state.t - until) <= ROUND_OFF else moved.state.t
+    passed = *(node for node in before if node.t < end), last._replace(t=end)
+    return Advanced(moved.state._replace(t=end), moved.contacts, passed)
+
+
+def _check_times(who: str, begin: float, until: float, moved: Advanced) -> None:
+    """Raise InputError for a clock that is elsewhere, or that went backwards on the way there."""
+    end, earlier = moved.state.t, begin
+    if not moved.contacts and not abs(end - until) <= ROUND_OFF:
+        raise InputError(f"{who} came to {end} s without a contact, expected {until} s")
+    if not begin < end <= until + ROUND_OFF:
+        raise InputError(
+            f"{who} came to a contact at {end} s, expected one after {begin} s, where it began, and not "
+            f"after {until} s"
+        )
+    for k, node in enumerate(moved.nodes):
+        if not node.t > earlier:
+            raise InputError(f"{who}: nodes[{k}] is at {node.t} s, expected later than {earlier} s")
+        earlier = node.t
+    if not moved.nodes or abs(earlier - end) > ROUND_OFF:
+        found = f"the last node is at {earlier} s" if moved.nodes else "there are no nodes"
+        raise InputError(f"{who}: {found}, expected the last at {end} s, the time of state")
+
+
+def _same(a: Array, b: Array) -> bool:
+    return np.array_equal(a, b, equal_nan=True)
