@@ -144,7 +144,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
         s, k = self.law.initial_state(m), self.held
         u = np.asarray(self.law.output(s, m))
         check_output(self.controller, u, self.plant.p)
-        check_state(self.law, s, m, u, self.swap)
+        check_state(self.law, s, m, u)
         tail = np.zeros(0) if k is None else held.at_start(k, m.q, m.v, self.sensors)
         return np.concatenate((m.q, m.v, s, tail))
 

@@ -207,9 +207,9 @@ def misshapen(controller: Controller, u: Array, p: int) -> str:
     )
 
 
-def check_state(controller: Controller, s: Array, m: Measurement, u: Array, swap: Array) -> None:
+def check_state(controller: Controller, s: Array, m: Measurement, u: Array) -> None:
     """Raise InputError for a law of the state s that gives another number of numbers than s has."""
-    calls = {"flow": (s, m, u), "correct": (s, m), "predict": (s, m, u), "jump": (s, m, swap)}
+    calls = {"flow": (s, m, u), "correct": (s, m), "predict": (s, m, u)}
     for name, given in calls.items():
         law = controller._law(name)
         if law is not None and (shape := np.shape(law(*given))) != s.shape:
