@@ -43,6 +43,8 @@ from biped_adrc.gait.outputs import FunctionOutputs as FunctionOutputs
 from biped_adrc.gait.outputs import LinearOutputs as LinearOutputs
 from biped_adrc.gait.outputs import Outputs as Outputs
 from biped_adrc.gait.reference import Reference as Reference
+from biped_adrc.gait.reference import ReferenceLaws as ReferenceLaws
+from biped_adrc.gait.reference import ReferencePoint as ReferencePoint
 from biped_adrc.gait.reference import TimeReference as TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics as ZeroDynamics
 from biped_adrc.gait.zero_orbits import ZeroOrbits as ZeroOrbits
