@@ -57,5 +57,5 @@ print(
     [f"{K:.0f}" for K, w in zip(gains, walked, strict=True) if w.status.ok],
 )
 
-# To try: give the law a branch on a number, such as `if u[0] > 50.0:`. What does walk.trajectory.settings["why"]
-# say, and how much slower is it? `np.where` compiles.
+# To try: give the law a branch on a number, such as `if u[0] > 50.0:`. What does
+# walk.trajectory.settings["why"] say, and how much slower is it? `np.where` compiles.
