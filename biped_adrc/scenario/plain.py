@@ -147,7 +147,7 @@ class Reader:
             return kind(**values)
         except BipedError:
             raise
-        except Exception as error:
+        except (Exception, SystemExit) as error:  # whatever a class of the user's may raise
             raise InputError(
                 f"'{home}' cannot be made of {sorted(values)}: {error}; give an object of it, as in "
                 "load_walk(path, controller=object)"
