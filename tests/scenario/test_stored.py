@@ -59,6 +59,18 @@ def test_a_walk_comes_back(values: dict, tmp_path: Path) -> None:
     np.testing.assert_array_equal(load_beside(path)["signal.u"], walk.signals.u)
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("old", [False, True])
+def test_a_walk_without_motors_has_an_outcome(old: bool) -> None:
+    """No joint is driven: no error and no torque, both 0."""
+    s = ba.Scenario("passive", robot="compass", **FAST)
+    left = (ba.load_walk(OLD / "passive_0_1.npz") if old else ba.walk_scenario(s)).outcome
+    assert left.walked
+    assert left.x_minus.shape == (left.impacts, 4)
+    assert left.durations[0] > 0.1
+    assert (left.peak_error, left.rms_error, left.peak_torque) == (0.0, 0.0, 0.0)
+
+
 def test_a_walk_of_python_goes_on_where_it_was_stored(biped, gait, tmp_path: Path) -> None:
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint), torque_limit=120.0)
     again = ba.load_walk(ba.walk(walker, gait, 1, engine="compiled").save(tmp_path / "a.npz"))
