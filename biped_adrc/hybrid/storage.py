@@ -57,8 +57,8 @@ def save(
     """Write `path` (.npz) and the same name with .json; returns it. Modes are stored as tuples of numbers.
 
     beside_it: arrays by name that `load_beside` gives back, such as the walker's record. Raises InputError for
-    a name of another kind, and OutputError when the files cannot be written or the .json would take the place
-    of something else.
+    a name of another kind or settings that JSON has not, and OutputError when the files cannot be written or
+    the .json would take the place of something else.
     """
     path, beside = run_files(path)
     check_beside(beside)
@@ -72,7 +72,12 @@ def save(
             for a in trajectory.arcs
         ],
     }
-    text = json.dumps(meta, indent=2)
+    try:
+        text = json.dumps(meta, indent=2)
+    except (TypeError, ValueError) as error:
+        raise InputError(
+            f"run '{path}': {error}; expected settings of numbers, text, lists and mappings"
+        ) from error
     arrays: dict[str, Any] = {"meta": np.array(text)}
     arrays |= {f"{BESIDE}{name}": np.asarray(x) for name, x in (beside_it or {}).items()}
     for i, arc in enumerate(trajectory.arcs):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +22,7 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.build import Scene, build
 from biped_adrc.scenario.controllers import OF_OBSERVER
-from biped_adrc.scenario.plain import Absent, Reader, Writer
+from biped_adrc.scenario.plain import Missing, Reader, Writer, home_of
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.scenario import FREE, Scenario
 from biped_adrc.types import Array
@@ -30,21 +30,15 @@ from biped_adrc.versions import versions
 from biped_adrc.walker import Mode, Walker
 
 
-@dataclass(frozen=True)
-class AbsentController(Controller):
-    """In place of the controller of a stored walk whose class was not given."""
-
-    why: str
+class AbsentController(Missing, Controller):
+    """In place of the controller of a stored walk of which a class was not given."""
 
     def output(self, s: Array, m: Measurement) -> Array:
         raise InputError(f"the walk cannot go on without its controller: {self.why}")
 
 
-@dataclass(frozen=True)
-class AbsentDisturbance(Disturbance):
-    """In place of a disturbance whose class was not given."""
-
-    why: str
+class AbsentDisturbance(Missing, Disturbance):
+    """In place of a disturbance of which a class was not given."""
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         raise InputError(f"the walk cannot go on without its disturbance: {self.why}")
@@ -71,8 +65,9 @@ def save_walk(walk: Walk, path: Path | str, settings: Mapping[str, Any] | None =
 def load_walk(path: Path | str, controller: Any = None) -> Walk:
     """The walk in a run file (.npz) written by `Walk.save`, `simulate` or `reproduce`.
 
-    controller: class or object of a controller of one's own, with which the walk can go on; without, its
-    signals, figures and pictures are those of the file. Raises InputError.
+    controller: class or object of one's own, of the controller or of another part such as its observer, with
+    which the walk can go on; without, its signals, figures and pictures are those of the file. Raises
+    InputError.
     """
     trajectory = storage.load(path, lambda step, start: Mode(int(step), start))
     beside = storage.load_beside(path)
@@ -80,9 +75,9 @@ def load_walk(path: Path | str, controller: Any = None) -> Walk:
         return _of_0_1(path, trajectory)
     try:
         record = json.loads(str(beside["walker"]))
-        reader = Reader(record["parts"], _given(record, controller))
+        reader = Reader(record["parts"], _given(record["parts"], controller))
         walker = _walker(reader, record["parts"][record["walker"]])
-        gait = reader.made(record["gait"])
+        gait = reader.whole(record["gait"])
         seen = {k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")}
         signals = Signals(**seen) if len(seen) > 1 else None
     except (KeyError, ValueError, TypeError, IndexError, AttributeError, StopIteration) as error:
@@ -97,30 +92,30 @@ def load_walk(path: Path | str, controller: Any = None) -> Walk:
     return replace(made, recorded=signals, said=changed)
 
 
-def _given(record: Mapping[str, Any], controller: Any) -> dict[str, Any]:
-    """What stands for the walker's controller, by its name in the file."""
-    if controller is None:
+def _given(parts: Sequence[Mapping[str, Any]], thing: Any) -> dict[str, Any]:
+    """What stands for parts of the user's own, by their name in the file; the module may be another one."""
+    if thing is None:
         return {}
-    held = record["parts"][record["walker"]]["values"]["controller"]
-    home = record["parts"][held["part"]]["class"]
-    kind = controller if isinstance(controller, type) else type(controller)
-    if not issubclass(kind, Controller):
+    kind = thing if hasattr(thing, "__qualname__") else type(thing)
+    own = sorted({part["class"] for part in parts if "source" in part})
+    found = [home for home in own if home == home_of(kind)]
+    found = found or [home for home in own if home.partition(":")[2] == kind.__qualname__]
+    if not found:
+        needed = " and ".join(map(repr, own)) or "nothing, so leave it out"
         raise InputError(
-            f"the controller given is {controller!r}, expected a Controller or its class"
+            f"{thing!r} is given, expected a Controller or its class, or those of another part, of a name that "
+            f"the file has from outside the package: {needed}"
         )
-    return {home: controller}
+    return dict.fromkeys(found, thing)
 
 
 def _walker(reader: Reader, record: Mapping[str, Any]) -> Walker:
     """With a stand-in for a controller or a disturbance that is not there."""
-    values: dict[str, Any] = {}
+    values = dict[str, Any]()
     for name, x in record["values"].items():
-        try:
-            values[name] = reader.made(x)
-        except Absent as error:
-            if name not in STAND_INS:
-                raise
-            values[name] = STAND_INS[name](str(error))
+        values[name] = reader.made(x) if name in STAND_INS else reader.whole(x)
+        if isinstance(part := values[name], Missing):
+            values[name] = STAND_INS[name](part.home, part.values, part.source)
     return Walker(**values)
 
 

@@ -16,7 +16,8 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.cli import app
-from biped_adrc.errors import InputError
+from biped_adrc.control.delayed import Delayed
+from biped_adrc.errors import InputError, OutputError
 from biped_adrc.hybrid.storage import load, load_beside, save
 from biped_adrc.resources import data_folder
 from biped_adrc.scenario import registry
@@ -147,6 +148,88 @@ def test_and_walks_on_when_it_is_given(own: str, monkeypatch) -> None:
     assert isinstance(ba.load_walk("mine.npz").walker.controller, Mine)
     with pytest.raises(InputError, match="expected a Controller or its class"):
         ba.load_walk("mine.npz", controller=Path)
+
+
+def test_what_is_missing_is_carried_on(own: str, tmp_path: Path) -> None:
+    """Read without its class and saved again, a walk can still be read with it."""
+    walk = stored(own)
+    again = ba.load_walk("mine.npz").save("again.npz")
+    assert own not in sys.modules
+    assert json.loads(Path("again.json").read_text())["settings"]["own"] == [f"{own}:Mine"]
+    same(walk, ba.load_walk(again))
+    Mine = registry.own("controller", f"{own}:Mine")
+    given = ba.load_walk(again, controller=Mine)
+    assert given.walker.controller == Mine(given.gait.constraint, 0.8)
+    assert given.walker.controller.reference is given.gait.constraint
+    assert given.remarks == walk.remarks
+
+
+@pytest.mark.parametrize("name", ["Inner", "Seen"])
+def test_a_part_inside_a_part_of_the_package_is_given(own, name, biped, gait, tmp_path) -> None:
+    (tmp_path / f"{own}_parts.py").write_text(
+        f"import biped_adrc as ba\nfrom {own} import Mine\n"
+        "class Inner(Mine):\n    pass\n"
+        "class Seen(ba.GPIObserver):\n    pass\n"
+    )
+    kind = registry.own("controller", f"{own}_parts:{name}")
+    if name == "Inner":
+        controller = Delayed(kind(gait.constraint), 1e-3)
+    else:
+        controller = ba.ADRCController(gait.constraint, kind.from_poles(ba.TABLE_I))
+    ba.walk(ba.Walker(biped, controller), gait, 1, ba.RK4(1e-3)).save("a.npz")
+    absent = ba.load_walk("a.npz")
+    with pytest.raises(InputError, match=rf"'{own}_parts:{name}' not of this package; give it"):
+        ba.walk(absent.walker, absent.gait, 1)
+    for path in ("a.npz", absent.save("b.npz")):
+        made = ba.load_walk(path, controller=kind).walker.controller
+        assert type(made) is type(controller)
+        assert type(made.inner if name == "Inner" else made.observer) is kind
+
+
+def test_what_is_given_has_the_name_that_is_stored(own: str, biped, gait) -> None:
+    stored(own)
+    Needy = registry.own("controller", f"{own}:Needy")
+    for given in (Needy, ba.NPDController, f"{own}:Mine"):
+        with pytest.raises(InputError, match=rf"expected a Controller.*'{own}:Mine'"):
+            ba.load_walk("mine.npz", controller=given)
+    ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1).save("npd.npz")
+    Mine = registry.own("controller", f"{own}:Mine")
+    with pytest.raises(InputError, match="nothing, so leave it out"):
+        ba.load_walk("npd.npz", controller=Mine)
+
+
+def test_a_class_may_have_moved_to_another_module(own: str, tmp_path: Path) -> None:
+    """As one of a script, which is of __main__ there."""
+    stored(own)
+    shutil.copy(tmp_path / f"{own}.py", tmp_path / f"{own}_moved.py")
+    Mine = registry.own("controller", f"{own}_moved:Mine")
+    assert isinstance(ba.load_walk("mine.npz", controller=Mine).walker.controller, Mine)
+
+
+@pytest.mark.parametrize(
+    ("path", "message"),
+    [
+        ("a" * 300, "too long"),
+        ("a" * 300 + ".npz", "too long"),
+        (None, "expected the name of a file"),
+        (5, "expected the name of a file"),
+        (b"a.npz", "expected the name of a file"),
+        ("x\0y", "expected the name of a file"),
+        ("~/x.npz", "expanduser"),
+    ],
+)
+def test_a_name_that_cannot_be_written(path, message: str, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    walk = ba.load_walk(OLD / "run_0_1.npz")
+    with pytest.raises((InputError, OutputError), match=message):
+        walk.save(path)
+    assert not list(tmp_path.iterdir())
+
+
+def test_settings_that_json_has_not(tmp_path: Path) -> None:
+    walk = ba.load_walk(OLD / "run_0_1.npz")
+    with pytest.raises(InputError, match=r"ndarray.*expected settings of numbers, text, lists"):
+        walk.save(tmp_path / "a.npz", {"a": np.array([1.0])})
 
 
 def test_a_source_that_changed_is_named(own: str, tmp_path: Path) -> None:
