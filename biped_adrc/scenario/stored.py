@@ -12,10 +12,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from biped_adrc.analysis.signals import Signals
+import numpy as np
+
+from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
+from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
@@ -71,25 +74,47 @@ def load_walk(path: Path | str, controller: Any = None) -> Walk:
     """
     trajectory = storage.load(path, lambda step, start: Mode(int(step), start))
     beside = storage.load_beside(path)
-    if "walker" not in beside:
-        return _of_0_1(path, trajectory)
-    try:
-        record = json.loads(str(beside["walker"]))
-        reader = Reader(record["parts"], _given(record["parts"], controller))
-        walker = _walker(reader, record["parts"][record["walker"]])
-        gait = reader.whole(record["gait"])
-        seen = {k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")}
-        signals = Signals(**seen) if len(seen) > 1 else None
-    except (KeyError, ValueError, TypeError, IndexError, AttributeError, StopIteration) as error:
-        if isinstance(error, InputError):
-            raise InputError(f"run '{path}': {error}") from error
-        raise InputError(f"run '{path}' cannot be read: its walker is damaged: {error}") from error
+    with storage.reading_run(path):
+        found = (
+            _stored(trajectory, beside, controller) if "walker" in beside else _of_0_1(trajectory)
+        )
+        _check(found)
+    return found
+
+
+def _stored(trajectory: Trajectory, beside: Mapping[str, Any], controller: Any) -> Walk:
+    """The walk of a trajectory, from what is beside it."""
+    record = json.loads(str(beside["walker"]))
+    reader = Reader(record["parts"], _given(record["parts"], controller))
+    walker = _walker(reader, record["parts"][record["walker"]])
+    gait = reader.whole(record["gait"])
+    seen = {k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")}
     changed = tuple(
         f"the source of {home} has changed since this walk"
         for home in dict.fromkeys(reader.changed)
     )
     made = watched(walker, gait, trajectory, _scenario(trajectory.settings))
-    return replace(made, recorded=signals, said=changed)
+    return replace(made, recorded=Signals(**seen) if len(seen) > 1 else None, said=changed)
+
+
+def _check(walk: Walk) -> None:
+    """Raise ValueError where gait, states or signals do not fit the walker, which is asked for one node."""
+    walker, arcs, n = walk.walker, walk.trajectory.arcs, walk.walker.plant.n
+    expected = Gait if walker.plant.p else type(None)
+    if not isinstance(walk.gait, expected):
+        raise ValueError(f"its gait is a {type(walk.gait).__name__}")
+    if walk.recorded is not None:
+        t = np.concatenate([arc.t for arc in arcs])
+        rows = {len(signal) for signal in vars(walk.recorded).values()}
+        if rows != {len(t)} or not np.array_equal(walk.recorded.t, t):
+            raise ValueError(f"its signals are not of its {len(t)} nodes")
+        return
+    first = arcs[0]
+    size = len(walker.initial_state(first.x[0, :n], first.x[0, n : 2 * n], first.mode))
+    if any(arc.x.shape[1] != size for arc in arcs):
+        raise ValueError(f"its states have {first.x.shape[1]} numbers, its walker's {size}")
+    node = replace(first, t=first.t[:1], x=first.x[:1], dx=first.dx[:1], event=None)
+    signals(walker, Trajectory((node,), walk.trajectory.status), walk.reference)
 
 
 def _given(parts: Sequence[Mapping[str, Any]], thing: Any) -> dict[str, Any]:
@@ -133,7 +158,7 @@ def replay(s: Scenario, trajectory: Trajectory) -> Walk:
     return watched(build(s, scene), scene.gait, trajectory, s)
 
 
-def _of_0_1(path: Path | str, trajectory: Trajectory) -> Walk:
+def _of_0_1(trajectory: Trajectory) -> Walk:
     """A run of version 0.1, which names its robot and gait: they are looked up as they are now."""
     settings = trajectory.settings
     try:
@@ -147,11 +172,11 @@ def _of_0_1(path: Path | str, trajectory: Trajectory) -> Walk:
             return replay(Scenario(**values_of_0_1(settings["run"])), trajectory)
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(
-            f"run '{path}' is of version 0.1 and cannot be read: {error}; walk it again with "
+            f"it is of version 0.1 and cannot be read: {error}; walk it again with "
             "'biped-adrc simulate'"
         ) from error
     raise InputError(
-        f"run '{path}' does not say which robot, gait and controller it is of; runs written by Walk.save, "
+        "it does not say which robot, gait and controller it is of; runs written by Walk.save, "
         "'biped-adrc simulate' and 'reproduce' do"
     )
 

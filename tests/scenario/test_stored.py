@@ -6,6 +6,7 @@ import json
 import re
 import shutil
 import sys
+from contextlib import suppress
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -274,6 +275,93 @@ def test_a_file_makes_nothing_but_parts_of_a_walker(change, biped, gait, tmp_pat
     save(load(path), path, None, {**beside, "walker": json.dumps(record)})
     with pytest.raises(InputError, match=r"a\.npz"):
         ba.load_walk(path)
+
+
+# -- damaged files -----------------------------------------------------------------------------------
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory) -> Path:
+    """A run of two steps, whole."""
+    s = ba.Scenario("NPD", engine="compiled", impacts=2)
+    return ba.walk_scenario(s).save(tmp_path_factory.mktemp("sound") / "a.npz")
+
+
+def refused(path: Path) -> None:
+    """In one error that names the file, when the run is read and not later."""
+    with pytest.raises(InputError, match=re.escape(f"run '{path}'")):
+        ba.load_walk(path)
+
+
+def test_damaged_bytes_are_refused(sound: Path, tmp_path: Path) -> None:
+    """A compressed file has checksums: a byte changed is seen, or of no matter."""
+    random, whole, path = np.random.default_rng(3), sound.read_bytes(), tmp_path / "a.npz"
+    walk = ba.load_walk(sound)
+    for _ in range(60):
+        data = bytearray(whole)
+        for place in random.integers(len(data), size=random.choice([1, 3, 30])):
+            data[place] = random.integers(256)
+        path.write_bytes(data)
+        with suppress(InputError):
+            same(walk, ba.load_walk(path))
+    for cut in random.integers(len(whole), size=10):
+        path.write_bytes(whole[:cut])
+        refused(path)
+
+
+@pytest.mark.parametrize("name", ["t0", "x0", "dx0", "x_minus0", "t1", "x1"])
+@pytest.mark.parametrize(
+    "damage", [None, lambda a: a[:-1], lambda a: np.zeros(0), lambda a: np.array(3)]
+)
+def test_damaged_arrays_are_refused(sound: Path, tmp_path: Path, name, damage) -> None:
+    arrays = dict(np.load(sound))
+    whole = arrays.pop(name)
+    if damage is not None:
+        arrays[name] = damage(whole)
+    np.savez(tmp_path / "a.npz", **arrays)
+    refused(tmp_path / "a.npz")
+
+
+WRONG = {
+    "meta": {"status": ("x", None, -1, []), "settings": ("x", None, -1), "detail": ()}
+    | {"events": ("x", None, -1, []), "format": ("x", None)},
+    "beside.walker": {key: ("x", None, []) for key in ("parts", "walker", "gait")},
+}
+"""By array and key of its record."""
+
+
+@pytest.mark.parametrize(
+    ("array", "key", "values"), [(a, key, x) for a, of in WRONG.items() for key, x in of.items()]
+)
+def test_damaged_records_are_refused(sound: Path, tmp_path: Path, array, key, values) -> None:
+    arrays, path = dict(np.load(sound)), tmp_path / "a.npz"
+    whole = json.loads(str(arrays[array]))
+    left = {name: x for name, x in whole.items() if name != key}
+    for record in (left, *({**whole, key: x} for x in values)):
+        np.savez(path, **{**arrays, array: np.array(json.dumps(record))})
+        refused(path)
+
+
+@pytest.mark.parametrize("signal", ["t", "u"])
+def test_damaged_signals_are_refused(own: str, tmp_path: Path, signal: str) -> None:
+    stored(own)
+    arrays = dict(np.load("mine.npz"))
+    name = f"beside.signal.{signal}"
+    np.savez("mine.npz", **{**arrays, name: arrays[name][1:]})
+    refused(Path("mine.npz"))
+
+
+def test_a_controller_of_another_size_is_refused(tmp_path: Path) -> None:
+    """Of version 0.1, whose parts are looked up: ADRC has states that NPD has not."""
+    old = load(OLD / "run_0_1.npz")
+    settings = {"run": {**old.settings["run"], "controller": "ADRC"}}
+    path = save(replace(old, settings=settings), tmp_path / "a.npz")
+    with pytest.raises(InputError, match=r"states have 14 numbers, its walker's 50"):
+        ba.load_walk(path)
+
+
+def test_what_is_no_name_is_not_read() -> None:
+    for path in (None, 5, b"a.npz", "a" * 300, "x\0y"):
+        with pytest.raises(InputError, match=r"^(a run is read from|run '[ax])"):
+            ba.load_walk(path)
 
 
 def test_plain_values_come_back() -> None:
