@@ -27,10 +27,16 @@ def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False
     """The file that a name asks for: as it is given where it ends in one of `suffixes`.
 
     default: a name that says no kind, such as 'push_0.1', has the first of `suffixes` put behind it. Raises
-    InputError for another kind, and OutputError for a folder or a device.
+    InputError for another kind or what is no name, and OutputError for a folder or a device.
     """
-    path = Path(path)
-    if path.exists() and not path.is_file():
+    path = _named(path)
+    try:
+        taken = path.exists() and not path.is_file()
+    except OSError as error:
+        raise OutputError(
+            f"cannot write '{path}': {error.strerror}; choose another name"
+        ) from error
+    if taken:
         raise OutputError(f"'{path}' is a folder or a device, expected the name of a file to write")
     if path.suffix.lower() in suffixes:
         return path
@@ -39,6 +45,17 @@ def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False
     raise InputError(
         f"cannot write '{path}': the name ends in '{path.suffix}', expected {' or '.join(suffixes)}"
     )
+
+
+def _named(path: object) -> Path:
+    """The path that is given. Raises InputError for what no file may be called."""
+    if not isinstance(path, str | os.PathLike) or "\0" in str(path):
+        raise InputError(f"cannot write {path!r}, expected the name of a file, text without '\\0'")
+    if Path(path).parts[:1] == ("~",):
+        raise InputError(
+            f"cannot write '{path}': '~' would be a folder of that name; give Path('{path}').expanduser()"
+        )
+    return Path(path)
 
 
 def keep_inputs(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:

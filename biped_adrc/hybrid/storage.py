@@ -7,14 +7,15 @@ from __future__ import annotations
 
 import io
 import json
-import zipfile
-from collections.abc import Callable, Mapping
+import os
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from biped_adrc.errors import InputError, OutputError
+from biped_adrc.errors import BipedError, InputError, OutputError
 from biped_adrc.files import output_path, write_bytes, write_text
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
@@ -57,8 +58,8 @@ def save(
     """Write `path` (.npz) and the same name with .json; returns it. Modes are stored as tuples of numbers.
 
     beside_it: arrays by name that `load_beside` gives back, such as the walker's record. Raises InputError for
-    a name of another kind, and OutputError when the files cannot be written or the .json would take the place
-    of something else.
+    a name of another kind or settings that JSON has not, and OutputError when the files cannot be written or
+    the .json would take the place of something else.
     """
     path, beside = run_files(path)
     check_beside(beside)
@@ -72,7 +73,12 @@ def save(
             for a in trajectory.arcs
         ],
     }
-    text = json.dumps(meta, indent=2)
+    try:
+        text = json.dumps(meta, indent=2)
+    except (TypeError, ValueError) as error:
+        raise InputError(
+            f"run '{path}': {error}; expected settings of numbers, text, lists and mappings"
+        ) from error
     arrays: dict[str, Any] = {"meta": np.array(text)}
     arrays |= {f"{BESIDE}{name}": np.asarray(x) for name, x in (beside_it or {}).items()}
     for i, arc in enumerate(trajectory.arcs):
@@ -95,27 +101,45 @@ def load(path: Path | str, mode: Callable[..., Any] = lambda *numbers: numbers) 
 
     Raises InputError for a file that is missing, damaged or of another format.
     """
-    path = Path(path)
-    if not path.is_file():
-        raise InputError(f"run '{path}' not found")
-    try:
-        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as data:
+    with reading_run(path):
+        if not Path(path).is_file():
+            raise InputError("not found")
+        with np.load(io.BytesIO(Path(path).read_bytes()), allow_pickle=False) as data:
             meta = json.loads(str(data["meta"]))
             if meta["format"] != FORMAT:
-                raise InputError(f"run '{path}' has format '{meta['format']}', expected '{FORMAT}'")
+                raise InputError(f"it has format '{meta['format']}', expected '{FORMAT}'")
             arcs = tuple(_arc(data, i, event, mode) for i, event in enumerate(meta["events"]))
-    except (KeyError, ValueError, OSError, EOFError, TypeError, zipfile.BadZipFile) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(f"run '{path}' cannot be read: {error}") from error
-    return Trajectory(arcs, Status[meta["status"]], meta["detail"], meta["settings"])
+            if not arcs or f"t{len(arcs)}" in data:
+                raise ValueError(f"there are events of {len(arcs)} arcs")
+        settings = dict(meta["settings"])
+        if not all(isinstance(settings.get(name, ""), str) for name in ("method", "engine")):
+            raise ValueError("its method or engine is not text")
+        return Trajectory(arcs, Status[meta["status"]], str(meta["detail"]), settings)
 
 
 def load_beside(path: Path | str) -> dict[str, Any]:
-    """The arrays beside the trajectory in a file that `load` has read."""
-    with np.load(Path(path), allow_pickle=False) as data:
+    """The arrays beside the trajectory in a file that `load` has read. Raises InputError."""
+    with reading_run(path), np.load(Path(path), allow_pickle=False) as data:
         names = [name for name in data.files if name.startswith(BESIDE)]
         return {name.removeprefix(BESIDE): data[name] for name in names}
+
+
+@contextmanager
+def reading_run(path: Path | str) -> Iterator[None]:
+    """Raises InputError, which names the file, for whatever goes wrong while a run is read."""
+    if not isinstance(path, str | os.PathLike):
+        raise InputError(f"a run is read from {path!r}, expected the name of a file")
+    try:
+        yield
+    except BipedError as error:
+        raise InputError(f"run '{path}': {error}") from error
+    except OSError as error:
+        raise InputError(f"run '{path}' cannot be read: {error.strerror or error}") from error
+    except Exception as error:  # whatever damaged bytes may raise
+        raise InputError(
+            f"run '{path}' is damaged and cannot be read: {type(error).__name__}: {error}; take a "
+            "copy, or walk it again"
+        ) from error
 
 
 def _arc(data: Any, i: int, event: dict[str, Any] | None, mode: Callable[..., Any]) -> Arc:
@@ -126,4 +150,18 @@ def _arc(data: Any, i: int, event: dict[str, Any] | None, mode: Callable[..., An
     numbers = np.atleast_1d(data[f"mode{i}"]).tolist()
     mark = f"read{i}_"
     read = {name.removeprefix(mark): data[name] for name in data if name.startswith(mark)}
-    return Arc(mode(*numbers), data[f"t{i}"], data[f"x{i}"], data[f"dx{i}"], found, read)
+    arc = Arc(mode(*numbers), data[f"t{i}"], data[f"x{i}"], data[f"dx{i}"], found, read)
+    _check_arc(arc, f"arc {i}")
+    return arc
+
+
+def _check_arc(arc: Arc, name: str) -> None:
+    """Raise ValueError for times that go back and for rows or states that do not fit one another."""
+    t, x, event = arc.t, arc.x, arc.event
+    if t.ndim != 1 or len(t) == 0 or not np.all(np.isfinite(t)) or np.any(np.diff(t) < 0.0):
+        raise ValueError(f"{name} has no times t (K,) that ascend")
+    if x.ndim != 2 or x.shape != arc.dx.shape or {len(x), *map(len, arc.read.values())} != {len(t)}:
+        raise ValueError(f"{name} has {len(t)} times, x {x.shape} and x' {arc.dx.shape}")
+    states = () if event is None else (event.x_minus, event.x_plus)
+    if any(state is not None and state.shape != x.shape[1:] for state in states):
+        raise ValueError(f"{name} ends in states of another size than its {x.shape[1]}")

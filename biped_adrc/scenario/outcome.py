@@ -31,17 +31,17 @@ class Outcome:
     durations: Array
     """(impacts,) of the single supports [s]."""
     peak_error: float
-    """max |q_b - q_d| [rad], inside the steps of the method too."""
+    """max |q_b - q_d| [rad], inside the steps of the method too; 0 where no joint is driven."""
     rms_error: float
-    """Root of the mean over time and joints of (q_b - q_d)^2 [rad]."""
+    """Root of the mean over time and joints of (q_b - q_d)^2 [rad]; 0 where no joint is driven."""
     peak_torque: float
-    """[N m]."""
+    """[N m]; 0 without motors."""
     certificates: tuple[Certificate, ...]
     legality: Legality
     """What ground and motors would have had to give, within the limits of the robot's record."""
     method: str
     engine: str
-    """What ran."""
+    """What ran; "unknown" in runs of version 0.1."""
     half: Outcome | None = None
     """The same run with every step half as long; its own half is None."""
 
@@ -57,7 +57,7 @@ def outcome_of(made: Walk) -> Outcome:
     trajectory, s = made.trajectory, made.signals
     events = trajectory.events(FOOT_STRIKE)
     times = np.array([0.0, *(event.t for event in events)])
-    squares = np.mean(s.error**2, axis=1)
+    squares = np.sum(s.error**2, axis=1) / max(s.error.shape[1], 1)
     duration = s.t[-1] - s.t[0]
     mean = integrate(s.t, squares) / duration if duration > 0 else float(squares[0])
     return Outcome(
@@ -69,9 +69,9 @@ def outcome_of(made: Walk) -> Outcome:
         np.diff(times),
         s.peak_error,
         float(np.sqrt(max(mean, 0.0))),
-        float(np.max(np.abs(s.u))),
+        float(np.max(np.abs(s.u), initial=0.0)),
         made.certificates,
         made.legality,
         str(trajectory.settings["method"]),
-        str(trajectory.settings["engine"]),
+        str(trajectory.settings.get("engine", "unknown")),
     )

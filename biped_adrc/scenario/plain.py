@@ -25,8 +25,36 @@ _ROOMS = re.compile(
 """Modules whose classes are made when a record is read."""
 
 
-class Absent(InputError):
-    """A class of the user's own that was not given."""
+@dataclass(frozen=True, eq=False)
+class Missing:
+    """A part that waits for a class of the user's own: its record, with what in it could be made."""
+
+    home: str
+    values: Mapping[str, Any]
+    source: str | None
+    """None for a part of the package that has something of the user's own inside."""
+
+    @property
+    def wanted(self) -> list[str]:
+        """Classes of the user's own in it, module:Class."""
+        inner = [home for part in _missing(self.values) for home in part.wanted]
+        return ([] if self.source is None else [self.home]) + inner
+
+    @property
+    def why(self) -> str:
+        """For a reader: what is missing, and what to do."""
+        return (
+            f"{' and '.join(map(repr, self.wanted))} not of this package; give it, as in load_walk(path, "
+            "controller=Class) for the class of any one part, or ba.register it first"
+        )
+
+
+def _missing(x: Any) -> list[Missing]:
+    """What is missing in values, in lists and mappings of them too."""
+    if isinstance(x, Missing):
+        return [x]
+    inner = x.values() if isinstance(x, Mapping) else x if isinstance(x, list | tuple) else ()
+    return [part for value in inner for part in _missing(value)]
 
 
 def home_of(kind: type[Any]) -> str:
@@ -75,6 +103,8 @@ class Writer:
         return self._known[id(x)][0]
 
     def _record(self, x: Any) -> dict[str, Any]:
+        if isinstance(x, Missing):
+            return self._carried(x)
         kind = type(x)
         home = home_of(kind)
         values = {name: self.plain(getattr(x, name)) for name in _names(x) if hasattr(x, name)}
@@ -83,6 +113,14 @@ class Writer:
         home = home_of(x) if hasattr(x, "__qualname__") else home
         self.own.append(home)
         return {"class": home, "values": values, "source": source_hash(kind)}
+
+    def _carried(self, x: Missing) -> dict[str, Any]:
+        """The record that a missing part was read from."""
+        record = {"class": x.home, "values": {k: self.plain(y) for k, y in x.values.items()}}
+        if x.source is None:
+            return record
+        self.own.append(x.home)
+        return {**record, "source": x.source}
 
 
 def _names(x: Any) -> list[str]:
@@ -105,7 +143,7 @@ class Reader:
     _made: dict[int, Any] = field(default_factory=dict)
 
     def made(self, x: Any) -> Any:
-        """The inverse of `Writer.plain`. Raises InputError, Absent for what is the user's own."""
+        """The inverse of `Writer.plain`; a `Missing` for what is not given. Raises InputError."""
         if not isinstance(x, dict):
             return x
         kind = next(iter(x))
@@ -122,6 +160,13 @@ class Reader:
             return _class(x["enum"][0])[x["enum"][1]]
         return complex(*x["complex"]) if kind == "complex" else Path(x["path"])
 
+    def whole(self, x: Any) -> Any:
+        """As `made`. Raises InputError where something is missing."""
+        made = self.made(x)
+        for part in _missing(made):
+            raise InputError(part.why)
+        return made
+
     def _part(self, i: int) -> Any:
         if i not in self._made:
             self._made[i] = self._new(self.records[i])
@@ -129,29 +174,30 @@ class Reader:
 
     def _new(self, record: Mapping[str, Any]) -> Any:
         home = record["class"]
-        if is_ours(home) and "source" not in record:
-            kind = _class(home)
-        else:
-            kind = self.given.get(home) or registered(home)
-            if kind is None:
-                raise Absent(
-                    f"'{home}' is not of this package; give it, as in load_walk(path, controller=Class), or "
-                    "ba.register it first"
-                )
-            if source_hash(kind if isinstance(kind, type) else type(kind)) != record["source"]:
-                self.changed.append(home)
-            if not isinstance(kind, type):
-                return kind
+        own = "source" in record or not is_ours(home)
+        kind = self._own(home, record["source"]) if own else _class(home)
+        if not (kind is None or isinstance(kind, type)):
+            return kind
         values = {name: self.made(x) for name, x in record["values"].items()}
+        if kind is None or _missing(values):
+            return Missing(home, values, record.get("source"))
         try:
             return kind(**values)
         except BipedError:
             raise
-        except Exception as error:
+        except (Exception, SystemExit) as error:  # whatever a class of the user's may raise
             raise InputError(
                 f"'{home}' cannot be made of {sorted(values)}: {error}; give an object of it, as in "
                 "load_walk(path, controller=object)"
             ) from error
+
+    def _own(self, home: str, source: str) -> Any:
+        """The user's own class or object; None where it is not there."""
+        found = self.given.get(home) or registered(home)
+        kind = found if isinstance(found, type) else type(found)
+        if found is not None and source_hash(kind) != source:
+            self.changed.append(home)
+        return found
 
 
 def _class(home: str) -> Any:

@@ -167,7 +167,7 @@ def _imported(home: str) -> Callable[..., Any]:
             f"'{home}': there is no module '{error.name}' in '{here}' or on the path of Python; "
             "expected package.module:Class, in the working directory or installed, here and where workers run"
         ) from error
-    except Exception as error:  # whatever a module of the user's may raise
+    except (Exception, SystemExit) as error:  # whatever a module of the user's may raise
         raise InputError(
             f"'{home}': importing '{module}' failed with {type(error).__name__}: {error}; run "
             f"python -c 'import {module}' to see where"
@@ -205,7 +205,7 @@ def construct(
         made = make(**{name: x for name, x in values.items() if name in takes(make)})
     except BipedError:
         raise
-    except Exception as error:  # whatever a class of the user's may raise
+    except (Exception, SystemExit) as error:  # whatever a class of the user's may raise
         raise InputError(f"{what} could not be made: {type(error).__name__}: {error}") from error
     if not isinstance(made, kind):
         raise InputError(

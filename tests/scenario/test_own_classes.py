@@ -164,6 +164,25 @@ def test_a_module_that_does_not_import(own: str, tmp_path) -> None:
         build(ba.Scenario(f"{own}_broken:Mine"))
 
 
+@pytest.mark.parametrize(
+    ("code", "message"),
+    [
+        ("import sys\nsys.exit(0)\n", "importing '.*' failed with SystemExit: 0"),
+        (
+            "class Mine:\n    def __init__(self):\n        raise SystemExit(0)\n",
+            "could not be made: SystemExit: 0",
+        ),
+    ],
+)
+def test_a_module_or_a_class_that_exits(own: str, tmp_path, code: str, message: str) -> None:
+    """It ends no command: one that walked nothing would end with exit code 0."""
+    (tmp_path / f"{own}_exits.py").write_text(code)
+    with pytest.raises(InputError, match=message):
+        build(ba.Scenario(f"{own}_exits:Mine"))
+    done = CliRunner().invoke(app, ["simulate", "--controller", f"{own}_exits:Mine"])
+    assert isinstance(done.exception, InputError)
+
+
 def test_what_is_made_of_the_scenarios_values() -> None:
     def made(**values):
         return build(ba.Scenario(**values)).controller
