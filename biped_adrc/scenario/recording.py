@@ -19,6 +19,7 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.robots import Limits
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
+from biped_adrc.scenario.plain import Missing
 from biped_adrc.types import Array
 from biped_adrc.walker import FOOT_STRIKE, Walker
 
@@ -118,7 +119,9 @@ class Walk:
         """Its name in the scenario, or of its class without "Controller"."""
         if self.scenario is not None and self.gait is not None:
             return self.scenario.controller.rpartition(":")[2]
-        return type(self.walker.controller).__name__.removesuffix("Controller")
+        law = self.walker.controller
+        name = law.home.rpartition(":")[2] if isinstance(law, Missing) else type(law).__name__
+        return name.removesuffix("Controller")
 
     def plot(self, title: str = "", push: tuple[float, float] | None = None) -> Figure:
         """References against joint angles, and torques, as figures 4 and 5; push is marked [s].

@@ -407,3 +407,10 @@ def test_one_that_cannot_be_read_says_what_to_do(tmp_path: Path) -> None:
     save(replace(old, settings={}), path)
     with pytest.raises(InputError, match="does not say which robot"):
         ba.load_walk(path)
+
+
+def test_a_walk_of_python_keeps_the_name_of_its_controller(own: str, gait, biped) -> None:
+    Mine = registry.own("controller", f"{own}:Mine")
+    ba.walk(ba.Walker(biped, Mine(gait.constraint, 0.8)), gait, 1).save("named.npz")
+    del sys.modules[own]
+    assert ba.load_walk("named.npz").controller_name == "Mine"
