@@ -213,7 +213,8 @@ class Bare(HybridSystem):
             count += 1
         told, (step, began) = self.told.point or Unasked(), mode
         due = origin + count * period
-        for q, v, terms, point in seen:
+        hold, at = seen.hold, seen.at
+        for q, v, terms, point, following in seen:
             told.now = q, v, point
             if t == due:
                 B = None if body is None else body(q, v)
@@ -226,8 +227,11 @@ class Bare(HybridSystem):
                 if size:
                     states.append(s)
                     ends.append(int(run[layout.COUNT]))
-            run[END] = t = min(due, until)
-            code = seen.move()
+            run[END] = t = due if due < until else until
+            code = hold(at, following)
+            while code == layout.FULL:
+                seen.grow(2 * len(seen.rows))
+                code = hold(at, following)
             if code != COMPLETED or t >= until:
                 return code
         raise AssertionError
@@ -252,13 +256,16 @@ class Unasked:
 
 
 class Seen:
-    """(q, v, terms, point) at one tick after the other, as `move` takes the plant on; all read only."""
+    """(q, v, terms, point) at one tick after the other, all read only, and where `hold` writes the next.
+
+    hold(at, following) takes the plant on; a code.
+    """
 
     def __init__(self, plant: CompiledWalker, told: Told, s: Array):
         self.plan, self.K, self.work, self.s = plant.plan, plant.K, plant.plan.work(), s
         self.told, self.n = told, told.robot.structure.n
         self.shapes = [(), (self.n,), (self.n,), *told.shapes]
-        self.next, self.width = 0, sum(map(math.prod, self.shapes))
+        self.width = sum(map(math.prod, self.shapes))
         self.hold = _HOLD(kernels().ADDRESSES["hold"])
         self.given = np.zeros(8, dtype=np.int64)
         self.rows = np.empty((0, 1 + 2 * self.plan.nx))
@@ -286,19 +293,11 @@ class Seen:
         pointer_call(self.told.machine, "told", self.told.K, last, last[:, 1 + 2 * self.n :])
         while True:
             block = np.empty((BLOCK + 1, self.width))
-            block[0], self.next = last[0], block.ctypes.data
+            block[0], first, row = last[0], block.ctypes.data, 8 * self.width
             block.flags.writeable = False
             _, q, v, *rest = parts_of(block[:-1], self.shapes)
             terms = map(_TERMS, zip(*rest[:7], strict=True))
             points = map(_POINT, zip(*rest[7:], strict=True)) if rest[7:] else repeat(None)
-            yield from zip(q, v, terms, points, strict=False)
+            following = range(first + row, first + len(block) * row, row)
+            yield from zip(q, v, terms, points, following, strict=False)
             last = block[-1:]
-
-    def move(self) -> int:
-        """Take the plant on; a code."""
-        self.next += 8 * self.width
-        code: int = self.hold(self.at, self.next)
-        while code == layout.FULL:
-            self.grow(2 * len(self.rows))
-            code = self.hold(self.at, self.next)
-        return code
