@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from typing import Any, Generic, NamedTuple, TypeVar
 
@@ -16,7 +16,7 @@ from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.semantics import Instant, Loop, Mode, Plant, instant, unknown
 from biped_adrc.control.base import Controller, Measurement, check_output, check_state, misshapen
 from biped_adrc.errors import InputError, NotFiniteError, SimulationError
-from biped_adrc.gait.reference import ReferencePoint
+from biped_adrc.gait.reference import Reference, ReferencePoint, check_point
 from biped_adrc.hardware import held
 from biped_adrc.hardware.held import Held, HeldParameters
 from biped_adrc.hardware.meter import MeterParameters, Outside
@@ -141,6 +141,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
         """x at the start of single support in (q, v). Raises InputError for a controller that does not fit."""
         mode = Mode() if mode is None else mode
         m = self.measure(mode.start, np.asarray(q, dtype=float), np.asarray(v, dtype=float), mode)
+        for reference in _references(self.law):
+            check_point(reference, reference(m.t, m.q, m.v), self.plant.p, self.plant.n)
         s, k = self.law.initial_state(m), self.held
         u = np.asarray(self.law.output(s, m))
         check_output(self.controller, u, self.plant.p)
@@ -191,6 +193,15 @@ class ClosedLoop(HybridSystem, Generic[P]):
             return (control,)
         after = k.motors.fraction * time.period
         return (control, Clock("motors", time.period, self._release, time.restart, after))
+
+
+def _references(controller: Controller | None) -> Iterator[Reference]:
+    """What a controller and those inside it track."""
+    while controller is not None:
+        reference = getattr(controller, "reference", None)
+        if isinstance(reference, Reference):
+            yield reference
+        controller = getattr(controller, "inner", None)
 
 
 class Reading(NamedTuple):

@@ -19,6 +19,7 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, ControllerLaws, Measurement
 from biped_adrc.control.tracking import Gains, TrackingParameters
+from biped_adrc.errors import check_count
 from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
 from biped_adrc.observers.base import (
     Estimate,
@@ -124,6 +125,9 @@ class ObservingController(Controller):
     @property
     def laws(self) -> ControllerLaws:
         r, o = reference_laws(self.reference), observer_laws(self.observer)
+        order = getattr(o.parameters, "order", None)
+        name = type(self.observer).__name__
+        check_count(order, f"the parameters of {name}.laws have order = {order!r} states per joint")
         k = ObservingParameters(
             r.parameters, self.gains.parameters(self.solve_theta), o.parameters, self.reset.code
         )

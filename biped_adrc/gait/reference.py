@@ -73,6 +73,22 @@ def reference_laws(reference: Reference) -> ReferenceLaws:
     return ReferenceLaws((), lambda k, t, q, v: reference(t, q, v), reference._obstacle)
 
 
+def check_point(reference: Reference, r: Any, p: int, n: int) -> None:
+    """Raise InputError for a point r that is not one of p joints and n coordinates."""
+    name = type(reference).__name__
+    if not isinstance(r, ReferencePoint):
+        raise InputError(
+            f"{name} gives a {type(r).__name__}, expected a ReferencePoint(q_d, dq_d, drift, H)"
+        )
+    for field, value in r._asdict().items():
+        expected = (p, n) if field == "H" else (p,)
+        if np.shape(value) != expected:
+            raise InputError(
+                f"{name} gives {field} of shape {np.shape(value)}, expected {expected}: {p} joints"
+                f"{f', {n} coordinates' if field == 'H' else ''}"
+            )
+
+
 @dataclass(frozen=True)
 class TimeReference(Reference):
     """q_d(t) given by a function that returns q_d, q_d', q_d'', each (p,) [rad, rad/s, rad/s^2]."""

@@ -8,7 +8,7 @@ from `own` alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import Any
 
@@ -30,37 +30,58 @@ GAINS = ("K_p", "K_d")
 OF_OBSERVER = ("observer", "poles", "bandwidth", "order")
 OF_CONTROLLER = (*GAINS, *OF_OBSERVER, "reset", "solve_theta")
 """Values of a scenario that a controller takes, or that do nothing."""
+CONTEXT = ("reference", "gait", "biped", "outputs")
+"""What the gait and the robot give."""
+BY_ITSELF = (*CONTEXT, *OF_CONTROLLER, "gains", "torque_limit")
+"""What a constructor has from the scenario, never from own values; an outer loop has `CONTEXT` alone."""
+SOURCES = {name: name for name in FIELDS} | {
+    "reference": "gait",
+    "outputs": "gait",
+    "biped": "robot",
+    "gains": "K_p and K_d",
+    "step": "pushed_step",
+    "start": "onset",
+    "stop": "duration",
+    "bandwidth": "bandwidth, of noise frequency,",
+}
+"""By the name that a constructor has, the value of the scenario that it comes from."""
 MAKERS = ("from_poles", "from_bandwidth", "from_epsilon")
 """Of an observer, beside its constructor."""
 
 
 @dataclass
 class Maker:
-    """Makes the controller; `used` and `known` gather the names that something takes."""
+    """Makes the controller; `used` gathers values of the scenario that something takes, `mine` own values."""
 
     s: Scenario
     gait: Gait
     biped: Biped
     used: set[str] = field(default_factory=set)
+    mine: set[str] = field(default_factory=set)
     known: set[str] = field(default_factory=set)
 
     def made(self, name: str) -> Controller:
         """The controller by name. Raises InputError for what is missing, does not fit, or does nothing."""
         entry, what = find("controller", name), f"controller '{name}'"
         make = entry.load()
+        outer = "inner" in takes(make)
         values = self._context() | (
-            {"inner": self._inner(what, name)}
-            if "inner" in takes(make)
-            else self._taken(what, make, entry.defaults)
+            {"inner": self._inner(what, name)} if outer else self._taken(what, make, entry.defaults)
         )
-        mine = {key: x for key, x in self.s.own.items() if key != "inner"}
+        mine = self._own((*CONTEXT, "inner") if outer else BY_ITSELF)
         made: Controller = construct(what, make, values | mine, Controller)
-        self._seen(make, self.s.own)
+        self._seen(make, (), (*mine, "inner") if outer else mine)
         return made
 
-    def _seen(self, make: Callable[..., Any], offered: Iterable[str]) -> None:
-        self.known |= set(takes(make))
-        self.used |= set(offered) & set(takes(make))
+    def _own(self, given: Container[str]) -> dict[str, Any]:
+        """Own values, but for those that are given by themselves."""
+        return {name: x for name, x in self.s.own.items() if name not in given}
+
+    def _seen(self, make: Callable[..., Any], offered: Iterable[str], mine: Iterable[str]) -> None:
+        accepted = set(takes(make))
+        self.known |= accepted
+        self.used |= set(offered) & accepted
+        self.mine |= set(mine) & accepted
 
     def _context(self) -> dict[str, Any]:
         """What the gait and the robot give."""
@@ -91,7 +112,7 @@ class Maker:
         }
         found.pop("observer", None)
         accepted = takes(make)
-        self._seen(make, OF_CONTROLLER)
+        self._seen(make, OF_CONTROLLER, ())
         if "gains" in accepted and (gains := {name: told[name] for name in GAINS if name in told}):
             usual = accepted["gains"].default
             found["gains"] = replace(usual if isinstance(usual, Gains) else TABLE_II, **gains)
@@ -108,13 +129,14 @@ class Maker:
         kind = type(usual) if self.s.observer is None else find("observer", self.s.observer).load()
         makers = [*(getattr(kind, name) for name in MAKERS if hasattr(kind, name)), kind]
         offered = {name: told[name] for name in ("poles", "bandwidth", "order") if name in told}
-        offered |= self.s.own | ({"m": told["order"]} if "order" in told else {})
+        mine = self._own(BY_ITSELF)
+        offered |= mine | ({"m": told["order"]} if "order" in told else {})
         asked = any(set(offered) & set(takes(way)) for way in makers)
         if self.s.observer is None and not asked:
             return usual if "observer" in lacking(make, ()) else None
         fitting = [way for way in makers if not lacking(way, offered)] or makers[:1]
         best = max(fitting, key=lambda way: len(set(offered) & set(takes(way))))
-        self._seen(best, offered)
+        self._seen(best, offered, mine)
         self.used |= {"order"} if "m" in takes(best) else set()
         return construct(f"the observer of {what}", best, offered, Observer)
 
@@ -139,12 +161,15 @@ def controller(s: Scenario, gait: Gait, biped: Biped, others: set[str] | None = 
         raise InputError(
             f"controller '{s.controller}' has neither a method output(s, m) nor laws; write one of them"
         )
-    known = maker.known - {"reference", "gait", "biped", "outputs", "gains", "m"}
+    known = sorted(maker.known - {*BY_ITSELF, "m"})
     for name in s.own:
-        if name not in maker.used and name not in (others or ()):
-            raise InputError(
-                f"own value '{name}' of controller '{s.controller}': {unknown(name, sorted(known), FIELDS)}"
+        if name not in maker.mine and name not in (others or ()):
+            found = (
+                f"it comes by itself from {SOURCES[name]} of the scenario; give that, not an own value"
+                if name in SOURCES
+                else unknown(name, known, FIELDS)
             )
+            raise InputError(f"own value '{name}' of controller '{s.controller}': {found}")
     idle = [
         name
         for name in OF_CONTROLLER

@@ -20,6 +20,19 @@ from biped_adrc.types import Array
 OVER_STEPS = ("sine", "noise")
 """Pushes that go on over steps, from the time at which the gait would be there."""
 
+BY_ITSELF = {
+    "step",
+    "start",
+    "stop",
+    "frequency",
+    "bandwidth",
+    "seed",
+    "force",
+    "amplitude",
+    "biped",
+}
+"""What a disturbance has from the scenario, never from own values."""
+
 
 def disturbances(s: Scenario, biped: Biped, gait: Gait, plant: Biped) -> Disturbance | None:
     """All pushes, on joints, on a link or on the hip; None without."""
@@ -36,7 +49,7 @@ def push(s: Scenario, biped: Biped, gait: Gait, plant: Biped) -> Disturbance | N
         return None
     along = np.array((math.cos(s.direction), math.sin(s.direction), 0.0))
     kind, _, link = s.on.partition(" ")
-    values = {**window(s, gait), "force": tuple((s.force * along)[:2].tolist()), **s.own}
+    values = {**s.own, **window(s, gait), "force": tuple((s.force * along)[:2].tolist())}
     on_link, accepted = kind == "link", takes(find("disturbance", s.push).load())
     forced = on_link or "force" in accepted
     idle = {"direction": not forced, "frequency": not {"frequency", "bandwidth"} & set(accepted)}
@@ -118,5 +131,7 @@ def disturbance(
 
 
 def taken(s: Scenario) -> set[str]:
-    """Names that the push takes among own values."""
-    return set() if s.push == "none" else set(takes(find("disturbance", s.push).load()))
+    """Names that the push takes among own values; what the scenario says of a push is none of them."""
+    if s.push == "none":
+        return set()
+    return set(takes(find("disturbance", s.push).load())) - BY_ITSELF

@@ -141,6 +141,25 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
             "'pulse' on 'q1,q2,q3,q4' takes no frequency: this would do nothing",
         ),
         ({"controller": "NPD", "own": {"bandwith": 3}}, "own value 'bandwith'"),
+        *(
+            ({"controller": "NPD", "own": {name: 3}}, f"'{name}'.*from {source} of the scenario")
+            for name, source in {
+                "reference": "gait",
+                "gait": "gait",
+                "outputs": "gait",
+                "biped": "robot",
+                "gains": "K_p and K_d",
+                "K_p": "K_p",
+                "torque_limit": "torque_limit",
+            }.items()
+        ),
+        ({"own": {"reset": "none"}}, "'reset'.*from reset of the scenario"),
+        ({"own": {"observer": "GPI"}}, "'observer'.*from observer of the scenario"),
+        ({"own": {"poles": [-1.0]}, "poles": "-9,-9,-9"}, "'poles'.*from poles of the scenario"),
+        ({"own": {"solve_theta": "no"}}, "'solve_theta'.*from solve_theta of the scenario"),
+        ({"push": "pulse", "own": {"amplitude": [9.0]}}, "'amplitude'.*from amplitude of the"),
+        ({"push": "pulse", "own": {"step": 1}}, "'step'.*from pushed_step of the scenario"),
+        ({"push": "pulse", "own": {"stop": 1}}, "'stop'.*from duration of the scenario"),
         ({"controller": "CLF-QP", "solve_theta": False}, "takes no solve_theta"),
         ({"controller": "ADRC", "order": 3}, "m = 3 has 5 poles, found 9"),
         ({"controller": "ADCR"}, "did you mean 'ADRC'"),
@@ -181,6 +200,77 @@ def test_a_module_or_a_class_that_exits(own: str, tmp_path, code: str, message: 
         build(ba.Scenario(f"{own}_exits:Mine"))
     done = CliRunner().invoke(app, ["simulate", "--controller", f"{own}_exits:Mine"])
     assert isinstance(done.exception, InputError)
+
+
+PARTS = """
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+import biped_adrc as ba
+from biped_adrc.gait.reference import ReferenceLaws, ReferencePoint
+from biped_adrc.observers.chain import chain_laws
+
+
+class K(NamedTuple):
+    {parameters}
+    scale: float = 1.0
+
+
+@dataclass(frozen=True)
+class Seen(ba.Observer):
+    @property
+    def laws(self):
+        return chain_laws(K(), lambda k, Z, y, u: np.zeros((3, 4)))
+
+
+def point(k, t, q, v):
+    {point}
+
+
+@dataclass(frozen=True)
+class Tracked(ba.Reference):
+    @property
+    def laws(self):
+        return ReferenceLaws(K(), point)
+
+
+def tracking(gait):
+    return ba.NPDController(Tracked())
+"""
+
+
+@pytest.mark.parametrize(
+    ("parameters", "message"),
+    [("other: int = 3", "order = None"), ("order: float = 3.0", "order = 3.0")],
+)
+def test_an_observer_without_an_order(tmp_path, own: str, parameters: str, message: str) -> None:
+    text = PARTS.format(parameters=parameters, point="return None")
+    (tmp_path / f"{own}_seen.py").write_text(text)
+    with pytest.raises(InputError, match=rf"Seen.laws have {message}.*expected a whole number"):
+        build(ba.Scenario("ADRC", observer=f"{own}_seen:Seen"))
+
+
+@pytest.mark.parametrize(
+    ("point", "message"),
+    [
+        ("return ReferencePoint(*np.zeros((3, 3)), np.zeros((3, 5)))", r"q_d of shape \(3,\)"),
+        ("return ReferencePoint(*np.zeros((3, 4)), np.zeros((4, 4)))", r"H of shape \(4, 4\)"),
+        ("return (*np.zeros((3, 4)), np.zeros((4, 5)))", "gives a tuple"),
+    ],
+)
+@pytest.mark.parametrize("around", [False, True])
+def test_a_reference_of_another_shape(tmp_path, own: str, point, message, around: bool) -> None:
+    (tmp_path / f"{own}_tracked.py").write_text(
+        PARTS.format(parameters="order: int = 3", point=point)
+    )
+    name = f"{own}_tracked:tracking"
+    values = {"controller": name, "own": {}}
+    if around:
+        values = {"controller": "delayed", "own": {"inner": name, "delay": 1e-3}}
+    with pytest.raises(InputError, match=f"Tracked gives.* {message}|Tracked {message}"):
+        ba.walk_scenario(ba.Scenario(impacts=1, **values))
 
 
 def test_what_is_made_of_the_scenarios_values() -> None:
