@@ -139,6 +139,14 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
         ({"controller": "OWN:Mine", "own": {"gian": 1.0}}, "'gian'.*did you mean 'gain'"),
         ({"controller": "OWN:Mine", "K_p": 3.0}, "takes no K_p: this would do nothing"),
         ({"controller": "NPD", "bandwidth": 3.0}, "takes no bandwidth: this would do nothing"),
+        ({"poles": "-9,-9,-9", "order": 1}, "poles and an order: this would do nothing"),
+        *(
+            (
+                {"first_step": 5, "pushed_step": 4, **of},
+                "pushed_step = 4 before first_step = 5: this",
+            )
+            for of in ({"push": "pulse", "amplitude": 9.0}, {"ground_step": 0.01})
+        ),
         ({"delay": 1e-3}, "delay without a period: this would do nothing"),
         ({"lag": 1e-3}, "lag without a period: this would do nothing"),
         ({"frequency": 3.0}, "frequency without a push: this would do nothing"),
