@@ -23,8 +23,8 @@ from typing import Any
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.resources import data_folder, packaged
 
-_OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
-"""package.module:Class."""
+_OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
+"""package.module:Class, or Class.Inner of a class inside a class."""
 
 
 _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
@@ -172,7 +172,10 @@ def _imported(home: str) -> Callable[..., Any]:
             f"'{home}': importing '{module}' failed with {type(error).__name__}: {error}; run "
             f"python -c 'import {module}' to see where"
         ) from error
-    if not callable(thing := getattr(found, name, None)):
+    thing: Any = found
+    for part in name.split("."):
+        thing = getattr(thing, part, None)
+    if not callable(thing):
         there = [key for key, x in vars(found).items() if isinstance(x, type)]
         near = get_close_matches(name, there, 1) or there
         raise InputError(f"'{home}': module '{module}' has no class '{name}'; it has {near}")
@@ -180,8 +183,11 @@ def _imported(home: str) -> Callable[..., Any]:
 
 
 def takes(make: Callable[..., Any]) -> Mapping[str, Parameter]:
-    """The parameters of a class or function that may be given by name."""
-    found = signature(make).parameters
+    """The parameters of a class or function that may be given by name. Raises InputError."""
+    try:
+        found = signature(make).parameters
+    except ValueError as error:
+        raise InputError(f"{error}; expected a class or a function written in Python") from error
     return {name: p for name, p in found.items() if p.kind not in _VARIADIC}
 
 
@@ -196,10 +202,14 @@ def construct(
 ) -> Any:
     """make(**values) with those of the values that it takes, a `kind`. Raises InputError, of `what`."""
     missing = lacking(make, values)
+    if missing and isinstance(make, type) and not issubclass(make, kind):
+        raise InputError(f"{what} is no {kind.__name__}; expected a class below it")
     if missing:
+        role = "" if isinstance(make, type) else f", a function that has to make a {kind.__name__},"
         raise InputError(
-            f"{what} needs {', '.join(missing)}; give --set {missing[0]}=VALUE, `own.{missing[0]} = VALUE` "
-            f"in a study, or Scenario(own={{'{missing[0]}': VALUE}}); given by themselves are {sorted(values)}"
+            f"{what}{role} needs {', '.join(missing)}; give --set {missing[0]}=VALUE, "
+            f"`own.{missing[0]} = VALUE` in a study, or Scenario(own={{'{missing[0]}': VALUE}}); given by "
+            f"themselves are {sorted(values)}"
         )
     try:
         made = make(**{name: x for name, x in values.items() if name in takes(make)})

@@ -203,6 +203,11 @@ class Scenario:
             and self.velocity == "differences",
             f"pushed_step = {self.pushed_step} of {last} steps": self.pushed_step > last
             and (pushed or self.ground_step != 0.0),
+            f"pushed_step = {self.pushed_step} before first_step = {self.first_step}": (
+                self.pushed_step < self.first_step
+                and (self.push == "pulse" or self.ground_step != 0.0)
+            ),
+            "poles and an order": self.poles is not None and self.order is not None,
             "poles and a bandwidth": self.poles is not None and self.bandwidth is not None,
             "a tolerance without the method adaptive or stiff": self.tolerance != 1e-9
             and self.method not in FREE,

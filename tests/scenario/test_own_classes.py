@@ -129,10 +129,24 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
             {"controller": "OWN:NoController"},
             "made a NoController, expected one of class Controller",
         ),
+        ({"controller": "OWN:Outer.Wrong"}, "no class 'Outer.Wrong'"),
+        ({"controller": "collections:ChainMap.get"}, "a function that has to make a Controller"),
+        ({"controller": "json:loads"}, "a function that has to make a Controller, needs s"),
+        ({"controller": "fractions:Fraction.numerator"}, "no class 'Fraction.numerator'"),
+        ({"controller": "zipfile:ZipFile"}, "is no Controller; expected a class below it"),
+        ({"controller": "builtins:dict"}, "no signature found"),
         ({"controller": "OWN:Needy"}, "needs stiffness; give --set stiffness="),
         ({"controller": "OWN:Mine", "own": {"gian": 1.0}}, "'gian'.*did you mean 'gain'"),
         ({"controller": "OWN:Mine", "K_p": 3.0}, "takes no K_p: this would do nothing"),
         ({"controller": "NPD", "bandwidth": 3.0}, "takes no bandwidth: this would do nothing"),
+        ({"poles": "-9,-9,-9", "order": 1}, "poles and an order: this would do nothing"),
+        *(
+            (
+                {"first_step": 5, "pushed_step": 4, **of},
+                "pushed_step = 4 before first_step = 5: this",
+            )
+            for of in ({"push": "pulse", "amplitude": 9.0}, {"ground_step": 0.01})
+        ),
         ({"delay": 1e-3}, "delay without a period: this would do nothing"),
         ({"lag": 1e-3}, "lag without a period: this would do nothing"),
         ({"frequency": 3.0}, "frequency without a push: this would do nothing"),
@@ -328,6 +342,17 @@ def test_every_controller_and_observer_of_the_package_has_a_name() -> None:
         if cls.__module__.startswith(("biped_adrc.control", "biped_adrc.observers"))
     }
     assert {cls.__name__ for cls in leaves - loaded} <= made
+
+
+def test_a_class_inside_a_class(own: str, tmp_path: Path) -> None:
+    (tmp_path / f"{own}_outer.py").write_text(
+        f"from {own} import Mine\nclass Outer:\n    class Inner(Mine):\n        pass\n"
+    )
+    walk = ba.walk_scenario(ba.Scenario(f"{own}_outer:Outer.Inner", **FAST))
+    Inner = type(walk.walker.controller)
+    assert Inner.__qualname__ == walk.controller_name == "Outer.Inner"
+    again = ba.load_walk(walk.save(tmp_path / "a.npz"), controller=Inner)
+    assert isinstance(again.walker.controller, Inner)
 
 
 def test_the_working_directory_is_looked_in_for_names_of_the_user_alone(own: str) -> None:
