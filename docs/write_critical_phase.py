@@ -19,7 +19,7 @@ from write_results import table
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.studies.pair import CONTROLLERS
-from biped_adrc.studies.push_map import WORDS, Cell, Fate, apart, certain, counts, settings_of
+from biped_adrc.studies.push_map import WORDS, Fate, PushCell, apart, certain, counts, settings_of
 from biped_adrc.viz.numbers import as_text, numbers_of
 from biped_adrc.viz.push_map_plot import push_map_figure
 from biped_adrc.viz.style import render
@@ -35,11 +35,11 @@ NEEDS = ["preset", "outcome", "mean friction", "mean F_N [N]", "peak torque [N m
 class Study(NamedTuple):
     """What the page is written from."""
 
-    cells: list[Cell]
+    cells: list[PushCell]
     undisturbed: list[list[Any]]
 
 
-def presets_of(cells: Sequence[Cell]) -> list[str]:
+def presets_of(cells: Sequence[PushCell]) -> list[str]:
     """In their order."""
     return list(dict.fromkeys(cell.preset for cell in cells))
 
@@ -51,7 +51,9 @@ def read(path: Path) -> Study:
     if not rows:
         raise InputError(f"'{path}' has no map of pushes; run 'biped-adrc reproduce --full' first")
     names = ("preset", "onset", "amplitude", "pattern", "torque_limit")
-    cells = [Cell(*(row[n] for n in names), fate(row["npd"]), fate(row["adrc"])) for row in rows]
+    cells = [
+        PushCell(*(row[n] for n in names), fate(row["npd"]), fate(row["adrc"])) for row in rows
+    ]
     return Study(cells, summary.get("undisturbed") or undisturbed(summary))
 
 
@@ -68,12 +70,12 @@ def undisturbed(summary: dict[str, Any]) -> list[list[Any]]:
     return [[row[k] for k in at] for row in named]
 
 
-def onsets(cells: Sequence[Cell]) -> list[float]:
+def onsets(cells: Sequence[PushCell]) -> list[float]:
     """[s], in their order."""
     return sorted({cell.onset for cell in cells})
 
 
-def by_onset(cells: Sequence[Cell]) -> list[list[Any]]:
+def by_onset(cells: Sequence[PushCell]) -> list[list[Any]]:
     """Share of walks that go on legally, by onset: a row per setting and controller."""
     rows = []
     for name, here in settings_of(cells):
@@ -88,12 +90,12 @@ def by_onset(cells: Sequence[Cell]) -> list[list[Any]]:
     return rows
 
 
-def tally(cells: Sequence[Cell], word: str) -> dict[str, int]:
+def tally(cells: Sequence[PushCell], word: str) -> dict[str, int]:
     """How many walks of each controller are that."""
     return {c: sum(getattr(x, c.lower()).word == word for x in cells) for c in CONTROLLERS}
 
 
-def sentences(cells: Sequence[Cell]) -> list[str]:
+def sentences(cells: Sequence[PushCell]) -> list[str]:
     """What the cells say of the claim; of those that are not marginal."""
     sure = certain(cells)
     falls, ends, legal, pulled = (tally(sure, w) for w in ("fell", "ended", "legal", "pulled"))

@@ -14,7 +14,7 @@ from biped_adrc.files import plain
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.studies.claims import evidence, rows_control, rows_gait, rows_push
 from biped_adrc.studies.claims.admissible import Member, convergence, declared, members
-from biped_adrc.studies.claims.evidence import Cycle, Evidence, Jumps, Needs, Pair, Start
+from biped_adrc.studies.claims.evidence import Evidence, GaitCycle, Jumps, Needs, Pair, Start
 from biped_adrc.studies.claims.orders import Order, bandwidth_with
 from biped_adrc.studies.claims.table import rows
 from biped_adrc.studies.claims.tally import Case, Figure, Tally, below_limit, changes
@@ -30,7 +30,7 @@ from biped_adrc.studies.claims.walks import (
     tried,
 )
 from biped_adrc.studies.claims.words import MEANINGS, Claim, claim_checks, span
-from biped_adrc.studies.push_map import Cell, Fate
+from biped_adrc.studies.push_map import Fate, PushCell
 from biped_adrc.studies.results import Results
 from biped_adrc.viz.pages import CLAIM_COLUMNS
 
@@ -330,7 +330,7 @@ def test_a_critical_phase_that_the_step_decides_says_nothing():
 def cell(npd, adrc, doubtful=False):
     fates = (Fate(x, "FELL" if x == "fell" else "COMPLETED", 100.0, 0.4, 0.5) for x in (npd, adrc))
     one, other = fates
-    return Cell("identified", 0.1, 90.0, "all +", None, one, replace(other, marginal=doubtful))
+    return PushCell("identified", 0.1, 90.0, "all +", None, one, replace(other, marginal=doubtful))
 
 
 @pytest.mark.parametrize(
@@ -454,7 +454,7 @@ def test_an_error_that_stays():
 # -- the gait --------------------------------------------------------------------------------------
 def cycle(multiplier=0.7, rate=-1.25, gait="published", controller="NPD"):
     f, r = figure(multiplier, 1e-5), figure(rate, 1e-6)
-    return Cycle("c", "identified", gait, controller, "solved", f, r, 0.4)
+    return GaitCycle("c", "identified", gait, controller, "solved", f, r, 0.4)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,16 @@ import biped_adrc as ba
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.run import execute
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.push_map import Cell, Fate, Tried, apart, certain, counts, push_map, pushes
+from biped_adrc.studies.push_map import (
+    Fate,
+    PushCell,
+    Tried,
+    apart,
+    certain,
+    counts,
+    push_map,
+    pushes,
+)
 from biped_adrc.viz.push_map_plot import FATES, push_map_figure
 
 LEGAL = Fate("legal", "COMPLETED", 200.0, 0.4, 0.5)
@@ -21,9 +30,9 @@ FELL = Fate("fell", "FELL", 10.0, 0.9, None)
 ENDED = Fate("ended", "SINGULAR", 10.0, 0.9, None)
 
 
-def cell(npd: Fate, adrc: Fate, **place: object) -> Cell:
+def cell(npd: Fate, adrc: Fate, **place: object) -> PushCell:
     where = {"preset": "p", "onset": 0.1, "amplitude": 30.0, "pattern": "all +"}
-    return Cell(**{**where, "torque_limit": None, **place}, npd=npd, adrc=adrc)  # type: ignore[arg-type]
+    return PushCell(**{**where, "torque_limit": None, **place}, npd=npd, adrc=adrc)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.regression import Regression, regress_multipliers
 from biped_adrc.analysis.stability import (
     Method,
-    Row,
+    MethodRow,
     StabilityTable,
     Tolerances,
     invariance_gap,
@@ -406,7 +406,7 @@ def test_table_of_the_published_gait(published, biped, gait):
 
 
 def rows_of(*sizes, method=Method.CENTRAL, **more):
-    return Row(method, np.array(sizes, dtype=complex), **more)
+    return MethodRow(method, np.array(sizes, dtype=complex), **more)
 
 
 EQUATION = rows_of(0.7, 1e-3, method=Method.VARIATIONAL)
@@ -442,11 +442,13 @@ def test_verdict_on_differences():
 
 
 def test_complex_pairs_are_compared_as_pairs_in_any_order():
-    pair = Row(Method.VARIATIONAL, np.array([0.5 + 0.1j, 0.5 - 0.1j]))
+    pair = MethodRow(Method.VARIATIONAL, np.array([0.5 + 0.1j, 0.5 - 0.1j]))
     assert table_of(
         pair, replace(pair, method=Method.CENTRAL, multipliers=pair.multipliers[::-1])
     ).agree
-    turned = Row(Method.CENTRAL, abs(pair.multipliers[0]) * np.array([1.0, 1.0], dtype=complex))
+    turned = MethodRow(
+        Method.CENTRAL, abs(pair.multipliers[0]) * np.array([1.0, 1.0], dtype=complex)
+    )
     assert turned.magnitudes == pytest.approx(pair.magnitudes)
     assert not table_of(pair, turned).agree
 

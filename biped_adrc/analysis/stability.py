@@ -68,7 +68,7 @@ class Tolerances:
 
 
 @dataclass(frozen=True)
-class Row:
+class MethodRow:
     """Multipliers by one method, the largest magnitude first.
 
     uncertainty: how far the method itself says that each may be off (central differences: what the
@@ -91,7 +91,7 @@ class Row:
 class StabilityTable:
     """Rows by method; `verdict` says whether they agree within `tolerances` and which to trust."""
 
-    rows: tuple[Row, ...]
+    rows: tuple[MethodRow, ...]
     tolerances: Tolerances
 
     def __post_init__(self) -> None:
@@ -106,7 +106,7 @@ class StabilityTable:
                 )
 
     @property
-    def trusted(self) -> Row:
+    def trusted(self) -> MethodRow:
         """The variational equation, or central differences where that is in doubt.
 
         delta^2 is one multiplier of all, and the regression none of them for certain. Raises InputError
@@ -136,7 +136,7 @@ class StabilityTable:
         others = (row for row in self.rows if row is not trusted and not row.doubt)
         return all(self.gap(row) <= 1.0 for row in others)
 
-    def gap(self, row: Row) -> float:
+    def gap(self, row: MethodRow) -> float:
         """Largest distance of a row to the trusted one in units of the tolerance; at most 1 when they agree.
 
         delta^2 is compared with the multiplier next to it. Infinite for a row of another number of
@@ -159,7 +159,7 @@ class StabilityTable:
         said.append(f"Trust the {name}: the cycle is {end}, the largest |lambda| is {largest:.6f}.")
         return " ".join(said)
 
-    def _sentence(self, row: Row) -> str:
+    def _sentence(self, row: MethodRow) -> str:
         name = row.method.value[:1].upper() + row.method.value[1:]
         if row.doubt:
             return f"{name}: not to be trusted, {row.doubt}."
@@ -175,7 +175,7 @@ class StabilityTable:
         why = self._limit(row)
         return f"{name}: disagrees, {gap:.3g} times the tolerance of {within}{why}."
 
-    def _limit(self, row: Row) -> str:
+    def _limit(self, row: MethodRow) -> str:
         """What a disagreement comes from, as far as the rows say."""
         if row.method is Method.ZERO_DYNAMICS:
             return "; the closed loop does not keep to the zero dynamics, or the step is too long"
@@ -207,7 +207,7 @@ def _farthest(cost: Array) -> float:
 
 
 # -- rows ------------------------------------------------------------------------------------------
-def variational_row(step: StepDerivative, tolerances: Tolerances) -> Row:
+def variational_row(step: StepDerivative, tolerances: Tolerances) -> MethodRow:
     """Doubted when Phi does not carry the flow along, see StepDerivative.flow_residual."""
     doubt = ""
     if not step.flow_residual <= tolerances.flow:
@@ -215,26 +215,26 @@ def variational_row(step: StepDerivative, tolerances: Tolerances) -> Row:
             f"its Phi carries the flow along to {step.flow_residual:.1e} only, expected "
             f"{tolerances.flow:g}: take a shorter step, or look whether the flow depends on time"
         )
-    return Row(Method.VARIATIONAL, step.multipliers, doubt=doubt)
+    return MethodRow(Method.VARIATIONAL, step.multipliers, doubt=doubt)
 
 
-def central_row(P: ReturnMap, s: Array) -> Row:
+def central_row(P: ReturnMap, s: Array) -> MethodRow:
     """Central differences at s with P.difference and half of it, extrapolated.
 
     The uncertainty is the distance to the half's own, which shows the error d^2 as well as round-off.
     """
     wide, narrow = P.jacobian(s), replace(P, difference=0.5 * P.difference).jacobian(s)
     best, half = sorted_eigenvalues((4.0 * narrow - wide) / 3.0), sorted_eigenvalues(narrow)
-    return Row(Method.CENTRAL, best, _farthest(np.abs(best[:, np.newaxis] - half)))
+    return MethodRow(Method.CENTRAL, best, _farthest(np.abs(best[:, np.newaxis] - half)))
 
 
-def regression_row(regression: Regression) -> Row:
+def regression_row(regression: Regression) -> MethodRow:
     """Doubted when the data do not determine Phi, see Regression.warning."""
     values = sorted_eigenvalues(regression.Phi)
-    return Row(Method.REGRESSION, values, doubt=regression.warning)
+    return MethodRow(Method.REGRESSION, values, doubt=regression.warning)
 
 
-def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> Row | None:
+def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> MethodRow | None:
     """delta^2, or None where it is no multiplier of the closed loop.
 
     It is one under NPD with the loop through Theta'' solved, in continuous time on even ground, without torque
@@ -256,7 +256,7 @@ def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> Row | None:
     if abs(walker.clearance(zero.end_state(1.0)[0])) > tolerances.invariance:
         return None
     delta = zero.delta
-    return Row(Method.ZERO_DYNAMICS, np.array([delta**2], dtype=complex))
+    return MethodRow(Method.ZERO_DYNAMICS, np.array([delta**2], dtype=complex))
 
 
 def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:

@@ -145,7 +145,7 @@ class PlanarRobot:
         return Impact(R @ q + self.structure.offset, R @ v_plus, F_2)
 
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 REMEMBERED = 64
 """Robots kept in memory."""
 
@@ -158,11 +158,11 @@ class Robot:
     arrays: PlantArrays
 
 
-def once_each(make: Callable[[Biped], T]) -> Callable[[Biped], T]:
+def once_each(make: Callable[[Biped], _T]) -> Callable[[Biped], _T]:
     """`make`, with what it made of the last REMEMBERED robots; a robot is known by its identity."""
-    made: dict[int, tuple[Biped, T]] = {}
+    made: dict[int, tuple[Biped, _T]] = {}
 
-    def found(biped: Biped) -> T:
+    def found(biped: Biped) -> _T:
         if id(biped) not in made or made[id(biped)][0] is not biped:
             while len(made) >= REMEMBERED:
                 made.pop(next(iter(made)))

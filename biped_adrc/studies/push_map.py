@@ -91,7 +91,7 @@ class Fate:
 
 
 @dataclass(frozen=True)
-class Cell:
+class PushCell:
     """One push and what each controller made of it."""
 
     preset: str
@@ -144,13 +144,13 @@ class Tried:
 
 def push_map(
     base: Scenario, tried: Sequence[Tried], progress: Callable[[int], None] | None = None
-) -> list[Cell]:
+) -> list[PushCell]:
     """Both controllers under every push, at two steps each, on the compiled engine."""
-    cells: list[Cell] = []
+    cells: list[PushCell] = []
     for found in tried:
         npd, adrc = (Fate.of(execute_twice(found.run(base, c))) for c in CONTROLLERS)
         place = (found.onset, found.amplitude, found.pattern, found.torque_limit)
-        cells.append(Cell(str(base.preset), *place, npd, adrc))
+        cells.append(PushCell(str(base.preset), *place, npd, adrc))
         if progress is not None:
             progress(len(cells))
     return cells
@@ -167,7 +167,7 @@ def pushes(
     return [Tried(onset, amplitude, of, limit) for limit, of, amplitude, onset in every]
 
 
-def settings_of(cells: Sequence[Cell]) -> Iterator[tuple[str, list[Cell]]]:
+def settings_of(cells: Sequence[PushCell]) -> Iterator[tuple[str, list[PushCell]]]:
     """The cells of each preset and torque limit, with their name."""
     keys = dict.fromkeys((cell.preset, cell.torque_limit) for cell in cells)
     for preset, limit in keys:
@@ -179,7 +179,7 @@ WORDS = ("legal", "made", "pulled", "fell", "ended", "marginal")
 """What a walk of the map can be, and what the columns of its table are."""
 
 
-def counts(cells: Sequence[Cell]) -> dict[str, dict[str, dict[str, int]]]:
+def counts(cells: Sequence[PushCell]) -> dict[str, dict[str, dict[str, int]]]:
     """How many walks are what, by setting, controller and word."""
     return {
         name: {
@@ -190,7 +190,7 @@ def counts(cells: Sequence[Cell]) -> dict[str, dict[str, dict[str, int]]]:
     }
 
 
-def apart(cells: Sequence[Cell]) -> dict[str, tuple[int, int]]:
+def apart(cells: Sequence[PushCell]) -> dict[str, tuple[int, int]]:
     """By setting: pushes that only ADRC walks through legally, and that only NPD does; no marginal cells."""
     return {
         name: (
@@ -201,6 +201,6 @@ def apart(cells: Sequence[Cell]) -> dict[str, tuple[int, int]]:
     }
 
 
-def certain(cells: Sequence[Cell]) -> list[Cell]:
+def certain(cells: Sequence[PushCell]) -> list[PushCell]:
     """Those that end alike at both steps under both controllers."""
     return [c for c in cells if not (c.npd.marginal or c.adrc.marginal)]

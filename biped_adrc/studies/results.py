@@ -11,7 +11,7 @@ from biped_adrc.checks import Check
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.studies.cycle_stability import PoincareResult, regression_of
 from biped_adrc.studies.plan import BOTH, Headline, Plan, RecipeResult
-from biped_adrc.studies.push_map import Cell
+from biped_adrc.studies.push_map import PushCell
 from biped_adrc.types import Array
 
 
@@ -26,7 +26,7 @@ class Results:
     recipe: Mapping[str, RecipeResult]
     model: Mapping[str, list[Check]]
     """Laws of the model, by preset."""
-    map: Mapping[str, list[Cell]]
+    map: Mapping[str, list[PushCell]]
     """Parts of the map of pushes; none where it was not asked for."""
     numerics: Mapping[str, tuple[list[Check], dict[str, float]]]
     """Laws and figures of the methods."""
@@ -61,7 +61,7 @@ class Results:
         return {c: regression_of(head.outcome) for c, head in self.heads.items()}
 
     @property
-    def cells(self) -> list[Cell]:
+    def cells(self) -> list[PushCell]:
         """The map of pushes."""
         return [cell for part in self.map.values() for cell in part]
 

@@ -14,7 +14,7 @@ from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.studies.plan import BOTH, POLICIES, RISE, Plan
-from biped_adrc.studies.push_map import WORDS, Cell, certain, counts
+from biped_adrc.studies.push_map import WORDS, PushCell, certain, counts
 from biped_adrc.studies.results import Results
 from biped_adrc.studies.verdicts import distance
 
@@ -142,7 +142,7 @@ def _literal(r: Results) -> Table:
     )
 
 
-def _map(cells: list[Cell]) -> Table:
+def _map(cells: list[PushCell]) -> Table:
     found = counts(cells)
     rows = [[name, c, *(found[name][c][word] for word in WORDS)] for name in found for c in BOTH]
     return {"columns": ["preset, torque limit", "controller", *WORDS], "rows": rows}
@@ -218,7 +218,7 @@ def _stability(r: Results) -> str:
     return _said("stability", largest=largest, delta_squared=npd.delta_squared, adrc=text)
 
 
-def _pushes(cells: list[Cell]) -> str:
+def _pushes(cells: list[PushCell]) -> str:
     parts = (
         _said("map", total=sum(x["NPD"].values()), npd=x["NPD"], adrc=x["ADRC"], name=name)
         for name, x in counts(certain(cells)).items()

@@ -17,7 +17,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.scenario.run import walk_scenario as execute
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.pair import CONTROLLERS
-from biped_adrc.studies.push_map import Cell, Fate
+from biped_adrc.studies.push_map import Fate, PushCell
 from biped_adrc.viz.figures import comparison_figure
 from biped_adrc.viz.numbers import Numbers, as_text, numbers_of
 
@@ -141,7 +141,7 @@ def test_pictures_of_long_runs_are_held_against_the_summaries_that_are_kept(
     monkeypatch.setattr(pushed, "FOLDER", folders[1])
     monkeypatch.setattr(check, "figures", lambda summary: {summary["name"]: Figure()})
     legal = Fate("legal", "COMPLETED", 100.0, 0.4, 0.5)
-    cell = Cell("identified", 0.1, 20.0, "all +", 150.0, legal, legal)
+    cell = PushCell("identified", 0.1, 20.0, "all +", 150.0, legal, legal)
     for folder in folders:
         folder.mkdir()
     (folders[0] / "summary.json").write_text('{"name": "legal"}')

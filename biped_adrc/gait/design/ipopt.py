@@ -13,7 +13,7 @@ import casadi as ca
 import numpy as np
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.design.programme import Programme, Row
+from biped_adrc.gait.design.programme import Bounded, Programme
 from biped_adrc.types import Array
 
 Progress = Callable[[int, float, float], None]
@@ -148,9 +148,9 @@ def relaxed(programme: Programme, asked: str, x0: Array, bounds: Bounds, status:
     for row in soft:
         give = ca.repmat(slack[names.index(row.name)], row.value.numel(), 1)
         if np.isfinite(row.low):
-            rows.append(Row(row.name, row.value + give, row.low, np.inf))
+            rows.append(Bounded(row.name, row.value + give, row.low, np.inf))
         if np.isfinite(row.high):
-            rows.append(Row(row.name, row.value - give, -np.inf, row.high))
+            rows.append(Bounded(row.name, row.value - give, -np.inf, row.high))
     weight = np.array([ASKED_WEIGHT if name in ASKED else 1.0 for name in names])
     count = len(names)
     softened = Programme(

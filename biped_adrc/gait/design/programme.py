@@ -36,7 +36,7 @@ CALM = 1e-2
 """Weight of torque squared beside the other objectives, so that what they leave open stays calm."""
 
 
-class Row(NamedTuple):
+class Bounded(NamedTuple):
     """low <= value <= high, all dimensionless; `name` is what a message calls it."""
 
     name: str
@@ -55,7 +55,7 @@ class Programme:
     """The unknowns, one column."""
     objective: Any
     """Scaled, and smooth where the objective is not."""
-    rows: tuple[Row, ...]
+    rows: tuple[Bounded, ...]
 
 
 def transcribe(
@@ -67,7 +67,7 @@ def transcribe(
     return Programme(step.x.vector(), _objective(step), rows), step.x
 
 
-def _equalities(k: Step) -> tuple[Row, ...]:
+def _equalities(k: Step) -> tuple[Bounded, ...]:
     x, p, c, M = k.x, k.p, k.biped.phase, k.request.degree
     sigma_minus = k.sigma(x.q, k.dq) * x.rate
     sigma_plus = k.sigma(k.q_plus, k.v_plus) * x.rate
@@ -89,10 +89,10 @@ def _equalities(k: Step) -> tuple[Row, ...]:
         zero.append(("the step length", (k.length - k.request.step) / k.leg, "of the leg"))
     if k.request.speed is not None:
         zero.append(("the speed", k.length / k.duration / k.request.speed - 1.0, "of itself"))
-    return tuple(Row(name, ca.vec(value), 0.0, 0.0, *unit) for name, value, *unit in zero)
+    return tuple(Bounded(name, ca.vec(value), 0.0, 0.0, *unit) for name, value, *unit in zero)
 
 
-def _limits(k: Step) -> tuple[Row, ...]:
+def _limits(k: Step) -> tuple[Bounded, ...]:
     x, limits, infinite = k.x, k.limits, np.inf
     weight, kept = k.biped.weight, 1.0 - limits.reserve
     speed = np.sqrt(k.gravity * k.leg)
@@ -110,36 +110,38 @@ def _limits(k: Step) -> tuple[Row, ...]:
     weights, legs, speeds = "of the weight", "of the leg", "of sqrt(g leg)"
     ratio = (k.sigma(k.q_plus, k.v_plus) / k.sigma(x.q, k.dq)) ** 2
     rows = [
-        Row("the normal force", F_N, limits.normal_force, infinite, weights),
-        Row("friction", mu * F_N - F_T, 0.0, infinite, weights),
-        Row("friction", mu * F_N + F_T, 0.0, infinite, weights),
-        Row("the impulse", P_N, 0.0, infinite),
-        Row("the torque limit", torque - x.peak, -infinite, 0.0, "of the limit"),
-        Row("the torque limit", torque + x.peak, 0.0, infinite, "of the limit"),
-        Row("the swing foot coming down", before / speed, -infinite, -lift, speeds),
-        Row("the old foot lifting off", after / speed, lift, infinite, speeds),
-        Row("one way of Theta", k.direction * k.span, 0.05, infinite, "rad"),
-        Row("one way of Theta after impact", k.biped.phase[np.newaxis] @ k.v_plus, 0.02, infinite),
-        Row(
+        Bounded("the normal force", F_N, limits.normal_force, infinite, weights),
+        Bounded("friction", mu * F_N - F_T, 0.0, infinite, weights),
+        Bounded("friction", mu * F_N + F_T, 0.0, infinite, weights),
+        Bounded("the impulse", P_N, 0.0, infinite),
+        Bounded("the torque limit", torque - x.peak, -infinite, 0.0, "of the limit"),
+        Bounded("the torque limit", torque + x.peak, 0.0, infinite, "of the limit"),
+        Bounded("the swing foot coming down", before / speed, -infinite, -lift, speeds),
+        Bounded("the old foot lifting off", after / speed, lift, infinite, speeds),
+        Bounded("one way of Theta", k.direction * k.span, 0.05, infinite, "rad"),
+        Bounded(
+            "one way of Theta after impact", k.biped.phase[np.newaxis] @ k.v_plus, 0.02, infinite
+        ),
+        Bounded(
             "the slowest rate", x.rates / x.rate, limits.slowest, infinite, "of that before impact"
         ),
-        Row("stability, delta^2 below 1", ratio, -infinite, limits.multiplier),
-        Row("the range of steps", k.length / k.leg, SHORTEST, LONGEST, legs),
+        Bounded("stability, delta^2 below 1", ratio, -infinite, limits.multiplier),
+        Bounded("the range of steps", k.length / k.leg, SHORTEST, LONGEST, legs),
     ]
     if np.isfinite(mu_i):
         rows += [
-            Row("the impulse cone", mu_i * P_N - P_T, 0.0, infinite, "of m sqrt(g leg)"),
-            Row("the impulse cone", mu_i * P_N + P_T, 0.0, infinite, "of m sqrt(g leg)"),
+            Bounded("the impulse cone", mu_i * P_N - P_T, 0.0, infinite, "of m sqrt(g leg)"),
+            Bounded("the impulse cone", mu_i * P_N + P_T, 0.0, infinite, "of m sqrt(g leg)"),
         ]
     above = [i for i, x in enumerate(s) if x > (0.0 if limits.clearance else PASSED) and x < 1.0]
     hump = (limits.clearance or 0.0) * 16.0 * (s * (1.0 - s))[above] ** 2
     height = (k.out @ node.foot)[:, above] / k.leg - hump[np.newaxis]
-    rows.append(Row("foot clearance", height, 0.0, infinite, legs))
+    rows.append(Bounded("foot clearance", height, 0.0, infinite, legs))
     for joint, (low, high) in limits.ranges.items():
         j = k.biped.description.joint_index(joint)
         kept_back = limits.reserve * min(0.25, 0.5 * (high - low))
         ends = low + kept_back, high - kept_back
-        rows.append(Row(f"the range of {joint}", node.q[j, :], *ends, "rad"))
+        rows.append(Bounded(f"the range of {joint}", node.q[j, :], *ends, "rad"))
     return tuple(row._replace(value=ca.vec(row.value)) for row in rows)
 
 

@@ -40,7 +40,7 @@ TEN = 10
 """Numbers in the state of the paper's robot."""
 
 
-class Cycle(NamedTuple):
+class GaitCycle(NamedTuple):
     """The walking cycle of a gait under a controller; NaN where none was found."""
 
     name: str
@@ -56,13 +56,13 @@ class Cycle(NamedTuple):
     """Of a step of the stored gait [s]."""
 
 
-def cycles(preset: str) -> tuple[Cycle, ...]:
+def cycles(preset: str) -> tuple[GaitCycle, ...]:
     """Of both gaits under both controllers, and of gait (a) with Theta'' as printed."""
     found = [_cycle(preset, gait, c, "solved") for gait in GAITS for c in CONTROLLERS]
     return (*found, *(_cycle(preset, "published", c, "printed") for c in CONTROLLERS))
 
 
-def _cycle(preset: str, gait: str, controller: str, theta: str) -> Cycle:
+def _cycle(preset: str, gait: str, controller: str, theta: str) -> GaitCycle:
     h = declared()["steps"]["plain"]
     run = Scenario(controller, preset=preset, gait=gait, solve_theta=theta == "solved")
     run = replace(run, method=method(controller), engine=COMPILED)
@@ -78,7 +78,9 @@ def _cycle(preset: str, gait: str, controller: str, theta: str) -> Cycle:
 
     made, rates = zip(at(h), at(0.5 * h), strict=True)
     name = f"gait ({'a' if gait == 'published' else 'b'}), {preset}, {controller}, Theta'' {theta}"
-    return Cycle(name, preset, gait, controller, theta, Figure(*made), Figure(*rates), of.period)
+    return GaitCycle(
+        name, preset, gait, controller, theta, Figure(*made), Figure(*rates), of.period
+    )
 
 
 class Needs(NamedTuple):
@@ -310,7 +312,7 @@ class Evidence:
     """Outcomes of all runs for the claims, over the presets that were asked for."""
 
     members: tuple[MemberOutcome, ...]
-    cycles: tuple[Cycle, ...]
+    cycles: tuple[GaitCycle, ...]
     needs: tuple[Needs, ...]
     unmatched: tuple[Pair, ...]
     uncertainty: tuple[Pair, ...]

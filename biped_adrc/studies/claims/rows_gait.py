@@ -11,7 +11,7 @@ import numpy as np
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.studies.claims.admissible import convergence, declared, in_all
 from biped_adrc.studies.claims.evidence import (
-    Cycle,
+    GaitCycle,
     Needs,
     Start,
     fastest_decay,
@@ -36,7 +36,7 @@ PRINTED_SPEED = float(X_STAR[5] + 0.5 * X_STAR[7] + X_STAR[9])
 
 
 def gait_claims(
-    cycles: Sequence[Cycle], needs: Sequence[Needs], starts: Sequence[Start], distance: float
+    cycles: Sequence[GaitCycle], needs: Sequence[Needs], starts: Sequence[Start], distance: float
 ) -> list[Claim]:
     """All rows of this module; distance: of the undisturbed walks on gait (a) from x*."""
     return [
@@ -53,7 +53,7 @@ def gait_claims(
     ]
 
 
-def stable(cycles: Sequence[Cycle], name: str = "stable", of_preset: int = 4) -> Claim:
+def stable(cycles: Sequence[GaitCycle], name: str = "stable", of_preset: int = 4) -> Claim:
     """Gait (a), or gait (b) by its name in claims.toml, by central differences."""
     bound = (convergence()[0], declared()["limits"]["multiplier"])
     return limited(
@@ -69,7 +69,7 @@ def stable(cycles: Sequence[Cycle], name: str = "stable", of_preset: int = 4) ->
 recipe_stable = partial(stable, name="recipe_stable", of_preset=2)
 
 
-def recipe_speed(cycles: Sequence[Cycle]) -> Claim:
+def recipe_speed(cycles: Sequence[GaitCycle]) -> Claim:
     """The one number of x* that the recipe predicts."""
     limit = declared()["limits"]["speed"]
     shown = ", ".join(
@@ -86,13 +86,13 @@ def recipe_speed(cycles: Sequence[Cycle]) -> Claim:
     )
 
 
-def _speeds(cycles: Sequence[Cycle], limit: float) -> Tally:
+def _speeds(cycles: Sequence[GaitCycle], limit: float) -> Tally:
     off = [Figure(*(abs(v / PRINTED_SPEED - 1.0) for v in c.rate)) for c in cycles]
     cases = [below_limit(c.name, f, limit) for c, f in zip(cycles, off, strict=True)]
     return Tally(tuple(cases), in_all(1))
 
 
-def _hangs_on(cycles: Sequence[Cycle]) -> str:
+def _hangs_on(cycles: Sequence[GaitCycle]) -> str:
     """What another limit, the whole percentage below the largest deviation, would have made of it."""
     apart = [abs(c.rate.at_half / PRINTED_SPEED - 1.0) for c in cycles]
     worst = float(np.max(apart or [math.nan]))

@@ -12,12 +12,12 @@ from biped_adrc.studies.claims.admissible import convergence, declared
 from biped_adrc.studies.claims.tally import NOT_TESTABLE, Case, Figure, Tally, above_limit
 from biped_adrc.studies.claims.walks import MemberOutcome, Walked
 from biped_adrc.studies.claims.words import Claim, Span, limited, row, told
-from biped_adrc.studies.push_map import Cell, certain
+from biped_adrc.studies.push_map import PushCell, certain
 
 Members = Sequence[MemberOutcome]
 
 
-def push_claims(members: Members, cells: Sequence[Cell] = ()) -> list[Claim]:
+def push_claims(members: Members, cells: Sequence[PushCell] = ()) -> list[Claim]:
     """All rows of this module; cells: of the map of pushes, where it was made."""
     rules = (rejection, tracking, deviates, walks_on, unaffected, legal)
     return [*(rule(members) for rule in rules), critical_phase(members, cells)]
@@ -115,7 +115,7 @@ def legal(members: Members) -> Claim:
     return row("legal", _tally(cases), why="; ".join(why) or "nothing")
 
 
-def critical_phase(members: Members, cells: Sequence[Cell] = ()) -> Claim:
+def critical_phase(members: Members, cells: Sequence[PushCell] = ()) -> Claim:
     """Pushes in which NPD is lost, of the map where there is one; without any nothing is said about it."""
     if cells:
         return _critical_phase_of_the_map(cells)
@@ -131,7 +131,7 @@ def critical_phase(members: Members, cells: Sequence[Cell] = ()) -> Claim:
     return row("critical_phase", tally, **counted)
 
 
-def _critical_phase_of_the_map(cells: Sequence[Cell]) -> Claim:
+def _critical_phase_of_the_map(cells: Sequence[PushCell]) -> Claim:
     """Where NPD makes no further steps ADRC has to, with what ground and motors give."""
     known = certain(cells)
     lost = [c for c in known if c.npd.outcome in LOST]
@@ -153,6 +153,6 @@ def _critical_phase_of_the_map(cells: Sequence[Cell]) -> Claim:
 LOST = ("fell", "ended")
 
 
-def _name(c: Cell) -> str:
+def _name(c: PushCell) -> str:
     limit = "unlimited" if c.torque_limit is None else f"{c.torque_limit:g} N m"
     return f"{c.preset}, {c.amplitude:g} N m, {c.pattern}, from {c.onset:g} s, motors {limit}"

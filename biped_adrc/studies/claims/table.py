@@ -12,7 +12,7 @@ from biped_adrc.studies.claims.rows_gait import gait_claims
 from biped_adrc.studies.claims.rows_push import long_walk, push_claims
 from biped_adrc.studies.claims.words import Claim, told
 from biped_adrc.studies.plan import Plan
-from biped_adrc.studies.push_map import Cell
+from biped_adrc.studies.push_map import PushCell
 from biped_adrc.studies.results import Results
 from biped_adrc.studies.verdicts import distance
 
@@ -32,7 +32,7 @@ def rows(
     numerics: Mapping[str, float],
     made: Mapping[str, tuple[int, int]],
     farthest: float,
-    cells: Sequence[Cell] = (),
+    cells: Sequence[PushCell] = (),
 ) -> list[Claim]:
     """All rows, from outcomes alone; farthest: of the undisturbed walks on gait (a) from x*.
 
