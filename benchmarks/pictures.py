@@ -10,10 +10,10 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from biped_adrc.paper.plan import PAPER_PUSH
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.plan import PAPER_PUSH
 from biped_adrc.viz.export import Clip, export
 
 REPEATS = 3

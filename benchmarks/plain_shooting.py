@@ -23,8 +23,8 @@ from scipy.optimize import minimize
 from biped_adrc.errors import BipedError, GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Bezier
+from biped_adrc.gait.design.nlp import SHORTEST
 from biped_adrc.gait.design.optimise import FASTEST, SLOWEST, WINDING
-from biped_adrc.gait.design.programme import SHORTEST
 from biped_adrc.gait.design.request import GaitRequest
 from biped_adrc.gait.design.start import LONGEST, cold_start
 from biped_adrc.gait.zero_dynamics import configuration, gauss_nodes

@@ -2,10 +2,10 @@
 
 from biped_adrc.analysis.return_map import ReturnMap as ReturnMap
 from biped_adrc.analysis.stride_gain import stride_response as stride_response
-from biped_adrc.analysis.to_ss import to_ss as to_ss
 from biped_adrc.analysis.zero_report import zero_report as zero_report
-from biped_adrc.arm import ArmSystem as ArmSystem
+from biped_adrc.closed_loop.arm import ArmSystem as ArmSystem
 from biped_adrc.closed_loop.semantics import Mode as Mode
+from biped_adrc.closed_loop.walker import Walker as Walker
 from biped_adrc.control.adrc import ADRCController as ADRCController
 from biped_adrc.control.base import Controller as Controller
 from biped_adrc.control.base import ControllerLaws as ControllerLaws
@@ -62,13 +62,14 @@ from biped_adrc.hybrid.status import Status as Status
 from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
 from biped_adrc.model.arm import Arm as Arm
 from biped_adrc.model.biped import Biped as Biped
-from biped_adrc.model.errors import ModelErrors as ModelErrors
-from biped_adrc.model.own import biped_from_urdf as biped_from_urdf
-from biped_adrc.model.robots import Limits as Limits
+from biped_adrc.model.model_errors import ModelErrors as ModelErrors
+from biped_adrc.observer_design.to_ss import to_ss as to_ss
 from biped_adrc.observers.base import Observer as Observer
 from biped_adrc.observers.base import ResetPolicy as ResetPolicy
 from biped_adrc.observers.gpi import TABLE_I as TABLE_I
 from biped_adrc.observers.gpi import GPIObserver as GPIObserver
+from biped_adrc.robot_import.import_robot import biped_from_urdf as biped_from_urdf
+from biped_adrc.robots.robot_toml import Limits as Limits
 from biped_adrc.scenario.push import Push as Push
 from biped_adrc.scenario.recording import Walk as Walk
 from biped_adrc.scenario.registry import register as register
@@ -84,6 +85,5 @@ from biped_adrc.studies.gait_design import GaitLibrary as GaitLibrary
 from biped_adrc.studies.gait_design import design_gait as design_gait
 from biped_adrc.timing import ContinuousTime as ContinuousTime
 from biped_adrc.timing import SampledTime as SampledTime
-from biped_adrc.walker import Walker as Walker
 
 __version__: str

@@ -24,10 +24,10 @@ import write_comparison
 import write_critical_phase
 import write_results
 
+from biped_adrc.bench.compare_study import figures
 from biped_adrc.errors import BipedError
-from biped_adrc.studies.bench.compare_study import figures
 from biped_adrc.viz.numbers import Numbers, differences, numbers_of
-from biped_adrc.viz.push_map_plot import push_map_figure
+from biped_adrc.viz.plots.push_map import push_map_figure
 
 DOCS = Path(__file__).resolve().parent
 KINDS = (".svg", ".gif", ".png")

@@ -13,14 +13,14 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from biped_adrc.bench.export import sweep_map
+from biped_adrc.bench.run import run_trials
+from biped_adrc.bench.study_file import load_study
+from biped_adrc.bench.sweep import Sweep, sweep
 from biped_adrc.files import write_bytes, write_text
-from biped_adrc.studies.bench.export import sweep_map
-from biped_adrc.studies.bench.run import run_trials
-from biped_adrc.studies.bench.study_file import load_study
-from biped_adrc.studies.bench.sweep import Sweep, sweep
 from biped_adrc.viz.numbers import Numbers, as_text
+from biped_adrc.viz.plots.sweep_maps import Maps
 from biped_adrc.viz.style import render
-from biped_adrc.viz.sweep_maps import Maps
 
 ROOT = Path(__file__).resolve().parents[1]
 IMAGES = ROOT / "docs" / "images"

@@ -18,15 +18,15 @@ from biped_adrc.analysis.zero_report import zero_report
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.model.biped import Biped
+from biped_adrc.paper.figures import draw, push_window
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import load_walks
-from biped_adrc.studies.figures import draw, push_window
-from biped_adrc.viz.gif import write_gif
-from biped_adrc.viz.moving import Motion
+from biped_adrc.viz.from_the_side.gif import write_gif
+from biped_adrc.viz.from_the_side.moving_parts import Motion
+from biped_adrc.viz.from_the_side.side_view import SideView
 from biped_adrc.viz.numbers import SHARES, Numbers, as_text, numbers_of, rounded
 from biped_adrc.viz.placement import Scene
 from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
-from biped_adrc.viz.side_view import SideView
 from biped_adrc.viz.style import render
 
 IMAGES = Path(__file__).resolve().parent / "images"

@@ -17,9 +17,9 @@ from typing import Any
 
 from write_results import bullets, table
 
+from biped_adrc.bench.compare_study import figures
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes, write_text
-from biped_adrc.studies.bench.compare_study import figures
 from biped_adrc.viz.comparison_text import (
     EQUAL,
     MEDIANS,

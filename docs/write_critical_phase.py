@@ -18,10 +18,10 @@ from write_results import table
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes, write_text
-from biped_adrc.studies.pair import CONTROLLERS
-from biped_adrc.studies.push_map import WORDS, Fate, PushCell, apart, certain, counts, settings_of
+from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.paper.push_map import WORDS, Fate, PushCell, apart, certain, counts, settings_of
 from biped_adrc.viz.numbers import as_text, numbers_of
-from biped_adrc.viz.push_map_plot import push_map_figure
+from biped_adrc.viz.plots.push_map import push_map_figure
 from biped_adrc.viz.style import render
 
 PAGE = Path(__file__).resolve().parent / "critical_phase.md"

@@ -15,7 +15,7 @@ from write_results import ROOT, table
 
 from biped_adrc.errors import BipedError, SimulationError
 from biped_adrc.files import write_text
-from biped_adrc.studies.hip_push import HipPush, PushedWalk, hip_push
+from validation.hip_push import HipPush, PushedWalk, hip_push
 
 COMMAND = "python docs/write_hip_force.py"
 NEEDS = (

@@ -17,10 +17,10 @@ from typing import Any
 from write_comparison import put
 from write_results import table
 
+from biped_adrc.analysis.statistics import paired_ratio
+from biped_adrc.bench.cell import is_legal, is_made
+from biped_adrc.bench.run import run_trial
 from biped_adrc.files import write_text
-from biped_adrc.studies.bench.cell import is_legal, is_made
-from biped_adrc.studies.bench.run import run_trial
-from biped_adrc.studies.bench.statistics import paired_ratio
 
 DOCS = Path(__file__).resolve().parent
 GUIDE, STORED = DOCS / "guide" / "observer.md", DOCS / "comparison" / "observer_walks.json"

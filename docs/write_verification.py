@@ -16,9 +16,9 @@ from write_results import table
 
 from biped_adrc.errors import BipedError
 from biped_adrc.files import write_text
-from biped_adrc.studies.verification.groups import Group, group_named, groups
-from biped_adrc.studies.verification.row import COLUMNS, Row
 from biped_adrc.versions import versions
+from validation.groups import Group, group_named, groups
+from validation.row import COLUMNS, Row
 
 PAGE = Path(__file__).resolve().parent / "verification.md"
 COMMAND = "python docs/write_verification.py"

@@ -10,7 +10,7 @@ import matplotlib
 import numpy as np
 
 import biped_adrc as ba
-from biped_adrc.arm import ArmSystem
+from biped_adrc.closed_loop.arm import ArmSystem
 from biped_adrc.model.arm import Arm
 
 matplotlib.use("Agg")

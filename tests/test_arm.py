@@ -10,7 +10,7 @@ import pinocchio as pin
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.arm import ArmSystem
+from biped_adrc.closed_loop.arm import ArmSystem
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model import arm as arm_module

@@ -9,16 +9,16 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from biped_adrc.analysis.observer_loop import observer_loop
 from biped_adrc.files import plain
+from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.studies.claims import evidence, rows_control, rows_gait, rows_push
-from biped_adrc.studies.claims.admissible import Member, convergence, declared, members
-from biped_adrc.studies.claims.evidence import Evidence, GaitCycle, Jumps, Needs, Pair, Start
-from biped_adrc.studies.claims.orders import Order, bandwidth_with
-from biped_adrc.studies.claims.table import rows
-from biped_adrc.studies.claims.tally import Case, Figure, Tally, below_limit, changes
-from biped_adrc.studies.claims.walks import (
+from biped_adrc.paper.claims import evidence, rows_control, rows_gait, rows_push
+from biped_adrc.paper.claims.admissible import Member, convergence, declared, members
+from biped_adrc.paper.claims.evidence import Evidence, GaitCycle, Jumps, Needs, Pair, Start
+from biped_adrc.paper.claims.orders import Order, bandwidth_with
+from biped_adrc.paper.claims.table import rows
+from biped_adrc.paper.claims.tally import Case, Figure, Tally, below_limit, changes
+from biped_adrc.paper.claims.walks import (
     MemberOutcome,
     Prepared,
     Track,
@@ -29,9 +29,9 @@ from biped_adrc.studies.claims.walks import (
     prepared,
     tried,
 )
-from biped_adrc.studies.claims.words import MEANINGS, Claim, claim_checks, span
-from biped_adrc.studies.push_map import Fate, PushCell
-from biped_adrc.studies.results import Results
+from biped_adrc.paper.claims.words import MEANINGS, Claim, claim_checks, span
+from biped_adrc.paper.push_map import Fate, PushCell
+from biped_adrc.paper.results import Results
 from biped_adrc.viz.pages import CLAIM_COLUMNS
 
 NUMERICS = {
@@ -64,7 +64,7 @@ def of(rule, odd, usual=5):
 
 # -- the set -------------------------------------------------------------------------------------
 def test_the_set_is_in_the_package_and_is_balanced():
-    assert files("biped_adrc.studies.claims").joinpath("admissible.toml").is_file()
+    assert files("biped_adrc.paper.claims").joinpath("admissible.toml").is_file()
     found, factors = members(), declared()["factors"]
     assert len(found) == len(set(found)) == 36
     assert found == members()

@@ -11,20 +11,20 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.quadrature import integrate, largest
-from biped_adrc.engine.choice import COMPILED
+from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import InputError
-from biped_adrc.model.robots import KnownLimits
-from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.run import execute_twice, walk_scenario
-from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import FINE_STEP, Part, refined, walk_in_parts
-from biped_adrc.studies.convergence import (
+from biped_adrc.paper.convergence import (
     convergence_check,
     error_text,
     halved,
     observed_order,
 )
-from biped_adrc.studies.plan import BOTH, Plan, pushed_run
+from biped_adrc.paper.plan import BOTH, Plan, pushed_run
+from biped_adrc.robots.robot_toml import KnownLimits
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.run import execute_twice, walk_scenario
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.walk import FINE_STEP, Part, refined, walk_in_parts
 from biped_adrc.timing import SampledTime
 
 
@@ -185,7 +185,7 @@ def test_the_headline_does_not_depend_on_its_step(controller):
 
 
 def test_energy_is_balanced_in_the_pushed_step():
-    from biped_adrc.studies.laws import walk_laws
+    from biped_adrc.paper.physical_laws import walk_laws
 
     run = replace(pushed_run(Plan(), "ADRC"), first_step=19, impacts=1)
     assert all(check.holds for check in walk_laws("ADRC", walk_scenario(run)))

@@ -25,9 +25,9 @@ from typing import NamedTuple
 import pytest
 from markdown_it import MarkdownIt
 
+from biped_adrc.bench.study_file import load_study
 from biped_adrc.cli import app, gait_app
 from biped_adrc.cli.robot import robot_app
-from biped_adrc.studies.bench.study_file import load_study
 
 from .preloaded import Preloaded
 

@@ -16,7 +16,7 @@ from biped_adrc.analysis.stride_gain import (
     direction_merits,
 )
 from biped_adrc.errors import GaitError, InputError, SimulationError
-from biped_adrc.studies.hip_push import (
+from validation.hip_push import (
     MOST,
     HipCase,
     HipLimit,

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853
 
+from biped_adrc.closed_loop.walker import Mode
+from biped_adrc.paper.plan import BOTH, Plan, headline, pushed_run
 from biped_adrc.scenario.build import Scene, build
-from biped_adrc.studies.plan import BOTH, Plan, headline, pushed_run
-from biped_adrc.walker import Mode
 
 WITHIN = 0.005
 """Relative difference of two peaks that are the same."""

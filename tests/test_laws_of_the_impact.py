@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from biped_adrc.model.contact import LinkMotion
-from biped_adrc.studies import laws
-from biped_adrc.studies.laws import impact_momenta, model_laws
+from biped_adrc.paper import physical_laws as laws
+from biped_adrc.paper.physical_laws import impact_momenta, model_laws
 
 
 @pytest.fixture

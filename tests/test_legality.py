@@ -12,12 +12,12 @@ from biped_adrc.analysis.certificate import Support, outside, support
 from biped_adrc.analysis.legality import Legality, first_violation, outcome_of
 from biped_adrc.analysis.quadrature import window_means
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.model.robots import KnownLimits
+from biped_adrc.paper.plan import Plan
+from biped_adrc.paper.results import Results
+from biped_adrc.paper.tables import _push
+from biped_adrc.robots.robot_toml import KnownLimits
 from biped_adrc.scenario.run import execute
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.plan import Plan
-from biped_adrc.studies.results import Results
-from biped_adrc.studies.tables import _push
 
 KNOWN = KnownLimits(0.6, 150.0, 5e-3)
 WEIGHT = 300.0

@@ -9,26 +9,26 @@ import pytest
 from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.analysis.observer_choice import Hardware, OnHardware, count_error, recommend
-from biped_adrc.analysis.observer_design import observer_report
-from biped_adrc.analysis.observer_impact import impact_peak, orbit_impact
-from biped_adrc.analysis.observer_loop import conditioning, observer_loop
-from biped_adrc.analysis.observer_sampled import (
+from biped_adrc.control.base import Measurement
+from biped_adrc.control.delayed import Delayed, line_flow, line_output, line_state, pade
+from biped_adrc.errors import InputError
+from biped_adrc.hardware.motors import IDEAL, Line, acting, sent, whole_and_part
+from biped_adrc.observer_design.observer_choice import Hardware, OnHardware, count_error, recommend
+from biped_adrc.observer_design.observer_design import observer_report
+from biped_adrc.observer_design.observer_impact import impact_peak, orbit_impact
+from biped_adrc.observer_design.observer_loop import conditioning, observer_loop
+from biped_adrc.observer_design.observer_sampled import (
     FORMS,
     covariance,
     largest_delay,
     largest_period,
     sampled_loop,
 )
-from biped_adrc.analysis.to_ss import error_to_ss, loop_to_ss
-from biped_adrc.control.base import Measurement
-from biped_adrc.control.delayed import Delayed, line_flow, line_output, line_state, pade
-from biped_adrc.errors import InputError
-from biped_adrc.hardware.motors import IDEAL, Line, acting, sent, whole_and_part
+from biped_adrc.observer_design.to_ss import error_to_ss, loop_to_ss
 from biped_adrc.observers.gpi import gpi_correct, gpi_flow, gpi_predict
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.studies.observer_check import DelayCase, check_encoders, step_errors
-from biped_adrc.viz.observer_figure import observer_figure
+from biped_adrc.viz.plots.observer_figure import observer_figure
 
 TABLE_I = ba.GPIObserver.from_poles()
 FIRST = ba.GPIObserver.from_bandwidth(500.0, 1)

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from biped_adrc.studies.bench.compare_study import figures
-from biped_adrc.studies.plan import BOTH
+from biped_adrc.bench.compare_study import figures
+from biped_adrc.paper.plan import BOTH
 from biped_adrc.viz.numbers import as_text, differences, numbers_of
-from biped_adrc.viz.push_map_plot import push_map_figure
+from biped_adrc.viz.plots.push_map import push_map_figure
 
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"

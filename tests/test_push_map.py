@@ -9,9 +9,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError
-from biped_adrc.scenario.run import execute
-from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.push_map import (
+from biped_adrc.paper.push_map import (
     Fate,
     PushCell,
     Tried,
@@ -21,7 +19,9 @@ from biped_adrc.studies.push_map import (
     push_map,
     pushes,
 )
-from biped_adrc.viz.push_map_plot import FATES, push_map_figure
+from biped_adrc.scenario.run import execute
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.viz.plots.push_map import FATES, push_map_figure
 
 LEGAL = Fate("legal", "COMPLETED", 200.0, 0.4, 0.5)
 MADE = Fate("made", "COMPLETED", 50.0, 0.8, 0.5)

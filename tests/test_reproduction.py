@@ -10,8 +10,8 @@ import pytest
 
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
+from biped_adrc.paper.plan import PAPER_PUSH, SINE, Plan, base_runs, tasks
 from biped_adrc.scenario.push import Push, parse_push
-from biped_adrc.studies.plan import PAPER_PUSH, SINE, Plan, base_runs, tasks
 
 
 def test_a_quick_plan_leaves_out_what_it_says() -> None:

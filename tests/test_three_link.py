@@ -1,6 +1,6 @@
 """The three-link walker of the literature: its model, and its cycle under three feedbacks of its outputs.
 
-Model, outputs and cycle: biped_adrc.studies.verification.three_link.
+Model, outputs and cycle: validation.three_link.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import biped_adrc as ba
 from biped_adrc.control.finite_time import FiniteTimeController
 from biped_adrc.control.output_npd import OutputNPDController
 from biped_adrc.errors import InputError
-from biped_adrc.studies.verification.three_link import (
+from validation.three_link import (
     END,
     P2,
     P3,

@@ -9,8 +9,8 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.linear_loop import estimation_error, tracking_error
-from biped_adrc.analysis.to_ss import error_to_ss, loop_to_ss, to_ss
 from biped_adrc.errors import InputError
+from biped_adrc.observer_design.to_ss import error_to_ss, loop_to_ss, to_ss
 
 OBSERVERS = {
     "table 1": ba.GPIObserver.from_poles(),

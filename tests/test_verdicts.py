@@ -12,24 +12,24 @@ from typer.testing import CliRunner
 from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.return_map import PeriodicOrbit
+from biped_adrc.campaign.pool import Timed
 from biped_adrc.checks import at_most
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots import KnownLimits
+from biped_adrc.paper import reproduction, verdicts
+from biped_adrc.paper.claims.tally import Case, Figure, Tally
+from biped_adrc.paper.claims.words import Claim, judged
+from biped_adrc.paper.convergence import convergence_check
+from biped_adrc.paper.physical_laws import walk_laws, work_identity
+from biped_adrc.paper.plan import Plan, RecipeResult
+from biped_adrc.paper.results import Results
+from biped_adrc.paper.tables import _runs, _torso
+from biped_adrc.robots.robot_toml import KnownLimits
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies import reproduction, verdicts
-from biped_adrc.studies.claims.tally import Case, Figure, Tally
-from biped_adrc.studies.claims.words import Claim, judged
-from biped_adrc.studies.convergence import convergence_check
 from biped_adrc.studies.cycle_stability import PoincareResult
-from biped_adrc.studies.laws import walk_laws, work_identity
-from biped_adrc.studies.plan import Plan, RecipeResult
-from biped_adrc.studies.pool import Timed
-from biped_adrc.studies.results import Results
-from biped_adrc.studies.tables import _runs, _torso
 
 CERTIFICATE = Certificate(
     step=1,

@@ -13,17 +13,17 @@ import pytest
 
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import gait_names
-from biped_adrc.model.robots import robot_names
-from biped_adrc.studies.verification import (
+from biped_adrc.robots.robot_toml import robot_names
+from validation import (
     frost_urdf,
     gaits,
     passive,
     rabbit,
     three_link,
 )
-from biped_adrc.studies.verification.groups import Group, Maker, group_named, groups
-from biped_adrc.studies.verification.rabbit import SPEEDS, design_rows
-from biped_adrc.studies.verification.row import COLUMNS, PRESETS, Measure, Row, at_most
+from validation.groups import Group, Maker, group_named, groups
+from validation.rabbit import SPEEDS, design_rows
+from validation.row import COLUMNS, PRESETS, Measure, Row, at_most
 
 PARTS: dict[str, Maker] = {
     "bouncing ball": passive.ball_rows,

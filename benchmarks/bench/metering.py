@@ -21,11 +21,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from report import Table, arguments, rounds
 
+from biped_adrc.bench.build import case
+from biped_adrc.bench.parameters import trial
+from biped_adrc.bench.run import measured
 from biped_adrc.engine.batch import Case, Walked, run_case, simulate_many
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.bench.build import case
-from biped_adrc.studies.bench.parameters import trial
-from biped_adrc.studies.bench.run import measured
 
 
 def trials(controller: str, walks: int, impacts: int) -> list[Scenario]:

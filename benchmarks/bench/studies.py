@@ -22,9 +22,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from report import Table, arguments
 
-from biped_adrc.studies.bench.study import Study
-from biped_adrc.studies.bench.sweep import Sweep, sweep
-from biped_adrc.studies.bench.workers import Processes, Threads
+from biped_adrc.bench.study import Study
+from biped_adrc.bench.sweep import Sweep, sweep
+from biped_adrc.campaign.workers import Processes, Threads
 
 KB = 1024.0 * 1e-6  # [MB]
 
@@ -68,7 +68,7 @@ def on_a_cluster(asked: Study) -> tuple[float, str] | None:
         from distributed import LocalCluster
     except ImportError:
         return None
-    from biped_adrc.studies.bench.cluster import Cluster
+    from biped_adrc.campaign.dask_cluster import Cluster
 
     options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
     with LocalCluster(processes=True, **options) as cluster:

@@ -15,11 +15,11 @@ sys.path[:0] = [str(BENCHMARKS), str(BENCHMARKS / "peers")]
 
 import biped_adrc as ba  # noqa: E402
 from biped_adrc.engine.batch import Case, Walked, run_case  # noqa: E402
-from biped_adrc.engine.choice import simulate_by  # noqa: E402
+from biped_adrc.engine.run import simulate_by  # noqa: E402
 from biped_adrc.hybrid.integrators import OneStepMethod  # noqa: E402
+from biped_adrc.paper.plan import PAPER_PUSH  # noqa: E402
 from biped_adrc.scenario.build import Scene, build  # noqa: E402
 from biped_adrc.scenario.scenario import Scenario  # noqa: E402
-from biped_adrc.studies.plan import PAPER_PUSH  # noqa: E402
 
 simulate = partial(simulate_by, "compiled")
 

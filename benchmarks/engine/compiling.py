@@ -27,7 +27,7 @@ FIRST_STEP = """
 import json, time
 begin = time.perf_counter()
 import biped_adrc as ba
-from biped_adrc.studies.plan import PAPER_PUSH
+from biped_adrc.paper.plan import PAPER_PUSH
 from biped_adrc.scenario.build import Scene, build
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario

@@ -15,8 +15,8 @@ import numpy as np
 from cases import Setting, load, paper
 from report import Table, arguments
 
+from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod
-from biped_adrc.walker import FOOT_STRIKE
 
 IN_PYTHON = {
     "ADRC": (Exponential(1e-3, feedback=True),),

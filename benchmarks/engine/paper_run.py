@@ -23,9 +23,9 @@ from cases import IMPACTS, Setting, load, paper, ready
 from report import Table, arguments, rounds
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE
 
 STEPS = (2e-4, 5e-4, 1e-3)  # [s]
 METHODS: dict[str, tuple[OneStepMethod, ...]] = {

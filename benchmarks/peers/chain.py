@@ -15,7 +15,7 @@ import numpy as np
 
 from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.urdf import Inertial, Joint, Link, Tree, Vector
+from biped_adrc.robots.urdf import Inertial, Joint, Link, Tree, Vector
 from biped_adrc.types import Array
 
 SAME = 1e-8

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from chain import Chain, Simulate
 
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.compiled_walker import CompiledWalker
@@ -16,7 +17,6 @@ from biped_adrc.ground import StepDown
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
-from biped_adrc.walker import Walker
 
 FAR = 1e3  # [m], [s] or hip heights: no guard fires
 METHODS: dict[str, OneStepMethod] = {

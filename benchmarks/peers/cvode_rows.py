@@ -12,8 +12,8 @@ from machine_time import machine_microseconds
 from report import microseconds
 from solvers import cvode
 
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.types import Array
-from biped_adrc.walker import Walker
 
 IN_C, IN_PYTHON = "CVODE in C, compiled", "CVODE (scikit-sundae)"
 

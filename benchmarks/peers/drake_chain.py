@@ -14,7 +14,7 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
 
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.urdf import to_xml
+from biped_adrc.robots.urdf import to_xml
 from biped_adrc.types import Array
 
 H, LONGEST = 1e-3, 0.1  # [s], the longest step under error control

@@ -11,12 +11,12 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 from solvers import Flow
 
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.run import ArcRun, arc
 from biped_adrc.engine.program import Program
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod
 from biped_adrc.types import Array
-from biped_adrc.walker import Walker
 
 METHODS: Mapping[str, OneStepMethod] = {
     "RK4 0.1 ms": RK4(1e-4),

@@ -14,7 +14,7 @@ import numpy as np
 from chain import Chain, Coordinates, Simulate, rotors, welded
 
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.urdf import to_xml
+from biped_adrc.robots.urdf import to_xml
 from biped_adrc.types import Array
 
 H = 1e-3  # [s]

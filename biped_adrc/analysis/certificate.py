@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 
 from biped_adrc.analysis.quadrature import integrate, window_means
 from biped_adrc.analysis.signals import Signals
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.errors import InputError
 from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.model.robots import ENDS, ROUND_OFF, KnownLimits, Limits
+from biped_adrc.robots.robot_toml import ENDS, ROUND_OFF, KnownLimits, Limits
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, Walker
 
 REASONS = ("normal_force", "friction", "torque", "scuffing")
 """Why a single support is not legal."""

@@ -20,11 +20,11 @@ from biped_adrc.analysis.certificate import (
 )
 from biped_adrc.analysis.quadrature import window_means
 from biped_adrc.analysis.signals import Signals
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.robots import KnownLimits, Limits
+from biped_adrc.robots.robot_toml import KnownLimits, Limits
 from biped_adrc.types import Array
-from biped_adrc.walker import Walker
 
 OUTCOMES = {
     "fell": "it fell",

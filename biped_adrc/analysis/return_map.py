@@ -18,7 +18,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from biped_adrc.engine.choice import COMPILED, PINOCCHIO, check_engine
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.engine.run import COMPILED, PINOCCHIO, check_engine
 from biped_adrc.errors import InputError, ModelError, SimulationError
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
@@ -27,7 +28,6 @@ from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.linear import solve
 from biped_adrc.types import Array, ComplexArray
-from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
 if TYPE_CHECKING:
     from biped_adrc.engine.batch import Strides

@@ -12,12 +12,12 @@ import numpy as np
 
 from biped_adrc.analysis.quadrature import largest
 from biped_adrc.closed_loop.system import Reading, reading
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.types import Array
-from biped_adrc.walker import Walker
 
 LONG = 2000
 """Nodes from which on compiling pays off."""

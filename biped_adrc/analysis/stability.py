@@ -22,6 +22,7 @@ from scipy.optimize import linear_sum_assignment
 from biped_adrc.analysis.regression import Regression
 from biped_adrc.analysis.return_map import ReturnMap, sorted_eigenvalues
 from biped_adrc.analysis.variational import StepDerivative
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.columns import columns
 from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import InputError, check_positive
@@ -29,7 +30,6 @@ from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array, ComplexArray
-from biped_adrc.walker import Walker
 
 
 class Method(Enum):

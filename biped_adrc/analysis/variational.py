@@ -33,6 +33,7 @@ from biped_adrc.analysis.return_map import (
     not_converged,
     sorted_eigenvalues,
 )
+from biped_adrc.closed_loop.walker import Instant, Mode, Walker
 from biped_adrc.control.npd import NPDController
 from biped_adrc.control.passive import Passive
 from biped_adrc.control.tracking import Gains
@@ -47,7 +48,6 @@ from biped_adrc.model.derivatives import (
     torque_derivatives,
 )
 from biped_adrc.types import Array, ComplexArray
-from biped_adrc.walker import Instant, Mode, Walker
 
 DIFFERENCE = 2e-4
 """[rad, rad/s]: where the quotient of NPD's torque is within 1e-10 of its derivative, relative to it."""

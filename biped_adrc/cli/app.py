@@ -62,7 +62,7 @@ def bar() -> Progress:
 
 def inputs(robot: str, *others: str) -> tuple[Path, ...]:
     """The files that a robot and gaits are read from; none for names. Raises ModelError."""
-    from biped_adrc.model.robots import load_description
+    from biped_adrc.robots.robot_toml import load_description
 
     files = tuple(path for path in map(Path, (robot, *others)) if path.is_file())
     return (*files, load_description(robot).urdf)

@@ -48,8 +48,8 @@ def compare(
     other_versions: OtherVersions = False,
 ) -> None:
     """Which controller walks legally under what: controllers x conditions x seeds, with intervals and tests."""
-    from biped_adrc.studies.bench.compare_study import RESULTS, run_comparison
-    from biped_adrc.studies.bench.conditions import COMPARED, CONDITIONS
+    from biped_adrc.bench.compare_study import RESULTS, run_comparison
+    from biped_adrc.bench.conditions import COMPARED, CONDITIONS
 
     crew = study_workers(workers, threads, scheduler)
     asked = _names(controllers, COMPARED), _names(conditions, tuple(CONDITIONS)), seeds, pushes

@@ -53,7 +53,7 @@ def animate(
 
 def _show(walks: dict[str, Walk], clip: Clip, port: int, browser: bool, wait: float) -> None:
     """In a browser, until it is closed."""
-    from biped_adrc.viz.live import play
+    from biped_adrc.viz.meshcat.live import play
 
     said = play(walks, clip.look(), port=port, open_browser=browser, wait=wait, say=console.print)
     console.print(said)
@@ -68,8 +68,8 @@ def plot(
     out: Path = Path("figure.png"),
 ) -> None:
     """Draw the signals of a run."""
+    from biped_adrc.paper.figures import draw
     from biped_adrc.scenario.stored import load_walks
-    from biped_adrc.studies.figures import draw
     from biped_adrc.viz.style import write_figure
 
     runs = [run, *(beside or [])]

@@ -15,10 +15,10 @@ from biped_adrc.errors import InputError
 from biped_adrc.files import output_path
 
 if TYPE_CHECKING:
-    from biped_adrc.analysis.observer_design import ObserverReport
     from biped_adrc.control.tracking import Gains
     from biped_adrc.gait.gait import Gait
     from biped_adrc.model.biped import Biped
+    from biped_adrc.observer_design.observer_design import ObserverReport
     from biped_adrc.observers.gpi import GPIObserver
     from biped_adrc.studies.observer_check import DelayCheck, Walked
 
@@ -42,10 +42,10 @@ def observer_command(
     out: Path | None = None,
 ) -> None:
     """Say what an observer asks of encoders, clock and motors, and which one a robot allows."""
-    from biped_adrc.analysis.observer_design import observer_report
     from biped_adrc.control.tracking import Gains
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.model.biped import Biped
+    from biped_adrc.observer_design.observer_design import observer_report
 
     chosen, gains = _observer(poles, bandwidth, order), Gains(k_p, k_d)
     path = None if out is None else output_path(out, FIGURES)
@@ -58,7 +58,7 @@ def observer_command(
     if confirm:
         _confirm(biped, found, chosen, gains, (period, counts, delay, known))
     if path is not None:
-        from biped_adrc.viz.observer_figure import observer_figure
+        from biped_adrc.viz.plots.observer_figure import observer_figure
         from biped_adrc.viz.style import write_figure
 
         write_figure(path, observer_figure([report]))

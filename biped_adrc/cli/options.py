@@ -116,7 +116,7 @@ def values_of(
     given: dict[str, Any], push: list[str] | None, sets: list[str] | None
 ) -> dict[str, Any]:
     """The values of a scenario that options, pushes and --set name. Raises InputError."""
-    from biped_adrc.studies.bench.parameters import TABLES, Refused, nested, read
+    from biped_adrc.bench.parameters import TABLES, Refused, nested, read
 
     values = dict(given)
     if push:

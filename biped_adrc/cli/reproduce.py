@@ -40,11 +40,11 @@ def reproduce(
     workers: Annotated[int | None, typer.Option(help="Processes; by default one per core.")] = None,
 ) -> None:
     """Reproduce the paper: runs, figures 1, 4, 5, 6, Tables I and II, stability, and a word for each claim."""
-    from biped_adrc.model.robots import load_description
+    from biped_adrc.paper.plan import PAPER_PUSH, Plan
+    from biped_adrc.paper.reproduction import failed, main_table
+    from biped_adrc.paper.reproduction import reproduce as run
+    from biped_adrc.robots.robot_toml import load_description
     from biped_adrc.scenario.push import parse_push
-    from biped_adrc.studies.plan import PAPER_PUSH, Plan
-    from biped_adrc.studies.reproduction import failed, main_table
-    from biped_adrc.studies.reproduction import reproduce as run
 
     pushes = tuple(parse_push(text) for text in push or ())
     description = load_description("rabbit")

@@ -15,7 +15,7 @@ from biped_adrc.errors import InputError, ModelError
 
 if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped
-    from biped_adrc.model.own import Derived, Hints
+    from biped_adrc.robot_import.import_robot import Derived, Hints
 
 robot_app = typer.Typer(
     no_args_is_help=True,
@@ -41,7 +41,7 @@ def robot_check(
 
     Exit code 0 when every law holds, 1 when one does not or the URDF is refused.
     """
-    from biped_adrc.model.own import derive
+    from biped_adrc.robot_import.import_robot import derive
 
     try:
         derived = derive(file, _hints(feet, actuated, hip, torque, friction, armature, tip))
@@ -69,7 +69,7 @@ def robot_new(
     tip: str | None = None,
 ) -> None:
     """Write floating.urdf and robot.toml of a URDF, for Biped.load("FOLDER/robot.toml")."""
-    from biped_adrc.model.own import derive
+    from biped_adrc.robot_import.import_robot import derive
 
     derived = derive(file, _hints(feet, actuated, hip, torque, friction, armature, tip))
     if derived.broken:
@@ -82,7 +82,7 @@ def robot_new(
 @robot_app.command("list")
 def robot_list() -> None:
     """The robots that come with the package: presets, coordinates n, motors p, sources."""
-    from biped_adrc.model.robots import load_description, robot_names
+    from biped_adrc.robots.robot_toml import load_description, robot_names
 
     table = Table("robot", "preset", "n", "p", "source")
     for name in robot_names():
@@ -116,7 +116,7 @@ def _hints(
     armature: float,
     tip: str | None,
 ) -> Hints:
-    from biped_adrc.model.own import Hints
+    from biped_adrc.robot_import.import_robot import Hints
 
     place = None if tip is None else _place(tip)
     return Hints(

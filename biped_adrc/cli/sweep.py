@@ -15,11 +15,11 @@ from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console
 from biped_adrc.errors import InputError
 
 if TYPE_CHECKING:
-    from biped_adrc.studies.bench.execute import Progress as Done
-    from biped_adrc.studies.bench.study import Study
-    from biped_adrc.studies.bench.sweep import Sweep
-    from biped_adrc.studies.bench.workers import Workers
-    from biped_adrc.viz.sweep_maps import Maps
+    from biped_adrc.bench.study import Study
+    from biped_adrc.bench.sweep import Sweep
+    from biped_adrc.campaign.execute import Progress as Done
+    from biped_adrc.campaign.workers import Workers
+    from biped_adrc.viz.plots.sweep_maps import Maps
 
 
 Number = Annotated[int | None, typer.Option(help="Processes or threads; by default one per core.")]
@@ -60,10 +60,10 @@ def sweep(
     other_versions: OtherVersions = False,
 ) -> None:
     """Walk every point of a study, on all cores or a cluster; what is finished is never lost."""
-    from biped_adrc.studies.bench.export import check_kind, write_map
-    from biped_adrc.studies.bench.export import export as export_results
-    from biped_adrc.studies.bench.study import rehearse
-    from biped_adrc.studies.bench.study_file import load_study
+    from biped_adrc.bench.export import check_kind, write_map
+    from biped_adrc.bench.export import export as export_results
+    from biped_adrc.bench.study import rehearse
+    from biped_adrc.bench.study_file import load_study
 
     found = load_study(study)
     maps = [_maps(text, found) for text in plot or ()]
@@ -77,8 +77,8 @@ def sweep(
     if no_run:
         done = _finished(found, out)
     else:
-        from biped_adrc.studies.bench.sweep import RESULTS
-        from biped_adrc.studies.bench.sweep import sweep as run
+        from biped_adrc.bench.sweep import RESULTS
+        from biped_adrc.bench.sweep import sweep as run
 
         with carried_out(found.name, out / RESULTS, found.count, _clock) as progress:
             done = run(found, out, crew, progress=progress, other_versions=other_versions)
@@ -92,7 +92,7 @@ def sweep(
 
 def _finished(study: Study, out: Path) -> Sweep:
     """What is there of this study. Raises InputError."""
-    from biped_adrc.studies.bench.sweep import load_sweep
+    from biped_adrc.bench.sweep import load_sweep
 
     done = load_sweep(out)
     if done.study.hash != study.hash:
@@ -155,22 +155,22 @@ def _clock(seconds: float) -> str:
 
 
 def study_workers(number: int | None, threads: bool, scheduler: str | None) -> Workers:
-    from biped_adrc.studies.bench.workers import Processes, Threads
+    from biped_adrc.campaign.workers import Processes, Threads
 
     if scheduler is None:
         return Threads(number) if threads else Processes(number)
     if threads or number is not None:
         raise InputError("--scheduler brings its own workers; leave out --workers and --threads")
-    from biped_adrc.studies.bench.cluster import Cluster
+    from biped_adrc.campaign.dask_cluster import Cluster
 
     return Cluster(scheduler)
 
 
 def _maps(text: str, study: Study) -> Maps:
     """What a text of --plot asks for. Raises InputError."""
-    from biped_adrc.studies.bench.parameters import unit
-    from biped_adrc.studies.bench.study import CASE
-    from biped_adrc.viz.sweep_maps import Maps
+    from biped_adrc.bench.parameters import unit
+    from biped_adrc.bench.study import CASE
+    from biped_adrc.viz.plots.sweep_maps import Maps
 
     axes, _, value = text.partition(":")
     names = [name.strip() for name in axes.split(",")]
@@ -192,10 +192,10 @@ def _maps(text: str, study: Study) -> Maps:
 
 def _check_map(text: str, study: Study, value: str, panels: list[str]) -> None:
     """Raises InputError for a result that there will not be, or too many panels."""
-    from biped_adrc.studies.bench.parameters import is_number
-    from biped_adrc.studies.bench.run import COLUMNS, WORDS
-    from biped_adrc.studies.bench.study import CASE
-    from biped_adrc.viz.sweep_maps import MOST_PANELS
+    from biped_adrc.bench.parameters import is_number
+    from biped_adrc.bench.run import COLUMNS, WORDS
+    from biped_adrc.bench.study import CASE
+    from biped_adrc.viz.plots.sweep_maps import MOST_PANELS
 
     shown = [name for name in COLUMNS if name not in WORDS]
     shown += [name for name in study.varied if name != CASE and is_number(name)]

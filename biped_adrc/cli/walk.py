@@ -16,7 +16,7 @@ from biped_adrc.cli.options import Pushes, of_scenario, texts, values_of
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
     from biped_adrc.analysis.legality import Legality
-    from biped_adrc.model.robots import Limits
+    from biped_adrc.robots.robot_toml import Limits
     from biped_adrc.scenario.outcome import Outcome
     from biped_adrc.scenario.recording import Walk
     from biped_adrc.scenario.scenario import Scenario
@@ -55,7 +55,7 @@ def simulate(
 
 def usual(given: dict[str, Any], motors: str = "ADRC") -> str:
     """The controller where none is given; `motors` for a robot that has some."""
-    from biped_adrc.model.robots import load_description
+    from biped_adrc.robots.robot_toml import load_description
     from biped_adrc.scenario.registry import is_own
 
     robot = str(given.get("robot", "rabbit"))
@@ -94,7 +94,7 @@ def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> N
 
 def _print_steps(o: Outcome, legality: Legality) -> None:
     from biped_adrc.analysis.certificate import Certificate, ratio_text
-    from biped_adrc.studies.convergence import error_text
+    from biped_adrc.paper.convergence import error_text
 
     names = ("step", "time [s]", "length [m]", "torque [N m]", "F_N [N]", "friction", "at impact")
     table = Table(*map(escape, names), escape("scuffs [mm]"), "not legal")
@@ -126,7 +126,7 @@ def _print_steps(o: Outcome, legality: Legality) -> None:
 def _print_passive(walk: Walk, limits: Limits) -> None:
     """The steps of a robot without motors."""
     from biped_adrc.analysis.certificate import ratio_text
-    from biped_adrc.walker import FOOT_STRIKE
+    from biped_adrc.closed_loop.walker import FOOT_STRIKE
 
     names = ("step", "time [s]", "length [m]", "drop [m]", "friction", "at impact", "F_N [N]")
     table = Table(*map(escape, names), escape("lost [J]"))

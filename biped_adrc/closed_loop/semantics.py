@@ -17,7 +17,9 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from biped_adrc.control.base import Measurement
-from biped_adrc.hardware.held import (
+from biped_adrc.hardware.meter import Hit, Outside, loads, metered
+from biped_adrc.hardware.motors import Line, acting, limited, mean_torque, sent
+from biped_adrc.hardware.sample_hold import (
     Held,
     HeldParameters,
     after_impact,
@@ -26,8 +28,6 @@ from biped_adrc.hardware.held import (
     read,
     written,
 )
-from biped_adrc.hardware.meter import Hit, Outside, loads, metered
-from biped_adrc.hardware.motors import Line, acting, limited, mean_torque, sent
 from biped_adrc.hardware.sensors import sense
 from biped_adrc.linear import solve_positive
 from biped_adrc.model.reduction import BodyTerms, Reduction, unknown_force

@@ -17,10 +17,10 @@ from biped_adrc.closed_loop.semantics import Instant, Loop, Mode, Plant, instant
 from biped_adrc.control.base import Controller, Measurement, check_output, check_state, misshapen
 from biped_adrc.errors import InputError, NotFiniteError, SimulationError
 from biped_adrc.gait.reference import Reference, ReferencePoint, check_point
-from biped_adrc.hardware import held
-from biped_adrc.hardware.held import Held, HeldParameters
+from biped_adrc.hardware import sample_hold as held
 from biped_adrc.hardware.meter import MeterParameters, Outside
 from biped_adrc.hardware.motors import Motors
+from biped_adrc.hardware.sample_hold import Held, HeldParameters
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hybrid.system import Clock, HybridSystem
 from biped_adrc.model.reduction import disturbance_parts

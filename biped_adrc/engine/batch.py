@@ -14,12 +14,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.engine.choice import COMPILED, PINOCCHIO
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.tables import STATUS
 from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.run import COMPILED, PINOCCHIO
 from biped_adrc.engine.simulate import COMPILED_PLANT, on_compiled_plant
 from biped_adrc.errors import BipedError, InputError, ModelError, NotFiniteError, SingularError
 from biped_adrc.hybrid import simulator
@@ -27,7 +28,6 @@ from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
 AHEAD = 4
 """Runs handed to each thread beforehand."""

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from biped_adrc.closed_loop.system import Reading, reading
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.equations import Equations, Function, Make, Numbers, count
@@ -24,7 +25,6 @@ from biped_adrc.errors import ModelError
 from biped_adrc.gait.reference import Reference, ReferenceLaws, reference_laws
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.types import Array
-from biped_adrc.walker import Walker
 
 
 class Watched(NamedTuple):

@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from biped_adrc.closed_loop.exponential_form import SplitLaws
+from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.composed import written_over
 from biped_adrc.control.passive import Passive
 from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, disturbance_laws
@@ -35,10 +37,8 @@ from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.symbols import Tracer, Untraceable, Vector, column, floats, run
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.integrators import OneStepMethod, no_coordinates
-from biped_adrc.split import SplitLaws
 from biped_adrc.timing import LONGEST_PERIOD, SampledTime
 from biped_adrc.types import Array
-from biped_adrc.walker import LEAST_STEP, Walker
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc import split
+from biped_adrc.closed_loop import exponential_form as split
 from biped_adrc.closed_loop import semantics
+from biped_adrc.closed_loop.exponential_form import SplitLaws
 from biped_adrc.closed_loop.semantics import Mode
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.engine.kernels.layout import OUTSIDE
@@ -33,10 +34,9 @@ from biped_adrc.engine.symbols import (
     run,
 )
 from biped_adrc.errors import InputError
-from biped_adrc.hardware.held import HeldParameters, HeldSizes
 from biped_adrc.hardware.meter import Outside
+from biped_adrc.hardware.sample_hold import HeldParameters, HeldSizes
 from biped_adrc.model.planar import PlantArrays
-from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
 
 

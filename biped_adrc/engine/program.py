@@ -16,6 +16,8 @@ from typing import Any
 
 import numpy as np
 
+from biped_adrc.closed_loop.exponential_form import SplitLaws
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Controller, ControllerLaws, controller_laws
 from biped_adrc.engine.equations import Equations, Function, Make, Numbers
 from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
@@ -24,9 +26,7 @@ from biped_adrc.engine.machine import Machine
 from biped_adrc.engine.mechanics import Robot, robot_of
 from biped_adrc.engine.symbols import Vector, column, floats
 from biped_adrc.errors import InputError
-from biped_adrc.split import SplitLaws
 from biped_adrc.types import Array
-from biped_adrc.walker import Walker
 
 
 class NotCompiled(InputError):

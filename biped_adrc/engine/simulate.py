@@ -10,22 +10,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.controller_inputs import Point, compiled_references
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run import arc
 from biped_adrc.engine.kernels.tables import STATUS
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.ticks import TERMINAL, run_ticks
-from biped_adrc.engine.told import Point, compiled_references
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import Flown, RunOptions, run_arcs
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
 COMPILED, COMPILED_PLANT = "compiled", "compiled plant"
 

@@ -18,18 +18,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.semantics import asked
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.controller_inputs import Point, Told
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.layout import COMPLETED, END
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run import arc
 from biped_adrc.engine.kernels.tables import STATUS
-from biped_adrc.engine.told import Point, Told
 from biped_adrc.errors import NotFiniteError, SingularError
 from biped_adrc.gait.reference import ReferencePoint
-from biped_adrc.hardware.held import HeldSizes
+from biped_adrc.hardware.sample_hold import HeldSizes
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
 from biped_adrc.hybrid.simulator import Record, RunOptions
@@ -39,7 +40,6 @@ from biped_adrc.hybrid.trajectory import Event, Trajectory
 from biped_adrc.model.reduction import Reduction
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """The guards that end a run, by status."""

@@ -30,7 +30,7 @@ from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, 
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.reduction import Reduction, disturbance_parts
-from biped_adrc.model.robots import ROUND_OFF, Limits
+from biped_adrc.robots.robot_toml import ROUND_OFF, Limits
 from biped_adrc.types import Array
 
 READINGS = 18

@@ -23,9 +23,9 @@ import pinocchio as pin
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.model.pinned import finite_angles, frame_index
 from biped_adrc.model.reduction import Reduction, reduce
-from biped_adrc.model.robots import GRAVITY
-from biped_adrc.model.urdf import Vector
-from biped_adrc.model.urdf_reader import numbers, parse, place_of, straightened
+from biped_adrc.robots.robot_toml import GRAVITY
+from biped_adrc.robots.urdf import Vector
+from biped_adrc.robots.urdf_reader import numbers, parse, place_of, straightened
 from biped_adrc.types import Array
 
 UR5 = ("ur_description/urdf/ur5_robot.urdf", "tool0")

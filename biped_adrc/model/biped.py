@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 
 from biped_adrc.errors import ModelError
 from biped_adrc.model.contact import FloatingDynamics, Impact
-from biped_adrc.model.legs import absolute_angles, relabelling
 from biped_adrc.model.physical import check_numbers, check_planar
 from biped_adrc.model.pinned import PinnedDynamics, finite_angles, reroot
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
-from biped_adrc.model.robots import RobotDescription, load_description
-from biped_adrc.model.urdf import Inertial, Tree
+from biped_adrc.robots.robot_toml import RobotDescription, load_description
+from biped_adrc.robots.symmetry import absolute_angles, relabelling
+from biped_adrc.robots.urdf import Inertial, Tree
 from biped_adrc.types import Array
 
 STICTION_SPEED = 0.05  # [rad/s], width of the smoothed sign of static friction

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from biped_adrc.errors import ModelError, SingularError
-from biped_adrc.model.robots import RobotDescription
-from biped_adrc.model.urdf import Tree, Vector
+from biped_adrc.robots.robot_toml import RobotDescription
+from biped_adrc.robots.urdf import Tree, Vector
 from biped_adrc.types import Array
 
 if TYPE_CHECKING:

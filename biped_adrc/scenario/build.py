@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import continued
@@ -16,15 +17,14 @@ from biped_adrc.hardware.meter import Meter
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.errors import ModelErrors, impact_error
-from biped_adrc.model.robots import ENDS, Limits
+from biped_adrc.model.model_errors import ModelErrors, impact_error
+from biped_adrc.robots.robot_toml import ENDS, Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances, taken
 from biped_adrc.scenario.registry import construct, own
 from biped_adrc.scenario.scenario import Scenario, drawn
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
-from biped_adrc.walker import Walker
 
 WALKED = ("robot", "preset", "controller", "impacts", "slope", "friction_limit", "force_window")
 WITHOUT_MOTORS = (*WALKED, "method", "h", "tolerance", "engine")

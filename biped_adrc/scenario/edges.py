@@ -10,9 +10,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.disturbances.base import Disturbance, terms
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.walker import FOOT_STRIKE, Mode, Walker
 
 NEAR = 1e-3
 """[s], the usual step: an edge this close to an impact is before or after it by the error of the method."""

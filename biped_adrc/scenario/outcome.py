@@ -10,8 +10,8 @@ import numpy as np
 from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.quadrature import integrate
+from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE
 
 if TYPE_CHECKING:
     from biped_adrc.scenario.recording import Walk

@@ -13,15 +13,15 @@ import numpy as np
 from biped_adrc.analysis.certificate import Certificate, certificates, supports
 from biped_adrc.analysis.legality import Legality, until_illegal
 from biped_adrc.analysis.signals import Signals, signals
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference, TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.robots import Limits
+from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
 from biped_adrc.scenario.plain import Missing
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, Walker
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -128,7 +128,7 @@ class Walk:
 
         Of a robot without motors: angles, energies and the phase portrait.
         """
-        from biped_adrc.viz.figures import passive_figure, tracking_figure
+        from biped_adrc.viz.plots.figures import passive_figure, tracking_figure
 
         if self.walker.plant.p == 0:
             return passive_figure(self.signals, title, push)
@@ -160,7 +160,7 @@ class Walk:
 
     def _repr_html_(self) -> str:
         """What a notebook shows: status and remarks, the animation and the figure of `plot`."""
-        from biped_adrc.viz.meshcat import animation_html
+        from biped_adrc.viz.meshcat.view import animation_html
         from biped_adrc.viz.pages import inline
 
         impacts = len(self.trajectory.events(FOOT_STRIKE))

@@ -14,8 +14,9 @@ from pathlib import Path
 
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.analysis.variational import periodic_orbit
+from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.passive import Passive
-from biped_adrc.engine.choice import COMPILED
+from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod, Stiff
@@ -34,7 +35,6 @@ from biped_adrc.scenario.walk import (
     walk_in_parts,
 )
 from biped_adrc.types import Array
-from biped_adrc.walker import Mode, Walker
 
 METHODS: dict[str, Callable[..., OneStepMethod]] = {
     "rk4": RK4,

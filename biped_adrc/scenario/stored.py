@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.analysis.signals import Signals, signals
+from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
@@ -30,7 +31,6 @@ from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.scenario import FREE, Scenario
 from biped_adrc.types import Array
 from biped_adrc.versions import versions
-from biped_adrc.walker import Mode, Walker
 
 
 class AbsentController(Missing, Controller):

@@ -9,16 +9,16 @@ from functools import partial
 from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
 
-from biped_adrc.engine.choice import COMPILED, simulate_by
+from biped_adrc.closed_loop.walker import Mode, Walker
+from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.integrators import RK4, Exponential, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.robots import Limits
+from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.types import Array
-from biped_adrc.walker import Mode, Walker
 
 if TYPE_CHECKING:
     from biped_adrc.scenario.scenario import Scenario

@@ -28,20 +28,20 @@ from biped_adrc.analysis.stability import (
     stability_table,
 )
 from biped_adrc.analysis.variational import periodic_orbit
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots import Limits
+from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.build import Scene, build
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.run import SETTLES, Cycle, known_cycle, method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import default_method
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, Mode
 
 DIFFERENCE = 1e-4  # [rad, rad/s], of differences that are extrapolated
 BESIDE = 1e-3  # how much faster than on the cycle the regression's walk starts, dimensionless

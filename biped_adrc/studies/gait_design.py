@@ -16,6 +16,7 @@ import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.return_map import ReturnMap
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.columns import columns
 from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import GaitError, InputError, SimulationError
@@ -27,10 +28,9 @@ from biped_adrc.gait.recipe import RecipeParameters, design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4, Adaptive
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots import KnownLimits
+from biped_adrc.robots.robot_toml import KnownLimits
 from biped_adrc.scenario.walk import walk
 from biped_adrc.types import Array
-from biped_adrc.walker import FOOT_STRIKE, Walker
 
 RETURNS = 1e-6
 """[rad, rad/s]: how far the walk may be from the gait's orbit after its steps."""

@@ -17,8 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.observer_design import observer_name
-from biped_adrc.analysis.observer_loop import observer_loop
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.tracking import TABLE_II, Gains
@@ -29,11 +28,12 @@ from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
+from biped_adrc.observer_design.observer_design import observer_name
+from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.scenario.walk import walk
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
-from biped_adrc.walker import Walker
 
 IMPACTS = 6
 """Of a check."""

@@ -8,11 +8,11 @@ from pathlib import Path
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
-from biped_adrc.viz.gif import write_gif
-from biped_adrc.viz.meshcat import Look, animation_html
-from biped_adrc.viz.moving import Motion
+from biped_adrc.viz.from_the_side.gif import write_gif
+from biped_adrc.viz.from_the_side.moving_parts import Motion
+from biped_adrc.viz.from_the_side.stick_figures import write_strip
+from biped_adrc.viz.meshcat.view import Look, animation_html
 from biped_adrc.viz.placement import Recorded
-from biped_adrc.viz.stick import write_strip
 
 SUFFIXES = (".html", ".gif", ".png", ".svg")
 

@@ -22,12 +22,12 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from biped_adrc.analysis.signals import Signals
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.legs import twins
-from biped_adrc.model.urdf import Joint, Tree
+from biped_adrc.robots.symmetry import twins
+from biped_adrc.robots.urdf import Joint, Tree
 from biped_adrc.types import Array
-from biped_adrc.walker import Walker
 
 TILE = 0.5
 """[m], along x, of the light and dark tiles."""

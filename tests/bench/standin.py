@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import biped_adrc as ba
-from biped_adrc.studies.bench.execute import run_study
-from biped_adrc.studies.bench.store import About
-from biped_adrc.studies.bench.store_open import open_store
-from biped_adrc.studies.bench.workers import Threads
+from biped_adrc.campaign.execute import run_study
+from biped_adrc.campaign.store import About
+from biped_adrc.campaign.store_open import open_store
+from biped_adrc.campaign.workers import Threads
 from biped_adrc.versions import numerical_versions
 
 

@@ -12,14 +12,14 @@ import pytest
 import standin
 from standin import about, records, results, rows
 
+from biped_adrc.bench.study_file import read_study
+from biped_adrc.bench.sweep import sweep
+from biped_adrc.campaign import dask_cluster as of_cluster
+from biped_adrc.campaign.dask_cluster import Cluster, difference
+from biped_adrc.campaign.execute import run_study
+from biped_adrc.campaign.store_open import open_store
+from biped_adrc.campaign.workers import Threads
 from biped_adrc.errors import InputError, SimulationError
-from biped_adrc.studies.bench import cluster as of_cluster
-from biped_adrc.studies.bench.cluster import Cluster, difference
-from biped_adrc.studies.bench.execute import run_study
-from biped_adrc.studies.bench.store_open import open_store
-from biped_adrc.studies.bench.study_file import read_study
-from biped_adrc.studies.bench.sweep import sweep
-from biped_adrc.studies.bench.workers import Threads
 from biped_adrc.versions import numerical_versions
 
 pytestmark = pytest.mark.filterwarnings("ignore")
@@ -176,7 +176,7 @@ def test_without_dask_the_extra_is_named():
     code = """
         import sys
         sys.modules["distributed"] = None
-        from biped_adrc.studies.bench.cluster import Cluster
+        from biped_adrc.campaign.dask_cluster import Cluster
         Cluster("tcp://127.0.0.1:9").start()
     """
     done = subprocess.run(

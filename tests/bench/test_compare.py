@@ -6,13 +6,20 @@ import math
 import numpy as np
 import pytest
 
-from biped_adrc.errors import BipedError, InputError
-from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.bench import compare_study
-from biped_adrc.studies.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS, Cell
-from biped_adrc.studies.bench.compare_study import RESULTS, run_comparison
-from biped_adrc.studies.bench.comparison import NOMINAL, compare
-from biped_adrc.studies.bench.conditions import (
+from biped_adrc.analysis.statistics import (
+    holm,
+    mcnemar,
+    median,
+    paired_equal,
+    paired_ratio,
+    share,
+    sign_test,
+)
+from biped_adrc.bench import compare_study
+from biped_adrc.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS, Cell
+from biped_adrc.bench.compare_study import RESULTS, run_comparison
+from biped_adrc.bench.comparison import NOMINAL, compare
+from biped_adrc.bench.conditions import (
     BANDWIDTH,
     COMPARED,
     CONDITIONS,
@@ -20,7 +27,7 @@ from biped_adrc.studies.bench.conditions import (
     equal_record,
     record,
 )
-from biped_adrc.studies.bench.largest_push import (
+from biped_adrc.bench.largest_push import (
     DIRECTIONS,
     LADDER,
     PHASES,
@@ -33,17 +40,10 @@ from biped_adrc.studies.bench.largest_push import (
     searches,
     whole_span,
 )
-from biped_adrc.studies.bench.run import COLUMNS, run_trial
-from biped_adrc.studies.bench.statistics import (
-    holm,
-    mcnemar,
-    median,
-    paired_equal,
-    paired_ratio,
-    share,
-    sign_test,
-)
-from biped_adrc.studies.bench.workers import Threads
+from biped_adrc.bench.run import COLUMNS, run_trial
+from biped_adrc.campaign.workers import Threads
+from biped_adrc.errors import BipedError, InputError
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.viz import comparison_text
 
 

@@ -9,17 +9,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from biped_adrc.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS
+from biped_adrc.bench.compare_study import draw, figures, write
+from biped_adrc.bench.comparison import compare
+from biped_adrc.bench.run import COLUMNS
 from biped_adrc.cli.app import command
 from biped_adrc.errors import InputError
-from biped_adrc.studies.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS
-from biped_adrc.studies.bench.compare_study import draw, figures, write
-from biped_adrc.studies.bench.comparison import compare
-from biped_adrc.studies.bench.run import COLUMNS
-from biped_adrc.viz.comparison_figure import legal_figure, measure_figure, push_figure
 from biped_adrc.viz.comparison_text import interval
 from biped_adrc.viz.numbers import numbers_of
 from biped_adrc.viz.pages import comparison_html
-from biped_adrc.viz.sweep_maps import Maps, cut, sweep_map_figure
+from biped_adrc.viz.plots.comparison_figure import legal_figure, measure_figure, push_figure
+from biped_adrc.viz.plots.sweep_maps import Maps, cut, sweep_map_figure
 
 DOCS = Path(__file__).parents[2] / "docs"
 

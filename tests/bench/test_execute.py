@@ -16,13 +16,13 @@ import pytest
 import standin
 from standin import about, records, results, rows
 
+from biped_adrc.campaign import execute
+from biped_adrc.campaign import workers as of_workers
+from biped_adrc.campaign.chunk import Point, point
+from biped_adrc.campaign.execute import LOOK_UP, MOST_DEATHS, run_study
+from biped_adrc.campaign.store_open import open_store, read_store
+from biped_adrc.campaign.workers import Processes, Threads
 from biped_adrc.errors import InputError, SimulationError
-from biped_adrc.studies.bench import execute
-from biped_adrc.studies.bench import workers as of_workers
-from biped_adrc.studies.bench.chunk import Point, point
-from biped_adrc.studies.bench.execute import LOOK_UP, MOST_DEATHS, run_study
-from biped_adrc.studies.bench.store_open import open_store, read_store
-from biped_adrc.studies.bench.workers import Processes, Threads
 
 LIGHT = ("standin",)
 
@@ -194,8 +194,8 @@ import sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 from standin import about, records, rows
-from biped_adrc.studies.bench.execute import run_study
-from biped_adrc.studies.bench.store_open import open_store
+from biped_adrc.campaign.execute import run_study
+from biped_adrc.campaign.store_open import open_store
 with open_store(Path(sys.argv[2]), about()) as store:
     run_study(rows, records(5), store)
 """
@@ -251,9 +251,9 @@ import sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 from standin import about, records, rows
-from biped_adrc.studies.bench.execute import run_study
-from biped_adrc.studies.bench.store_open import open_store
-from biped_adrc.studies.bench.workers import Processes
+from biped_adrc.campaign.execute import run_study
+from biped_adrc.campaign.store_open import open_store
+from biped_adrc.campaign.workers import Processes
 if __name__ == "__main__":
     with open_store(Path(sys.argv[2]), about()) as store:
         run_study(rows, records(2000, 5e-3), store, Processes(2, ("standin",)), chunk=4,

@@ -4,12 +4,12 @@ import json
 
 import pytest
 
-from biped_adrc.studies.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS
-from biped_adrc.studies.bench.comparison import compare
-from biped_adrc.studies.bench.conditions import BANDWIDTH, CONDITIONS
-from biped_adrc.studies.bench.findings import answers, bandwidth_decides, sentences
-from biped_adrc.studies.bench.largest_push import PHASES
-from biped_adrc.studies.bench.run import COLUMNS
+from biped_adrc.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS
+from biped_adrc.bench.comparison import compare
+from biped_adrc.bench.conditions import BANDWIDTH, CONDITIONS
+from biped_adrc.bench.findings import answers, bandwidth_decides, sentences
+from biped_adrc.bench.largest_push import PHASES
+from biped_adrc.bench.run import COLUMNS
 
 SEEDS = 20
 

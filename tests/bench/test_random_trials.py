@@ -7,8 +7,8 @@ import numpy as np
 import psutil
 
 from biped_adrc.analysis.certificate import REASONS
+from biped_adrc.bench.run import COLUMNS, REFUSED, run_trial
 from biped_adrc.hybrid.status import Status
-from biped_adrc.studies.bench.run import COLUMNS, REFUSED, run_trial
 
 WALKS = 2000
 MAKES = (

@@ -14,12 +14,12 @@ import pytest
 import standin
 from standin import about, records, results, rows
 
+from biped_adrc.campaign.chunk import key_of, made, text_of
+from biped_adrc.campaign.execute import run_study
+from biped_adrc.campaign.store import Placed, Ran
+from biped_adrc.campaign.store_open import APPLICATION, open_store, read_store
+from biped_adrc.campaign.workers import Threads
 from biped_adrc.errors import InputError, OutputError
-from biped_adrc.studies.bench.chunk import key_of, made, text_of
-from biped_adrc.studies.bench.execute import run_study
-from biped_adrc.studies.bench.store import Placed, Ran
-from biped_adrc.studies.bench.store_open import APPLICATION, open_store, read_store
-from biped_adrc.studies.bench.workers import Threads
 from biped_adrc.versions import numerical_versions
 
 KILLS = 50

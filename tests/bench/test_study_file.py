@@ -7,13 +7,13 @@ import tracemalloc
 import numpy as np
 import pytest
 
+from biped_adrc.bench import parameters
+from biped_adrc.bench.parameters import quantity, unit_of
+from biped_adrc.bench.run import run_trial
+from biped_adrc.bench.study import BLOCK, Draw, Range, Study
+from biped_adrc.bench.study_file import load_study, read_study
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, UNITS, Scenario
-from biped_adrc.studies.bench import parameters
-from biped_adrc.studies.bench.parameters import quantity, unit_of
-from biped_adrc.studies.bench.run import run_trial
-from biped_adrc.studies.bench.study import BLOCK, Draw, Range, Study
-from biped_adrc.studies.bench.study_file import load_study, read_study
 
 STUDY = """
 [study]

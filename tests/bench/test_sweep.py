@@ -16,20 +16,20 @@ import pytest
 from matplotlib.figure import Figure
 from typer.testing import CliRunner
 
+from biped_adrc.bench.build import files_of_study, scene_of
+from biped_adrc.bench.export import export, sweep_map, write_map
+from biped_adrc.bench.run import run_trials
+from biped_adrc.bench.study import rehearse
+from biped_adrc.bench.study_file import read_study
+from biped_adrc.bench.sweep import Table, load_sweep, sweep
+from biped_adrc.campaign.dask_cluster import Cluster
+from biped_adrc.campaign.workers import Processes, Threads
 from biped_adrc.cli import app
 from biped_adrc.cli import sweep as _  # noqa: F401
 from biped_adrc.errors import InputError, OutputError
 from biped_adrc.resources import data_folder
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.bench.build import files_of_study, scene_of
-from biped_adrc.studies.bench.cluster import Cluster
-from biped_adrc.studies.bench.export import export, sweep_map, write_map
-from biped_adrc.studies.bench.run import run_trials
-from biped_adrc.studies.bench.study import rehearse
-from biped_adrc.studies.bench.study_file import read_study
-from biped_adrc.studies.bench.sweep import Table, load_sweep, sweep
-from biped_adrc.studies.bench.workers import Processes, Threads
-from biped_adrc.viz.sweep_maps import MOST_LEVELS, Maps, cell_means, cut, sweep_map_figure
+from biped_adrc.viz.plots.sweep_maps import MOST_LEVELS, Maps, cell_means, cut, sweep_map_figure
 
 TABLES = {
     "study": {"name": "stand-in", "seeds": 5},

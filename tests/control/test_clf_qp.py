@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog, nnls
 
+from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.clf_qp import CLFQPController, affine, decrease, least_norm
 from biped_adrc.errors import InputError, NotFiniteError
-from biped_adrc.walker import Mode, Walker
 
 LIMIT = 150.0
 NO_STATE = np.zeros(0)

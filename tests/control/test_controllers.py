@@ -10,7 +10,7 @@ from biped_adrc.analysis.linear_loop import tracking_error
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.studies.laws import held_joint
+from biped_adrc.paper.physical_laws import held_joint
 
 
 def off_orbit(gait, biped, seed=2):

@@ -14,7 +14,7 @@ from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.noise import TorqueNoise
 from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
-from biped_adrc.model.robots import robot_names
+from biped_adrc.robots.robot_toml import robot_names
 
 F = (12.0, -7.0, 3.0)  # [N, N, N m]
 PULSE = ba.TorquePulse(F, step=1, start=0.1, stop=0.2)

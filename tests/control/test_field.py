@@ -8,6 +8,7 @@ import pytest
 from scipy.optimize import brentq
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.walker import Mode, SampledTime, Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.clf_qp import CLFQPController
 from biped_adrc.control.linear_adrc import bandwidth_gains, linear_adrc
@@ -21,7 +22,6 @@ from biped_adrc.errors import InputError
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.observers.momentum import MomentumObserver
-from biped_adrc.walker import Mode, SampledTime, Walker
 
 K_P, K_D = 5000.0, 50.0
 LIMIT = 150.0

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.control.base import Controller, controller_laws
 from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.momentum_dob import MomentumDOBController
@@ -34,7 +35,6 @@ from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.observers.momentum import MomentumObserver, SampledMomentumObserver
 from biped_adrc.scenario.registry import find, names
 from biped_adrc.types import Array
-from biped_adrc.walker import Mode
 
 SWAP = np.array([1, 0, 3, 2])
 DOUBLES = ctypes.POINTER(ctypes.c_double)

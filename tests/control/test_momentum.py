@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.momentum_dob import MomentumDOBController, momentum_fed, momentum_seen
 from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import InputError
@@ -15,7 +16,6 @@ from biped_adrc.observers.momentum import (
     SampledMomentumObserver,
     momentum_flow,
 )
-from biped_adrc.walker import Mode, Walker
 
 NO_STATE = np.zeros(0)
 

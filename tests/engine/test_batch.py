@@ -11,15 +11,15 @@ import psutil
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.control.base import Controller, ControllerLaws
 from biped_adrc.control.npd import npd_torque
 from biped_adrc.engine.batch import AHEAD, Case, simulate_many
-from biped_adrc.engine.choice import simulate_by
 from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.run import simulate_by
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.gait.constraint import virtual_constraint
 from biped_adrc.gait.published import passive_cycle
-from biped_adrc.walker import FOOT_STRIKE, Mode
 
 simulate = partial(simulate_by, "compiled")
 

@@ -8,10 +8,10 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.signals import signals, signals_of
-from biped_adrc.engine.choice import simulate_by
+from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.engine.compiled_signals import compiled_readings
+from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.published import passive_cycle
-from biped_adrc.walker import Mode
 
 simulate = partial(simulate_by, "compiled")
 

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.control.base import Controller, ControllerLaws
 from biped_adrc.control.npd import npd_torque
 from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, window_acts
 from biped_adrc.disturbances.pulse import pulse_torque
-from biped_adrc.engine.choice import simulate_by
+from biped_adrc.engine.run import simulate_by
 from biped_adrc.errors import NotFiniteError, SingularError
 from biped_adrc.gait.constraint import virtual_constraint
-from biped_adrc.walker import FOOT_STRIKE, Mode
 
 simulate = partial(simulate_by, "compiled")
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller, ControllerLaws
 from biped_adrc.control.npd import npd_torque
 from biped_adrc.control.passive import Passive
@@ -15,9 +16,8 @@ from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.errors import ModelError
 from biped_adrc.gait.constraint import virtual_constraint
 from biped_adrc.model.planar import PlanarTree
-from biped_adrc.model.robots import robot_names
+from biped_adrc.robots.robot_toml import robot_names
 from biped_adrc.timing import SampledTime
-from biped_adrc.walker import Mode, Walker
 
 EXACT = 1e-11
 COUNT = 10_000

@@ -7,9 +7,9 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.return_map import ReturnMap
+from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.published import passive_cycle
-from biped_adrc.walker import Mode
 
 
 def maps(walker, method, **more):

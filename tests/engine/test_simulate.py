@@ -11,13 +11,14 @@ import pytest
 
 import biped_adrc
 import biped_adrc as ba
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.control.base import Controller, ControllerLaws
 from biped_adrc.control.npd import npd_torque
 from biped_adrc.control.tracking import TrackedParameters
 from biped_adrc.engine import program
-from biped_adrc.engine.choice import simulate_by
 from biped_adrc.engine.fingerprint import law_text, skeleton
 from biped_adrc.engine.mechanics import robot_of
+from biped_adrc.engine.run import simulate_by
 from biped_adrc.engine.symbols import Untraceable, Vector
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import virtual_constraint
@@ -25,7 +26,6 @@ from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import simulator
 from biped_adrc.linear import solve
 from biped_adrc.versions import NEVER_TRACED, source_text
-from biped_adrc.walker import FOOT_STRIKE, Mode
 
 simulate = partial(simulate_by, "compiled")
 

@@ -20,7 +20,7 @@ from biped_adrc.gait.through_state import onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlanarTree, ground_reaction, point, turned
-from biped_adrc.model.robots import robot_names
+from biped_adrc.robots.robot_toml import robot_names
 from biped_adrc.studies.gait_design import (
     DesignedGait,
     GaitLibrary,

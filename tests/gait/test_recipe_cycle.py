@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.analysis.return_map import ReturnMap
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.gait import load_gait
@@ -25,7 +26,6 @@ from biped_adrc.gait.recipe import (
 from biped_adrc.gait.through_state import onto_section
 from biped_adrc.gait.zero_dynamics import configuration
 from biped_adrc.hybrid.integrators import RK4
-from biped_adrc.walker import Walker
 
 LENGTH = 0.4  # [m], thigh and shin of RABBIT
 EDGE = 1e-6  # share of a step over which end slopes are taken

@@ -16,8 +16,8 @@ from biped_adrc.cli import app
 from biped_adrc.errors import GaitError, InputError
 from biped_adrc.gait.curves import Polynomial
 from biped_adrc.gait.zero_orbits import Limits, ZeroOrbits, domain
-from biped_adrc.model.robots import KnownLimits
-from biped_adrc.model.robots import Limits as WithinLimits
+from biped_adrc.robots.robot_toml import KnownLimits
+from biped_adrc.robots.robot_toml import Limits as WithinLimits
 from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
 
 ALPHA, GRAVITY = math.pi / 8, 9.81

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.hardware.held import motor_torque
 from biped_adrc.hardware.meter import Meter, reading
 from biped_adrc.hardware.motors import Line, Motors, acting, limited, relabelled, sent
+from biped_adrc.hardware.sample_hold import motor_torque
 from biped_adrc.hardware.sensors import Sensors, rounded, sense, sensed_impact, sensor_state
 
 T = 1e-3

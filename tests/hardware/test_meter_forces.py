@@ -9,6 +9,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.certificate import depths, forces
 from biped_adrc.analysis.quadrature import integral
+from biped_adrc.bench.run import run_trial
 from biped_adrc.engine.symbols import Scalar, Tracer
 from biped_adrc.hardware.meter import (
     READINGS,
@@ -23,7 +24,6 @@ from biped_adrc.hardware.meter import (
     reading,
     size,
 )
-from biped_adrc.studies.bench.run import run_trial
 
 T = 1e-3
 ENGINES = ("pinocchio", "compiled")

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.exponential_form import loop_laws, loop_matrix
+from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import CorrectedConstraint
@@ -14,8 +16,6 @@ from biped_adrc.hybrid.integrators import Exponential
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.split import loop_laws, loop_matrix
-from biped_adrc.walker import FOOT_STRIKE
 
 SLOW = ba.GPIObserver.from_poles([0.05 * pole for pole in TABLE_I])
 GAINS = ba.Gains([4e3, 5e3, 6e3, 7e3], [40.0, 50.0, 60.0, 70.0])

@@ -5,9 +5,9 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError, ModelError
-from biped_adrc.model.errors import ModelErrors, impact_error
-from biped_adrc.model.own_checks import checks
-from biped_adrc.model.robots import robot_names
+from biped_adrc.model.model_errors import ModelErrors, impact_error
+from biped_adrc.robot_import.import_checks import checks
+from biped_adrc.robots.robot_toml import robot_names
 
 ERRORS = ModelErrors(
     mass={"torso": 0.2, "shin": -0.1}, com={"thigh": 0.3}, inertia={"shin": 0.5, "torso": -0.2}

@@ -12,10 +12,10 @@ import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError, ModelError, OutputError
 from biped_adrc.gait.conventions import AngleMap
-from biped_adrc.model.own import Hints, biped_from_urdf, derive
-from biped_adrc.model.own_checks import checks
 from biped_adrc.resources import data_folder
-from biped_adrc.studies.verification.frost_urdf import (
+from biped_adrc.robot_import.import_checks import checks
+from biped_adrc.robot_import.import_robot import Hints, biped_from_urdf, derive
+from validation.frost_urdf import (
     HUNG,
     LIMIT,
     TURNED,
@@ -23,7 +23,7 @@ from biped_adrc.studies.verification.frost_urdf import (
     body,
     joint,
 )
-from biped_adrc.studies.verification.frost_urdf import rabbit_urdf as rabbit
+from validation.frost_urdf import rabbit_urdf as rabbit
 
 BODIES = bodies()
 

@@ -6,10 +6,10 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.model.pinned import frame_index, reroot, velocity_index
-from biped_adrc.model.robots import load_description, robot_names
-from biped_adrc.model.urdf import to_xml
-from biped_adrc.model.urdf_reader import load_tree
 from biped_adrc.resources import data_folder
+from biped_adrc.robots.robot_toml import load_description, robot_names
+from biped_adrc.robots.urdf import to_xml
+from biped_adrc.robots.urdf_reader import load_tree
 
 FLOATING = data_folder("urdf") / "rabbit" / "floating.urdf"
 TORSO_MASS = '<mass value="12.0"/>'

@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.model.robots import load_description, robot_names
 from biped_adrc.resources import data_folder
+from biped_adrc.robots.robot_toml import load_description, robot_names
 
 NUMBERS = ("xyz", "rpy", "value", "size", "radius", "length", "lower", "upper", "effort", "rgba")
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")

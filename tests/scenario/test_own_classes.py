@@ -10,14 +10,14 @@ import pytest
 from typer.testing import CliRunner
 
 import biped_adrc as ba
+from biped_adrc.bench.compare_study import run_comparison
+from biped_adrc.bench.study_file import read_study
+from biped_adrc.bench.sweep import sweep
+from biped_adrc.campaign.workers import Processes, Threads
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError
 from biped_adrc.scenario import registry
 from biped_adrc.scenario.build import build
-from biped_adrc.studies.bench.compare_study import run_comparison
-from biped_adrc.studies.bench.study_file import read_study
-from biped_adrc.studies.bench.sweep import sweep
-from biped_adrc.studies.bench.workers import Processes, Threads
 
 FAST = {"engine": "compiled", "impacts": 1, "hardware": "ideal"}
 
@@ -363,7 +363,7 @@ def test_the_working_directory_is_looked_in_for_names_of_the_user_alone(own: str
 
 
 def test_choices_are_those_of_the_package() -> None:
-    from biped_adrc.engine.choice import ENGINES
+    from biped_adrc.engine.run import ENGINES
     from biped_adrc.scenario.run import METHODS
     from biped_adrc.scenario.scenario import CHOICES
 

@@ -250,7 +250,7 @@ def test_what_is_in_the_file(own: str) -> None:
     (mine,) = [part for part in parts if part["class"] == f"{own}:Mine"]
     assert mine["values"]["gain"] == 0.8
     assert len(mine["source"]) == 12
-    assert any(part["class"] == "biped_adrc.model.urdf:Tree" for part in parts)
+    assert any(part["class"] == "biped_adrc.robots.urdf:Tree" for part in parts)
 
 
 @pytest.mark.parametrize(

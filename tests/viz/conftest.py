@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import pytest
 
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.npd import NPDController
 from biped_adrc.gait.gait import load_gait
@@ -9,7 +10,6 @@ from biped_adrc.hybrid.integrators import RK4, Exponential
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk
-from biped_adrc.walker import Walker
 
 
 @pytest.fixture(scope="package")

@@ -20,7 +20,7 @@ from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.export import export
-from biped_adrc.viz.meshcat_scene import joint_path
+from biped_adrc.viz.meshcat.scene import joint_path
 from biped_adrc.viz.placement import Scene
 
 from .browser import chromium, console, needs_chromium, requested, seek, world

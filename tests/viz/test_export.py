@@ -20,11 +20,11 @@ from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.export import Clip, export
-from biped_adrc.viz.gif import write_gif
-from biped_adrc.viz.moving import Motion, arrow, cut, ring
+from biped_adrc.viz.from_the_side.gif import write_gif
+from biped_adrc.viz.from_the_side.moving_parts import Motion, arrow, cut, ring
+from biped_adrc.viz.from_the_side.side_view import Deviation, SideView
+from biped_adrc.viz.from_the_side.stick_figures import strip, write_strip
 from biped_adrc.viz.placement import Scene, ending
-from biped_adrc.viz.side_view import Deviation, SideView
-from biped_adrc.viz.stick import strip, write_strip
 from biped_adrc.viz.style import new_figure, style
 
 

@@ -23,8 +23,8 @@ from biped_adrc.errors import InputError
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.stored import load_walk
-from biped_adrc.viz.live import play
-from biped_adrc.viz.meshcat import Look
+from biped_adrc.viz.meshcat.live import play
+from biped_adrc.viz.meshcat.view import Look
 
 from .browser import chromium, console, needs_chromium
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import umsgpack
 
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
 from biped_adrc.disturbances.pulse import TorquePulse
 from biped_adrc.errors import InputError, OutputError
@@ -20,10 +21,9 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk as walk_of
 from biped_adrc.viz.export import Clip, export
-from biped_adrc.viz.meshcat import Look, animation_html, node_names
-from biped_adrc.viz.meshcat_scene import ring_mesh, visual_transform
+from biped_adrc.viz.meshcat.scene import ring_mesh, visual_transform
+from biped_adrc.viz.meshcat.view import Look, animation_html, node_names
 from biped_adrc.viz.placement import Scene
-from biped_adrc.walker import Walker
 
 from .pinocchio_view import floating
 

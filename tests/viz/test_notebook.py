@@ -12,7 +12,7 @@ import pytest
 
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.viz.meshcat import animation_html
+from biped_adrc.viz.meshcat.view import animation_html
 
 
 def test_a_walk_shows_its_animation_and_its_figures(walks: dict[str, Walk]) -> None:

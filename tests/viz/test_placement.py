@@ -7,8 +7,8 @@ import pytest
 
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
+from biped_adrc.viz.from_the_side.robot_figure import direction
 from biped_adrc.viz.placement import Scene, joint_values, link_placements
-from biped_adrc.viz.robot_figure import direction
 
 from .pinocchio_view import floating
 

@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.npd import NPDController
 from biped_adrc.disturbances.pulse import TorquePulse
@@ -20,11 +21,12 @@ from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.hybrid.integrators import RK4, Exponential
 from biped_adrc.model.biped import Biped
+from biped_adrc.paper.figures import NAMES, draw, push_window
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk as walk_of
-from biped_adrc.studies.figures import NAMES, draw, push_window
 from biped_adrc.viz import plots
-from biped_adrc.viz.figures import (
+from biped_adrc.viz.from_the_side.robot_figure import robot_figure
+from biped_adrc.viz.plots.figures import (
     comparison_figure,
     multiplier_figure,
     phase_figure,
@@ -32,9 +34,7 @@ from biped_adrc.viz.figures import (
     tracking_figure,
 )
 from biped_adrc.viz.plots.over_time import angle_unit
-from biped_adrc.viz.robot_figure import robot_figure
 from biped_adrc.viz.style import render, style
-from biped_adrc.walker import Walker
 
 NUMBER = rb"-?\d+\.?\d*"
 

@@ -11,8 +11,8 @@ import pytest
 
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
+from biped_adrc.viz.from_the_side.robot_figure import robot_figure
 from biped_adrc.viz.pages import report_html, write_report
-from biped_adrc.viz.robot_figure import robot_figure
 from biped_adrc.viz.style import render
 
 SUMMARY = {

@@ -16,7 +16,7 @@ from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.viz.meshcat import animation_html
+from biped_adrc.viz.meshcat.view import animation_html
 from biped_adrc.viz.pages import write_report
 
 from .browser import chromium, console, needs_chromium, requested

@@ -19,19 +19,19 @@ from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.constraint import continued
 from biped_adrc.ground import StepDown
+from biped_adrc.paper.figures import draw
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import passive_walk
 from biped_adrc.scenario.stored import load_walk
-from biped_adrc.studies.figures import draw
-from biped_adrc.viz.frames import pose
-from biped_adrc.viz.gif import write_gif
-from biped_adrc.viz.meshcat import Look, animation_html
-from biped_adrc.viz.meshcat_scene import joint_path
-from biped_adrc.viz.moving import Motion
+from biped_adrc.viz.from_the_side.gif import write_gif
+from biped_adrc.viz.from_the_side.moving_parts import Motion
+from biped_adrc.viz.from_the_side.side_view import SideView
+from biped_adrc.viz.from_the_side.stick_figures import strip
+from biped_adrc.viz.meshcat.frames import pose
+from biped_adrc.viz.meshcat.scene import joint_path
+from biped_adrc.viz.meshcat.view import Look, animation_html
 from biped_adrc.viz.placement import Scene, link_placements
 from biped_adrc.viz.plots import friction_cone
-from biped_adrc.viz.side_view import SideView
-from biped_adrc.viz.stick import strip
 from biped_adrc.viz.style import new_figure
 
 from .browser import chromium, console, needs_chromium, seek, world

@@ -13,7 +13,7 @@ import casadi as ca
 import numpy as np
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.design.programme import Bounded, Programme
+from biped_adrc.gait.design.nlp import Bounded, Programme
 from biped_adrc.types import Array
 
 Progress = Callable[[int, float, float], None]

@@ -19,7 +19,7 @@ from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Bezier
 from biped_adrc.gait.design.ipopt import Found, Progress, relaxed, solve
-from biped_adrc.gait.design.programme import transcribe
+from biped_adrc.gait.design.nlp import transcribe
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.start import bezier_through, cold_start
 from biped_adrc.gait.design.step import Unknowns

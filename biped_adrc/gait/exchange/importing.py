@@ -15,7 +15,7 @@ from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots import robot_names
+from biped_adrc.robots.robot_toml import robot_names
 
 
 def import_constraint(record: GaitRecord) -> VirtualConstraint:

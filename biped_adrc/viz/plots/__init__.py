@@ -1,6 +1,6 @@
 """Plots on axes of your own: each takes a matplotlib Axes and data, draws, and returns the Axes.
 
-Nothing here opens a window or touches pyplot. Whole figures made of these are in `biped_adrc.viz.figures`.
+Nothing here opens a window or touches pyplot. Whole figures are in `biped_adrc.viz.plots.figures`.
 """
 
 from biped_adrc.viz.plots.comparison import error_over_time as error_over_time

@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 import biped_adrc as ba
-from biped_adrc.analysis.observer_design import observer_report
+from biped_adrc.observer_design.observer_design import observer_report
 from biped_adrc.scenario.push import parse_push
-from biped_adrc.studies.verification.groups import groups
 from tests.photograph import files
 from tests.photograph.adapter import walkers
+from validation.groups import groups
 
 Plain = dict[str, Any]
 PUSH = "q1,q2,q3,q4=30@2:0.1-0.2"

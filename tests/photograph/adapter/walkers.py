@@ -21,11 +21,11 @@ from biped_adrc.disturbances.link import OnLink
 from biped_adrc.errors import InputError
 from biped_adrc.gait.curves import Polynomial
 from biped_adrc.hardware.meter import Meter
-from biped_adrc.model.robots import ENDS
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.observers.momentum import MomentumObserver
-from biped_adrc.studies.verification import three_link
+from biped_adrc.robots.robot_toml import ENDS
 from tests.photograph.adapter import own
+from validation import three_link
 
 Plain = dict[str, Any]
 

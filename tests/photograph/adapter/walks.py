@@ -13,6 +13,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import biped_adrc as ba
+from biped_adrc.bench import build
+from biped_adrc.bench.parameters import trial
+from biped_adrc.bench.run import measured, run_trial
 from biped_adrc.engine.batch import run_case
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.scenario import build as scenario
@@ -20,9 +23,6 @@ from biped_adrc.scenario.push import parse_push
 from biped_adrc.scenario.run import parts_of
 from biped_adrc.scenario.stored import values_of_0_1
 from biped_adrc.scenario.walk import Part, default_parts, walk_in_parts
-from biped_adrc.studies.bench import build
-from biped_adrc.studies.bench.parameters import trial
-from biped_adrc.studies.bench.run import measured, run_trial
 from tests.photograph.adapter import walkers
 
 ENGINES = ("pinocchio", "compiled")

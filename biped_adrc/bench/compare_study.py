@@ -1,0 +1,174 @@
+"""The comparison carried out, stored run by run, and written: comparison.sqlite, figures, page, summary.
+
+A comparison that is killed goes on where it was: every walk, those of the bisections too, lies in the file by
+its record.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from biped_adrc.bench.build import scene_of
+from biped_adrc.bench.cell import IMPULSE, Row, is_legal, number
+from biped_adrc.bench.comparison import NOMINAL, Comparison, check, compare
+from biped_adrc.bench.conditions import BASE, COMPARED, CONDITIONS, NOT_ALIKE, OWN
+from biped_adrc.bench.findings import answers, sentences
+from biped_adrc.bench.parameters import trial
+from biped_adrc.bench.run import run_trials
+from biped_adrc.bench.sweep import check_folder
+from biped_adrc.campaign.chunk import Point, key_of, text_of
+from biped_adrc.campaign.execute import LARGEST_CHUNK, Progress, run_study
+from biped_adrc.campaign.store import About, Store
+from biped_adrc.campaign.store_open import open_store
+from biped_adrc.campaign.workers import Workers, workers_of
+from biped_adrc.files import write_text
+from biped_adrc.robots.robot_toml import Limits
+from biped_adrc.scenario.registry import find, is_own, source_hash, words
+from biped_adrc.versions import numerical_versions
+from biped_adrc.viz.comparison_text import NEEDS, REASONS
+from biped_adrc.viz.pages import captions, comparison_html
+from biped_adrc.viz.plots.comparison_figure import legal_figure, measure_figure, push_figure
+from biped_adrc.viz.style import render
+
+RESULTS = "comparison.sqlite"
+TITLES = {
+    "peak_error": "largest tracking error [rad]",
+    "rms_torque": "torque, root mean square [N m]",
+    "cost_of_transport": "cost of transport",
+}
+
+
+@dataclass
+class Stored:
+    """Walks trials by `run_study` and takes their rows from the store."""
+
+    store: Store
+    workers: Workers | Executor | int | None
+    progress: Callable[[Progress], None] | None
+    walks: int = 0
+    """Walked or found, so far."""
+
+    def __call__(self, records: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+        points = [_point(record) for record in records]
+        keys = [key_of(text_of(point.record)) for point in points]
+        run_study(
+            run_trials,
+            points,
+            self.store,
+            self.workers,
+            chunk=max(1, min(LARGEST_CHUNK, len(points) // 16)),
+            total=len(points),
+            progress=self.progress,
+            first=self.walks,
+        )
+        self.walks += len(points)
+        rows = self.store.rows(keys)
+        return [rows[key] for key in keys]
+
+
+def _point(record: Mapping[str, Any]) -> Point:
+    told = ("controller", "seed", "push", "on", "onset", "amplitude")
+    return Point(trial(record).record(), {k: record[k] for k in told if k in record})
+
+
+def run_comparison(
+    out: Path,
+    command: str,
+    controllers: Sequence[str] = COMPARED,
+    conditions: Sequence[str] = tuple(CONDITIONS),
+    seeds: int = 20,
+    pushes: bool = True,
+    workers: Workers | Executor | int | None = None,
+    progress: Callable[[Progress], None] | None = None,
+    other_versions: bool = False,
+) -> dict[str, Any]:
+    """Walk everything that is not in `out` yet and write the page; returns the summary.
+
+    Raises InputError for unknown names or a file of another comparison, OutputError.
+    """
+    check(controllers, conditions, seeds)
+    asked = {
+        "controllers": list(controllers),
+        "conditions": {name: dict(CONDITIONS[name].values) for name in conditions},
+        "base": dict(BASE),
+        "seeds": seeds,
+        "pushes": pushes,
+    }
+    sources = {
+        f"source {c}": source_hash(find("controller", c).load()) for c in controllers if is_own(c)
+    }
+    about = About("comparison", key_of(text_of(asked)), asked, {**numerical_versions(), **sources})
+    check_folder(out)
+    workers_of(workers).prepare()
+    with open_store(out / RESULTS, about, other_versions) as store:
+        carry = Stored(store, workers, progress)
+        found = compare(carry, controllers, conditions, seeds, pushes)
+    return write(found, out, command, carry.walks)
+
+
+def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, Any]:
+    """Figures, summary.json and comparison.html; returns the summary. Raises OutputError."""
+    found_out = answers(found)
+    summary = {
+        "command": command,
+        "walks": walks,
+        "seeds": found.seeds,
+        "settings": NOT_ALIKE,
+        "nominal": nominal(found.nominal),
+        "findings": sentences(found_out),
+        "controllers": {name: words("controller", name) for name in found.controllers},
+        "conditions": {name: CONDITIONS[name].words for name in found.conditions},
+        "cells": [cell.row() for cell in found.cells],
+        "equal_bandwidth": [
+            {"own": replace(own, bandwidth=OWN[x.controller]).row(), "equal": x.row()}
+            for x in found.equal
+            for own in [found.cell(x.controller, x.condition)]
+        ],
+        "pushes": [push.row() for push in found.pushes],
+        "tests": [answer.row() for answer in found_out],
+        "base": dict(BASE),
+        "versions": dict(numerical_versions()),
+    }
+    texts = {name: svg.decode("utf-8") for name, svg in draw(summary).items()}
+    for name, svg in texts.items():
+        write_text(out / f"{name}.svg", svg)
+    write_text(out / "comparison.html", comparison_html(summary, texts))
+    write_text(out / "summary.json", json.dumps(summary, indent=1) + "\n")
+    return summary
+
+
+def nominal(row: Row) -> dict[str, Any]:
+    """What the undisturbed gait needs of ground and motors, and what is illegal about it, in words."""
+    needs = {name: number(row, name) for name in NEEDS}
+    reasons = {**REASONS, IMPULSE: "impulse at impact"}
+    broken = [words for name, words in reasons.items() if row.get(name) == 1]
+    return {
+        "trial": dict(NOMINAL),
+        "status": str(row["status"]),
+        "legal": is_legal(row),
+        "needs": needs,
+        "limits": dict(Limits().of(scene_of(trial(NOMINAL)).biped.description)._asdict()),
+        "broken": broken,
+    }
+
+
+def draw(summary: Mapping[str, Any]) -> dict[str, bytes]:
+    """The figures as SVG, by name."""
+    return {name: render(figure, "svg") for name, figure in figures(summary).items()}
+
+
+def figures(summary: Mapping[str, Any]) -> dict[str, Figure]:
+    """The figures by name, in the order of the page."""
+    cells, pushes = summary["cells"], summary["pushes"]
+    drawn = {"legal": legal_figure(cells)}
+    drawn |= {name: measure_figure(cells, name, title) for name, title in TITLES.items()}
+    if pushes:
+        drawn["pushes"] = push_figure([p for p in pushes if p["bandwidth"] is None])
+    return {name: drawn[name] for name in captions("comparison") if name in drawn}

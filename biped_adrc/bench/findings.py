@@ -1,0 +1,235 @@
+"""What a comparison says in words: a sentence is there when a test of paired walks carries it, or absent.
+
+Controllers are held against NPD, which has the same gains and no observer, and a sentence about one with an
+observer has to hold at equal bandwidth too; two observers are held against each other at both. Walks are paired
+by seed, and what is compared of a pair asks both to be legal. Each family of questions has a sign test or
+McNemar's, corrected by Holm for all questions of the family; an effect must lie beyond a margin with its whole
+interval of 95 %.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from biped_adrc.analysis.statistics import (
+    CONFIDENCE,
+    Interval,
+    Tested,
+    holm,
+    mcnemar,
+    median_ratio,
+    paired_equal,
+    paired_ratio,
+    sign_test,
+)
+from biped_adrc.bench.cell import Cell, is_legal, number
+from biped_adrc.bench.comparison import Comparison
+from biped_adrc.bench.conditions import SAID, record
+from biped_adrc.bench.largest_push import MATCHED, PHASES, Largest, median_span
+from biped_adrc.bench.parameters import trial
+
+EQUAL = "equal_bandwidth"
+"""The family of questions about observers at equal bandwidth."""
+REFERENCE = "NPD"
+"""Whom the others are held against."""
+MARGIN = 1.1
+"""A ratio of two medians nearer to 1 than this is not worth a sentence."""
+SPEED = 0.01
+"""Changes of speed that differ by less than this are alike."""
+RATIOS = ("peak_error", "rms_torque", "cost_of_transport")
+"""Measures of which ratios are taken."""
+
+
+class Question(NamedTuple):
+    """One question to the numbers, and what its test says."""
+
+    family: str
+    condition: str
+    controller: str
+    pairs: int
+    words: str
+    """What is said of this controller where the test carries it."""
+    p: float
+    """Of this question alone, or corrected for all of its family."""
+    beyond: bool
+    """Whether the effect lies beyond the margin with its whole interval."""
+    value: Interval | None = None
+
+    @property
+    def carried(self) -> bool:
+        """Whether it may be said, of a corrected p."""
+        return self.beyond and self.p < 1.0 - CONFIDENCE
+
+    def row(self) -> dict[str, Any]:
+        """As plain values."""
+        found = self._asdict()
+        del found["beyond"]
+        words, value = found.pop("words"), found.pop("value")
+        p = found.pop("p")
+        value = None if value is None else list(value)
+        return {**found, "value": value, "p": p, "carried": self.carried, "words": words}
+
+
+def answers(c: Comparison) -> list[Question]:
+    """All questions that the walks allow, their p-values corrected for all of their family."""
+    families: dict[str, list[Question]] = {}
+    for q in _questions(c):
+        families.setdefault(q.family, []).append(q)
+    return [
+        q._replace(p=p)
+        for asked in families.values()
+        for q, p in zip(asked, holm([q.p for q in asked]), strict=True)
+    ]
+
+
+def sentences(found: Sequence[Question]) -> dict[str, list[str]]:
+    """What is carried, by family: one sentence for each condition, and no family without one."""
+    said: dict[str, list[str]] = {}
+    for family, what in dict.fromkeys((q.family, q.condition) for q in found if q.carried):
+        words = [q.words for q in found if q.carried and (q.family, q.condition) == (family, what)]
+        opening = SAID["openings"][family]
+        said.setdefault(family, []).append(f"{what}: {opening}: {'; '.join(words)}.")
+    return said
+
+
+def bandwidth_decides(condition: str) -> bool:
+    """Whether sensors or a delay limit the bandwidth: there another bandwidth or a filter reverses an order."""
+    s = trial(record(condition, REFERENCE, 0))
+    noisy = s.counts is not None or s.noise + s.pitch_noise + s.rate_noise > 0.0
+    return noisy or s.delay > 0.0 or s.velocity != "measured"
+
+
+def _questions(c: Comparison) -> Iterable[Question]:
+    others = [name for name in c.controllers if name != REFERENCE]
+    if REFERENCE in c.controllers:
+        for condition in (what for what in c.conditions if not bandwidth_decides(what)):
+            for name in others:
+                cell, again = c.cell(name, condition), c.at_equal(name, condition)
+                yield from _against(cell, again, c.cell(REFERENCE, condition))
+        for name in others:
+            yield from _pushes(c.pushes, name)
+    yield from _equal(c)
+
+
+def _against(cell: Cell, again: Cell | None, usual: Cell) -> Iterable[Question]:
+    """One controller against the reference under one condition; again: the same at equal bandwidth."""
+    settings = [cell] if again is None else [cell, again]
+    yield _legality(settings, usual)
+    for name in RATIOS:
+        each = [paired_ratio(*_pair(x, usual, name), MARGIN) for x in settings]
+        if each[0] is not None:
+            held = {_side(x) for x in each} in ({-1}, {1})
+            yield _question(name, cell, each[0], held)
+    unmatched = usual.medians({"peak_unmatched": ""})["peak_unmatched"]
+    if unmatched is not None and unmatched.low > 0.0:
+        changes = (_pair(x, usual, "speed_change", positive=False) for x in settings)
+        alike = [paired_equal(*change, SPEED) for change in changes]
+        if alike[0] is not None:
+            held = all(
+                x is not None and x.value.low > -SPEED and x.value.high < SPEED for x in alike
+            )
+            yield _question("speed_change", cell, alike[0], held)
+
+
+def _side(found: Tested | None) -> int:
+    """-1, 1: the interval of the ratio lies below, above 1 by more than the margin; 0: neither."""
+    if found is None:
+        return 0
+    return int(found.value.low > MARGIN) - int(found.value.high < 1.0 / MARGIN)
+
+
+def _question(family: str, cell: Cell, found: Tested, beyond: bool, text: str = "") -> Question:
+    words = text or f"{cell.controller} {_interval(found.value)} in {found.pairs} pairs"
+    return Question(
+        family, cell.condition, cell.controller, found.pairs, words, found.p, beyond, found.value
+    )
+
+
+def _legality(settings: Sequence[Cell], usual: Cell) -> Question:
+    """The first of the settings is the controller's own; the others have to agree with it."""
+    b = [is_legal(w) for w in usual.walks]
+    each = [[is_legal(w) for w in cell.walks] for cell in settings]
+    more = {sum(a) > sum(b) for a in each}
+    held = len(more) == 1 and all(mcnemar(a, b) < 1.0 - CONFIDENCE for a in each)
+    a, own = each[0], settings[0]
+    text = f"{own.controller} {sum(a)}, {REFERENCE} {sum(b)} of {len(a)}"
+    return Question("legal", own.condition, own.controller, len(a), text, mcnemar(a, b), held)
+
+
+def _both_legal(cells: Sequence[Cell], name: str, positive: bool = True) -> list[list[float]]:
+    """The numbers of each cell, for the seeds that are legal in all of them and have a number there."""
+    found = []
+    for walks in zip(*(cell.walks for cell in cells), strict=True):
+        values = [number(w, name) for w in walks]
+        known = all(x is not None and (x > 0.0 or not positive) for x in values)
+        if known and all(is_legal(w) for w in walks):
+            found.append([x for x in values if x is not None])
+    return [list(column) for column in zip(*found, strict=True)] or [[] for _ in cells]
+
+
+def _pair(x: Cell, y: Cell, name: str, positive: bool = True) -> tuple[list[float], list[float]]:
+    a, b = _both_legal([x, y], name, positive)
+    return a, b
+
+
+def _equal(c: Comparison) -> Iterable[Question]:
+    """Whether the ratio of two observers' errors is another at equal bandwidth."""
+    for pair in itertools.combinations(c.equal, 2):
+        if pair[0].condition == pair[1].condition:
+            own = [c.cell(x.controller, x.condition) for x in pair]
+            yield from _changed(own, pair)
+
+
+def _changed(own: Sequence[Cell], equal: Sequence[Cell]) -> Iterable[Question]:
+    errors = [np.array(x) for x in _both_legal([*own, *equal], "peak_error")]
+    before, after = errors[0] / errors[1], errors[2] / errors[3]
+    found = paired_ratio(before.tolist(), after.tolist(), MARGIN)
+    if found is None:
+        return
+    r, s = (median_ratio(x.tolist()) for x in (before, after))
+    turned = (r.high < 1.0 < s.low) or (s.high < 1.0 < r.low)
+    text = (
+        f"{equal[0].controller} to {equal[1].controller} {_interval(r)} and {_interval(s)} in {found.pairs} "
+        f"pairs{', the order changes' if turned else ''}"
+    )
+    yield _question(EQUAL, equal[0], found, _side(found) != 0, text)
+
+
+def _pushes(pushes: Sequence[Largest], name: str) -> Iterable[Question]:
+    """Whether one controller's largest legal pushes on the joints are larger or smaller than the reference's.
+
+    The units of the test are the combinations of joints and phase; one counts where the medians' intervals do
+    not overlap.
+    """
+    settings: dict[float | None, tuple[int, int]] = {}
+    spans = {
+        (p.controller, p.bandwidth, p.direction, p.phase): median_span(p.legal) for p in pushes
+    }
+    for who, bandwidth, direction, phase in spans:
+        usual = (REFERENCE, None, direction, phase)
+        if who == name and direction in MATCHED and usual in spans:
+            a, b = spans[who, bandwidth, direction, phase], spans[usual]
+            larger, smaller = settings.get(bandwidth, (0, 0))
+            settings[bandwidth] = (larger + (a.low >= b.high), smaller + (a.high <= b.low))
+    if None in settings:
+        larger, smaller = settings[None]
+        held = len({x > y for x, y in settings.values()}) == 1 and all(
+            sign_test(*x) < 1.0 - CONFIDENCE for x in settings.values()
+        )
+        count = len(MATCHED) * len(PHASES)
+        text = (
+            f"{name} larger in {larger}, smaller in {smaller} of {count} combinations of joints and "
+            "phase"
+        )
+        p = sign_test(larger, smaller)
+        yield Question("pushes", "pushes on joints", name, count, text, p, held)
+
+
+def _interval(x: Interval) -> str:
+    """Two digits, and 180 rather than 1.8e+02."""
+    value, low, high = (f"{float(f'{number:.2g}'):g}" for number in x)
+    return f"{value} ({low} to {high})"

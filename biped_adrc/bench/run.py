@@ -1,0 +1,142 @@
+"""Scenarios carried out: a row of plain numbers from each, whatever becomes of it.
+
+One whose values do not fit is a row with the status REFUSED, one whose controller raises with RAISED; what
+has no value is None, and no number is a NaN.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from threading import Lock
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.analysis.legality import outcome_of
+from biped_adrc.bench.build import case, scene_of
+from biped_adrc.bench.parameters import trial
+from biped_adrc.campaign.chunk import NO_WALK, REFUSED
+from biped_adrc.engine.batch import Case, Walked, run_case
+from biped_adrc.errors import BipedError
+from biped_adrc.hardware.meter import LARGEST_RATIO, Reading, reading
+from biped_adrc.hybrid.status import Status
+from biped_adrc.resources import packaged
+from biped_adrc.scenario.scenario import Scenario
+
+Row = dict[str, float | int | str | None]
+
+COLUMNS: Mapping[str, str] = packaged("biped_adrc.bench", "columns.toml")
+"""Of a row."""
+WORDS = ("status", "detail", "outcome", "engine")
+"""Columns that are no numbers."""
+
+COUNTED = ("peak_error", "peak_torque", "work", "net_work", "peak_matched", "peak_unmatched")
+"""Columns that a meter counts under the same names."""
+
+_PREPARING = Lock()
+"""Robots and generated code are shared by the threads of a process."""
+
+
+def run_trials(records: Sequence[Mapping[str, Any]]) -> list[Row]:
+    """A row for each trial, in their order."""
+    return [run_trial(record) for record in records]
+
+
+def run_trial(record: Mapping[str, Any]) -> Row:
+    """The row of one trial, by its record."""
+    try:
+        s = trial(record)
+        with _PREPARING:
+            made = case(s)
+            run = run_case(made)
+    except BipedError as error:
+        return _row({"status": REFUSED, "detail": str(error), "impacts": 0})
+    return _row(measured(s, made, run()))
+
+
+def measured(s: Scenario, made: Case, walked: Walked) -> Row:
+    """The numbers of a walk."""
+    status = walked.status.name
+    row: Row = {
+        "status": status,
+        "detail": walked.detail,
+        "survived": None if status in NO_WALK else int(walked.status is Status.COMPLETED),
+        "impacts": walked.impacts,
+        "t_end": walked.t_end,
+        "engine": walked.engine,
+    }
+    if status not in NO_WALK:
+        row |= {"outcome": outcome_of(walked.status, legal=False), "legal": 0}
+    with _PREPARING:
+        row |= _pace(s, made, walked)
+    if len(walked.final_state) > 2 * made.walker.plant.n + made.walker.behind - 1:
+        row |= _meter(made, walked, row)
+    return row
+
+
+def _pace(s: Scenario, made: Case, walked: Walked) -> Row:
+    """How far and how fast."""
+    if walked.impacts == 0:
+        return {"distance": 0.0}
+    plant, gait = made.walker.plant, scene_of(s).walked
+    steps = [float(plant.swing_foot(x[: plant.n])[0]) for x in walked.x_minus]
+    speed = sum(steps) / float(walked.times[-1] - walked.t_start)
+    usual = float(scene_of(s).biped.swing_foot(gait.q_minus)[0]) / gait.period
+    last = sum(steps[-2:]) / float(np.sum(walked.durations[-2:]))
+    return {
+        "distance": sum(steps),
+        "speed": speed,
+        "speed_change": speed / usual - 1.0,
+        "last_speed": last,
+    }
+
+
+def _meter(made: Case, walked: Walked, row: Row) -> Row:
+    """What the ticks counted."""
+    w = made.walker
+    g, distance = reading(w.held_at(walked.final_state).g), row["distance"]
+    ticks = max(g.ticks, 1.0) * w.plant.p
+    forward = isinstance(distance, float) and distance > 0.0
+    cost = g.work / (w.plant.weight * distance) if forward else None  # type: ignore[operator]
+    return {
+        **{name: getattr(g, name) for name in COUNTED},
+        "rms_error": math.sqrt(g.square_error / ticks),
+        "rms_torque": math.sqrt(g.square_torque / ticks),
+        "cost_of_transport": cost,
+        **_legality(made, walked, g),
+    }
+
+
+def _legality(made: Case, walked: Walked, g: Reading) -> Row:
+    """What ground and motors had to give, and whether they can."""
+    k = made.walker.meter.limits.of(made.walker.plant.description)  # type: ignore[union-attr]
+    legal, known = g.illegal_step == 0.0, g.windows > 0.0
+    before = g.illegal_step - made.mode.step
+    pushed = g.friction < LARGEST_RATIO and g.friction > 0.0
+    impulse = walked.impacts > 0 and g.impulse_ratio < LARGEST_RATIO
+    outcome = outcome_of(walked.status, legal)
+    return {
+        "outcome": outcome,
+        "legal": int(outcome == "legal"),
+        "legal_impacts": walked.impacts if legal else int(min(before, walked.impacts)),
+        "least_normal_force": g.least_normal_force if g.ticks > 0.0 else None,
+        "friction": g.friction if pushed else None,
+        "share_outside": g.outside / max(g.ticks, 1.0),
+        "mean_normal_force": g.mean_normal_force if known else None,
+        "mean_friction": g.mean_friction if known and g.mean_friction > 0.0 else None,
+        "scuffing": g.scuffing,
+        "impulse_ratio": g.impulse_ratio if impulse else None,
+        "bad_normal_force": int(known and not g.mean_normal_force > 0.0),
+        "bad_friction": int(not g.mean_friction <= k.friction),
+        "bad_torque": int(not g.peak_torque <= k.torque),
+        "bad_scuffing": int(not g.scuffing <= 0.0),
+        "bad_impulse": int(not g.impulse_ratio <= k.friction),
+    }
+
+
+def _row(known: Row) -> Row:
+    """All columns, None where there is no number."""
+    found = {k: float(x) if isinstance(x, float) else x for k, x in known.items()}
+    finite = {k: x for k, x in found.items() if not isinstance(x, float) or math.isfinite(x)}
+    return dict.fromkeys(COLUMNS) | finite

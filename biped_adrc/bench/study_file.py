@@ -1,0 +1,251 @@
+"""A study from a file, checked as a whole before anything starts; what is wrong is said all at once.
+
+    [study]            name, description, seeds (a number of them, or a list)
+    [fixed]            parameters of every trial
+    [grid]             p = [..] or p = {from, to, count, scale = "linear" | "log"}: all combinations
+    [random], [sobol]  count, seed, p = {from, to, scale}: samples, of all p together
+    [[cases]]          name, parameters: each set is crossed with grid and samples
+
+Values are numbers in the SI unit, or text such as "1.5 ms"; "none" for no value.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from biped_adrc.bench.parameters import (
+    Refused,
+    Value,
+    check_name,
+    flat,
+    is_number,
+    is_whole,
+    read,
+    trial,
+)
+from biped_adrc.bench.study import (
+    MOST_POINTS,
+    SEED,
+    Draw,
+    Named,
+    Range,
+    Study,
+    some_points,
+    too_many,
+)
+from biped_adrc.errors import InputError
+from biped_adrc.scenario.scenario import MOST_SEED
+from biped_adrc.scenario.values import reason
+
+TABLES = ("study", "fixed", "grid", "random", "sobol", "cases")
+MOST = 1_000_000
+"""Levels of one parameter, and seeds."""
+SPREAD = 3000
+"""Points all over a study that are looked at beforehand; another that does not fit has a row that says so."""
+
+
+def load_study(path: Path | str) -> Study:
+    """The study of a TOML file. Raises InputError with everything that is wrong in it."""
+    path = Path(path)
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise InputError(
+            f"cannot read the study file '{path}': {error.strerror}; expected a TOML file"
+        ) from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"study file '{path}' is not TOML: {error}") from error
+    return read_study(tables, f"study file '{path}'")
+
+
+def read_study(tables: Mapping[str, Any], where: str = "the study") -> Study:
+    """The study of plain tables, as a file has them. Raises InputError with everything that is wrong."""
+    r = _Reader()
+    for table in tables:
+        r.known(table, TABLES, "")
+    head = r.table(tables, "study")
+    for key in head:
+        r.known(key, ("name", "description", "seeds"), "study.")
+    made = {
+        "fixed": r.each(r.table(tables, "fixed"), "fixed.", read),
+        "grid": r.each(r.table(tables, "grid"), "grid.", _levels),
+        "draw": _draw(r, tables),
+        "name": r.text(head, "name", "study."),
+        "description": r.text(head, "description", "study.", ""),
+        "seeds": _seeds(r, head.get("seeds")),
+        "cases": _cases(r, tables.get("cases", [])),
+    }
+    if not r.problems:
+        study = Study(**made)
+        _check_together(r, study)
+        if not r.problems:
+            return study
+    if len(r.problems) == 1:
+        raise InputError(f"{where}, {r.problems[0]}")
+    raise InputError("\n  ".join([f"{where} has {len(r.problems)} problems:", *r.problems]))
+
+
+@dataclass
+class _Reader:
+    """Collects what is wrong, in the order of reading."""
+
+    problems: list[str] = field(default_factory=list)
+
+    def wrong(self, key: str, text: object) -> None:
+        self.problems.append(f"{key}: {text}")
+
+    def each(
+        self, table: Mapping[str, Any], where: str, read: Callable[[str, Any], Any]
+    ) -> dict[str, Any]:
+        """What is read of each name and value of a table; None where that is refused."""
+        found = dict.fromkeys(table)
+        for name, x in table.items():
+            try:
+                found[name] = read(name, x)
+            except (Refused, ValidationError) as error:
+                self.wrong(f"{where}{name}", reason(error))
+        return found
+
+    def known(self, key: str, names: tuple[str, ...], where: str) -> None:
+        if key not in names:
+            near = get_close_matches(key, names, 1)
+            hint = f"did you mean '{near[0]}'?" if near else f"expected one of {list(names)}"
+            self.wrong(f"{where}{key}", f"unknown key; {hint}")
+
+    def table(self, tables: Mapping[str, Any], name: str) -> dict[str, Any]:
+        """A table with the names of parameters in tables of their own joined by dots."""
+        found = tables.get(name, {})
+        if not isinstance(found, Mapping):
+            self.wrong(name, f"found {found!r}, expected a table [{name}]")
+            return {}
+        return flat(found)
+
+    def text(self, table: Mapping[str, Any], key: str, where: str, default: Any = None) -> Any:
+        found = table.get(key, default)
+        if not isinstance(found, str) or (default is None and not found.strip()):
+            self.wrong(f"{where}{key}", f"found {found!r}, expected a text")
+        return found
+
+    def natural(self, table: Mapping[str, Any], key: str, where: str, least: int) -> int:
+        found = table.get(key)
+        if type(found) is not int or found < least:
+            self.wrong(f"{where}{key}", f"found {found!r}, expected a whole number from {least} on")
+            return least
+        return found
+
+
+def _levels(name: str, given: Any) -> tuple[Value, ...]:
+    """The levels of a grid, of a list or a range. Raises Refused."""
+    check_name(name)
+    if isinstance(given, Mapping):
+        count = given.get("count")
+        if type(count) is not int or not 1 <= count <= MOST:
+            raise Refused(f"found count {count!r}, expected a whole number from 1 to {MOST}")
+        numbers = _range(name, given, ("from", "to", "count", "scale")).levels(count)
+        levels = [read(name, x) for x in numbers]
+    elif isinstance(given, list) and given:
+        levels = [read(name, x) for x in given]
+    else:
+        raise Refused(f"found {given!r}, expected a list of values or {{from, to, count}}")
+    twice = {repr(x) for i, x in enumerate(levels) if x in levels[:i]} if len(levels) < 1000 else ()
+    if twice:
+        raise Refused(f"{', '.join(twice)} is given twice")
+    return tuple(levels)
+
+
+def _range(name: str, given: Any, keys: tuple[str, ...]) -> Range:
+    """Raises Refused."""
+    check_name(name)
+    if not isinstance(given, Mapping) or not {"from", "to"} <= set(given) <= set(keys):
+        raise Refused(f"found {given!r}, expected {{{', '.join(keys)}}}")
+    if not is_number(name):
+        raise Refused("has no ranges; give a list of values in [grid]")
+    low, high = read(name, given["from"]), read(name, given["to"])
+    scale = given.get("scale", "linear")
+    if scale not in ("linear", "log"):
+        raise Refused(f"found scale {scale!r}, expected 'linear' or 'log'")
+    if not isinstance(low, (int, float)) or not isinstance(high, (int, float)) or low >= high:
+        raise Refused(f"found from {given['from']!r} to {given['to']!r}, expected from < to")
+    if scale == "log" and (low <= 0.0 or is_whole(name)):
+        raise Refused("a logarithmic scale expects a parameter with a fraction and from > 0")
+    return Range(low=low, high=high, scale=scale, whole=is_whole(name))
+
+
+def _draw(r: _Reader, tables: Mapping[str, Any]) -> Draw | None:
+    kinds = [kind for kind in ("random", "sobol") if kind in tables]
+    if not kinds:
+        return None
+    if len(kinds) == 2:
+        r.wrong("sobol", "there is [random] too; expected one of them")
+    kind: Any = kinds[0]
+    table, where = r.table(tables, kind), f"{kind}."
+    count, seed = r.natural(table, "count", where, 1), r.natural(table, "seed", where, 0)
+    rest = {name: x for name, x in table.items() if name not in ("count", "seed")}
+    ranges = r.each(rest, where, partial(_range, keys=("from", "to", "scale")))
+    if not ranges:
+        r.wrong(kind, "names no parameter; expected p = {from, to}")
+    if r.problems:
+        return None
+    return Draw(kind=kind, count=count, seed=seed, ranges=ranges)
+
+
+def _seeds(r: _Reader, given: Any) -> tuple[int, ...]:
+    if given is None:
+        return ()
+    if type(given) is int and 1 <= given <= MOST:
+        return tuple(range(given))
+    found = given if isinstance(given, list) else []
+    seeds = {x for x in found if type(x) is int and 0 <= x <= MOST_SEED}
+    if not found or len(seeds) < len(found):
+        r.wrong("study.seeds", f"found {given!r}, expected how many, or a list of different seeds")
+        return ()
+    return tuple(given)
+
+
+def _cases(r: _Reader, given: Any) -> tuple[Named, ...]:
+    if not isinstance(given, list) or not all(isinstance(case, Mapping) for case in given):
+        r.wrong("cases", f"found {given!r}, expected tables [[cases]]")
+        return ()
+    cases = []
+    for i, case in enumerate(given, 1):
+        where = f"cases[{i}]."
+        name = r.text(case, "name", where)
+        rest = flat({key: x for key, x in case.items() if key != "name"})
+        cases.append(Named(name=str(name), values=r.each(rest, where, read)))
+    names = [case.name for case in cases]
+    if len(set(names)) < len(names):
+        r.wrong("cases", f"have the names {names}, expected different ones")
+    return tuple(cases)
+
+
+def _check_together(r: _Reader, study: Study) -> None:
+    """Whether nothing is given in two places, and the first point of each case where values do not fit."""
+    drawn = () if study.draw is None else study.draw.ranges
+    places: dict[str, Iterable[str]] = {"fixed": study.fixed, "grid": study.grid, "samples": drawn}
+    places |= {f"cases[{i}]": case.values for i, case in enumerate(study.cases, 1)}
+    seeds = {"study.seeds": {SEED}} if study.seeds else {}
+    seen: dict[str, str] = {}
+    for place, names in (places | seeds).items():
+        for name in names:
+            if name not in seen:
+                seen[name] = place
+            elif not (place.startswith("cases") and seen[name].startswith(("fixed", "cases"))):
+                r.wrong(f"{place}.{name}", f"is given in '{seen[name]}' too; expected one place")
+    if not r.problems and study.count > MOST_POINTS:
+        r.wrong("study", too_many(study))
+    for case in () if r.problems else study.cases or (None,):
+        alone = study.model_copy(update={"cases": () if case is None else (case,)})
+        for values, at in some_points(alone, SPREAD // max(len(study.cases), 1)):
+            try:
+                trial(values)
+            except InputError as error:
+                r.wrong(f"at {at}", error)
+                break

@@ -1,0 +1,1 @@
+"""Many independent tasks on processes, threads or Dask, stored so that a kill loses nothing; no robots."""

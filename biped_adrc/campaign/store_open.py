@@ -1,0 +1,173 @@
+"""Opening a file of results: a new one, one of this study to go on with, or any to read.
+
+Nothing is written into a file before it is known to be one of this study.
+"""
+
+from __future__ import annotations
+
+import os
+import sqlite3
+import time
+from json import loads
+from pathlib import Path
+
+from filelock import FileLock, Timeout
+
+from biped_adrc.campaign.chunk import text_of
+from biped_adrc.campaign.store import About, Store, cannot_write, damaged
+from biped_adrc.errors import InputError
+from biped_adrc.versions import differences
+
+APPLICATION = 0x62614452
+"""SQLite's application_id of these files."""
+FORMAT = 1
+"""SQLite's user_version of these files."""
+SCHEMA = """
+CREATE TABLE study (id INTEGER PRIMARY KEY CHECK (id = 1), name TEXT NOT NULL, hash TEXT NOT NULL,
+  configuration TEXT NOT NULL, versions TEXT NOT NULL, points INTEGER, created TEXT NOT NULL);
+CREATE TABLE versions (id INTEGER PRIMARY KEY, versions TEXT NOT NULL UNIQUE);
+CREATE TABLE runs (key TEXT PRIMARY KEY, record TEXT NOT NULL, seed INTEGER, engine TEXT, status TEXT,
+  row TEXT NOT NULL, seconds REAL NOT NULL, versions INTEGER NOT NULL REFERENCES versions) WITHOUT ROWID;
+CREATE TABLE points (position INTEGER PRIMARY KEY, key TEXT NOT NULL, at TEXT NOT NULL);
+"""
+
+
+def open_store(path: Path, about: About, other_versions: bool = False) -> Store:
+    """Make the file, or go on with it. Raises InputError for a file that is not one of this study, OutputError.
+
+    other_versions: go on though other versions made what is there; each run names its own.
+    """
+    lock = _locked(path)
+    connection = None
+    try:
+        connection = _connected(path, "rwc")
+        if _is_new(path, connection):
+            _create(connection, about)
+        else:
+            _check_study(path, _about(path, connection), about, other_versions)
+        connection.execute("PRAGMA journal_mode = WAL")
+        connection.execute("PRAGMA synchronous = FULL")
+        return Store(path, connection, about, lock)
+    except BaseException as error:
+        if connection is not None:
+            connection.close()
+        lock.release()
+        if isinstance(error, sqlite3.Error):
+            raise cannot_write(path, error) from error
+        raise
+
+
+def read_store(path: Path) -> Store:
+    """To read only, while it grows as well. Raises InputError for a file that is not one of results."""
+    if not path.is_file():
+        raise InputError(f"there is no results file '{path}'; expected one of a sweep")
+    connection = None
+    try:
+        connection = _connected(path, "rw" if os.access(path, os.W_OK) else "ro")
+        connection.execute("PRAGMA query_only = ON")
+        if _is_new(path, connection):
+            raise InputError(f"the results file '{path}' is empty; nothing was begun in it")
+        return Store(path, connection, _about(path, connection))
+    except BaseException as error:
+        if connection is not None:
+            connection.close()
+        if isinstance(error, sqlite3.Error):
+            raise InputError(f"the results file '{path}' cannot be read: {error}") from error
+        raise
+
+
+def _connected(path: Path, mode: str) -> sqlite3.Connection:
+    uri = f"{path.absolute().as_uri()}?mode={mode}"
+    return sqlite3.connect(uri, uri=True, isolation_level=None, timeout=10.0)
+
+
+def _is_new(path: Path, db: sqlite3.Connection) -> bool:
+    """Whether nothing is in it yet. Raises InputError where something else is."""
+    try:
+        application = db.execute("PRAGMA application_id").fetchone()[0]
+        tables = db.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
+    except sqlite3.OperationalError:
+        raise
+    except sqlite3.DatabaseError as error:
+        raise InputError(
+            f"'{path}' is no results file: {error}; it is left as it is, choose another folder"
+        ) from error
+    if application == 0 and tables == 0:
+        return True
+    if application != APPLICATION:
+        raise InputError(
+            f"'{path}' is a database of another program (application {application:#x}, expected "
+            f"{APPLICATION:#x}); it is left as it is, choose another folder"
+        )
+    found = db.execute("PRAGMA user_version").fetchone()[0]
+    if found != FORMAT:
+        raise InputError(
+            f"results file '{path}' has the format {found}, expected {FORMAT}; it is left as it is. Use the "
+            "version of biped-adrc that wrote it, or another folder"
+        )
+    return False
+
+
+def _create(db: sqlite3.Connection, about: About) -> None:
+    """All of it in one transaction."""
+    created = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
+    db.execute("PRAGMA journal_mode = WAL")
+    db.execute("BEGIN IMMEDIATE")
+    db.execute(f"PRAGMA application_id = {APPLICATION}")
+    db.execute(f"PRAGMA user_version = {FORMAT}")
+    for statement in SCHEMA.split(";")[:-1]:
+        db.execute(statement)
+    texts = text_of(about.configuration), text_of(about.versions)
+    told = (about.name, about.hash, *texts, about.points, created)
+    db.execute("INSERT INTO study VALUES (1, ?, ?, ?, ?, ?, ?)", told)
+    db.execute("COMMIT")
+
+
+def _about(path: Path, db: sqlite3.Connection) -> About:
+    text = "SELECT name, hash, configuration, versions, points FROM study"
+    try:
+        name, key, configuration, versions, points = db.execute(text).fetchone()
+        return About(name, key, loads(configuration), loads(versions), points)
+    except (sqlite3.DatabaseError, TypeError, ValueError) as error:
+        raise damaged(path, error) from error
+
+
+def _check_study(path: Path, found: About, asked: About, other_versions: bool) -> None:
+    """Raises InputError."""
+    if found.hash != asked.hash:
+        raise InputError(
+            f"'{path}' holds the study '{found.name}' ({found.hash[:8]}), and the study asked for is "
+            f"'{asked.name}' ({asked.hash[:8]}){_difference(found, asked)}; it is left as it is, choose "
+            "another folder"
+        )
+    other = differences(found.versions, asked.versions)
+    if other and not other_versions:
+        raise InputError(
+            f"results file '{path}' was made with other versions, and numbers may differ: {other}. "
+            "Use another folder, or allow other versions (--other-versions); each run names its own"
+        )
+
+
+def _difference(found: About, asked: About) -> str:
+    keys = sorted({*found.configuration, *asked.configuration})
+    differ = [key for key in keys if found.configuration.get(key) != asked.configuration.get(key)]
+    return f", other in {', '.join(differ)}" if differ else ""
+
+
+def _locked(path: Path) -> FileLock:
+    """The lock, with the number of this process in it. Raises InputError where another has it, OutputError."""
+    beside = path.with_name(f"{path.name}.lock")
+    lock = FileLock(beside, blocking=False, thread_local=False)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        lock.acquire()
+        beside.write_text(f"{os.getpid()}\n", encoding="utf-8")
+    except Timeout as error:
+        holder = beside.read_text(encoding="utf-8").strip() if beside.is_file() else ""
+        raise InputError(
+            f"the results file '{path}' is being written by process {holder or 'of another'}; expected one "
+            "study at a time. Wait for it, or choose another folder"
+        ) from error
+    except OSError as error:
+        raise cannot_write(path, error) from error
+    return lock

@@ -1,0 +1,215 @@
+"""The walker: plant, controller, disturbance and timing make a hybrid system.
+
+`closed_loop.semantics` says what it does; here are its ground, its disturbance, and what ends a single support
+or a run. The controller's terms come from the nominal `model`, the motion from the `plant`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.closed_loop import semantics
+from biped_adrc.closed_loop.exponential_form import SplitLaws, error_laws, loop_laws, split_of
+from biped_adrc.closed_loop.semantics import Instant as Instant
+from biped_adrc.closed_loop.semantics import Mode as Mode
+from biped_adrc.closed_loop.system import ClosedLoop
+from biped_adrc.control.base import Controller
+from biped_adrc.disturbances.base import Disturbance
+from biped_adrc.errors import InputError
+from biped_adrc.ground import StepDown, StepUp, check_slope
+from biped_adrc.hardware.meter import Meter, MeterParameters, Outside
+from biped_adrc.hardware.motors import Motors
+from biped_adrc.hardware.sample_hold import check_parts
+from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.system import Guard, Split
+from biped_adrc.model.biped import Biped
+from biped_adrc.timing import ContinuousTime, SampledTime, check_ends
+from biped_adrc.types import Array
+
+FOOT_STRIKE = "foot_strike"
+LEAST_STEP = 1e-3
+"""[m]: legs without knees cross with the swing foot at the ground; what is nearer than this is no step."""
+
+
+@dataclass(frozen=True)
+class Walker(ClosedLoop[Biped]):
+    """torque_limit [N m] saturates every motor; the observer is fed the torque applied.
+
+    slope [rad]: of the ground, positive downhill. ground_steps: where it falls or rises by steps.
+    sensors, motors, meter: what is between the controller and the plant; in sampled time only.
+    impact_gain (n,): v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
+    fall_height: the run ends as a fall when the hip is below this fraction of |p_hip| at q = 0.
+    max_step_time [s]: a longer single support ends as stalled.
+    """
+
+    plant: Biped
+    controller: Controller
+    disturbance: Disturbance | None = None
+    timing: ContinuousTime | SampledTime = ContinuousTime()  # noqa: RUF009
+    model: Biped | None = None
+    torque_limit: float | None = None
+    fall_height: float = 0.35
+    max_step_time: float = 2.0
+    slope: float = 0.0
+    ground_steps: tuple[StepDown | StepUp, ...] = ()
+    sensors: Sensors | None = None
+    motors: Motors | None = None
+    meter: Meter | None = None
+    impact_gain: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        check_slope(self.slope)
+        limit = self.torque_limit
+        if limit is not None and not (math.isfinite(limit) and limit > 0):
+            raise InputError(f"the torque limit is {limit} N m, expected a positive number or None")
+        self.check()
+        check_ends(self.max_step_time, self.fall_height)
+        parts = (self.sensors, self.motors, self.meter)
+        check_parts(self.plant.n, self.timing, *parts, self.impact_gain)
+
+    # -- parts -------------------------------------------------------------------------------------
+    @property
+    def exact(self) -> bool:
+        """Whether the controller knows the plant: the model is the plant, and has no friction."""
+        return self.model is None and not self.plant.friction
+
+    @property
+    def limit(self) -> float | None:
+        """torque_limit."""
+        return self.torque_limit
+
+    @cached_property
+    def gain(self) -> Array:
+        """impact_gain (n,), or empty."""
+        return np.array(self.impact_gain, dtype=float)
+
+    @cached_property
+    def swap(self) -> Any:
+        """Relabelling of the actuated joints (p,), dtype int."""
+        if self.plant.p == 0:
+            return np.zeros(0, dtype=int)
+        return self.plant.relabelling[: self.plant.p]
+
+    def metering(self, timing: SampledTime) -> MeterParameters | None:
+        if self.meter is None:
+            return None
+        return self.meter.parameters(self.plant, timing.period, self.slope)
+
+    # -- from outside ------------------------------------------------------------------------------
+    def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
+        if self.disturbance is None:
+            return np.zeros(self.plant.n)
+        zeta = np.asarray(self.disturbance.torque(t, mode.step, mode.start, q, v))
+        if zeta.shape != q.shape:
+            raise InputError(
+                f"the torque of {type(self.disturbance).__name__} has shape {zeta.shape}, expected {q.shape}: "
+                "one number [N m] per coordinate"
+            )
+        return zeta
+
+    def resultant(self, t: float, mode: Mode) -> Array:
+        """Force from outside on the robot as a whole (2,) [N]."""
+        if self.disturbance is None:
+            return np.zeros(2)
+        return self.disturbance.resultant(t, mode.step, mode.start)
+
+    def outside(self, t: float, mode: Mode) -> Outside:
+        impulse = np.zeros(2)
+        if self.disturbance is not None:
+            assert self.held is not None
+            impulse = self.disturbance.impulse(t - self.held.meter.period, t, *mode)
+        return Outside(self.resultant(t, mode), impulse, self.drop(mode.step))
+
+    def switching_times(self, mode: Mode) -> tuple[float, ...]:
+        if self.disturbance is None:
+            return ()
+        return self.disturbance.switching_times(mode.step, mode.start)
+
+    def ground_reaction(self, i: Instant, mode: Mode) -> Array:
+        """Force of the ground on the stance foot (F_T, F_N) [N], forces from outside taken off."""
+        m = i.measurement
+        return self.plant.ground_reaction(m.q, m.v, i.a) - self.resultant(m.t, mode)
+
+    # -- impact and ground -------------------------------------------------------------------------
+    def strike(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode] | None:
+        """x+ after impact and relabelling; None unless the swing foot is ahead of the stance foot."""
+        if self.plant.swing_foot(x[: self.plant.n])[0] <= LEAST_STEP:
+            return None
+        return self.struck(t, x, mode)
+
+    def struck(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode]:
+        """x+ after impact and relabelling, wherever the swing foot is."""
+        after = Mode(mode.step + 1, t)
+        return semantics.struck(self, t, x, after), after
+
+    def drop(self, step: int) -> float:
+        """How far the steps of the ground in single support `step` lower where it ends [m]."""
+        return sum((d.drop for d in self.ground_steps if d.step == step), 0.0)
+
+    def clearance(self, q: Array, step: int | None = None) -> float:
+        """Height of the swing foot above the ground [m], measured along the vertical.
+
+        With `step`, above the ground on which that single support ends; without, where no step down is.
+        """
+        drop = 0.0 if step is None else self.drop(step)
+        return float(semantics.clearance(math.tan(self.slope), drop, self.plant.swing_foot(q)))
+
+    @cached_property
+    def lowest_hip(self) -> float:
+        """Height of the hip below which the run ends as a fall [m]."""
+        straight = np.zeros(self.plant.n)
+        return self.fall_height * float(np.linalg.norm(self.plant.hip(straight)))
+
+    def guards(self, mode: Mode) -> tuple[Guard, ...]:
+        n = self.plant.n
+        return (
+            Guard(
+                FOOT_STRIKE,
+                lambda t, x: self.clearance(x[:n], mode.step),
+                lambda t, x: self.strike(t, x, mode),
+            ),
+            Guard(
+                "hip_too_low",
+                lambda t, x: float(semantics.hip_margin(self.lowest_hip, self.plant.hip(x[:n]))),
+                terminal=Status.FELL,
+            ),
+            Guard(
+                "step_too_long",
+                lambda t, x: float(semantics.time_left(self.max_step_time, mode.start, t)),
+                terminal=Status.STALLED,
+            ),
+        )
+
+    def split_laws(self, feedback: bool = False) -> SplitLaws | None:
+        """The laws behind `split`, or behind `feedback_split`, which raises InputError and says why not."""
+        n, p = self.plant.n, self.plant.p
+        if not feedback:
+            return None if self.sampled else error_laws(self.law, n, p)
+        if self.sampled:
+            raise InputError(
+                "feedback=True needs a controller that acts at every instant, and this one acts at ticks; "
+                "use ContinuousTime(), or RK4, Adaptive or Stiff"
+            )
+        return loop_laws(self.law, n, p, self.plant.inertia)
+
+    def split(self, mode: Mode) -> Split | None:
+        """Error coordinates of the observer: e' = A e + b (q_b'' - kappa u), independent of u itself.
+
+        The observer's states are the first of s; what follows them is taken with (q, q').
+        """
+        laws = self.split_laws()
+        return None if laws is None else replace(split_of(self, laws, mode), node=None)
+
+    def feedback_split(self, mode: Mode) -> Split | None:
+        """Those with the tracking error q_b - h(Theta) too, beside Theta and the angular momentum.
+
+        Raises InputError for a walker without such coordinates.
+        """
+        laws = self.split_laws(feedback=True)
+        return None if laws is None else split_of(self, laws, mode)

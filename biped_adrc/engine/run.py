@@ -1,0 +1,53 @@
+"""One run by the engine asked for; what ran is in the trajectory's settings."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.errors import InputError, ModelError
+from biped_adrc.hybrid import simulator
+from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.hybrid.simulator import RunOptions
+from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.types import Array
+
+PINOCCHIO, COMPILED = "pinocchio", "compiled"
+ENGINES = (PINOCCHIO, COMPILED)
+
+
+def check_engine(engine: str) -> None:
+    """Raise InputError for an engine that there is not."""
+    if engine not in ENGINES:
+        raise InputError(f"engine '{engine}' is unknown; choose one of {list(ENGINES)}")
+
+
+def simulate_by(
+    engine: str,
+    walker: Walker,
+    x0: Array,
+    mode: Mode,
+    method: OneStepMethod,
+    *,
+    impacts: int | None = None,
+    **options: Any,
+) -> Trajectory:
+    """`hybrid.simulate` with Pinocchio's dynamics, or the compiled run; options as of `RunOptions`.
+
+    impacts: end after that many foot strikes. A robot that is no planar tree is simulated with Pinocchio
+    whatever was asked for. settings["engine"] says what ran, settings["why"] why it is not what was asked for.
+    Raises InputError.
+    """
+    check_engine(engine)
+    stop_after = None if impacts is None else (FOOT_STRIKE, impacts)
+    given, why = RunOptions(stop_after=stop_after, **options), {}
+    if engine == COMPILED:
+        from biped_adrc.engine.simulate import run_compiled
+
+        try:
+            return run_compiled(walker, x0, mode, method, given)
+        except ModelError as error:
+            why = {"why": f"{error}; Pinocchio was used instead"}
+    run = simulator.run(walker, x0, mode, method, given)
+    return replace(run, settings={**run.settings, "engine": PINOCCHIO, **why})

@@ -1,0 +1,148 @@
+"""Errors of a model: masses, COMs, inertias and friction that differ from the nominal ones, `delta` of (1).
+
+    m -> (1 + e_m) m     d -> (1 + e_d) d     J -> (1 + e_J) J     b, F_c -> (1 + e_f) b, F_c
+
+with J about the COM d, which is given from the origin of the link's frame. The errors are relative, chosen or
+drawn evenly from +-width. Both legs of a biped have the same ones, as relabelling at impact needs it; so errors
+go by body ("thigh") rather than by link.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from biped_adrc.errors import InputError, ModelError
+from biped_adrc.model.biped import Biped
+from biped_adrc.robots.symmetry import twins
+from biped_adrc.types import Array
+
+KINDS = ("mass", "com", "inertia", "friction")
+
+
+@dataclass(frozen=True)
+class ModelErrors:
+    """Relative errors: mass, com, inertia by body or link, friction by joint; 0.1 is ten per cent more.
+
+    Raises InputError for an error that is not finite, or that leaves no mass or inertia, or negative friction.
+    """
+
+    mass: Mapping[str, float] = field(default_factory=dict)
+    com: Mapping[str, float] = field(default_factory=dict)
+    inertia: Mapping[str, float] = field(default_factory=dict)
+    friction: Mapping[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for kind in KINDS:
+            errors = {name: float(e) for name, e in getattr(self, kind).items()}
+            for name, e in errors.items():
+                low = -math.inf if kind == "com" else -1.0
+                allowed = e >= low if kind == "friction" else e > low
+                if not (math.isfinite(e) and allowed):
+                    raise InputError(
+                        f"the relative error of {kind} of '{name}' is {e}, expected a finite number"
+                        + ("" if kind == "com" else " above -1, which leaves something of it")
+                    )
+            object.__setattr__(self, kind, errors)
+
+    @classmethod
+    def drawn(
+        cls,
+        biped: Biped,
+        seed: int,
+        mass: float = 0.1,
+        com: float = 0.1,
+        inertia: float = 0.1,
+        friction: float = 0.3,
+        links: tuple[str, ...] | None = None,
+    ) -> ModelErrors:
+        """Errors of every body drawn evenly from +-width by a seed; links: of these bodies alone.
+
+        Friction is drawn for the joints that have some, where the robot was loaded with friction. The errors
+        depend on the seed and on the bodies, in their order. Raises InputError for a width outside [0, 1).
+        """
+        for kind, width in zip(KINDS, (mass, com, inertia, friction), strict=True):
+            if not 0.0 <= width < 1.0:
+                raise InputError(
+                    f"the width of errors of {kind} is {width}, expected 0 <= width < 1"
+                )
+        random = np.random.default_rng(_seed(seed))
+        bodies = tuple(biped.description.links) if links is None else links
+        m, d, J = (
+            dict(zip(bodies, random.uniform(-width, width, len(bodies)).tolist(), strict=True))
+            for width in (mass, com, inertia)
+        )
+        pairs = list(_rubbing(biped))
+        drawn = random.uniform(-friction, friction, len(pairs)).tolist()
+        by_pair = zip(pairs, drawn, strict=True)
+        return cls(m, d, J, {joint: e for pair, e in by_pair for joint in pair})
+
+    def apply(self, biped: Biped) -> Biped:
+        """`biped` with these errors. Raises ModelError for a body or joint it has not, or unequal legs."""
+        factors = {k: {x: 1.0 + e for x, e in getattr(self, k).items()} for k in KINDS[:3]}
+        made = replace(biped, tree=biped.scaled(factors))
+        if self.friction:
+            made = self._rubbed(made)
+        made.check()
+        return made
+
+    def _rubbed(self, biped: Biped) -> Biped:
+        """With errors of friction."""
+        d = biped.description
+        if not biped.friction:
+            raise ModelError(
+                f"robot '{d.name}' has no friction, so its friction has no error; load it with friction=True"
+            )
+        pairs = list(_rubbing(biped))
+        for joint in self.friction:
+            pair = next((pair for pair in pairs if joint in pair), ())
+            if not pair:
+                known = [name for pair in pairs for name in pair]
+                raise ModelError(
+                    f"robot '{d.name}' has no friction in joint '{joint}'; it has in {known}"
+                )
+            if len({self.friction.get(name) for name in pair}) > 1:
+                raise ModelError(
+                    f"robot '{d.name}': joints {list(pair)} are the same joint of both legs, which change over "
+                    "at impact; give them the same error of friction"
+                )
+        viscous, static = (
+            {name: (1.0 + self.friction.get(name, 0.0)) * x for name, x in found.items()}
+            for found in (d.viscous, d.static)
+        )
+        return replace(biped, description=replace(d, viscous=viscous, static=static))
+
+
+def impact_error(seed: int, spread: float, n: int) -> Array:
+    """e (n,) drawn evenly from +-spread by a seed: an impact that leaves (1 + e) q'+ in place of q'+ of (7).
+
+    Raises InputError for a spread outside [0, 1).
+    """
+    if not 0.0 <= spread < 1.0:
+        raise InputError(f"the spread of impact errors is {spread}, expected 0 <= spread < 1")
+    return np.random.default_rng(_seed(seed)).uniform(-spread, spread, n)
+
+
+def _seed(seed: int) -> int:
+    if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
+        raise InputError(f"the seed of model errors is {seed}, expected a whole number >= 0")
+    return seed
+
+
+def _rubbing(biped: Biped) -> Iterator[tuple[str, ...]]:
+    """Joints with friction, a joint and its twin of the other leg together; none where friction is off."""
+    d, met = biped.description, set[str]()
+    twin = twins(biped.tree, d.feet)
+    above = {joint.child: joint.name for joint in biped.tree.joints}
+    below = {joint.name: joint.child for joint in biped.tree.joints}
+    rubbing = [name for name in d.joints if d.viscous.get(name) or d.static.get(name)]
+    for joint in rubbing if biped.friction else ():
+        if joint in met:
+            continue
+        other = above.get(twin.get(below[joint], ""), joint)
+        pair = (joint, other) if other in rubbing and other != joint else (joint,)
+        met.update(pair)
+        yield pair

@@ -1,0 +1,1 @@
+"""What an observer asks of encoders, clock and motors, and which bandwidth they allow."""

@@ -1,0 +1,156 @@
+"""The largest bandwidth that a robot's encoders, clock and motors allow an observer, for each order.
+
+An encoder of N counts per revolution leaves an error between -pi / N and pi / N, of variance (2 pi / N)^2 / 12,
+independent from tick to tick while the joint moves by counts. In joint i it makes a torque of
+
+    rms u_i = sigma_a sqrt(sum_j (kappa^-1)_ij^2)
+
+with sigma_a from the sampled loop. The encoders' part in Theta and in the rates of the reference, which no
+observer filters, is not in it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.control.tracking import Gains
+from biped_adrc.observer_design.observer_loop import joint_gains, observer_loop
+from biped_adrc.observer_design.observer_sampled import (
+    SampledLoop,
+    largest_delay,
+    last_true,
+    sampled_loop,
+)
+from biped_adrc.observers.gpi import GPIObserver
+
+SHARE = 0.1
+"""Of the torque limit that the rms torque of one count may have. The published gait takes 108 of RABBIT's 150
+N m at its peak: three standard deviations of 15 N m are what is left."""
+KAPPA_RATIOS = (0.8, 1.0, 1.25)
+"""Of the robot's kappa to the model's, under which a recommended loop is stable: inertias known to 20 %."""
+ORDERS = (0, 1, 2, 3, 5, 7)
+"""m, of the observers that are compared."""
+LEAST, MOST = 10.0, 2e4
+"""[rad/s]: bandwidths that are looked among; below, the observer is slower than a step of the robot."""
+BANDS = 120
+"""How many, in geometric order, before the largest is found by bisection."""
+REJECTED = 2.0 * math.pi * 5.0
+"""[rad/s]: frequency at which orders are compared, that of the 5 Hz torque of the verification."""
+
+
+class Hardware(NamedTuple):
+    """What the loop runs on."""
+
+    period: float
+    """[s]."""
+    delay: float
+    """[s], from a tick to its torque."""
+    known: bool
+    """Whether the observer is fed with the torque that acts."""
+    counts: float
+    """Of the encoders per revolution."""
+    torque_limit: float
+    """[N m]."""
+    inertia: float
+    """Largest sqrt(sum_j (kappa^-1)_ij^2) over joints and the step [kg m^2]."""
+
+
+class Recommended(NamedTuple):
+    """The largest bandwidth of m + 2 equal poles that is allowed; nan where none is."""
+
+    m: int
+    bandwidth: float
+    """[rad/s]."""
+    because: str
+    """What forbids a larger one: "ripple" or "stability"; "" where nothing does, or none is allowed."""
+    ripple: float
+    """rms [N m]."""
+    delay_margin: float
+    """[s], at this period, hidden or known as the hardware says."""
+    rejection: float
+    """|e / xi| at REJECTED [s^2]."""
+
+
+def count_error(counts: float) -> float:
+    """Standard deviation of the angle [rad] from an encoder of that many counts per revolution."""
+    return 2.0 * math.pi / counts / math.sqrt(12.0)
+
+
+@dataclass(frozen=True)
+class OnHardware:
+    """An observer and the gains of one joint at this period and delay."""
+
+    hardware: Hardware
+    observer: GPIObserver
+    gains: Gains
+    joint: int = 0
+
+    def sampled(self, ratio: float = 1.0) -> SampledLoop:
+        """The sampled loop, with kappa off by a ratio."""
+        k = self.hardware
+        return sampled_loop(
+            self.observer,
+            k.period,
+            self.gains,
+            joint=self.joint,
+            delay=k.delay,
+            known=k.known,
+            kappa_ratio=ratio,
+        )
+
+    @cached_property
+    def ripple(self) -> float:
+        """rms torque [N m] of one encoder count; infinite for an unstable loop."""
+        return self.sampled().rms(count_error(self.hardware.counts)) * self.hardware.inertia
+
+    @cached_property
+    def weakest(self) -> tuple[float, float]:
+        """The one of KAPPA_RATIOS with the largest spectral radius, and that radius."""
+        radii = {ratio: self.sampled(ratio).spectral_radius for ratio in KAPPA_RATIOS}
+        return max(radii.items(), key=lambda found: found[1])
+
+    @cached_property
+    def obstacle(self) -> str:
+        """What forbids it: "stability", "ripple", or "" where nothing does."""
+        if not self.weakest[1] < 1.0:
+            return "stability"
+        return "" if self.ripple <= SHARE * self.hardware.torque_limit else "ripple"
+
+    @cached_property
+    def rejection(self) -> float:
+        """|e / xi| at REJECTED [s^2]."""
+        loop = observer_loop(self.observer, self.gains, self.joint)
+        return float(np.abs(loop.tracking_error(np.array([REJECTED])))[0])
+
+
+def recommend(hardware: Hardware, gains: Gains, m: int, joint: int = 0) -> Recommended:
+    """The largest bandwidth of the lowest range of bandwidths that are allowed."""
+
+    def against(w: float) -> str:
+        return OnHardware(hardware, GPIObserver.from_bandwidth(w, m), gains, joint).obstacle
+
+    low, because = math.nan, ""
+    for w in np.geomspace(LEAST, MOST, BANDS):
+        forbids = against(float(w))
+        if forbids and math.isfinite(low):
+            because = forbids
+            low = last_true(lambda w: not against(w), low, float(w))
+            break
+        low = low if forbids else float(w)
+    if not math.isfinite(low):
+        return Recommended(m, math.nan, "", math.nan, math.nan, math.nan)
+    found = OnHardware(hardware, GPIObserver.from_bandwidth(low, m), gains, joint)
+    margin = largest_delay(found.sampled())
+    return Recommended(m, low, because, found.ripple, margin, found.rejection)
+
+
+def without_observer(gains: Gains, joint: int = 0) -> float:
+    """|e / xi| at REJECTED [s^2] of K_p and K_d alone: 1 / |s^2 + K_d s + K_p|."""
+    K_p, K_d = joint_gains(gains, joint)
+    s = 1j * REJECTED
+    return float(1.0 / abs(s**2 + K_d * s + K_p))

@@ -1,0 +1,244 @@
+"""What a GPI observer asks of a robot's encoders, clock and motors, and which one they allow.
+
+`observer_report` puts together what the linear loop of one joint says: gains and conditioning, transfer
+functions, delay margins, the largest stable period, the torque that one encoder count makes, the peak after an
+impact, and the largest bandwidth of each order that the robot allows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.errors import InputError
+from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.model.biped import Biped
+from biped_adrc.observer_design.observer_choice import (
+    ORDERS,
+    Hardware,
+    OnHardware,
+    Recommended,
+    recommend,
+    without_observer,
+)
+from biped_adrc.observer_design.observer_impact import Impact, orbit_impact
+from biped_adrc.observer_design.observer_loop import (
+    ObserverLoop,
+    bandwidth,
+    observer_loop,
+)
+from biped_adrc.observer_design.observer_sampled import largest_delay, largest_period
+from biped_adrc.observer_design.observer_tables import Section, sections, verdict
+from biped_adrc.observers.base import Observer
+from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.timing import SampledTime
+from biped_adrc.types import Array, ComplexArray
+
+COUNTS = 8192.0
+"""Of RABBIT's encoders per revolution."""
+PERIOD = 1.5e-3
+"""[s], of RABBIT's controller."""
+
+
+class Response(NamedTuple):
+    """One transfer function: its value at low frequency, its largest value, and where it falls off."""
+
+    low: float
+    peak: float
+    at: float
+    """[rad/s], of the peak."""
+    bandwidth: float
+    """[rad/s], where it is 3 dB below: below `low` for xi^ / xi, below the peak for the others."""
+
+
+@dataclass(frozen=True)
+class ObserverReport(OnHardware):
+    """The module's numbers for one observer and the gains of one joint; `text()` has all of it."""
+
+    robot: str = field(kw_only=True)
+    """Its name and preset."""
+    impact: Impact = field(kw_only=True)
+
+    @cached_property
+    def loop(self) -> ObserverLoop:
+        """In continuous time."""
+        return observer_loop(self.observer, self.gains, self.joint)
+
+    @cached_property
+    def sampled_margins(self) -> tuple[float, float]:
+        """The largest stable delay [s] at this period, hidden and known."""
+        hidden, known = (largest_delay(replace(self.sampled(), known=k)) for k in (False, True))
+        return hidden, known
+
+    @cached_property
+    def largest_periods(self) -> dict[str, tuple[float, float]]:
+        """The largest stable period [s], the delay hidden and known, by form of the observer and delay."""
+        return {
+            "no delay": self._periods(),
+            "a delay of one period": self._periods(delay_periods=1.0),
+            "no delay, measurement held": self._periods(form="held"),
+        }
+
+    def _periods(self, delay_periods: float = 0.0, form: str = "current") -> tuple[float, float]:
+        loop, told = replace(self.sampled(), form=form), (False, delay_periods > 0.0)
+        hidden, known = (largest_period(replace(loop, known=k), delay_periods) for k in told)
+        return hidden, known
+
+    @cached_property
+    def spectral_radius(self) -> float:
+        """Of the sampled loop at this period and delay."""
+        return self.sampled().spectral_radius
+
+    @property
+    def frequencies(self) -> Array:
+        """[rad/s], for the responses."""
+        rates = np.abs(self.observer.poles)
+        slow = min(rates.min(), math.sqrt(self.loop.K_p))
+        return np.geomspace(0.01 * slow, 100.0 * max(rates.max(), self.loop.K_d), 2000)
+
+    @cached_property
+    def responses(self) -> dict[str, Response]:
+        """Of xi to e [s^2], of xi to xi^, and of the measurement's error to the torque [N m/rad]."""
+        grid = self.frequencies
+
+        def torque(frequency: Array) -> ComplexArray:
+            return self.loop.noise(frequency) * self.hardware.inertia
+
+        found = {}
+        for name, f in (
+            ("e / xi", self.loop.tracking_error),
+            ("xi^ / xi", self.loop.estimate),
+            ("u / n", torque),
+        ):
+            level = np.abs(f(grid))
+            top = int(np.argmax(level))
+            start = grid[0] if name == "xi^ / xi" else grid[top]
+            edge = bandwidth(f, start, grid[-1]) if level[top] > 0.0 else math.nan
+            found[name] = Response(
+                float(level[0]), float(level[top]), float(grid[top]), float(edge)
+            )
+        return found
+
+    @cached_property
+    def recommended(self) -> tuple[Recommended, ...]:
+        """For each m of ORDERS what the encoders, the period and the delay allow."""
+        return tuple(recommend(self.hardware, self.gains, m, self.joint) for m in ORDERS)
+
+    @property
+    def runs(self) -> bool:
+        """Whether it is allowed: stable for all KAPPA_RATIOS, the ripple within SHARE of the limit.
+
+        Not whether it is of use: see `against_none`.
+        """
+        return not self.obstacle
+
+    @cached_property
+    def against_none(self) -> float:
+        """The error that a 5 Hz disturbance leaves, over that with K_p and K_d alone."""
+        return self.rejection / without_observer(self.gains, self.joint)
+
+    @property
+    def verdict(self) -> str:
+        """Whether the observer can run on this robot, in words, with the numbers that decide."""
+        return verdict(self)
+
+    @property
+    def sections(self) -> list[Section]:
+        """The tables."""
+        return sections(self)
+
+    @property
+    def name(self) -> str:
+        """The observer in words."""
+        return observer_name(self.observer)
+
+    def text(self) -> str:
+        """The verdict and the tables it stands on."""
+        tables = ("\n".join(section.lines()) for section in sections(self))
+        return "\n\n".join((self.verdict, *tables))
+
+
+def observer_report(
+    observer: GPIObserver | Sequence[complex],
+    gains: Gains = TABLE_II,
+    period: float = PERIOD,
+    *,
+    robot: Biped,
+    gait: Gait,
+    counts: float = COUNTS,
+    delay: float = 0.0,
+    known: bool = False,
+    torque_limit: float | None = None,
+    joint: int = 0,
+) -> ObserverReport:
+    """The report of an observer, or of poles [rad/s], on a robot that walks a gait.
+
+    counts: of the encoders per revolution; delay [s]: from a tick to its torque, `known` to the observer or
+    not; torque_limit [N m]: of the robot's record if not given; joint: whose gains, of one number per joint.
+    Raises InputError for what is impossible, and names it.
+    """
+    if isinstance(observer, Observer) and not isinstance(observer, GPIObserver):
+        raise InputError(
+            f"a report on a {type(observer).__name__} was asked for, expected a GPIObserver in continuous "
+            "time or its poles [rad/s]"
+        )
+    if not isinstance(observer, GPIObserver):
+        observer = GPIObserver.from_poles(observer)
+    SampledTime(period, delay=delay)
+    if not (math.isfinite(counts) and counts >= 1.0):
+        raise InputError(f"the encoders have {counts} counts per revolution, expected at least 1")
+    limit = robot.description.peak_torque if torque_limit is None else torque_limit
+    if limit is None or not (math.isfinite(limit) and limit > 0.0):
+        raise InputError(
+            f"the torque limit of '{robot.description.name}' is {limit} N m, expected a positive number; give "
+            "torque_limit, or peak_torque in its record"
+        )
+    _check_joint(robot, gains, joint)
+    hardware = Hardware(
+        period, delay, known, float(counts), float(limit), worst_inertia(robot, gait)
+    )
+    OnHardware(hardware, observer, gains, joint).sampled()  # refuses an order that round-off spoils
+    name = f"{robot.description.name} ({robot.preset})"
+    impact = orbit_impact(robot, gait, observer.order)
+    return ObserverReport(hardware, observer, gains, joint, robot=name, impact=impact)
+
+
+def _check_joint(robot: Biped, gains: Gains, joint: int) -> None:
+    """Raises InputError for a joint that the robot has not, and for gains of another number of joints."""
+    if not isinstance(joint, int) or joint not in range(robot.p):
+        raise InputError(
+            f"joint {joint!r} of '{robot.description.name}' was asked for, expected 0 to {robot.p - 1}"
+        )
+    for name, gain in (("K_p", gains.K_p), ("K_d", gains.K_d)):
+        if np.size(gain) not in (1, robot.p):
+            raise InputError(
+                f"gain {name} has {np.size(gain)} numbers, expected one, or {robot.p} for the joints of "
+                f"'{robot.description.name}'"
+            )
+
+
+def worst_inertia(biped: Biped, gait: Gait) -> float:
+    """The largest sqrt(sum_j (kappa^-1)_ij^2) over joints and along the gait [kg m^2]."""
+    still = np.zeros(biped.n)
+    along = ZeroDynamics.of(biped, gait.constraint).q
+    return float(
+        max(np.max(np.linalg.norm(biped.reduction(q, still).kappa_inverse, axis=1)) for q in along)
+    )
+
+
+def observer_name(observer: GPIObserver) -> str:
+    """Table I, or m and the poles."""
+    if observer.poles == GPIObserver.from_poles().poles:
+        return "Table I"
+    first = observer.poles[0]
+    if all(pole == first for pole in observer.poles):
+        return f"m = {observer.m} at {-first.real:g} rad/s"
+    slow, fast = (f(abs(pole) for pole in observer.poles) for f in (min, max))
+    return f"m = {observer.m} with poles of {slow:g} to {fast:g} rad/s"

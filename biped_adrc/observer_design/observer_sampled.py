@@ -1,0 +1,253 @@
+"""The linear loop of one joint in sampled time: what is stable, and what an encoder does to the torque.
+
+With T the period, the torque held between ticks and acting (j + f) T after its tick, 0 <= f < 1,
+
+    e_(k+1)    = e_k + T e'_k + T^2 (g alpha + xi) / 2,     T e'_(k+1) = T e'_k + T^2 (g alpha + xi)
+
+where alpha changes from a_(k-j-1) to a_(k-j) at t_k + f T, and
+
+    current   Z <- Z + L (e + n - Z_1),  a = -F Z,  Z <- Phi Z + Gamma a       as `SampledGPIObserver`
+    held      a = -F Z,  Z <- exp(A T) Z + int_0^T exp(A s) ds (w l (e + n) + b a)
+
+The held form is the continuous observer (17) with its measurement held for a period. X = (e, T e', Z, torques
+on their way) obeys X <- X + M X + B (xi, n). M is formed without its unit matrix: at short periods all
+eigenvalues gather at 1, and what tells them apart would be lost. The observer is fed with a_k, or, when the
+delay is known, with the mean of what acts until the next tick, which is exact for whole periods alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import expm
+
+from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.errors import InputError, check_positive
+from biped_adrc.hardware.motors import whole_and_part
+from biped_adrc.observer_design.observer_loop import joint_gains
+from biped_adrc.observers.gpi import GPIObserver, SampledGPIParameters
+from biped_adrc.timing import SampledTime
+from biped_adrc.types import Array, ComplexArray
+
+FORMS = ("current", "held")
+SHORTEST, LONGEST = 1e-6, 0.1
+"""[s]: periods among which the largest stable one is looked for."""
+RATIO = 1.05
+"""Of one period of that search to the one before."""
+PARTS, MOST_PERIODS = 20, 50
+"""Parts of a period by which the largest delay is looked for, and how many periods far."""
+HIGHEST = 14
+"""Largest m: with more, round-off moves poles of the discrete observer by more than the loop's do."""
+
+
+@dataclass(frozen=True)
+class SampledLoop:
+    """The module's loop. K_p [1/s^2], K_d [1/s], T and delay [s]; kappa_ratio is g.
+
+    Raises InputError for what `SampledTime` refuses, an m above HIGHEST, a form that is neither, and a
+    kappa_ratio <= 0.
+    """
+
+    observer: GPIObserver
+    period: float
+    K_p: float = 5000.0
+    K_d: float = 50.0
+    delay: float = 0.0
+    known: bool = False
+    form: str = "current"
+    kappa_ratio: float = 1.0
+
+    def __post_init__(self) -> None:
+        SampledTime(self.period, delay=self.delay)
+        if self.observer.m > HIGHEST:
+            raise InputError(
+                f"the sampled loop of an observer with m = {self.observer.m} was asked for, expected m <= "
+                f"{HIGHEST}: above it round-off decides what is stable"
+            )
+        if self.form not in FORMS:
+            raise InputError(f"the observer's form is '{self.form}', expected one of {list(FORMS)}")
+        check_positive(self.kappa_ratio, f"kappa_ratio is {self.kappa_ratio}")
+
+    # -- the step ------------------------------------------------------------------------------------
+    @cached_property
+    def _system(self) -> tuple[Array, Array, Array, Array]:
+        """M, B, and the row of T^2 a in X and in (T^2 xi, n)."""
+        k, T = self.observer.order, self.period
+        queue, f = whole_and_part(self.delay, T)
+        waits = int(f > 0.0)
+        size = 2 + k + queue + waits
+        unit = np.hstack((np.eye(size), np.zeros((size, 2))))  # the rows of X in (X, T^2 xi, n)
+        y, rate, Z, line = unit[0].copy(), unit[1], unit[2 : 2 + k], unit[2 + k :]
+        y[-1] = 1.0
+        xi = np.zeros(size + 2)
+        xi[-2] = 1.0
+
+        dZ, a = self._tick(Z, y)
+        sent = [*line[: queue + waits], a] if waits else [*line[:queue], a]
+        # torques in the order in which they act: with f > 0 the first acts until t_k + f T
+        before, after = (sent[0], sent[1]) if waits else (sent[0], sent[0])
+        moved = sent[1:]
+        g = self.kappa_ratio
+        push = g * (before * (f - 0.5 * f**2) + after * 0.5 * (1.0 - f) ** 2) + 0.5 * xi
+        kick = g * (before * f + after * (1.0 - f)) + xi
+        fed = f * before + (1.0 - f) * after if self.known else a
+        dZ = dZ + self._fed[:, np.newaxis] * fed
+        rest = np.array(moved).reshape(-1, size + 2) - line
+        increments = np.vstack((rate + push, kick, dZ, rest))
+        return increments[:, :size], increments[:, size:], a[:size], a[size:]
+
+    def _tick(self, Z: Array, y: Array) -> tuple[Array, Array]:
+        """The change of Z without its input, and T^2 a, as rows."""
+        if self.form == "current":
+            k = self._current
+            corrected = np.outer(k.L, y - Z[0])
+            Z_k = Z + corrected
+            return corrected + (k.Phi - np.eye(k.order)) @ Z_k, self._feedback @ Z_k
+        A = self.observer.error_system().A
+        injection = self.observer.scale * self.observer.parameters.gains
+        return self._held @ (A @ Z + np.outer(injection, y)), self._feedback @ Z
+
+    @cached_property
+    def _current(self) -> SampledGPIParameters:
+        """Phi, Gamma T^2 and L."""
+        return self.observer.sampled(self.period).parameters
+
+    @cached_property
+    def _held(self) -> Array:
+        """int_0^T exp(A s) ds."""
+        A, n = self.observer.error_system().A, self.observer.order
+        both = np.zeros((2 * n, 2 * n))
+        both[:n, :n], both[:n, n:] = A * self.period, np.eye(n) * self.period
+        return expm(both)[:n, n:]
+
+    @cached_property
+    def _fed(self) -> Array:
+        """What T^2 a adds to Z in a period."""
+        T, k = self.period, self.observer.order
+        if self.form == "current":
+            return self._current.Gamma / T**2
+        b = np.zeros(k)
+        b[1] = 1.0 / self.observer.scale
+        return self._held @ b / T**2
+
+    @cached_property
+    def _feedback(self) -> Array:
+        """The row -F of T^2 a in the observer's states."""
+        T = self.period
+        w = 1.0 / T if self.form == "current" else self.observer.scale
+        row = np.zeros(self.observer.order)
+        row[0], row[1] = self.K_p, self.K_d * w
+        if self.observer.m > 0:
+            row[2] = w**2
+        return -(T**2) * row
+
+    # -- what it says --------------------------------------------------------------------------------
+    @property
+    def matrix(self) -> Array:
+        """X_(k+1) = matrix X_k."""
+        M = self._system[0]
+        return M + np.eye(len(M))
+
+    @cached_property
+    def eigenvalues(self) -> ComplexArray:
+        """Of the step."""
+        return np.asarray(1.0 + np.linalg.eigvals(self._system[0]), dtype=complex)
+
+    @property
+    def spectral_radius(self) -> float:
+        """Below 1 for a stable loop."""
+        return float(np.max(np.abs(self.eigenvalues)))
+
+    @property
+    def stable(self) -> bool:
+        """Whether it is."""
+        return self.spectral_radius < 1.0
+
+    def rms(self, sigma: float) -> float:
+        """Standard deviation of a [rad/s^2] under independent errors sigma [rad] of the measured angles.
+
+        Exact, by the discrete Lyapunov equation; infinite for an unstable loop.
+        """
+        if not self.stable:
+            return np.inf
+        _, B, C, D = self._system
+        P = covariance(self.matrix, np.outer(B[:, 1], B[:, 1]))
+        return float(np.sqrt(C @ P @ C + D[1] ** 2)) * sigma / self.period**2
+
+
+def covariance(A: Array, Q: Array) -> Array:
+    """P = A P A' + Q for a stable A, as the sum of A^i Q A'^i, twice as many terms at a time.
+
+    All terms add up, so nothing is lost where the equation itself is badly conditioned.
+    """
+    P = Q
+    while True:
+        more = A @ P @ A.T
+        P, A = P + more, A @ A
+        if not np.max(np.abs(more)) > 1e-16 * np.max(np.abs(P)):
+            return P
+
+
+def sampled_loop(
+    observer: GPIObserver,
+    period: float,
+    gains: Gains = TABLE_II,
+    *,
+    joint: int = 0,
+    delay: float = 0.0,
+    known: bool = False,
+    form: str = "current",
+    kappa_ratio: float = 1.0,
+) -> SampledLoop:
+    """The loop of one joint with its gains. Raises InputError as `SampledLoop`."""
+    return SampledLoop(
+        observer, period, *joint_gains(gains, joint), delay, known, form, kappa_ratio
+    )
+
+
+def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
+    """The largest T [s] below which the loop is stable at every period, with a delay of that many periods.
+
+    0 when SHORTEST is unstable already, infinite when all up to LONGEST are stable.
+    """
+
+    def stable(T: float) -> bool:
+        return replace(loop, period=T, delay=delay_periods * T).stable
+
+    low = SHORTEST
+    if not stable(low):
+        return 0.0
+    while stable(low * RATIO):
+        low *= RATIO
+        if low > LONGEST:
+            return float(np.inf)
+    return last_true(stable, low, low * RATIO)
+
+
+def largest_delay(loop: SampledLoop) -> float:
+    """The largest delay [s] below which the loop is stable with every delay.
+
+    0 when the loop is unstable without one, infinite when all up to MOST_PERIODS are stable.
+    """
+
+    def stable(d: float) -> bool:
+        return replace(loop, delay=d).stable
+
+    if not stable(0.0):
+        return 0.0
+    step = loop.period / PARTS
+    for i in range(1, MOST_PERIODS * PARTS + 1):
+        if not stable(i * step):
+            return last_true(stable, (i - 1) * step, i * step)
+    return float(np.inf)
+
+
+def last_true(holds: Callable[[float], bool], low: float, high: float) -> float:
+    """Where `holds` ends between low, where it does, and high, where it does not; to 1e-6 of high."""
+    while high - low > 1e-6 * high:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return low

@@ -1,0 +1,1 @@
+"""The reproduction of the paper: its runs, claims, tables, figures and verdicts."""

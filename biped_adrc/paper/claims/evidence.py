@@ -1,0 +1,351 @@
+"""Runs and closed forms on which the claims beside the push on the joints rest, and the tasks for them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from biped_adrc.analysis.regression import regress_multipliers
+from biped_adrc.campaign.pool import Task
+from biped_adrc.closed_loop.walker import FOOT_STRIKE
+from biped_adrc.control.tracking import TABLE_II
+from biped_adrc.engine.run import COMPILED
+from biped_adrc.errors import BipedError
+from biped_adrc.gait.recipe import impact_smoothness
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.paper.claims import evidence
+from biped_adrc.paper.claims.admissible import Member, declared, members, method
+from biped_adrc.paper.claims.orders import Order, orders
+from biped_adrc.paper.claims.tally import Figure
+from biped_adrc.paper.claims.walks import (
+    MemberOutcome,
+    nominal,
+    prepared,
+    tracks,
+    tried,
+    tried_all,
+)
+from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.scenario.push import Push
+from biped_adrc.scenario.recording import watched
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.studies.cycle_stability import poincare
+from biped_adrc.types import Array
+
+GAITS = ("published", "recipe")
+TEN = 10
+"""Numbers in the state of the paper's robot."""
+
+
+class GaitCycle(NamedTuple):
+    """The walking cycle of a gait under a controller; NaN where none was found."""
+
+    name: str
+    preset: str
+    gait: str
+    controller: str
+    theta: str
+    multiplier: Figure
+    """Largest |lambda| by central differences of the return map."""
+    rate: Figure
+    """Theta' before the impact [rad/s]."""
+    period: float
+    """Of a step of the stored gait [s]."""
+
+
+def cycles(preset: str) -> tuple[GaitCycle, ...]:
+    """Of both gaits under both controllers, and of gait (a) with Theta'' as printed."""
+    found = [_cycle(preset, gait, c, "solved") for gait in GAITS for c in CONTROLLERS]
+    return (*found, *(_cycle(preset, "published", c, "printed") for c in CONTROLLERS))
+
+
+def _cycle(preset: str, gait: str, controller: str, theta: str) -> GaitCycle:
+    h = declared()["steps"]["plain"]
+    run = Scenario(controller, preset=preset, gait=gait, solve_theta=theta == "solved")
+    run = replace(run, method=method(controller), engine=COMPILED)
+    biped, of = nominal(preset, gait)
+
+    def at(step: float) -> tuple[float, float]:
+        try:
+            orbit = poincare(replace(run, h=step), with_states=False).orbit
+        except BipedError:
+            return float("nan"), float("nan")
+        rate = biped.phase @ orbit.x_minus[biped.n : 2 * biped.n]
+        return float(abs(orbit.multipliers[0])), float(rate)
+
+    made, rates = zip(at(h), at(0.5 * h), strict=True)
+    name = f"gait ({'a' if gait == 'published' else 'b'}), {preset}, {controller}, Theta'' {theta}"
+    return GaitCycle(
+        name, preset, gait, controller, theta, Figure(*made), Figure(*rates), of.period
+    )
+
+
+class Needs(NamedTuple):
+    """What a gait asks of the ground and the motors over its cycle, undisturbed."""
+
+    name: str
+    preset: str
+    gait: str
+    friction: Figure
+    """Largest |F_T| / F_N of the force in the mean over the window of `Limits`."""
+    friction_at_an_instant: Figure
+    impulse_ratio: Figure
+    torque: Figure
+    """[N m]."""
+    cost: Figure
+    """Cost of transport."""
+    work: Figure
+    """Net joint work per step length [J/m]."""
+    rate_jump: float
+    """Largest jump of a joint's rate against its reference at impact [rad/s]."""
+    illegal: tuple[str, ...]
+    normal: Figure
+    """Least F_N in the mean over the window [N]."""
+    same: bool = True
+    """Whether it is legal or not alike at half of the step."""
+
+
+def needs(preset: str) -> tuple[Needs, ...]:
+    """Of both gaits under NPD."""
+    return tuple(_needs(preset, gait) for gait in GAITS)
+
+
+def _needs(preset: str, gait: str) -> Needs:
+    h = declared()["steps"]["needs"]
+    run = Scenario("NPD", preset=preset, gait=gait, engine=COMPILED)
+    made = prepared(run)
+    walks = (made.simulate(step, 2) for step in (h, 0.5 * h))
+    steps = [watched(made.walker, made.gait, walk).certificates[-1] for walk in walks]
+    why, at_half = (tuple(one.illegal().values()) for one in steps)
+    biped = nominal(preset, gait)[0]
+
+    def figure(name: str) -> Figure:
+        return Figure(*(float(getattr(one, name)) for one in steps))
+
+    return Needs(
+        f"gait ({'a' if gait == 'published' else 'b'}), {preset}",
+        preset,
+        gait,
+        figure("mean_friction"),
+        figure("friction"),
+        figure("impulse_ratio"),
+        figure("peak_torque"),
+        figure("cost_of_transport"),
+        Figure(*(one.joint_work / one.step_length for one in steps)),
+        float(np.max(np.abs(impact_smoothness(made.gait, biped)))),
+        at_half,
+        figure("mean_normal_force"),
+        bool(why) == bool(at_half),
+    )
+
+
+class Pair(NamedTuple):
+    """Two walks that differ in the controller alone."""
+
+    name: str
+    peak: dict[str, Figure]
+    """max |q_b - q_d| over all steps, between the nodes too [rad], by controller."""
+    delay: dict[str, Figure]
+    """Largest change of a step's time against that of the gait [s], by controller; NaN where one never ends."""
+    made: dict[str, bool]
+    """Whether all impacts were made at both steps, by controller."""
+    same: bool = True
+    """Whether both walks make as many at half of the step."""
+
+
+def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
+    peak, delay = {}, {}
+    made: dict[str, bool] = {}
+    same = True
+    h = declared()["steps"]["plain"]
+    for c, run in runs.items():
+        ready = prepared(run)
+        walks = [ready.simulate(step, run.impacts) for step in (h, 0.5 * h)]
+        found = [tracks(ready, walk) for walk in walks]
+        # NumPy's, since max passes over the NaN of a step that never ends
+        peak[c] = Figure(*(float(np.max([t.peak for t in at])) for at in found))
+        late = ([abs(t.period - ready.gait.period) for t in at] for at in found)
+        delay[c] = Figure(*(float(np.max(at)) for at in late))
+        impacts = [len(walk.events(FOOT_STRIKE)) for walk in walks]
+        made[c], same = min(impacts) == run.impacts, same and impacts[0] == impacts[1]
+    return Pair(name, peak, delay, made, same)
+
+
+def _both(**settings: Any) -> dict[str, Scenario]:
+    return {c: Scenario(c, method=method(c), engine=COMPILED, **settings) for c in CONTROLLERS}
+
+
+def torso_push(torque: float) -> Push:
+    """On the coordinate that no motor drives [N m]."""
+    step = declared()["push"]["step"]
+    return Push({"q5": torque}, step=step, start=0.1, stop=0.3)
+
+
+def unmatched(preset: str) -> tuple[Pair, ...]:
+    """Pushes on the torso; the last one is the fatal one."""
+    k = declared()["unmatched"]
+    found = []
+    for torque in (*k["amplitudes"], k["fatal"]):
+        push = torso_push(torque)
+        runs = _both(preset=preset, pushes=(push,), first_step=push.step, impacts=4)
+        found.append(_pair(f"{preset}, {torque:g} N m on the torso", runs))
+    return tuple(found)
+
+
+def uncertainty(preset: str) -> tuple[Pair, ...]:
+    """A plant heavier than the model."""
+    k = dict(declared()["uncertainty"])
+    impacts = k.pop("impacts")
+    return tuple(
+        _pair(f"{preset}, heavier {kind}", _both(preset=preset, impacts=impacts, **factors))
+        for kind, factors in k.items()
+    )
+
+
+def pushed_recipe(preset: str) -> tuple[MemberOutcome, ...]:
+    """Gait (b) under a push on the joints."""
+    k = declared()["disturbed_recipe"]
+    joints, usual = tuple(declared()["factors"]["joints"][0]), ("model", "solved", "recipe")
+    return (tried(Member(preset, k["amplitude"], k["onset"], joints, 0.0, *usual)),)
+
+
+class Start(NamedTuple):
+    """A walk from a speed of one's choice after the impact."""
+
+    name: str
+    least: float
+    """Speed that reaches the next impact, of the gait's own, by one quadrature of the zero dynamics."""
+    factor: float
+    """Speed of this start over the least."""
+    impacts: dict[str, int]
+    """Made, by controller."""
+    asked: int
+    same: bool = True
+    """Whether as many are made at half of the step."""
+
+
+def basin(preset: str) -> tuple[Start, ...]:
+    """Starts on the constraint just below and above the least speed."""
+    k, h = declared()["basin"], declared()["steps"]["plain"]
+    runs = _both(preset=preset)
+    least = least_speed(runs["NPD"])
+    found = []
+    for factor in k["factors"]:
+        made, half = (
+            {c: _strikes(run, factor * least, step, k["impacts"]) for c, run in runs.items()}
+            for step in (h, 0.5 * h)
+        )
+        name = f"{preset}, {factor * least:.3f} of the gait's speed after impact"
+        found.append(Start(name, least, factor, made, k["impacts"], made == half))
+    return tuple(found)
+
+
+def _strikes(run: Scenario, speed: float, h: float, impacts: int) -> int:
+    return len(prepared(run, speed=speed).simulate(h, impacts).events(FOOT_STRIKE))
+
+
+def least_speed(run: Scenario) -> float:
+    """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact."""
+    biped, gait = nominal(run.preset, run.gait)
+    zero = ZeroDynamics.of(biped, gait.constraint, nodes=120)
+    sigma = biped.angular_momentum(*gait.start(biped))
+    gained = zero.sigma_squared(0.0)
+    k = min(max(int(np.argmin(gained)), 1), len(gained) - 2)
+    near = np.polyfit(zero.theta[k - 1 : k + 2] - zero.theta[k], gained[k - 1 : k + 2], 2)
+    lowest = float(near[2] - near[1] ** 2 / (4.0 * near[0]))  # of the parabola through three nodes
+    return float(np.sqrt(max(-lowest, 0.0)) / abs(sigma))
+
+
+class Jumps(NamedTuple):
+    """How far the total disturbance xi of (13) is from smooth, largest over the joints [rad/s^2].
+
+    Both are differences of closed forms at one state: there is no step to halve.
+    """
+
+    name: str
+    at_impact: float
+    at_edge: float
+    """Of a push of 30 N m on all joints."""
+
+
+def jumps(preset: str) -> tuple[Jumps, ...]:
+    """Of xi on gait (a)."""
+    run = Scenario("NPD", preset=preset)
+    biped, gait = nominal(run.preset, run.gait)
+    before = biped.reduction(gait.q_minus, gait.v_minus)
+    after = biped.reduction(*gait.start(biped))
+    swap = biped.relabelling[: biped.p]
+    edge = after.kappa @ np.full(biped.p, 30.0)
+    jump = float(np.max(np.abs(after.xi - before.xi[swap])))
+    return (Jumps(preset, jump, float(np.max(np.abs(edge)))),)
+
+
+def fastest_decay(period: float) -> float:
+    """What is left of a tracking error after a step under Table II: exp(-K_d T / 2)."""
+    return float(np.exp(-0.5 * float(np.max(TABLE_II.K_d)) * period))
+
+
+def longest_step(multiplier: float) -> float:
+    """Step after which a tracking error under Table II has decayed to no less than this share [s]."""
+    return float(-2.0 * np.log(multiplier) / float(np.max(TABLE_II.K_d)))
+
+
+def noise_spectrum() -> Array:
+    """Medians of the ten sorted |lambda| that (26), (27) give for independent normal numbers."""
+    k = declared()["noise"]
+    random = np.random.default_rng(k["seed"])
+    found = [
+        regress_multipliers(random.normal(size=(k["impacts"], TEN)), np.zeros(TEN)).magnitudes
+        for _ in range(k["draws"])
+    ]
+    return np.median(found, axis=0)
+
+
+PRESET_PARTS = ("cycles", "needs", "unmatched", "uncertainty", "pushed_recipe", "basin", "jumps")
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """Outcomes of all runs for the claims, over the presets that were asked for."""
+
+    members: tuple[MemberOutcome, ...]
+    cycles: tuple[GaitCycle, ...]
+    needs: tuple[Needs, ...]
+    unmatched: tuple[Pair, ...]
+    uncertainty: tuple[Pair, ...]
+    pushed_recipe: tuple[MemberOutcome, ...]
+    basin: tuple[Start, ...]
+    jumps: tuple[Jumps, ...]
+    orders: tuple[Order, ...]
+
+
+def preset_evidence(preset: str) -> dict[str, tuple[Any, ...]]:
+    """What is computed once for a preset, beside the members of the set."""
+    return {part: getattr(evidence, part)(preset) for part in PRESET_PARTS}
+
+
+def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task]:
+    """By name, the longest first."""
+    out = {}
+    for preset in presets:
+        of_preset = tuple(member for member in members() if member.preset == preset)
+        out[f"claims members {preset}"] = Task(
+            f"claims, {len(of_preset)} pushes, {preset}", tried_all, (of_preset,)
+        )
+    for preset in presets:
+        out[f"claims rest {preset}"] = Task(
+            f"claims, cycles and needs, {preset}", preset_evidence, (preset,)
+        )
+    out["claims orders"] = Task("claims, order of the observer", orders, (presets[0],))
+    return out
+
+
+def gathered(presets: tuple[str, ...], found: Mapping[str, Any]) -> Evidence:
+    """The evidence in the results of `claim_tasks`, by their names behind "claims"."""
+    rest = [found[f"rest {preset}"] for preset in presets]
+    parts = {part: tuple(x for one in rest for x in one[part]) for part in PRESET_PARTS}
+    tried = tuple(o for preset in presets for o in found[f"members {preset}"])
+    return Evidence(members=tried, orders=found["orders"], **parts)

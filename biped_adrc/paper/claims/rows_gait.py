@@ -1,0 +1,209 @@
+"""Claims about the gait and its stability: sections I, II, IV, V and VII."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
+from biped_adrc.paper.claims.admissible import convergence, declared, in_all
+from biped_adrc.paper.claims.evidence import (
+    GaitCycle,
+    Needs,
+    Start,
+    fastest_decay,
+    longest_step,
+    noise_spectrum,
+)
+from biped_adrc.paper.claims.tally import (
+    CONTRADICTED,
+    DEPENDS,
+    NOT_TESTABLE,
+    Case,
+    Figure,
+    Tally,
+    above_limit,
+    below_limit,
+    fewer,
+)
+from biped_adrc.paper.claims.words import Claim, Span, limited, row, told
+
+PRINTED_SPEED = float(X_STAR[5] + 0.5 * X_STAR[7] + X_STAR[9])
+"""Theta' of x* [rad/s], Theta = q5 + q1 + q3 / 2."""
+
+
+def gait_claims(
+    cycles: Sequence[GaitCycle], needs: Sequence[Needs], starts: Sequence[Start], distance: float
+) -> list[Claim]:
+    """All rows of this module; distance: of the undisturbed walks on gait (a) from x*."""
+    return [
+        told("fixed_point", values={"distance": distance}),
+        stable([c for c in cycles if c.gait == "published"]),
+        recipe_stable([c for c in cycles if c.gait == "recipe"]),
+        recipe_speed([c for c in cycles if c.gait == "recipe" and c.controller == "NPD"]),
+        recipe_needs([n for n in needs if n.gait == "recipe"]),
+        pinned_at_impact(needs),
+        not_smooth(needs),
+        not_optimal(needs),
+        global_stability(starts),
+        printed_multipliers([c.period for c in cycles]),
+    ]
+
+
+def stable(cycles: Sequence[GaitCycle], name: str = "stable", of_preset: int = 4) -> Claim:
+    """Gait (a), or gait (b) by its name in claims.toml, by central differences."""
+    bound = (convergence()[0], declared()["limits"]["multiplier"])
+    return limited(
+        name,
+        ((c.name, c.multiplier) for c in cycles),
+        math.nextafter(1.0, 0.0),
+        in_all(of_preset),
+        bound,
+        multipliers=Span.of(c.multiplier for c in cycles),
+    )
+
+
+recipe_stable = partial(stable, name="recipe_stable", of_preset=2)
+
+
+def recipe_speed(cycles: Sequence[GaitCycle]) -> Claim:
+    """The one number of x* that the recipe predicts."""
+    limit = declared()["limits"]["speed"]
+    shown = ", ".join(
+        f"{c.rate.at_half:.4f} ({100.0 * (c.rate.at_half / PRINTED_SPEED - 1.0):+.1f} %) {c.preset}"
+        for c in cycles
+    )
+    return row(
+        "recipe_speed",
+        _speeds(cycles, limit),
+        speed=PRINTED_SPEED,
+        rates=shown,
+        percent=100.0 * limit,
+        hangs_on=_hangs_on(cycles),
+    )
+
+
+def _speeds(cycles: Sequence[GaitCycle], limit: float) -> Tally:
+    off = [Figure(*(abs(v / PRINTED_SPEED - 1.0) for v in c.rate)) for c in cycles]
+    cases = [below_limit(c.name, f, limit) for c, f in zip(cycles, off, strict=True)]
+    return Tally(tuple(cases), in_all(1))
+
+
+def _hangs_on(cycles: Sequence[GaitCycle]) -> str:
+    """What another limit, the whole percentage below the largest deviation, would have made of it."""
+    apart = [abs(c.rate.at_half / PRINTED_SPEED - 1.0) for c in cycles]
+    worst = float(np.max(apart or [math.nan]))
+    if math.isnan(worst):
+        return ""
+    lower = math.floor(100.0 * worst)
+    word = _speeds(cycles, 0.01 * lower).word
+    return f"The largest deviation is {100.0 * worst:.1f} %: a limit of {lower} % would make it '{word}'. "
+
+
+def recipe_needs(needs: Sequence[Needs]) -> Claim:
+    """Whether a robot could walk gait (b)."""
+    cases = [Case(n.name, n.friction, not n.illegal, _doubtful(n)) for n in needs]
+    shown = (
+        f"{n.preset}: friction {_two(n.friction)} in the mean over 5 ms and "
+        f"{_two(n.friction_at_an_instant)} at an instant, {n.torque.at_half:.0f} N m"
+        for n in needs
+    )
+    return row("recipe_needs", Tally(tuple(cases), in_all(1)), needs="; ".join(shown))
+
+
+def _doubtful(n: Needs) -> bool:
+    """Whether the step decides what makes it legal or not."""
+    figures = (n.friction, n.normal, n.torque)
+    return not (n.same and all(f.converged(*convergence()) for f in figures))
+
+
+def _two(f: Figure) -> str:
+    """A number, at both steps where they differ."""
+    if f.converged(*convergence()):
+        return f"{f.at_half:.2f}"
+    return f"{f.value:.2f} (not converged, {f.at_half:.2f} at half the step)"
+
+
+def pinned_at_impact(needs: Sequence[Needs]) -> Claim:
+    """The hypothesis of (6)."""
+    limit = declared()["limits"]["friction"]
+    found = [(n.name, n.impulse_ratio) for n in needs]
+    ratios = Span.of(n.impulse_ratio for n in needs)
+    return limited("pinned_at_impact", found, limit, in_all(2), ratios=ratios)
+
+
+def not_smooth(needs: Sequence[Needs]) -> Claim:
+    """Section VII on the impact of the generated trajectory."""
+    limit = declared()["limits"]["smooth"]
+    recipes = [n for n in needs if n.gait == "recipe"]
+    cases = [Case(n.name, Figure(n.rate_jump, n.rate_jump), n.rate_jump > limit) for n in recipes]
+    return row(
+        "not_smooth",
+        Tally(tuple(cases), in_all(1)),
+        jumps=Span(n.rate_jump for n in recipes),
+        invariant=max((n.rate_jump for n in needs if n.gait == "published"), default=math.nan),
+    )
+
+
+def not_optimal(needs: Sequence[Needs]) -> Claim:
+    """Section VII on energy."""
+    pairs = [
+        (b, a)
+        for b in needs
+        for a in needs
+        if b.preset == a.preset and (b.gait, a.gait) == ("recipe", "published")
+    ]
+    cases = [
+        above_limit(b.preset, Figure(*(x / y for x, y in zip(b.cost, a.cost, strict=True))), 1.0)
+        for b, a in pairs
+    ]
+    costs = (f"{b.preset} {b.cost.at_half:.3f} against {a.cost.at_half:.3f}" for b, a in pairs)
+    return row("not_optimal", Tally(tuple(cases), in_all(1)), costs="; ".join(costs))
+
+
+def global_stability(starts: Sequence[Start]) -> Claim:
+    """Section I promises a test of it."""
+    below = [s for s in starts if s.factor < 1.0]
+    fails = [s for s in below if s.same and not any(s.impacts.values())]
+    above = [s for s in starts if s.factor > 1.0]
+    passed = [s for s in above if s.same and all(v == s.asked for v in s.impacts.values())]
+    word = NOT_TESTABLE
+    if fails and passed:
+        every = len(fails) == len(below) and len(passed) == len(above)
+        word = CONTRADICTED if every else DEPENDS
+    values = {
+        "failing": Span(s.least * s.factor for s in fails),
+        "passing": Span(s.least * s.factor for s in passed),
+        "least": Span(s.least for s in starts),
+        "fails": len(fails),
+        "below": len(below),
+        "passed": len(passed),
+        "above": len(above),
+    }
+    return told(
+        "global_stability",
+        word,
+        values,
+        share=f"{len(fails)} of {len(below)} starts below fail, {len(passed)} of {len(above)} above walk on"
+        f"{fewer(len(starts), in_all(len(declared()['basin']['factors'])))}",
+        convergence="impacts made are the same at half the step",
+        marginal=sum(not s.same for s in starts),
+    )
+
+
+def printed_multipliers(periods: Sequence[float]) -> Claim:
+    """The ten numbers of section VI."""
+    period, least = min(periods, default=math.nan), min(PUBLISHED_MULTIPLIERS)
+    values = {
+        "published": ", ".join(f"{v:g}" for v in PUBLISHED_MULTIPLIERS),
+        "decay": fastest_decay(0.4),
+        "least": least,
+        "longest": 1e3 * longest_step(least),
+        "period": 1e3 * period,
+        "noise": ", ".join(f"{v:.2f}" for v in noise_spectrum()),
+    }
+    word = CONTRADICTED if longest_step(least) < period else NOT_TESTABLE
+    return told("printed_multipliers", word, values)

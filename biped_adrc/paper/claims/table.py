@@ -1,0 +1,47 @@
+"""The table of claims: one row for each claim of the paper, from the abstract to its last section."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from biped_adrc.paper.claims.evidence import Evidence, gathered
+from biped_adrc.paper.claims.rows_control import control_claims
+from biped_adrc.paper.claims.rows_gait import gait_claims
+from biped_adrc.paper.claims.rows_push import long_walk, push_claims
+from biped_adrc.paper.claims.words import Claim, told
+from biped_adrc.paper.plan import Plan
+from biped_adrc.paper.push_map import PushCell
+from biped_adrc.paper.results import Results
+from biped_adrc.paper.verdicts import distance
+
+UNDECIDED = ("lumped", "smooth_references", "same_gains", "curves", "earlier_approaches")
+"""Rows that no run can decide."""
+
+
+def claims(plan: Plan, r: Results) -> list[Claim]:
+    """All rows, from the results of the reproduction."""
+    made = {c: (head.outcome.impacts, head.outcome.run.impacts) for c, head in r.heads.items()}
+    farthest = float(np.max([distance(o) for _, o in r.nominal(plan)]))
+    return rows(gathered(plan.presets, r.claims), r.figures, made, farthest, r.cells)
+
+
+def rows(
+    e: Evidence,
+    numerics: Mapping[str, float],
+    made: Mapping[str, tuple[int, int]],
+    farthest: float,
+    cells: Sequence[PushCell] = (),
+) -> list[Claim]:
+    """All rows, from outcomes alone; farthest: of the undisturbed walks on gait (a) from x*.
+
+    cells: of the map of pushes.
+    """
+    return [
+        long_walk(made),
+        *push_claims(e.members, cells),
+        *control_claims(e.unmatched, e.uncertainty, e.pushed_recipe, e.jumps, e.orders, numerics),
+        *gait_claims(e.cycles, e.needs, e.basin, farthest),
+        *(told(name) for name in UNDECIDED),
+    ]

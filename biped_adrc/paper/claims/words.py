@@ -1,0 +1,146 @@
+"""The rows of the table of claims: texts of claims.toml with the values of the runs in them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from biped_adrc.checks import Check, at_least, at_most
+from biped_adrc.paper.claims.admissible import declared
+from biped_adrc.paper.claims.tally import Figure, Tally, below_limit
+from biped_adrc.resources import packaged
+from biped_adrc.viz.pages import CLAIM_COLUMNS
+
+
+@cache
+def texts() -> dict[str, Any]:
+    """The file claims.toml: the rows of the table in words, by name."""
+    return dict(_joined(packaged("biped_adrc.paper.claims", "claims.toml")))
+
+
+def _joined(value: Any) -> Any:
+    """Texts of several lines as one."""
+    if isinstance(value, dict):
+        return {name: _joined(x) for name, x in value.items()}
+    return " ".join(value.split()) if isinstance(value, str) else value
+
+
+PREFACE: str = texts()["preface"]
+"""What the report says before the table."""
+MEANINGS: dict[str, str] = texts()["words"]
+"""Every word, and what it says of a claim."""
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One row of the table.
+
+    asserted: share of the cases that hold, of a claim that a check of the reproduction asks to hold in all.
+    marginal: number of its cases that are not converged.
+    """
+
+    claim: str
+    where: str
+    word: str
+    number: str
+    reason: str
+    share: str = ""
+    convergence: str = ""
+    asserted: float | None = None
+    marginal: int = 0
+
+    def __post_init__(self) -> None:
+        if self.word not in MEANINGS:
+            raise ValueError(f"word '{self.word}' is none of {list(MEANINGS)}")
+
+    def record(self) -> dict[str, Any]:
+        """As plain values, the columns of the table."""
+        return {key: getattr(self, key) for key in CLAIM_COLUMNS}
+
+
+def limited(
+    name: str,
+    figures: Iterable[tuple[str, Figure]],
+    limit: float,
+    declared: int,
+    bound: Sequence[float] | None = None,
+    **values: Any,
+) -> Claim:
+    """The row of a claim whose cases, (name, figure) each, hold for a number <= limit; further as of `row`."""
+    cases = tuple(below_limit(case, figure, limit, bound) for case, figure in figures)
+    return row(name, Tally(cases, declared), **values)
+
+
+def judged(
+    claim: str, where: str, tally: Tally, number: str, reason: str, asserted: bool = False
+) -> Claim:
+    """The row of a claim that was tried on cases; `asserted` makes a check of it."""
+    value = tally.held / len(tally.cases) if tally.cases else math.nan
+    said = (tally.word, number, reason, tally.share, tally.convergence)
+    return Claim(claim, where, *said, value if asserted else None, len(tally.marginal))
+
+
+def row(name: str, tally: Tally, **values: Any) -> Claim:
+    """The row of claims.toml for a claim that was tried on cases, with these values in its texts."""
+    x = _said(name, values)
+    asserted = bool(x.get("asserted"))
+    return judged(x["claim"], x["where"], tally, x["number"], x["reason"], asserted=asserted)
+
+
+def told(name: str, word: str = "", values: Mapping[str, Any] | None = None, **rest: Any) -> Claim:
+    """The row of claims.toml with these values in its texts, and a word that no tally gives.
+
+    word: that of the file by default. rest: of `Claim`.
+    """
+    said = _said(name, values or {})
+    word = word or said["word"]
+    return Claim(said["claim"], said["where"], word, said["number"], said["reason"], **rest)
+
+
+def _said(name: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    found = texts()[name]
+    found = {**texts().get(found.get("like"), {}), **found}
+    of = {"limit": declared()["limits"], **values}
+    return {key: x.format(**of) if isinstance(x, str) else x for key, x in found.items()}
+
+
+def claim_checks(claims: Sequence[Claim]) -> list[Check]:
+    """Every claim that is said to be replicated has to stay so: all of its cases hold, none is marginal.
+
+    And no case of any claim may be marginal.
+    """
+    kind = "reproduced"
+    doubtful = "claims: cases whose number or verdict is another at half the step"
+    shares = (
+        at_least(f"claim, {c.where}: {c.claim}: share of its cases", kind, c.asserted, 1.0)
+        for c in claims
+        if c.asserted is not None
+    )
+    return [at_most(doubtful, "law", sum(c.marginal for c in claims), 0), *shares]
+
+
+class Span(tuple[float, ...]):
+    """Numbers of which a text names the smallest and the largest."""
+
+    @classmethod
+    def of(cls, figures: Iterable[Figure]) -> Span:
+        """At half of the step."""
+        return cls(f.at_half for f in figures)
+
+    def __format__(self, form: str) -> str:
+        return span(self, form or ".3g")
+
+
+def span(values: Sequence[float], form: str = ".3g") -> str:
+    """From the smallest to the largest; NaN is said."""
+    known = [v for v in values if not math.isnan(v)]
+    if not known:
+        return "none"
+    low, high = f"{min(known):{form}}", f"{max(known):{form}}"
+    text = low if low == high else f"{low} to {high}"
+    return text + (
+        f" ({len(values) - len(known)} are no numbers)" if len(known) < len(values) else ""
+    )

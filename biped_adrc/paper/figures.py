@@ -1,0 +1,56 @@
+"""The figures of walks by name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.errors import InputError
+from biped_adrc.scenario.recording import Walk
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")
+
+
+def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
+    """One of `NAMES`; of the first walk, or of all for "phase" and "comparison". Raises InputError."""
+    from biped_adrc.viz.plots import figures
+
+    if name not in NAMES:
+        raise InputError(f"there is no figure '{name}'; choose one of {list(NAMES)}")
+    if not walks:
+        raise InputError("there is no walk to draw; expected at least one")
+    title, walk = next(iter(walks.items()))
+    signals = {n: w.signals for n, w in walks.items()}
+    first, push = signals[title], push_window(signals[title])
+    if name in ("disturbance", "comparison") and any(s.u.shape[1] == 0 for s in signals.values()):
+        raise InputError(
+            f"figure '{name}' shows what motors do and these walks have a robot without; choose one of "
+            "'tracking', 'ground', 'energy', 'phase'"
+        )
+    if name == "tracking":
+        return walk.plot(title, push)
+    if name == "disturbance":
+        return figures.disturbance_figure(first, title, push)
+    if name == "ground":
+        mu = walk.walker.plant.description.friction_coefficient
+        return figures.ground_figure(first, title, mu, walk.walker.slope)
+    if name == "energy":
+        return figures.energy_figure(first, title, push)
+    if name == "phase":
+        return figures.phase_figure(signals)
+    return figures.comparison_figure(signals, push)
+
+
+def push_window(s: Signals) -> tuple[float, float] | None:
+    """From the first to the last time of the first step in which a torque from outside acts [s], if any."""
+    pushed = np.any(s.zeta != 0.0, axis=1)
+    if not pushed.any():
+        return None
+    t = s.t[pushed & (s.step == s.step[pushed][0])]
+    return float(t[0]), float(t[-1])

@@ -1,0 +1,224 @@
+"""Physical laws and numerical orders, computed in the run; none of them was used in deriving the model."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from biped_adrc.analysis.linear_loop import tracking_error
+from biped_adrc.analysis.quadrature import integrate
+from biped_adrc.checks import Check, at_most, between
+from biped_adrc.closed_loop.walker import FOOT_STRIKE
+from biped_adrc.closed_loop.walker import Mode as StepMode
+from biped_adrc.control.adrc import ADRCController
+from biped_adrc.control.base import Measurement
+from biped_adrc.control.tracking import TABLE_II
+from biped_adrc.engine.run import COMPILED, simulate_by
+from biped_adrc.gait.reference import TimeReference
+from biped_adrc.hybrid.integrators import RK4, Exponential
+from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.hybrid.system import HybridSystem, Mode
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.contact import Impact, LinkMotion
+from biped_adrc.model.reduction import reduce
+from biped_adrc.observers.gpi import TABLE_I, GPIObserver
+from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.run import walk_scenario
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.types import Array
+
+MOMENTA = 4
+"""Of how many random states one is taken for the momenta, which are slower to compute."""
+
+
+def model_laws(preset: str, samples: int = 500, seed: int = 1) -> list[Check]:
+    """The two models agree; the impact keeps the momenta that it has to; kinetic energy never grows at impact.
+
+    At random states, the momenta at every fourth: they are of the links' own velocities, relative to m |q'|
+    times 1 m.
+    """
+    b = Biped.load("rabbit", preset)
+    random = np.random.default_rng(seed)
+    agree, growth = 0.0, -math.inf
+    kept = np.zeros(3)
+    for k in range(samples):
+        q, v = random.uniform(-math.pi, math.pi, b.n), random.normal(0.0, 3.0, b.n)
+        D, Omega = b.floating.projected(q, v)
+        apart = (
+            np.max(np.abs(b.inertia(q) - D)) / np.max(np.abs(D)),
+            np.max(np.abs(b.bias(q, v) - Omega)) / np.max(np.abs(Omega)),
+        )
+        agree = float(np.max((agree, *apart)))  # NumPy's, since max passes over a NaN
+        hit = b.impact(q, v)
+        if k % MOMENTA == 0:
+            change = impact_momenta(b, q, v, hit) / (b.mass * np.linalg.norm(v))
+            kept = np.maximum(kept, change)
+        lost = b.kinetic_energy(q, v) - b.kinetic_energy(hit.q, hit.v)
+        growth = float(np.maximum(growth, -lost / b.kinetic_energy(q, v)))
+    some = -(-samples // MOMENTA)
+    of_leg = "impact: change of the angular momentum of the old leg about its joints, relative"
+    named = {
+        "pinned against floating model, D_s and Omega, relative": (agree, samples),
+        "impact: change of the angular momentum about the new foot, relative": (kept[0], some),
+        of_leg: (kept[1], some),
+        "impact: momentum, pinned at the new foot against floating, relative": (kept[2], some),
+        "kinetic energy gained at impact, relative": (growth, samples),
+    }
+    return [
+        at_most(f"{name} ({preset}, {count} random states)", "law", float(value), 1e-12)
+        for name, (value, count) in named.items()
+    ]
+
+
+def impact_momenta(b: Biped, q: Array, v: Array, hit: Impact) -> Array:
+    """What an impact `hit` at (q, v) changes of what it has to keep, (3,) in kg m^2/s, kg m^2/s, kg m/s.
+
+    The angular momentum of all links about the new foot, since the only impulse acts there; that of the old
+    leg about its hip and its knee, since ideal joints pass on no impulse of torque; and what the relabelled
+    state, pinned at the new foot, differs from the state before relabelling in linear momentum.
+    """
+    before = LinkMotion(b.floating, q, np.append(v, [0.0, 0.0]))
+    after = LinkMotion(b.floating, q, hit.v_e)
+    foot = before.new_foot
+    whole = abs(after.about(foot) - before.about(foot))
+    leg = np.max([abs(after.outboard(j) - before.outboard(j)) for j in before.old_leg()])
+    pinned = b.pinned.centre_of_mass(hit.q, hit.v)[1]
+    return np.array([whole, leg, b.mass * float(np.max(np.abs(pinned - after.com_velocity)))])
+
+
+def walk_laws(name: str, full: Walk) -> list[Check]:
+    """Foot on the ground at located impacts; power balance over the pushed step, or the first one."""
+    b, o = full.walker.plant, full.outcome
+    heights = [abs(float(b.swing_foot(x[: b.n])[1])) for x in o.x_minus]
+    height = float(np.max(heights or [math.inf]))  # infinite without an impact
+    pushed = o.run.pushes[0].step if o.run.pushes else 1
+    s = full.signals.of_step(pushed if pushed in full.signals.step else int(full.signals.step[0]))
+    power = np.sum(s.u * s.v[:, : b.p], axis=1) + np.sum(s.zeta * s.v, axis=1)
+    gained = s.kinetic[-1] + s.potential[-1] - s.kinetic[0] - s.potential[0]
+    balance = abs(integrate(s.t, power) - gained)
+    end = f"energy gained against work done over step {s.step[0]} [J]"
+    return [
+        at_most(f"{name}: height of the swing foot at located impacts [m]", "law", height, 1e-10),
+        at_most(f"{name}: {end}", "law", balance, 1e-4),
+    ]
+
+
+def work_identity(o: Outcome) -> Check:
+    """On a periodic gait on level ground the joint work of a step equals the energy lost at impact."""
+    gap = math.inf  # without an impact
+    if o.certificates:
+        last = o.certificates[-1]
+        gap = abs(last.joint_work - last.energy_lost) / last.energy_lost
+    name = f"gait (a), {o.run.preset}, {o.run.controller}: joint work against energy lost at impact, relative"
+    return at_most(name, "law", gap, 1e-4)
+
+
+@dataclass(frozen=True)
+class HeldJoint(HybridSystem):
+    """One joint of inertia J [kg m^2] held at zero by ADRC under J xi(t), xi = sin(w t) [rad/s^2]."""
+
+    controller: ADRCController
+    w: float
+    J: float = 1.3
+
+    def flow(self, t: float, x: Array, mode: Mode) -> Array:
+        q, v, s = x[:1], x[1:2], x[2:]
+        D = np.array([[self.J]])
+        m = Measurement(t, 1, t, q, v, reduce(D, np.zeros(1), 1))
+        u = self.controller.output(s, m)
+        a = u / self.J + np.sin(self.w * t)
+        return np.concatenate((v, a, self.controller.flow(s, m, u)))
+
+
+HELD_STEP = 5e-4
+"""[s]"""
+HELD = (
+    "tracking error per unit disturbance on a held joint, simulated [s^2]",
+    "the same at half the step [s^2]",
+    "the same by (23) corrected [s^2]",
+    "the same by (23) as printed [s^2]",
+)
+"""Figures of a held joint."""
+
+
+def held_joint(
+    frequency: float = 5.0, factor: float = 0.05, t_end: float = 2.0, h: float = HELD_STEP
+) -> tuple[float, float, float]:
+    """Steady amplitude of the tracking error per unit disturbance [s^2]: simulated, (23) corrected, as printed.
+
+    The observer has Table I times `factor`, slow enough for the error to stand clear of round-off.
+    """
+    observer = GPIObserver.from_poles([factor * pole for pole in TABLE_I])
+    zero = np.zeros(1)
+    controller = ADRCController(TimeReference(lambda t: (zero, zero, zero)), observer)
+    w = 2.0 * math.pi * frequency
+    start = np.concatenate((np.zeros(2), observer.initial_state(zero, zero, zero)))
+    run = simulate(HeldJoint(controller, w), start, None, RK4(h), t_end=t_end)
+    t, e = run.arcs[0].t, run.arcs[0].x[:, 0]
+    last = t >= t_end - 2.0 / frequency - 1e-9  # two periods
+    basis = np.column_stack((np.cos(w * t[last]), np.sin(w * t[last])))
+    amplitude = float(np.linalg.norm(np.linalg.lstsq(basis, e[last], rcond=None)[0]))
+    corrected = abs(tracking_error(observer, TABLE_II, 1j * w))
+    printed = abs(tracking_error(observer, TABLE_II, 1j * w, printed=True))
+    return amplitude, corrected, printed
+
+
+def sampling_order(run: Scenario, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4)) -> float:
+    """Order in T with which sampled control approaches continuous control, at the first impact."""
+
+    def end(r: Scenario) -> Array:
+        return walk_scenario(r).trajectory.before(FOOT_STRIKE)[-1][:10]
+
+    exact = end(replace(run, impacts=1, h=2.5e-4))
+    gaps = [
+        float(np.linalg.norm(end(replace(run, impacts=1, period=T, h=min(T, 5e-4))) - exact))
+        for T in periods
+    ]
+    return float(np.polyfit(np.log(periods), np.log(gaps), 1)[0])
+
+
+def exponential_order(preset: str, factor: float) -> tuple[float, float]:
+    """Observed order of ETD-RK4 from 0.25 to 0.125 ms over 0.1 s of walking with Table I times `factor`,
+    and its error at 0.5 ms [rad]. With longer steps the fast joints of a robot without rotors are not resolved.
+    """
+    run = Scenario("ADRC", preset=preset, poles=tuple(factor * pole for pole in TABLE_I))
+    scene = Scene.of(run)
+    walker = build(run, scene)
+    x0 = walker.initial_state(*scene.walked.start(scene.biped))
+
+    def end(h: float) -> Array:
+        return simulate_by(COMPILED, walker, x0, StepMode(), Exponential(h), t_end=0.1).final_state[
+            :10
+        ]
+
+    exact = end(3.125e-5)
+    coarse, fine = (float(np.max(np.abs(end(h) - exact))) for h in (2.5e-4, 1.25e-4))
+    at_half = float(np.max(np.abs(end(5e-4) - exact)[:5]))
+    return math.log2(coarse / fine), at_half
+
+
+def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
+    """(23) on a held joint, the order in the sampling period, the order of the exponential method."""
+    (simulated, corrected, printed), (half, *_) = held_joint(), held_joint(h=0.5 * HELD_STEP)
+    order = sampling_order(Scenario("NPD", preset=preset, engine=COMPILED))
+    etd, _ = exponential_order(preset, 0.05)
+    etd_table, error = exponential_order(preset, 1.0)
+    gap = abs(simulated - corrected) / corrected
+    change = abs(simulated - half) / half
+    held, sampled = "tracking error on a held joint", "order of continuous against sampled control"
+    checks = [
+        at_most(f"{held}, change when the step is halved", "law", change, 0.01),
+        at_most(f"{held} against (23) corrected, relative", "law", gap, 1e-3),
+        between(f"{sampled} in the period", "law", order, 0.9, 1.1),
+        between("order of the exponential method, Table I times 0.05", "law", etd, 3.7, 4.3),
+    ]
+    figures = {
+        **dict(zip(HELD, (simulated, half, corrected, printed), strict=True)),
+        "order of the exponential method with Table I itself": etd_table,
+        "error of the exponential method with Table I at 0.5 ms over 0.1 s [rad]": error,
+    }
+    return checks, figures

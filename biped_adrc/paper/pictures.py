@@ -1,0 +1,79 @@
+"""The figures of the reproduction, drawn side by side in several processes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from biped_adrc.campaign.pool import Task, run_tasks
+from biped_adrc.files import write_bytes, write_text
+from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
+from biped_adrc.model.biped import Biped
+from biped_adrc.paper.figures import push_window
+from biped_adrc.paper.plan import BOTH, Plan
+from biped_adrc.paper.results import Results
+from biped_adrc.viz.from_the_side.robot_figure import robot_figure
+from biped_adrc.viz.numbers import as_text, numbers_of
+from biped_adrc.viz.plots import figures
+from biped_adrc.viz.plots.push_map import push_map_figure
+from biped_adrc.viz.style import render
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def draw_all(plan: Plan, r: Results, out: Path, workers: int | None = None) -> dict[str, str]:
+    """Write every figure as .png and .svg to `out`, and its numbers as .json; returns name -> SVG text."""
+    named = pictures(plan, r)
+    drawn = run_tasks(list(named.values()), workers)
+    found = {}
+    for name, picture in zip(named, drawn, strict=True):
+        png, svg, numbers = picture.value
+        write_bytes(out / f"{name}.png", png)
+        write_bytes(out / f"{name}.svg", svg)
+        write_text(out / f"{name}.json", numbers)
+        found[name] = svg.decode("utf-8")
+    return found
+
+
+def pictures(plan: Plan, r: Results) -> dict[str, Task]:
+    """What is drawn, by name."""
+    signals, cells = {c: head.signals for c, head in r.heads.items()}, r.cells
+    npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
+    magnitudes = {c: r.multipliers[c].orbit.multipliers for c in BOTH if c in r.multipliers}
+    mu = Biped.load("rabbit", plan.preset).description.friction_coefficient
+    maps = {
+        f"push_map_{preset}": (
+            push_map_figure,
+            [cell.row() for cell in cells if cell.preset == preset],
+        )
+        for preset in sorted({cell.preset for cell in cells})
+    }
+    made: dict[str, tuple[Any, ...]] = {
+        "figure1": (draw_robot, plan.preset),
+        "figure4": (figures.tracking_figure, npd, "NPD under the push", window),
+        "figure5": (figures.tracking_figure, adrc, "ADRC under the push", window),
+        "figure6": (figures.phase_figure, signals),
+        "comparison": (figures.comparison_figure, signals, window),
+        "disturbance": (figures.disturbance_figure, adrc, "ADRC", window),
+        "ground": (figures.ground_figure, adrc, "ADRC", mu),
+        "energy": (figures.energy_figure, adrc, "ADRC", window),
+        "multipliers": (figures.multiplier_figure, magnitudes, PUBLISHED_MULTIPLIERS),
+        "return_map": (figures.return_map_figure, *r.returns["map"]),
+        **maps,
+    }
+    return {name: Task(name, rendered, arguments) for name, arguments in made.items()}
+
+
+def draw_robot(preset: str) -> Figure:
+    """Figure 1."""
+    return robot_figure(Biped.load("rabbit", preset))
+
+
+def rendered(draw: Callable[..., Figure], *arguments: Any) -> tuple[bytes, bytes, str]:
+    """A figure as PNG and as SVG, laid out once, and the numbers it shows as JSON."""
+    figure = draw(*arguments)
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    return render(figure, "png"), render(figure, "svg"), as_text(numbers_of(figure))

@@ -1,0 +1,206 @@
+"""Section VI's other claim as a map: in which phase of the step does a push throw which controller?
+
+Pushes of 0.2 s in the 19th single support, over onset, amplitude and joint pattern, with and without a torque
+limit. The walk starts on the periodic orbit at that step and has to make three more impacts. The constraint
+goes on smoothly past the phase range of the gait: a fall is a fall of the robot and not of a polynomial.
+
+Every walk is carried out at two steps. A cell in which they end differently is marginal and carries no claim.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+from biped_adrc.engine.run import COMPILED
+from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.push import Push
+from biped_adrc.scenario.run import execute_twice
+from biped_adrc.scenario.scenario import Scenario
+
+PATTERNS: dict[str, dict[str, float]] = {
+    "all +": {"q1": 1.0, "q2": 1.0, "q3": 1.0, "q4": 1.0},
+    "all -": {"q1": -1.0, "q2": -1.0, "q3": -1.0, "q4": -1.0},
+    "hips +": {"q1": 1.0, "q2": 1.0},
+    "hips -": {"q1": -1.0, "q2": -1.0},
+    "hips apart": {"q1": 1.0, "q2": -1.0},
+    "hips together": {"q1": -1.0, "q2": 1.0},
+    "stance knee +": {"q3": 1.0},
+    "stance knee -": {"q3": -1.0},
+    "swing knee +": {"q4": 1.0},
+    "swing knee -": {"q4": -1.0},
+}
+"""Joint patterns, to be multiplied by the amplitude [N m]."""
+
+IMPACTS = 4
+PUSHED_STEP = 19
+DURATION = 0.2
+"""[s]."""
+MAP_STEP = 1e-3
+"""[s], and half of it."""
+
+
+@dataclass(frozen=True)
+class Fate:
+    """What became of one walk.
+
+    outcome: "fell", "ended" (otherwise, as `status` says), "made" (all steps, but the ground or the motors
+    could not have carried them) or "legal". marginal: at half the step its word is another.
+    """
+
+    outcome: str
+    status: str
+    mean_normal_force: float | None
+    """The least F_N averaged over 5 ms [N]; the ground would have had to pull where it is negative."""
+    mean_friction: float | None
+    """The largest |F_T| / F_N of such an average; None where the ground never pushed."""
+    impulse_ratio: float | None
+    """The largest of the impacts; it makes no walk illegal."""
+    reasons: tuple[str, ...] = ()
+    """Why it is not legal, by the names of `Legality.reasons`."""
+    marginal: bool = False
+
+    @classmethod
+    def of(cls, o: Outcome) -> Fate:
+        """Of a run carried out at two steps."""
+        assert o.half is not None
+        used, half = cls._at(o), cls._at(o.half)
+        same = (used.word, used.status) == (half.word, half.status)
+        return replace(used, marginal=not same)
+
+    @classmethod
+    def _at(cls, o: Outcome) -> Fate:
+        found = o.legality
+        normal, friction, impulse = (
+            x if math.isfinite(x) else None
+            for x in (found.mean_normal_force, found.mean_friction, found.impulse_ratio)
+        )
+        return cls(found.outcome, o.status, normal, friction, impulse, tuple(found.reasons))
+
+    @property
+    def word(self) -> str:
+        """As in the map: "pulled" for a walk made that needed a ground that pulls, "marginal" first."""
+        if self.marginal:
+            return "marginal"
+        pulls = self.mean_normal_force is not None and self.mean_normal_force <= 0.0
+        return "pulled" if self.outcome == "made" and pulls else self.outcome
+
+
+@dataclass(frozen=True)
+class PushCell:
+    """One push and what each controller made of it."""
+
+    preset: str
+    onset: float
+    """[s] in the step."""
+    amplitude: float
+    """[N m]."""
+    pattern: str
+    torque_limit: float | None
+    """[N m], None for unlimited."""
+    npd: Fate
+    adrc: Fate
+
+    def row(self) -> dict[str, Any]:
+        """As plain values, for the figure and the summary."""
+        return {
+            **asdict(self),
+            "onset_ms": 1e3 * self.onset,
+            "npd_word": self.npd.word,
+            "adrc_word": self.adrc.word,
+        }
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A push by its onset [s], amplitude [N m], joint pattern and torque limit [N m], None for unlimited."""
+
+    onset: float
+    amplitude: float
+    pattern: str
+    torque_limit: float | None
+
+    def run(self, base: Scenario, controller: str) -> Scenario:
+        """The walk under it."""
+        factors = PATTERNS[self.pattern].items()
+        torque = {joint: self.amplitude * factor for joint, factor in factors}
+        push = Push(torque, step=PUSHED_STEP, start=self.onset, stop=self.onset + DURATION)
+        return replace(
+            base,
+            controller=controller,
+            pushes=(push,),
+            torque_limit=self.torque_limit,
+            continued=True,
+            first_step=PUSHED_STEP,
+            impacts=IMPACTS,
+            h=MAP_STEP,
+            engine=COMPILED,
+        )
+
+
+def push_map(
+    base: Scenario, tried: Sequence[Tried], progress: Callable[[int], None] | None = None
+) -> list[PushCell]:
+    """Both controllers under every push, at two steps each, on the compiled engine."""
+    cells: list[PushCell] = []
+    for found in tried:
+        npd, adrc = (Fate.of(execute_twice(found.run(base, c))) for c in CONTROLLERS)
+        place = (found.onset, found.amplitude, found.pattern, found.torque_limit)
+        cells.append(PushCell(str(base.preset), *place, npd, adrc))
+        if progress is not None:
+            progress(len(cells))
+    return cells
+
+
+def pushes(
+    onsets: Sequence[float],
+    amplitudes: Sequence[float],
+    patterns: Sequence[str],
+    limits: Sequence[float | None],
+) -> list[Tried]:
+    """All of them, the limits slowest and the onsets fastest."""
+    every = itertools.product(limits, patterns, amplitudes, onsets)
+    return [Tried(onset, amplitude, of, limit) for limit, of, amplitude, onset in every]
+
+
+def settings_of(cells: Sequence[PushCell]) -> Iterator[tuple[str, list[PushCell]]]:
+    """The cells of each preset and torque limit, with their name."""
+    keys = dict.fromkeys((cell.preset, cell.torque_limit) for cell in cells)
+    for preset, limit in keys:
+        name = f"{preset}, {'unlimited' if limit is None else f'{limit:g} N m'}"
+        yield name, [c for c in cells if (c.preset, c.torque_limit) == (preset, limit)]
+
+
+WORDS = ("legal", "made", "pulled", "fell", "ended", "marginal")
+"""What a walk of the map can be, and what the columns of its table are."""
+
+
+def counts(cells: Sequence[PushCell]) -> dict[str, dict[str, dict[str, int]]]:
+    """How many walks are what, by setting, controller and word."""
+    return {
+        name: {
+            c: {word: sum(getattr(cell, c.lower()).word == word for cell in here) for word in WORDS}
+            for c in CONTROLLERS
+        }
+        for name, here in settings_of(cells)
+    }
+
+
+def apart(cells: Sequence[PushCell]) -> dict[str, tuple[int, int]]:
+    """By setting: pushes that only ADRC walks through legally, and that only NPD does; no marginal cells."""
+    return {
+        name: (
+            sum(c.adrc.word == "legal" != c.npd.word for c in certain(here)),
+            sum(c.npd.word == "legal" != c.adrc.word for c in certain(here)),
+        )
+        for name, here in settings_of(cells)
+    }
+
+
+def certain(cells: Sequence[PushCell]) -> list[PushCell]:
+    """Those that end alike at both steps under both controllers."""
+    return [c for c in cells if not (c.npd.marginal or c.adrc.marginal)]

@@ -1,0 +1,199 @@
+"""The paper, end to end: run everything, judge it, and write what it came to.
+
+Written to the output folder: figures (PNG, SVG), the two headline runs (npz + JSON), walk.html,
+summary.json and report.html; each whole or not at all, so that an interrupted run leaves readable files.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from biped_adrc.analysis.regression import Regression
+from biped_adrc.campaign.pool import TaskProgress, run_tasks
+from biped_adrc.checks import Check
+from biped_adrc.control.tracking import TABLE_II
+from biped_adrc.errors import OutputError
+from biped_adrc.files import plain, write_text
+from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.observers.gpi import TABLE_I
+from biped_adrc.paper import verdicts
+from biped_adrc.paper.claims.evidence import gathered
+from biped_adrc.paper.claims.table import claims
+from biped_adrc.paper.claims.words import MEANINGS, PREFACE, Claim, claim_checks
+from biped_adrc.paper.convergence import observed_order, records
+from biped_adrc.paper.figures import push_window
+from biped_adrc.paper.physical_laws import work_identity
+from biped_adrc.paper.pictures import draw_all
+from biped_adrc.paper.plan import BOTH, Headline, Plan
+from biped_adrc.paper.plan import tasks as planned_tasks
+from biped_adrc.paper.results import Results
+from biped_adrc.paper.tables import findings, notes, tables
+from biped_adrc.scenario.stored import replay
+from biped_adrc.versions import versions
+from biped_adrc.viz.meshcat.view import Look, animation_html
+from biped_adrc.viz.pages import write_report
+
+
+def reproduce(
+    plan: Plan,
+    out: Path,
+    command: str,
+    workers: int | None = None,
+    progress: TaskProgress | None = None,
+) -> dict[str, Any]:
+    """Run the plan and write everything to `out`; returns the summary.
+
+    Raises OutputError before the first run when `out` cannot be written.
+    """
+    started = time.perf_counter()
+    probe(out)
+    named = planned_tasks(plan)
+    done = run_tasks(list(named.values()), workers, progress)
+    r = Results.of({name: found.value for name, found in zip(named, done, strict=True)})
+    found = claims(plan, r)
+    checks = _checks(plan, r) + claim_checks(found) + _laws(plan, r)
+    simulated = time.perf_counter()
+    made = {
+        "command": command,
+        **_said(plan, r, found),
+        "holds": all(check.holds for check in checks),
+        "checks": checks,
+        "tables": tables(plan, r),
+        **_numbers(plan, r),
+        "push_map": [cell.row() for cell in r.cells],
+        "seconds": {name: one.seconds for name, one in zip(named, done, strict=True)},
+    }
+    summary: dict[str, Any] = plain(made)
+    for c, head in r.heads.items():
+        _save(head, out / f"walk-{c.lower()}.npz")
+    pictures = draw_all(plan, r, out, workers)
+    animation = _animate(r)
+    write_text(out / "walk.html", animation)
+    summary["wall_time_s"] = time.perf_counter() - started
+    write_report(out / "report.html", summary, pictures, animation)
+    summary["seconds_writing"] = time.perf_counter() - simulated
+    write_text(out / "summary.json", json.dumps(summary, indent=1) + "\n")
+    return summary
+
+
+def _laws(plan: Plan, r: Results) -> list[Check]:
+    """The laws that the runs were held against."""
+    parts = [laws for laws, _ in r.numerics.values()] + [r.headline[c][1] for c in BOTH]
+    nominal = dict(r.nominal(plan))
+    for preset in plan.presets:
+        works = [work_identity(nominal[f"{preset} {c}"]) for c in BOTH]
+        parts += [r.model[preset], works]
+    return [law for part in parts for law in part]
+
+
+def _said(plan: Plan, r: Results, found: list[Claim]) -> dict[str, Any]:
+    """What the summary says in words: settings, findings, claims, notes."""
+    return {
+        "preset": plan.preset,
+        "left_out": list(plan.left_out),
+        "findings": findings(plan, r),
+        "settings": _settings(plan),
+        "versions": versions(),
+        "claims_preface": PREFACE,
+        "claims_words": MEANINGS,
+        "claims": [claim.record() for claim in found],
+        "notes": notes() + verdicts.recipe_notes(r, plan),
+    }
+
+
+def _numbers(plan: Plan, r: Results) -> dict[str, Any]:
+    """The numbers of the runs, at the steps at which they were made."""
+    return {
+        "claims_evidence": gathered(plan.presets, r.claims),
+        "nominal": {name: [s.record() for s in o.certificates] for name, o in r.nominal(plan)},
+        "multipliers": {c: r.multipliers[c].record() for c in BOTH if c in r.multipliers},
+        "headline": {c: _three_steps(head) for c, head in r.heads.items()},
+        "convergence": list(records(r.run_twice)),
+        "regression": {c: _regression(c, found) for c, found in r.regressions.items()},
+    }
+
+
+def _checks(plan: Plan, r: Results) -> list[Check]:
+    """What the runs have to show, besides the laws each of them was held against."""
+    return (
+        verdicts.consistency_checks(plan, r)
+        + verdicts.push_checks(r)
+        + verdicts.engine_checks(r)
+        + verdicts.convergence_checks(r)
+        + verdicts.multiplier_checks(r)
+        + verdicts.recipe_checks(plan, r)
+        + verdicts.certificate_checks(plan, r)
+    )
+
+
+def probe(out: Path) -> None:
+    """Make the folder and try to write in it. Raises OutputError."""
+    marker = out / ".writable"
+    write_text(marker, "")
+    marker.unlink()
+    if not out.is_dir():
+        raise OutputError(f"'{out}' is not a folder; choose another with --out")
+
+
+def _settings(plan: Plan) -> dict[str, Any]:
+    fields = [name for name in Plan.__dataclass_fields__ if name != "pushes"]
+    return {
+        **{name: getattr(plan, name) for name in fields},
+        "presets": list(plan.presets),
+        "pushes": [push.text() for push in plan.pushes],
+        "Table I, observer eigenvalues [rad/s]": list(TABLE_I),
+        "Table II": {"K_p": TABLE_II.K_p, "K_d": TABLE_II.K_d},
+    }
+
+
+def _three_steps(head: Headline) -> dict[str, Any]:
+    """The largest error under the push at the step used, at half and at a quarter of it, and the order."""
+    o = head.outcome
+    assert o.half is not None
+    assert o.half.half is not None
+    peaks = [x.peak_error for x in (o, o.half, o.half.half)]
+    order = observed_order(o, lambda x: x.peak_error)
+    return {"step": o.run.fine, "peak_error": peaks, "order": order}
+
+
+STORED_APART = 1e-3
+"""[s] between the stored nodes of a headline run, but for the single supports with fine steps."""
+
+
+def _save(head: Headline, path: Path) -> None:
+    replay(head.outcome.run, _stored(head)).save(path)
+
+
+def _stored(head: Headline) -> Trajectory:
+    """The trajectory without nodes that no picture needs: where nothing switches the solution is smooth."""
+    pushed = {push.step + k for push in head.outcome.run.pushes for k in (0, 1)}
+    arcs = (
+        arc if arc.mode.step in pushed else arc.thinned(STORED_APART)
+        for arc in head.trajectory.arcs
+    )
+    return replace(head.trajectory, arcs=tuple(arcs))
+
+
+def _regression(controller: str, found: Regression) -> dict[str, Any]:
+    names = ("magnitudes", "rank", "condition", "samples", "warning")
+    return {"controller": controller, **{name: getattr(found, name) for name in names}}
+
+
+def _animate(r: Results) -> str:
+    walks = {c: replay(head.outcome.run, head.trajectory) for c, head in r.heads.items()}
+    window = push_window(r.heads["NPD"].signals)
+    return animation_html(walks, Look("ADRC", [] if window is None else [(*window, "push")]))
+
+
+def failed(checks: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The checks that do not hold."""
+    return [check for check in checks if not check["holds"]]
+
+
+def main_table(summary: dict[str, Any]) -> list[tuple[str, str, str, str]]:
+    """Claim, place, word, share of the cases: what the command prints."""
+    return [(row["claim"], row["where"], row["word"], row["share"]) for row in summary["claims"]]

@@ -1,0 +1,94 @@
+"""What the tasks of a reproduction came to, by kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from biped_adrc.analysis.regression import Regression
+from biped_adrc.checks import Check
+from biped_adrc.paper.plan import BOTH, Headline, Plan, RecipeResult
+from biped_adrc.paper.push_map import PushCell
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.studies.cycle_stability import PoincareResult, regression_of
+from biped_adrc.types import Array
+
+
+@dataclass(frozen=True)
+class Results:
+    """By the words behind the kind in a task's name: a controller, a preset, or both."""
+
+    headline: Mapping[str, tuple[Headline, list[Check]]]
+    """The pushed walks, each with its laws."""
+    multipliers: Mapping[str, PoincareResult]
+    engines: Mapping[str, Outcome]
+    recipe: Mapping[str, RecipeResult]
+    model: Mapping[str, list[Check]]
+    """Laws of the model, by preset."""
+    map: Mapping[str, list[PushCell]]
+    """Parts of the map of pushes; none where it was not asked for."""
+    numerics: Mapping[str, tuple[list[Check], dict[str, float]]]
+    """Laws and figures of the methods."""
+    returns: Mapping[str, tuple[Array, Array]]
+    """By "map": Theta' before an impact and before the next."""
+    claims: Mapping[str, Any]
+    runs: Mapping[str, Outcome] = field(default_factory=dict)
+    """All other walks, by their whole names."""
+
+    @classmethod
+    def of(cls, values: Mapping[str, Any]) -> Results:
+        """From what the tasks of a plan gave, by their names."""
+        kinds: dict[str, dict[str, Any]] = {kind: {} for kind in cls.__dataclass_fields__}
+        for name, value in values.items():
+            kind, _, rest = name.partition(" ")
+            if kind in kinds:
+                kinds[kind][rest] = value
+            elif name == "return map":
+                kinds["returns"]["map"] = value
+            else:
+                kinds["runs"][name] = value
+        return cls(**kinds)
+
+    @property
+    def heads(self) -> dict[str, Headline]:
+        """The pushed walks by controller."""
+        return {c: self.headline[c][0] for c in BOTH if c in self.headline}
+
+    @property
+    def regressions(self) -> dict[str, Regression]:
+        """(26), (27) on the pushed walks."""
+        return {c: regression_of(head.outcome) for c, head in self.heads.items()}
+
+    @property
+    def cells(self) -> list[PushCell]:
+        """The map of pushes."""
+        return [cell for part in self.map.values() for cell in part]
+
+    @property
+    def figures(self) -> dict[str, float]:
+        """Of the numerical laws."""
+        return {k: v for _, found in self.numerics.values() for k, v in found.items()}
+
+    def pair(self, name: str) -> tuple[Outcome, Outcome]:
+        """A run under NPD and under ADRC."""
+        npd, adrc = (self.runs[f"{name} {c}"] for c in BOTH)
+        return npd, adrc
+
+    def nominal(self, plan: Plan) -> Iterator[tuple[str, Outcome]]:
+        """The undisturbed walks on gait (a), by preset and controller."""
+        for name in (f"{preset} {c}" for preset in plan.presets for c in BOTH):
+            yield name, self.runs[f"nominal {name}"]
+
+    def recipes(self, plan: Plan) -> Iterator[RecipeResult]:
+        """What became of gait (b), by preset and controller."""
+        return (self.recipe[f"{preset} {c}"] for preset in plan.presets for c in BOTH)
+
+    @property
+    def run_twice(self) -> dict[str, Outcome]:
+        """Every outcome that was computed at two steps, by name."""
+        found = {f"push {c}": self.heads[c].outcome for c in BOTH} | dict(self.runs)
+        for r in self.recipe.values():
+            if r.outcome is not None:
+                found[f"gait (b) {r.preset} {r.controller}"] = r.outcome
+        return {name: o for name, o in found.items() if o.half is not None}

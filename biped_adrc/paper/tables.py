@@ -1,0 +1,236 @@
+"""The tables of a reproduction, and what it comes to in sentences, every number taken from its runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.analysis.legality import OUTCOMES
+from biped_adrc.control.tracking import TABLE_II
+from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
+from biped_adrc.observers.gpi import TABLE_I
+from biped_adrc.paper.plan import BOTH, POLICIES, RISE, Plan
+from biped_adrc.paper.push_map import WORDS, PushCell, certain, counts
+from biped_adrc.paper.results import Results
+from biped_adrc.paper.verdicts import distance
+from biped_adrc.resources import packaged
+from biped_adrc.scenario.outcome import Outcome
+
+PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)
+"""As the paper prints them, with its thousands separators ("-11.020", "-19.836") read as such."""
+
+Table = dict[str, list[Any]]
+"""Columns, and rows of as many cells."""
+
+
+def tables(plan: Plan, r: Results) -> dict[str, Table]:
+    """What is reported beside the checks."""
+    here = "here, 180 x 1.8^k"
+    poles = zip(PRINTED_TABLE_I, TABLE_I, strict=True)
+    constants = {"K_p [1/s^2]": (5000, TABLE_II.K_p), "K_d [1/s]": (50, TABLE_II.K_d)}
+    found = {
+        "Table I: observer eigenvalues [rad/s]": table(
+            {"paper, rounded": printed, here: pole} for printed, pole in poles
+        ),
+        "Table II: controller constants": table(
+            {"constant": k, "paper": printed, "here": x} for k, (printed, x) in constants.items()
+        ),
+        "Runs": _runs(r),
+        "Stability: multipliers": _multipliers(r),
+        "Gait (b), the paper's recipe": _recipe(plan, r),
+        "Numerics": table({"figure": k, "value": v} for k, v in r.figures.items()),
+    }
+    if not plan.quick:
+        found["Literal equation and resets at impact"] = _literal(r)
+        found["Map of pushes"] = _map(r.cells)
+    return found
+
+
+def table(rows: Iterable[dict[str, Any]]) -> Table:
+    """Rows by column, each with the same columns; at least one."""
+    rows = list(rows)
+    return {"columns": list(rows[0]), "rows": [list(row.values()) for row in rows]}
+
+
+def _runs(r: Results) -> Table:
+    named = {k: o for k, o in r.runs.items() if not k.startswith("reset")}
+    heads = {f"push {c}": r.heads[c].outcome for c in BOTH}
+    return table(_run(name, o) for name, o in {**heads, **named}.items())
+
+
+def _run(name: str, o: Outcome) -> dict[str, Any]:
+    steps = o.certificates
+    return {
+        "run": name,
+        "controller": o.run.controller,
+        "preset": o.run.preset,
+        "status": o.status,
+        "outcome": o.legality.outcome,
+        "impacts": o.impacts,
+        "peak error [rad]": o.peak_error,
+        "at half the step [rad]": None if o.half is None else o.half.peak_error,
+        "rms error [rad]": o.rms_error,
+        "peak torque [N m]": o.peak_torque,
+        "median step [s]": float(np.median([s.duration for s in steps])) if steps else None,
+        "mean friction": o.legality.mean_friction,
+        "mean F_N [N]": o.legality.mean_normal_force,
+        "impulse ratio": float(np.max([s.impulse_ratio for s in steps])) if steps else None,
+        "method": o.method,
+        "engine": o.engine,
+    }
+
+
+def _multipliers(r: Results) -> Table:
+    found: dict[str, tuple[list[float], str]] = {}
+    for name in ("NPD", "ADRC", "ADRC measured"):
+        if name in r.multipliers:
+            z = np.abs(r.multipliers[name].orbit.multipliers)
+            of = name.replace(" measured", ", reset 'measured'")
+            remembers = "the observer's xi^ and its derivatives live on through the impact"
+            remark = remembers if name.endswith("measured") else ""
+            said = f"central differences, {of}, {len(z)} coordinates"
+            found[said] = z[:10].tolist(), remark
+    found["delta^2 of the zero dynamics"] = [r.multipliers["NPD"].delta_squared], ""
+    for c, test in r.regressions.items():
+        said = f"regression (27) on the pushed walk, {c}"
+        found[said] = test.magnitudes.tolist(), test.warning
+    found["printed in the paper"] = list(PUBLISHED_MULTIPLIERS), "from a regression: no target"
+    return table(
+        {"method": said, "magnitudes": z, "remark": remark} for said, (z, remark) in found.items()
+    )
+
+
+def _recipe(plan: Plan, r: Results) -> Table:
+    return table(
+        {
+            "preset": x.preset,
+            "controller": x.controller,
+            "closes": x.closes,
+            "stable": x.record.get("stable"),
+            "largest multipliers": x.record.get("multipliers", [])[:3],
+            "impacts": x.record.get("impacts"),
+            "peak error [rad]": x.record.get("peak_error"),
+            "peak torque [N m]": x.record.get("peak_torque"),
+            "friction needed": x.record.get("certificate", {}).get("friction"),
+            "impulse ratio": x.record.get("certificate", {}).get("impulse_ratio"),
+            "violations": "; ".join(x.record.get("violations", [])),
+            "rate jump at impact [rad/s]": x.record.get("impact_rate_jump"),
+            "x- minus x*": x.record.get("distance_to_x_star"),
+            "remark": x.reason,
+        }
+        for x in r.recipes(plan)
+    )
+
+
+def _literal(r: Results) -> Table:
+    names = [f"as printed {c}" for c in BOTH]
+    names += [f"reset {p}, {limit}" for p in POLICIES for limit in ("unlimited", "150 N m")]
+    return table(
+        {
+            "variant": name,
+            "status": o.status,
+            "impacts": o.impacts,
+            "peak error [rad]": o.peak_error if o.walked else None,
+            "at half the step [rad]": o.half.peak_error if o.walked and o.half else None,
+            "peak torque [N m]": o.peak_torque if o.walked else None,
+            "median step [s]": float(np.median(o.durations)) if len(o.durations) else None,
+            "distance to x*": distance(o),
+        }
+        for name, o in ((name, r.runs[name]) for name in names)
+    )
+
+
+def _map(cells: list[PushCell]) -> Table:
+    found = counts(cells)
+    rows = [[name, c, *(found[name][c][word] for word in WORDS)] for name in found for c in BOTH]
+    return {"columns": ["preset, torque limit", "controller", *WORDS], "rows": rows}
+
+
+# -- in sentences ----------------------------------------------------------------------------------
+def findings(plan: Plan, r: Results) -> list[str]:
+    """The main findings, one sentence or two each."""
+    named = [_push(plan, r), _heavier(r), _fixed_point(plan, r), _stable_recipes(plan, r)]
+    maps = [_pushes(r.cells)] if r.cells else []
+    return [*named, _stability(r), *maps, _torso(r)]
+
+
+def notes() -> list[str]:
+    """What a reader has to know of the setup."""
+    return [" ".join(text.split()) for text in _texts()["notes"].values()]
+
+
+def _texts() -> dict[str, Any]:
+    return packaged("biped_adrc.paper", "findings.toml")
+
+
+def _said(of: str, /, **values: Any) -> str:
+    return str(" ".join(_texts()[of].split()).format(**values))
+
+
+def _push(plan: Plan, r: Results) -> str:
+    npd, adrc = (r.heads[c].outcome for c in BOTH)
+    words = {c: OUTCOMES[r.heads[c].outcome.legality.outcome] for c in BOTH}
+    kind = "carried_alike" if words["NPD"] == words["ADRC"] else "carried_apart"
+    return _said(
+        "push",
+        npd=npd,
+        adrc=adrc,
+        slow=r.pair("rising push"),
+        rise=1e3 * RISE,
+        pushes="; ".join(push.in_words() for push in plan.pushes),
+        carried=_said(kind, npd=words["NPD"], adrc=words["ADRC"]),
+    )
+
+
+def _heavier(r: Results) -> str:
+    pairs = (r.pair(f"heavier, {kind}") for kind in ("masses", "masses and inertias"))
+    masses, both = (adrc.peak_error / npd.peak_error for npd, adrc in pairs)
+    return _said("heavier", masses=masses, both=both)
+
+
+def _fixed_point(plan: Plan, r: Results) -> str:
+    walks = [o for _, o in r.nominal(plan)]
+    gap = float(np.max([distance(o) for o in walks]))
+    impacts, presets = walks[0].run.impacts, ", ".join(plan.presets)
+    return _said("fixed_point", impacts=impacts, gap=gap, presets=presets)
+
+
+def _stable_recipes(plan: Plan, r: Results) -> str:
+    found = list(r.recipes(plan))
+    stable = [f for f in found if f.closes and f.record.get("stable")]
+    text = _said("recipe", stable=len(stable), count=len(found))
+    if not stable:
+        return f"{text}."
+    gap = max(float(np.max(np.abs(f.record["distance_to_x_star"]))) for f in stable)
+    torques = [f.record["peak_torque"] for f in stable]
+    least, most = np.min(torques), np.max(torques)
+    return _said("recipe_stable", text=text, gap=gap, least=least, most=most)
+
+
+def _stability(r: Results) -> str:
+    npd, text = r.multipliers["NPD"], ""
+    if "ADRC" in r.multipliers:
+        z = np.abs(r.multipliers["ADRC"].orbit.multipliers)
+        text = " " + _said("stability_of_ADRC", count=len(z), largest=z[0])
+    largest = abs(npd.orbit.multipliers[0])
+    return _said("stability", largest=largest, delta_squared=npd.delta_squared, adrc=text)
+
+
+def _pushes(cells: list[PushCell]) -> str:
+    parts = (
+        _said("map", total=sum(x["NPD"].values()), npd=x["NPD"], adrc=x["ADRC"], name=name)
+        for name, x in counts(certain(cells)).items()
+    )
+    return f"The map of pushes: {'; '.join(parts)}."
+
+
+def _torso(r: Results) -> str:
+    walks = r.pair("torso")
+    short = [f"{o.run.controller} makes no step" for o in walks if len(o.durations) == 0]
+    if short:
+        return _said("torso_stopped", who=" and ".join(short))
+    usual = float(walks[0].durations[0])
+    slow = [float(o.durations[np.argmax(np.abs(o.durations - usual))]) for o in walks]
+    return _said("torso", slow=slow, usual=usual)

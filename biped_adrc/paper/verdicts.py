@@ -1,0 +1,172 @@
+"""From the outcomes of the reproduction to its checks and tables; nothing here is typed in."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from biped_adrc.checks import Check, at_least, at_most, below
+from biped_adrc.gait.published import X_STAR
+from biped_adrc.paper.convergence import MULTIPLIER_ROUND_OFF, convergence_check, observed_order
+from biped_adrc.paper.plan import BOTH, Plan
+from biped_adrc.paper.results import Results
+from biped_adrc.scenario.build import Scene
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.types import Array
+
+
+def distance(outcome: Outcome) -> float:
+    """max |x- - x*| at the last impact; infinite when the robot fell before."""
+    if not outcome.walked:
+        return float("inf")
+    return float(np.max(np.abs(outcome.x_minus[-1][: len(X_STAR)] - X_STAR)))
+
+
+def consistency_checks(plan: Plan, r: Results) -> list[Check]:
+    """Gait (a) closes on the published x* under both controllers in every preset."""
+    walks = {f"{_gait(name, 'a')}: distance to x*": o for name, o in r.nominal(plan)}
+    return [
+        at_most(f"{name} after {o.impacts} impacts", "consistency", distance(o), 5e-4)
+        for name, o in walks.items()
+    ]
+
+
+def _gait(name: str, gait: str) -> str:
+    """A preset and a controller, as checks name them."""
+    return f"gait ({gait}), {', '.join(name.split())}"
+
+
+def certificate_checks(plan: Plan, r: Results) -> list[Check]:
+    """Nominal walking within dry friction and RABBIT's torque."""
+    found = []
+    for of, o in r.nominal(plan):
+        # NumPy's, since max and min pass over a NaN; without a step nothing holds
+        friction = float(np.max([s.friction for s in o.certificates] or [np.inf]))
+        torque = float(np.max([s.peak_torque for s in o.certificates] or [np.inf]))
+        normal = float(np.min([s.least_normal_force for s in o.certificates] or [-np.inf]))
+        name = _gait(of, "a")
+        found += [
+            at_most(f"{name}: friction needed", "consistency", friction, 0.6),
+            at_most(f"{name}: peak torque [N m]", "consistency", torque, 150.0),
+            at_least(f"{name}: least normal force [N]", "consistency", normal, 0.0),
+        ]
+    return found
+
+
+def multiplier_checks(r: Results) -> list[Check]:
+    """The multiplier of the walking cycle is delta^2; everything is inside the unit circle."""
+    npd = r.multipliers["NPD"]
+    sizes = np.abs(npd.orbit.multipliers)
+    closed = "NPD: largest multiplier against delta^2 of the zero dynamics"
+    found = [
+        at_most(closed, "law", abs(sizes[0] - npd.delta_squared), 1e-5),
+        below("NPD: the other eight multipliers", "reproduced", sizes[1], 1e-3),
+    ]
+    for name, what in (
+        ("ADRC", "ADRC: largest of {} multipliers, observer states included"),
+        ("ADRC measured", "ADRC, reset 'measured' (xi^ remembered): largest of {} multipliers"),
+    ):
+        if name in r.multipliers:
+            z = np.abs(r.multipliers[name].orbit.multipliers)
+            found.append(below(what.format(len(z)), "reproduced", float(z[0]), 1.0))
+    return found
+
+
+def push_checks(r: Results) -> list[Check]:
+    """Figures 4 and 5: both walk on, and ADRC tracks a hundred times better."""
+    npd, adrc = (r.heads[c].outcome for c in BOTH)
+    found = []
+    for name, pair in (("the push", (npd, adrc)), ("the 5 Hz sine", r.pair("sine"))):
+        found += [*_made(name, pair), at_most(*_ratio(name, pair), 0.01)]
+    found += _made("the push at 1 kHz", r.pair("1 kHz"))
+    for kind in ("masses", "masses and inertias"):
+        name, heavy = f"heavier plant ({kind})", r.pair(f"heavier, {kind}")
+        found += [*_made(name, heavy), below(*_ratio(name, heavy), 1.0)]
+    torso = r.pair("torso")
+    found += _made("push on the unactuated torso", torso)
+    name = "push on the unactuated torso: step periods of ADRC and NPD differ, share of a period"
+    gap = period_gap(*(o.durations for o in torso))
+    return [*found, at_most(name, "reproduced", gap, 0.01)]
+
+
+def _ratio(name: str, pair: tuple[Outcome, Outcome]) -> tuple[str, str, float]:
+    ratio = pair[1].peak_error / pair[0].peak_error
+    return f"{name}: peak error of ADRC over NPD's", "reproduced", ratio
+
+
+def _made(name: str, pair: tuple[Outcome, Outcome]) -> list[Check]:
+    return [made_check(name, o) for o in pair]
+
+
+def made_check(name: str, o: Outcome) -> Check:
+    """Every impact asked for is made."""
+    label = f"{name}, {o.run.controller}: impacts made of {o.run.impacts}"
+    return at_least(label, "reproduced", o.impacts, o.run.impacts)
+
+
+def period_gap(one: Array, other: Array) -> float:
+    """Largest difference of the times of steps, over a usual one of `one`; infinite without as many steps."""
+    if len(one) != len(other) or len(one) == 0:
+        return float("inf")
+    return float(np.max(np.abs(one - other))) / float(np.median(one[:2]))
+
+
+def engine_checks(r: Results) -> list[Check]:
+    """The two engines over the pushed step, at equal method and step: the state before the next impact."""
+    checks = []
+    for c in BOTH:
+        one = r.engines[c]
+        other = one.half
+        assert other is not None
+        same = one.x_minus.shape == other.x_minus.shape and len(one.x_minus) > 0
+        n = Scene.of(one.run).biped.n
+        gap = np.abs(one.x_minus - other.x_minus)[:, : 2 * n] if same else np.array([np.inf])
+        name = f"{c} over the pushed step: compiled against Pinocchio, (q, q') at the impact [rad, rad/s]"
+        checks.append(at_most(name, "law", float(np.max(gap)), 1e-6))
+    return checks
+
+
+def convergence_checks(r: Results) -> list[Check]:
+    """No figure of merit moves when every step is halved; the headline's peak at a third step has an order."""
+    order = observed_order(r.heads["ADRC"].outcome, lambda o: o.peak_error)
+    name = "order in the step of ADRC's largest error under the push, from three steps"
+    gaps = {f"multipliers {c}": r.multipliers[c].gap for c in sorted(r.multipliers)}
+    for of, found in sorted(r.recipe.items()):
+        if found.closes:
+            gaps[_gait(of, "b")] = found.record["multipliers_change"]
+    return [
+        *(convergence_check(name, o) for name, o in r.run_twice.items()),
+        at_least(name, "law", order, 1.0),
+        *(at_most(f"{of}: {CHANGE}", "law", g, MULTIPLIER_ROUND_OFF) for of, g in gaps.items()),
+    ]
+
+
+CHANGE = (
+    "largest change of a multiplier when the step is halved, against the round-off of finite differences, "
+    "below which a multiplier is not told from zero"
+)
+
+
+def recipe_checks(plan: Plan, r: Results) -> list[Check]:
+    """Gait (b) closes in a stable cycle; its certificates are reported, not asserted."""
+    return [
+        below(
+            f"gait (b), {x.preset}, {x.controller}: largest multiplier of its cycle",
+            "reproduced",
+            x.record["multipliers"][0] if x.closes else float("inf"),
+            1.0,
+        )
+        for x in r.recipes(plan)
+    ]
+
+
+def recipe_notes(r: Results, plan: Plan) -> list[str]:
+    """Plain sentences on gait (b)."""
+    notes = []
+    for x in r.recipes(plan):
+        said = f"no cycle found: {x.reason}"
+        if x.closes:
+            gap = float(np.max(np.abs(x.record["distance_to_x_star"])))
+            word = "stable" if x.record["stable"] else "unstable"
+            said = f"closes, {word}, farthest component from x* {gap:.3g}."
+        notes.append(f"Gait (b), {x.preset}, {x.controller}: {said}")
+    return notes

@@ -1,0 +1,210 @@
+"""Who is who in the tree of a planar biped: feet, motors, hip, and the phase.
+
+The phase is the absolute angle of the virtual stance leg from the hip to the stance foot, counter-clockwise
+with x to the right and z up, so that it falls while the robot walks to +x. With a_k the absolute angles of
+the links of the stance leg and l_k the lengths of the leg in them,
+
+    Theta = sum_k l_k a_k / sum_k l_k = c q + const
+
+which is q5 + q1 + q3/2 for RABBIT. For two links of equal length this is the angle itself (an isosceles
+triangle), for others its first-order part about the straight leg; a row c is what a virtual constraint needs.
+What the URDF does not say is guessed only when there is one answer, and every guess is a sentence in `said`.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from itertools import pairwise, zip_longest
+
+import numpy as np
+
+from biped_adrc.errors import ModelError
+from biped_adrc.robot_import.planar_base import PlanarBase
+from biped_adrc.robots.symmetry import absolute_angles
+from biped_adrc.robots.urdf import Joint, Tree
+from biped_adrc.types import Array
+
+_FOOT_NAMES = re.compile(r"foot|feet|toe|sole", re.IGNORECASE)
+_AWAY = 1e-6  # [m], a foot nearer to its last joint than this is no foot
+
+
+@dataclass(frozen=True)
+class Anatomy:
+    """Names of the parts; `moving` in the order q1, q2, ... without the pitch."""
+
+    feet: tuple[str, str]
+    """Stance and swing foot."""
+    hip: str
+    moving: tuple[Joint, ...]
+    phase: tuple[float, ...]
+    said: tuple[str, ...]
+
+
+def anatomy(body: PlanarBase, feet: tuple[str, ...] | None, hip: str | None) -> Anatomy:
+    """The parts of a biped; `feet` (stance, swing) and `hip` are guessed when they are None.
+
+    Raises ModelError with the candidates and the option to give when a guess is not certain.
+    """
+    guesses: tuple[str, ...] = ()
+    if feet is None:
+        feet, guesses = _guessed_feet(body)
+    pair = _checked_feet(body, feet)
+    if hip is None:
+        hip, sentence = _guessed_hip(body.tree, pair)
+        guesses = (*guesses, sentence)
+    _check_hip(body, hip, pair[0])
+    moving = _in_order(body, pair)
+    pitch = next(joint for joint in body.tree.joints if joint.name == body.pitch)
+    c = _phase(body.tree, pair[0], hip, (*moving, pitch))
+    terms = zip(c, (*moving, pitch), strict=True)
+    text = " ".join(f"{w:+.6g} {joint.name}" for w, joint in terms if w != 0.0)
+    guesses = (*guesses, f"phase: Theta = {text}, the virtual leg from the hip to '{pair[0]}'")
+    return Anatomy(pair, hip, moving, tuple(float(w) for w in c), guesses)
+
+
+def position(tree: Tree, link: str) -> Array:
+    """(x, z) of the frame of a link at zero angles [m]; frames are parallel."""
+    origins = [joint.origin for joint in tree.path_to_root(link)]
+    return np.array([math.fsum(o[0] for o in origins), math.fsum(o[2] for o in origins)])
+
+
+def _chain(body: PlanarBase, link: str) -> list[Joint]:
+    """Revolute joints between `link` and the trunk, from the trunk outwards. Raises ModelError."""
+    path = body.tree.path_below(link, body.trunk)
+    if path is None:
+        raise ModelError(
+            f"URDF '{body.tree.source}': link '{link}' does not hang on the trunk '{body.trunk}'; foot and "
+            "hip must"
+        )
+    return [joint for joint in reversed(path) if joint.type == "revolute"]
+
+
+# -- feet ------------------------------------------------------------------------------------------
+def _leaves(body: PlanarBase) -> list[str]:
+    """Links at the ends of the tree, in the order of the file."""
+    tree = body.tree
+    ends = (link for link in tree.links if not tree.joints_below(link))
+    return [link for link in ends if tree.path_below(link, body.trunk) is not None]
+
+
+def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    leaves = _leaves(body)
+    depth = {leaf: len(_chain(body, leaf)) for leaf in leaves}
+    most = max(depth.values())
+    deepest = [leaf for leaf in leaves if depth[leaf] == most]
+    named = [leaf for leaf in leaves if _FOOT_NAMES.search(leaf)]
+    for guess, why in (
+        (deepest, f"the two ends that hang by most joints, {most} below the trunk"),
+        (named, "the two ends that are called feet"),
+    ):
+        if len(guess) == 2:
+            sentence = f"feet: '{guess[0]}' (drawn as the stance foot) and '{guess[1]}', {why}"
+            return tuple(guess), (sentence,)
+    raise ModelError(
+        f"URDF '{body.tree.source}': which two of the links {leaves} are the feet is not certain; say it by "
+        "feet=('stance', 'swing') or --feet stance,swing"
+    )
+
+
+def _checked_feet(body: PlanarBase, feet: tuple[str, ...]) -> tuple[str, str]:
+    source, links = body.tree.source, body.tree.links
+    for foot in feet:
+        if foot not in links:
+            raise ModelError(
+                f"URDF '{source}': there is no link '{foot}' to be a foot; the ends of the tree are "
+                f"{_leaves(body)}"
+            )
+    if len(feet) != 2 or feet[0] == feet[1]:
+        raise ModelError(
+            f"URDF '{source}': feet {list(feet)}, expected two different links, the stance foot first"
+        )
+    if _chain(body, feet[0]) == _chain(body, feet[1]):
+        raise ModelError(
+            f"URDF '{source}': no joint between '{feet[0]}' and '{feet[1]}' moves one foot against the "
+            "other; give two feet on different legs by feet=(...) or --feet"
+        )
+    for foot in feet:
+        _check_foot(body.tree, foot)
+    return feet[0], feet[1]
+
+
+def _check_foot(tree: Tree, foot: str) -> None:
+    """A point foot lies away from the joint that moves it. Raises ModelError."""
+    last = next(joint for joint in tree.path_to_root(foot) if joint.type == "revolute")
+    if math.dist(position(tree, foot), position(tree, last.child)) < _AWAY:
+        raise ModelError(
+            f"URDF '{tree.source}': foot '{foot}' lies on the axis of its own joint '{last.name}', so the "
+            "leg has no end; put a link without mass at its tip and name it by feet=(...) or --feet, or give "
+            "the place of the tip in the link's frame by tip=(x, y, z) or --tip x,y,z"
+        )
+
+
+# -- joints ----------------------------------------------------------------------------------------
+def _in_order(body: PlanarBase, feet: tuple[str, str]) -> tuple[Joint, ...]:
+    """Stance hip, swing hip, stance knee, swing knee, ...; then the joints that belong to no leg alone."""
+    one, other = (_chain(body, foot) for foot in feet)
+    pairs = zip_longest((j for j in one if j not in other), (j for j in other if j not in one))
+    legs = [joint for pair in pairs for joint in pair if joint is not None]
+    turning = [j for j in body.tree.joints if j.type == "revolute" and j.name != body.pitch]
+    return (*legs, *(joint for joint in turning if joint not in legs))
+
+
+# -- hip and phase ---------------------------------------------------------------------------------
+def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
+    """The link whose origin is the hip: where the legs meet, at the first joint of the swing leg."""
+    one, other = ([foot, *(j.parent for j in tree.path_to_root(foot))] for foot in feet)
+    meet = next(link for link in one if link in other)
+    swing = [j for j in tree.path_to_root(feet[1]) if j.child not in one and j.type == "revolute"]
+    if not swing:
+        raise ModelError(
+            f"URDF '{tree.source}': the swing foot '{feet[1]}' is fixed to the stance leg; give the feet the "
+            f"other way round, feet=('{feet[1]}', '{feet[0]}')"
+        )
+    here = math.dist(position(tree, meet), position(tree, swing[-1].child)) < _AWAY
+    link = meet if here and _keeps_its_origin(tree, meet, feet[0]) else swing[-1].child
+    return link, f"hip: the origin of '{link}', where '{swing[-1].name}' joins the legs"
+
+
+def _check_hip(body: PlanarBase, hip: str, foot: str) -> None:
+    if hip not in body.tree.links:
+        raise ModelError(
+            f"URDF '{body.tree.source}': there is no link '{hip}' to be the hip; it has "
+            f"{list(body.tree.links)}"
+        )
+    _chain(body, hip)
+    if not _keeps_its_origin(body.tree, hip, foot):
+        raise ModelError(
+            f"URDF '{body.tree.source}': hip '{hip}' carries the stance foot '{foot}', and its "
+            "origin moves when the tree is turned round at that foot; name a link of the swing leg, or one "
+            "fixed at the hip"
+        )
+
+
+def _keeps_its_origin(tree: Tree, link: str, foot: str) -> bool:
+    """Whether re-rooting at `foot` leaves the origin of `link` where it is."""
+    outwards = [joint for joint in tree.path_to_root(foot) if joint.parent == link]
+    return all(math.hypot(*joint.origin) < _AWAY for joint in outwards)
+
+
+def _phase(tree: Tree, foot: str, hip: str, joints: tuple[Joint, ...]) -> Array:
+    """Row c (n,) of Theta: the leg from the foot to the hip, cut where its links meet."""
+    carriers = {hip, *(joint.parent for joint in tree.path_to_root(hip))}
+    points, links = [position(tree, foot)], []
+    for joint in tree.path_to_root(foot):
+        links.append(joint.child)
+        if joint.child in carriers:
+            break
+        points.append(position(tree, joint.child))
+    points.append(position(tree, hip))
+    lengths = np.array([math.dist(a, b) for a, b in pairwise(points)])
+    if not np.sum(lengths) > _AWAY:
+        raise ModelError(
+            f"URDF '{tree.source}': hip '{hip}' and foot '{foot}' lie in one point, so there is no leg; "
+            "give the hip by hip=... or --hip"
+        )
+    counter_clockwise = -joints[-1].axis[1]
+    rows = absolute_angles(tree, tuple(joint.name for joint in joints), links)
+    c: Array = counter_clockwise * lengths @ rows / np.sum(lengths) + 0.0
+    return c

@@ -1,0 +1,338 @@
+"""A robot from one URDF: everything the record of a robot says, derived and checked.
+
+    derived = derive("walker.urdf")
+    derived.biped    the Biped, with the masses of the URDF as its preset "urdf"
+    derived.said     what was guessed, in sentences
+    derived.checks   the laws it was checked against, with their numbers
+
+The URDF describes a planar biped with point feet: revolute joints about y, equal legs, each with a link at its
+tip. Frames may be turned, angles may run either way; q keeps the file's zeros and senses. The section of
+the return map is foot strike, the height of the swing foot, which follows from the feet.
+
+Its record is in the words of a robot.toml, and written as TOML: `tomllib` reads and does not write. Strings,
+numbers, lists and tables are all a record holds, and JSON's strings are basic strings of TOML.
+
+A robot whose URDF has no shape that can be drawn gets sticks from joint to joint, and balls. A stick runs from
+the origin of a link to every joint below it, or to its COM where nothing lies below. It is a cylinder along z,
+a box along x, and a row of balls where it stands obliquely. At every COM lies a ball of steel that weighs as
+much as the body, r = (3 m / (4 pi rho))^(1/3).
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from biped_adrc.checks import Check
+from biped_adrc.errors import ModelError, OutputError
+from biped_adrc.files import write_text
+from biped_adrc.model.biped import Biped
+from biped_adrc.robot_import.anatomy import Anatomy, anatomy
+from biped_adrc.robot_import.import_checks import checks
+from biped_adrc.robot_import.planar_base import PlanarBase, on_planar_base
+from biped_adrc.robots.robot_toml import GRAVITY, description_of
+from biped_adrc.robots.symmetry import check_alike, pairs
+from biped_adrc.robots.urdf import Joint, Link, Tree, Vector, Visual, to_xml
+from biped_adrc.robots.urdf_reader import Reading, read, tip_of
+
+_STEEL = 7800.0  # [kg/m^3]
+_RADIUS = 0.03  # of a stick, as a fraction of its length
+_BEADS = 9
+_STANCE, _SWING, _TRUNK = (0.0, 0.45, 0.7, 1.0), (0.84, 0.37, 0.0, 1.0), (0.35, 0.35, 0.4, 1.0)
+
+
+def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
+    """The tree itself where a link has a shape, else the tree with sticks and a sentence that says so."""
+    if any(link.visuals for link in tree.links.values()):
+        return tree, ()
+    legs = [{joint.child for joint in tree.path_to_root(foot)} for foot in feet]
+    links = {}
+    for name, link in tree.links.items():
+        stance, swing = (name in leg for leg in legs)
+        colour = _TRUNK if stance == swing else _STANCE if stance else _SWING
+        links[name] = replace(link, visuals=_shapes(tree, link, colour))
+    said = "shapes: the URDF has none that can be drawn, so sticks and balls are drawn instead"
+    return replace(tree, links=links), (said,)
+
+
+def _shapes(tree: Tree, link: Link, colour: tuple[float, ...]) -> tuple[Visual, ...]:
+    rgba = (colour[0], colour[1], colour[2], colour[3])
+    ends = [joint.origin for joint in tree.joints_below(link.name) if any(joint.origin)]
+    if link.inertial is None:
+        return tuple(shape for end in ends for shape in _stick(end, rgba))
+    com = link.inertial.com
+    radius = (3.0 * link.inertial.mass / (4.0 * math.pi * _STEEL)) ** (1.0 / 3.0)
+    sticks = [shape for end in ends or [com] if any(end) for shape in _stick(end, rgba)]
+    return (*sticks, Visual("sphere", (radius,), com, rgba))
+
+
+def _stick(end: Vector, rgba: tuple[float, float, float, float]) -> tuple[Visual, ...]:
+    """From the origin to `end` [m]."""
+    x, _, z = end
+    length = math.hypot(x, z)
+    radius = _RADIUS * length
+    middle = (0.5 * x, 0.0, 0.5 * z)
+    if abs(x) < radius:
+        return (Visual("cylinder", (radius, abs(z)), middle, rgba),)
+    if abs(z) < radius:
+        return (Visual("box", (abs(x), 2.0 * radius, 2.0 * radius), middle, rgba),)
+    shares = [k / (_BEADS - 1) for k in range(_BEADS)]
+    return tuple(Visual("sphere", (radius,), (s * x, 0.0, s * z), rgba) for s in shares)
+
+
+PRESET = "urdf"
+FRICTION = 0.6
+"""Dry friction of the feet where none is given: RABBIT's, dimensionless."""
+
+_SIDES = re.compile(r"(^|[_-])(left|right|l|r)(?=$|[_-])", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Hints:
+    """What a URDF does not say; None is guessed where there is one answer.
+
+    feet: links of the stance and the swing foot. actuated: joints with a motor, q1, q2, ... in order. hip:
+    link whose origin is the hip. torque [N m]: limit of a motor. friction_coefficient: of the feet. armature
+    [kg m^2]: rotor inertia per motor, reflected to the joint. gravity [m/s^2]. tip [m]: place of the feet
+    in the frames of the links `feet`, for a URDF that ends with its shins.
+    """
+
+    feet: tuple[str, ...] | None = None
+    actuated: tuple[str, ...] | None = None
+    hip: str | None = None
+    torque: float | None = None
+    friction_coefficient: float | None = None
+    armature: float = 0.0
+    gravity: float = GRAVITY
+    tip: tuple[float, float, float] | None = None
+
+
+def record_of(
+    reading: Reading,
+    body: PlanarBase,
+    parts: Anatomy,
+    actuated: tuple[str, ...],
+    torque: float,
+    hints: Hints,
+) -> dict[str, Any]:
+    """What a robot.toml says of it."""
+    moving = [joint.name for joint in parts.moving]
+    friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
+    source = f"The <inertial> elements of {Path(reading.tree.source).name}."
+    return {
+        "name": reading.tree.name,
+        "urdf": Path(reading.tree.source).name,
+        "default_preset": PRESET,
+        "actuated": list(actuated),
+        "passive": [name for name in moving if name not in actuated],
+        "unactuated": body.pitch,
+        "base": list(body.base),
+        "stance_foot": parts.feet[0],
+        "swing_foot": parts.feet[1],
+        "hip": parts.hip,
+        "trunk": body.trunk,
+        "phase": list(parts.phase),
+        "peak_torque": torque,
+        "friction_coefficient": friction,
+        "gravity": hints.gravity,
+        "ranges": {name: list(reading.ranges[name]) for name in moving if name in reading.ranges},
+        "friction": {
+            kind: {name: values[name] for name in moving if name in values}
+            for kind, values in (("viscous", reading.viscous), ("static", reading.static))
+        },
+        "links": _bodies(body.tree, parts.feet),
+        "presets": {PRESET: {"source": source, "armature": hints.armature}},
+    }
+
+
+def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
+    """Links with mass by body: twins together, under their name without the side."""
+    twins = dict(pairs(tree, feet))
+    heavy = [name for name, link in tree.links.items() if link.inertial is not None]
+    bodies: dict[str, list[str]] = {}
+    for link in heavy:
+        if link in twins.values():
+            continue
+        group = [link, twins[link]] if link in twins else [link]
+        name = _SIDES.sub("", link).strip("_-") if link in twins else link
+        taken = not name or name in bodies or (name in heavy and name not in group)
+        bodies[link if taken else name] = group
+    return bodies
+
+
+def to_toml(record: Mapping[str, Any]) -> str:
+    """TOML text of `record`: its values first, then its tables; empty tables are left out."""
+    return "\n".join(_lines(record, ())).strip() + "\n"
+
+
+def _lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+    values = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
+    tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
+    if path and values:
+        yield f"\n[{'.'.join(_key(part) for part in path)}]"
+    yield from (f"{_key(key)} = {_value(value)}" for key, value in values.items())
+    for key, value in tables.items():
+        yield from _lines(value, (*path, key))
+
+
+def _key(key: str) -> str:
+    bare = key.isascii() and key.replace("_", "").replace("-", "").isalnum()
+    return key if bare else json.dumps(key, ensure_ascii=False)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, list):
+        return f"[{', '.join(_value(item) for item in value)}]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A biped derived from a URDF, and how."""
+
+    biped: Biped
+    said: tuple[str, ...]
+    checks: tuple[Check, ...]
+    record: Mapping[str, Any]
+    """As in a robot.toml."""
+
+    @property
+    def broken(self) -> tuple[Check, ...]:
+        """Checks that do not hold."""
+        return tuple(check for check in self.checks if not check.holds)
+
+    def write(self, folder: Path | str) -> Path:
+        """Write floating.urdf and robot.toml for `Biped.load`; the path of robot.toml.
+
+        Raises OutputError where one of them exists already or cannot be written.
+        """
+        folder = Path(folder)
+        urdf, record = folder / "floating.urdf", folder / "robot.toml"
+        for path in (urdf, record):
+            if path.exists():
+                raise OutputError(f"'{path}' exists already; give a new folder, or remove it first")
+        write_text(urdf, to_xml(self.biped.tree))
+        write_text(record, to_toml({**self.record, "urdf": urdf.name}))
+        return record
+
+
+def biped_from_urdf(
+    path: Path | str,
+    feet: tuple[str, str] | None = None,
+    actuated: tuple[str, ...] | None = None,
+    hip: str | None = None,
+    torque: float | None = None,
+    armature: float = 0.0,
+    tip: tuple[float, float, float] | None = None,
+) -> Biped:
+    """The Biped of a URDF, once every check holds; see `Hints` for the options and `derive` for the rest.
+
+    Raises ModelError.
+    """
+    derived = derive(path, Hints(feet, actuated, hip, torque, armature=armature, tip=tip))
+    if derived.broken:
+        broken = "; ".join(str(check) for check in derived.broken)
+        raise ModelError(f"URDF '{path}': {broken}")
+    return derived.biped
+
+
+def derive(path: Path | str, hints: Hints | None = None) -> Derived:
+    """Derive and check a biped from a URDF.
+
+    Raises ModelError that names the link, joint or file, and what to give or to change.
+    """
+    hints = Hints() if hints is None else hints
+    reading, feet = _with_tips(path, hints)
+    body = on_planar_base(reading.tree)
+    parts = anatomy(body, feet, hints.hip)
+    tree, said_shapes = drawable(body.tree, parts.feet)
+    actuated, said_motors = _motors(reading, parts.moving, hints)
+    check_alike(body.tree, parts.feet, body.pitch, actuated)
+    torque, said_torque = _torque(reading, actuated, hints)
+    record = record_of(reading, body, parts, actuated, torque, hints)
+    description = description_of(record, Path(path))
+    biped = Biped(description, tree, PRESET, hints.armature)
+    biped.check()
+    said = (
+        *body.said,
+        *parts.said,
+        *said_motors,
+        *said_torque,
+        *said_shapes,
+        *_remarks(reading, hints),
+    )
+    return Derived(biped, said, checks(biped), record)
+
+
+def _with_tips(path: Path | str, hints: Hints) -> tuple[Reading, tuple[str, ...] | None]:
+    """The URDF, and the feet: those of the hints, or links put at their tips."""
+    if hints.tip is None:
+        return read(path), hints.feet
+    if hints.feet is None or not all(map(math.isfinite, hints.tip)):
+        raise ModelError(
+            f"URDF '{path}': feet at {hints.tip} m of links {hints.feet}; expected three finite numbers, and "
+            "the links by feet=(...) or --feet"
+        )
+    return read(path, dict.fromkeys(hints.feet, hints.tip)), tuple(map(tip_of, hints.feet))
+
+
+# -- motors ----------------------------------------------------------------------------------------
+def _motors(
+    reading: Reading, moving: tuple[Joint, ...], hints: Hints
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    names = tuple(joint.name for joint in moving)
+    if hints.actuated is None:
+        found = tuple(name for name in names if reading.effort.get(name) != 0.0)
+        free = ", ".join(f"'{name}'" for name in names if name not in found)
+        motors = ", ".join(f"q{i + 1} = '{name}'" for i, name in enumerate(found)) or "none"
+        return found, (f"motors: {motors}" + (f"; {free} free (effort 0)" if free else ""),)
+    for name in hints.actuated:
+        if name not in names or hints.actuated.count(name) > 1:
+            raise ModelError(
+                f"URDF '{reading.tree.source}': motors {list(hints.actuated)}, expected each at most once and "
+                f"from {list(names)}"
+            )
+    return hints.actuated, ()
+
+
+def _torque(
+    reading: Reading, actuated: tuple[str, ...], hints: Hints
+) -> tuple[float, tuple[str, ...]]:
+    """The torque limit of all motors [N m]; 1 where there is none, as a record asks for a number."""
+    if hints.torque is not None or not actuated:
+        return (1.0 if hints.torque is None else hints.torque), ()
+    without = [name for name in actuated if not reading.effort.get(name, 0.0) > 0.0]
+    if without:
+        raise ModelError(
+            f"URDF '{reading.tree.source}': motors {without} have no torque limit; write "
+            '<limit effort="..."/> into the joints, or give torque=... [N m] or --torque'
+        )
+    efforts = {name: reading.effort[name] for name in actuated}
+    least = min(efforts.values())
+    which = "every motor" if least == max(efforts.values()) else f"the weakest of {efforts}"
+    return least, (f"torque limit: {least:g} N m, of {which}",)
+
+
+def _remarks(reading: Reading, hints: Hints) -> tuple[str, ...]:
+    found = []
+    if hints.friction_coefficient is None:
+        found.append(f"dry friction of the feet: {FRICTION}, as of RABBIT; a URDF does not say")
+    if hints.armature == 0.0:
+        found.append("rotor inertia: none; a URDF does not say")
+    if any(reading.viscous.values()) or any(reading.static.values()):
+        found.append("joint friction: read from <dynamics>, off unless asked for")
+    if reading.flat:
+        found.append(
+            f"moments about x and z of {list(reading.flat)}: those of slender links; the URDF has none, and "
+            "planar motion needs none"
+        )
+    if reading.undrawn:
+        found.append(
+            f"shapes of {list(reading.undrawn)} are meshes or stand oblique, and are not drawn"
+        )
+    return tuple(found)

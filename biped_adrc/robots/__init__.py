@@ -1,0 +1,1 @@
+"""Descriptions of robots: a URDF and a robot.toml beside it, read and written."""

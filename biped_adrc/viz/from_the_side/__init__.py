@@ -1,0 +1,1 @@
+"""Walks from the side in matplotlib: robots, moving pictures, strips of stick figures."""

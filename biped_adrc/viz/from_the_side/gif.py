@@ -1,0 +1,150 @@
+"""A moving picture of walks from the side, drawn by matplotlib and written by Pillow; no browser."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image, ImageColor
+
+from biped_adrc.errors import InputError
+from biped_adrc.files import write_bytes
+from biped_adrc.types import Array
+from biped_adrc.viz.from_the_side import moving_parts as draw
+from biped_adrc.viz.from_the_side.side_by_side import LINES, frames_apart
+from biped_adrc.viz.from_the_side.side_view import SideView
+from biped_adrc.viz.placement import Recorded, Scene, ending
+from biped_adrc.viz.style import REACTION, TORQUE, style
+
+GHOST = 0.35
+SHOWN = 2.6
+"""[m], width of the picture of walks laid over one another."""
+REST = 2.0
+"""[s], how much longer the last frame is shown where a walk ended badly."""
+
+
+def write_gif(
+    path: Path,
+    walks: Mapping[str, Recorded],
+    solid: str | None = None,
+    start: float | None = None,
+    stop: float | None = None,
+    motion: draw.Motion | None = None,
+) -> None:
+    """Write walks, over one another or side by side, as a GIF that repeats.
+
+    solid: the walk drawn opaque and followed where they are laid over one another, the last one if None. start,
+    stop [s]: the part shown, the whole if None. Raises InputError and OutputError.
+    """
+    motion = draw.Motion() if motion is None else motion
+    names = list(walks)
+    solid = names[-1] if solid is None and names else solid
+    if solid is None or solid not in walks:
+        raise InputError(f"there is no walk '{solid}' to draw solid; choose one of {names}")
+    times = _times(walks, start, stop, motion)
+    with style():
+        if motion.apart:
+            images = frames_apart(walks, times, motion)
+        else:
+            order = [*(n for n in names if n != solid), solid]
+            scenes = {n: Scene.of(walks[n]) for n in order}
+            images = _frames(scenes, times, motion)
+    badly = any(ending(w.trajectory) and w.trajectory.t_end <= times[-1] for w in walks.values())
+    rest = REST if badly else 0.0
+    write_bytes(path, _encoded([Image.fromarray(i) for i in images], motion.fps, rest))
+
+
+def _times(
+    walks: Mapping[str, Recorded], start: float | None, stop: float | None, motion: draw.Motion
+) -> Array:
+    """When the frames are; the end of a walk that ended badly is one of them."""
+    first = min(walk.trajectory.t_start for walk in walks.values())
+    last = max(walk.trajectory.t_end for walk in walks.values())
+    start = first if start is None else start
+    stop = last if stop is None else stop
+    if not first <= start < stop <= last:
+        raise InputError(
+            f"the part from {start:g} to {stop:g} s was asked for; the walks last from {first:g} to {last:g} s"
+        )
+    rate = motion.fps * motion.slower
+    times = start + np.arange(max(2, math.ceil((stop - start) * rate))) / rate
+    badly = any(ending(walk.trajectory) for walk in walks.values())
+    return np.append(times, stop) if badly else times
+
+
+def _frames(scenes: Mapping[str, Scene], times: Array, motion: draw.Motion) -> list[Array]:
+    views = [SideView(scene) for scene in scenes.values()]
+    last = views[-1]
+    width, pace = motion.width, motion.pace(", ")
+    height = width * (draw.HEADROOM * last.height + draw.SOLE) / SHOWN
+    figure = Figure(figsize=(width / draw.DPI, height / draw.DPI), dpi=draw.DPI)
+    canvas = FigureCanvasAgg(figure)
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    axes.set_axis_off()
+    draw.ground(axes, views)
+    opacities = [GHOST] * (len(views) - 1) + [1.0]
+    drawn = [
+        (
+            draw.Trail(axes, v, times, o, k),
+            draw.DrawnRobot(axes, v, o, k),
+            draw.Forces(axes, v, o, k),
+        )
+        for k, (v, o) in enumerate(zip(views, opacities, strict=True), start=2)
+    ]
+    *ghosts, solid = scenes
+    caption = f"{solid} solid, {', '.join(ghosts)} translucent" if ghosts else solid
+    text = axes.text(0.02, 0.97, "", transform=axes.transAxes, va="top", fontsize=11, zorder=90)
+    text.set_bbox({"fc": "white", "ec": "none", "alpha": 0.7, "pad": 2.0})
+    out = []
+    for k, t in enumerate(times.tolist()):
+        draw.follow(axes, last, t, 0.6 * SHOWN, 0.4 * SHOWN)
+        for trail, robot, forces in drawn:
+            trail.show(k, t)
+            robot.show(t)
+            forces.show(t)
+        over = [f"\n{n} {ending(s.trajectory)}" for n, s in scenes.items() if _is_over(s, t)]
+        text.set_text(f"{caption}\nt = {t:.2f} s, step {last.step(t)}{pace}{''.join(over)}")
+        out.append(draw.picture(canvas))
+    return out
+
+
+def _is_over(scene: Scene, t: float) -> bool:
+    return t >= scene.trajectory.t_end and ending(scene.trajectory) != ""
+
+
+def _encoded(images: list[Image.Image], fps: float, rest: float) -> bytes:
+    """One palette for all frames, so that colours do not flicker; no used colour is missing from it.
+
+    rest [s]: how much longer the last frame is shown.
+    """
+    some = [np.asarray(image)[::3] for image in images[:: max(1, len(images) // 8)]]
+    width = some[0].shape[1]
+    marked = (
+        *draw.COLOURS.values(),
+        REACTION,
+        TORQUE,
+        draw.REFERENCE,
+        *LINES,
+        "black",
+        "white",
+    )
+    swatches = [ImageColor.getrgb(c) for c in marked]
+    band = [np.full((len(some[0]) // 4, width, 3), rgb, dtype=np.uint8) for rgb in swatches]
+    palette = Image.fromarray(np.concatenate([*some, *band])).quantize(64)
+    frames = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+    buffer, frame = io.BytesIO(), round(1000.0 / fps)
+    frames[0].save(
+        buffer,
+        format="GIF",
+        save_all=True,
+        append_images=frames[1:],
+        duration=[frame] * (len(images) - 1) + [frame + round(1000.0 * rest)],
+        loop=0,
+        optimize=False,
+    )
+    return buffer.getvalue()

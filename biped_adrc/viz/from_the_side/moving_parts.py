@@ -1,0 +1,235 @@
+"""The parts of a moving picture from the side: ground, robots, arrows, rings; updated from frame to frame."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection, PolyCollection
+
+from biped_adrc.errors import InputError, check_positive
+from biped_adrc.types import Array
+from biped_adrc.viz.from_the_side.side_view import SideView
+from biped_adrc.viz.placement import TILE, loads
+from biped_adrc.viz.style import METRES_PER_NEWTON_METRE, REACTION, STANCE, SWING, TORQUE, TRUNK
+
+COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
+REFERENCE = "#B9B9B9"
+SOLE, HEADROOM = 0.12, 1.2
+"""[m] of ground below the foot, and the height of the picture above it as a multiple of the robot's."""
+EDGE = 0.04
+"""[m] that arrows keep from the edge of the picture."""
+DPI = 100
+
+
+@dataclass(frozen=True)
+class Motion:
+    """How walks are set in motion.
+
+    apart: side by side instead of over one another, with their errors over time below. magnify: factor by which
+    the deviation from the reference is drawn larger, and the reference in grey; None for the posture as it is;
+    it needs `apart`. slower: by how much slower than the walk. fps [1/s]: frames per second, at most 50 (a GIF
+    counts hundredths of a second). width [px].
+    """
+
+    apart: bool = False
+    magnify: float | None = None
+    slower: float = 1.0
+    fps: float = 25.0
+    width: int = 600
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.fps) and 0.0 < self.fps <= 50.0):
+            raise InputError(
+                f"fps is {self.fps} frames per second, expected more than 0 and at most 50"
+            )
+        check_positive(self.slower, f"slower is {self.slower}")
+        if not 100 <= self.width <= 4000:
+            raise InputError(f"width is {self.width} px, expected 100 to 4000")
+        if self.magnify is not None and not self.apart:
+            raise InputError("a magnified deviation is drawn of walks side by side; add 'apart'")
+
+    def pace(self, before: str = "") -> str:
+        """By how much slower it is, in words; empty for the pace of the walk."""
+        return "" if self.slower == 1.0 else f"{before}{self.slower:g} times slower"
+
+
+def picture(canvas: FigureCanvasAgg) -> Array:
+    """The figure as it is now (height, width, 3)."""
+    canvas.draw()  # type: ignore[no-untyped-call]
+    return np.asarray(canvas.buffer_rgba())[:, :, :3].copy()  # type: ignore[no-untyped-call]
+
+
+def ground(axes: Axes, views: list[SideView]) -> None:
+    """The ground of every walk as a line, of the last one with its tiles."""
+    x = np.concatenate([view.scene.footholds for view in views])
+    low, high = math.floor(x.min()) - 3, math.ceil(x.max()) + 4
+    lines = [view.scene.surface.line(low, high) for view in views]
+    for line in {line.tobytes(): line for line in lines}.values():
+        axes.plot(*line.T, color="black", lw=1.0, zorder=1)
+    for tile in views[-1].scene.surface.tiles(round(low / TILE), round(high / TILE)):
+        shade = "#c8c8c8" if tile.even else "#9e9e9e"
+        at, top = tile.ends.T
+        axes.fill_between(at, top - 0.05, top, color=shade, lw=0.0, zorder=0)
+
+
+def follow(axes: Axes, view: SideView, t: float, left: float, right: float) -> None:
+    """Limits around the hip, from `left` before it to `right` behind it [m]; kept where it is not finite."""
+    x = float(view.points(t)[0])
+    if not math.isfinite(x):
+        return
+    z = view.scene.level(x)
+    axes.set_xlim(x - left, x + right)
+    axes.set_ylim(z - SOLE, z + HEADROOM * view.height)
+
+
+class DrawnRobot:
+    """The links of one posture, in the colours of its legs or in one colour."""
+
+    def __init__(
+        self,
+        axes: Axes,
+        view: SideView,
+        opacity: float,
+        order: int,
+        colour: str | None = None,
+        width: float = 1.0,
+    ) -> None:
+        self.view, self.colour, self.width = view, colour, width
+        self.lines = LineCollection([], capstyle="round", alpha=opacity, zorder=10 * order)
+        axes.add_collection(self.lines)
+
+    def show(self, t: float) -> None:
+        """The posture at t [s]."""
+        roles = self.view.roles(t)
+        self.lines.set_segments(list(self.view.segments(t)))
+        self.lines.set_color([self.colour or COLOURS[role] for role in roles])
+        self.lines.set_linewidth([self.width * (9.0 if role == "" else 6.5) for role in roles])
+
+
+class Trail:
+    """Ways of hip and swing foot, and footprints."""
+
+    def __init__(
+        self, axes: Axes, view: SideView, times: Array, opacity: float, order: int
+    ) -> None:
+        self.view = view
+        self.points = np.array([view.points(float(t)) for t in times])
+        self.steps = np.array([view.step(float(t)) for t in times])
+        (self.hip,) = axes.plot([], [], color="#555555", lw=0.9, alpha=opacity, zorder=order)
+        (self.foot,) = axes.plot([], [], color=SWING, lw=0.9, alpha=opacity, zorder=order)
+        self.prints = Footprints(axes, view, opacity, order)
+
+    def show(self, k: int, t: float) -> None:
+        """What frame k, at t [s], has behind it."""
+        self.hip.set_data(self.points[: k + 1, 0], self.points[: k + 1, 1])
+        jumps = np.flatnonzero(np.diff(self.steps[: k + 1])) + 1
+        self.foot.set_data(*np.insert(self.points[: k + 1, 2:], jumps, np.nan, axis=0).T)
+        self.prints.show(t)
+
+
+class Footprints:
+    """A mark at every foothold so far."""
+
+    def __init__(self, axes: Axes, view: SideView, opacity: float, order: int) -> None:
+        self.scene = view.scene
+        (self.marks,) = axes.plot([], [], "^", color="black", ms=4, alpha=opacity, zorder=order)
+
+    def show(self, t: float) -> None:
+        """Those up to t [s]."""
+        i = self.scene.arc_at(t)
+        self.marks.set_data(self.scene.footholds[: i + 1], self.scene.heights[: i + 1])
+
+
+class Forces:
+    """The arrow of the ground reaction, and a ring around every joint that is pushed."""
+
+    def __init__(self, axes: Axes, view: SideView, opacity: float, order: int) -> None:
+        self.axes, self.view = axes, view
+        self.reaction = PolyCollection([], color=REACTION, alpha=opacity, zorder=10 * order + 1)
+        self.torques = PolyCollection([], color=TORQUE, alpha=opacity, zorder=10 * order + 2)
+        axes.add_collection(self.reaction)
+        axes.add_collection(self.torques)
+        self.text = axes.text(0.0, 0.0, "", color=REACTION, fontsize=9, zorder=10 * order + 3)
+
+    def show(self, t: float) -> None:
+        """Those at t [s]; an arrow that would leave the picture is cut and says how large the force is."""
+        scene = self.view.scene
+        acting = loads(scene, t)
+        start = np.array(scene.foothold(scene.arc_at(t)))
+        force = self.view.metres_per_newton * acting.ground_reaction
+        drawn = cut(start, force, self.axes.get_xlim(), self.axes.get_ylim())
+        self.reaction.set_verts([arrow(start, drawn)])
+        whole = np.array_equal(drawn, force)
+        size = float(np.hypot(*acting.ground_reaction))
+        amount = f"{size:.3g} N" if math.isfinite(size) else "no finite force"
+        self.text.set_text("" if whole else f"{amount}, arrow cut")
+        self.text.set_position((start[0] + 0.05, max(start[1] + 0.5 * drawn[1], start[1] + 0.05)))
+        self.torques.set_verts(self._rings(t, acting.zeta))
+
+    def _rings(self, t: float, zeta: Array) -> list[Array]:
+        if not zeta.any():
+            return []
+        biped = self.view.scene.biped
+        placements = self.view.placements(t)
+        joints = {joint.name: joint for joint in biped.tree.joints}
+        return [
+            ring(placements[joints[name].child][[0, 2], 3], METRES_PER_NEWTON_METRE * float(torque))
+            for name, torque in zip(biped.description.joints, zeta, strict=True)
+            if torque != 0.0
+        ]
+
+
+def cut(start: Array, vector: Array, x: tuple[float, float], z: tuple[float, float]) -> Array:
+    """The vector (2,), shortened so that its tip is inside the limits; zero for one that is not finite."""
+    if not np.isfinite(vector).all():
+        return np.zeros(2)
+    share = 1.0
+    for at, by, (low, high) in zip(start, vector, (x, z), strict=True):
+        room = (high - EDGE - at) if by > 0.0 else (at - low - EDGE)
+        if abs(by) > room:
+            share = min(share, max(room, 0.0) / abs(by))
+    return vector if share == 1.0 else share * vector
+
+
+def arrow(start: Array, vector: Array) -> Array:
+    """Outline (7, 2) of an arrow; its head shrinks with a short one."""
+    length = float(np.hypot(*vector))
+    if length == 0.0:
+        return np.tile(start, (7, 1))
+    along = vector / length
+    across = np.array([-along[1], along[0]])
+    head, half = min(0.09, length), 0.012
+    neck = start + (length - head) * along
+    wide = 0.035 * head / 0.09
+    return np.array(
+        [
+            start - half * across,
+            neck - half * across,
+            neck - wide * across,
+            start + vector,
+            neck + wide * across,
+            neck + half * across,
+            start + half * across,
+        ]
+    )
+
+
+def ring(centre: Array, radius: float) -> Array:
+    """Outline of a bent arrow, counter-clockwise for a positive radius [m]."""
+    angle = np.radians(np.linspace(-60.0, 200.0, 30))
+    rim = np.column_stack((np.cos(angle), np.sin(angle)))
+    tip = np.radians(240.0)
+    outline = np.vstack(
+        (
+            1.12 * rim,
+            1.3 * rim[-1],
+            [[math.cos(tip), math.sin(tip)]],
+            0.7 * rim[-1],
+            0.88 * rim[::-1],
+        )
+    )
+    return centre + abs(radius) * outline * np.array([math.copysign(1.0, radius), 1.0])

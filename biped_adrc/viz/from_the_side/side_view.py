@@ -1,0 +1,180 @@
+"""The robot from the side in matplotlib: its links as lines, from the primitives of the URDF.
+
+A posture whose deviation from the reference is drawn larger than it is, is q_d + k (q_b - q_d): the unactuated
+joint and the stance foot stay where they are. k = 1 is the walk itself, k = 0 its reference.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.errors import InputError
+from biped_adrc.model.biped import Biped
+from biped_adrc.robots.urdf import Visual
+from biped_adrc.types import Array
+from biped_adrc.viz.placement import Recorded, Scene, exchanged, legs, link_placements, spokes
+from biped_adrc.viz.style import WEIGHT_LENGTH
+
+
+@runtime_checkable
+class Tracked(Recorded, Protocol):
+    """A walk whose signals are at hand."""
+
+    @property
+    def signals(self) -> Signals: ...
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """The tracking error of a walk and the factor k it is drawn with."""
+
+    signals: Signals
+    factor: float
+
+    @classmethod
+    def of(cls, walk: Recorded, factor: float) -> Deviation:
+        """Raises InputError for a factor that is negative or not finite, or a walk without a reference."""
+        if not (math.isfinite(factor) and factor >= 0.0):
+            raise InputError(f"magnify is {factor}, expected a number that is not negative")
+        if not isinstance(walk, Tracked) or walk.walker.plant.p == 0:
+            raise InputError(
+                "a walk without motors has no reference to deviate from; leave 'magnify' and 'apart' out"
+            )
+        return cls(walk.signals, factor)
+
+    def error(self, t: float, step: int) -> Array:
+        """q_b - q_d (p,) [rad] in single support `step`, linear between nodes; its ends outside them."""
+        s = self.signals
+        first, last = np.searchsorted(s.step, [step, step + 1])
+        rows = slice(int(first), int(last))
+        return np.array([np.interp(t, s.t[rows], column) for column in s.error[rows].T])
+
+    def change(self, t: float, step: int) -> Array:
+        """What is added to q_b (p,) [rad]: (k - 1)(q_b - q_d)."""
+        return (self.factor - 1.0) * self.error(t, step)
+
+
+@dataclass(frozen=True)
+class Bone:
+    """A line in the frame of a link; `leg` is "stance" for the leg that carries odd steps, "swing", or ""."""
+
+    link: str
+    ends: Array
+    """(2, 3) [m]."""
+    leg: str
+
+
+def bones(biped: Biped) -> list[Bone]:
+    """The axes of cylinders and the longest sides of boxes; lines from joint to joint where there are none.
+
+    A wheel has each of them once a spoke.
+    """
+    leg = dict.fromkeys(legs(biped)[0], "stance") | dict.fromkeys(legs(biped)[1], "swing")
+    found = [
+        Bone(name, ends, leg.get(name, ""))
+        for name, link in biped.tree.links.items()
+        for visual in link.visuals
+        if (ends := _axis(visual)) is not None
+    ]
+    if not found:
+        found = [
+            Bone(j.parent, np.array([[0.0, 0.0, 0.0], j.origin]), leg.get(j.child, ""))
+            for j in biped.tree.joints
+            if any(j.origin)
+        ]
+    return [replace(bone, ends=bone.ends @ R.T) for R in spokes(biped) for bone in found]
+
+
+def _axis(visual: Visual) -> Array | None:
+    """Ends (2, 3) of the line a primitive stands for; None for a ball."""
+    if visual.shape == "sphere":
+        return None
+    along = np.zeros(3)
+    if visual.shape == "cylinder":
+        along[2] = 0.5 * visual.size[1]
+    else:
+        longest = int(np.argmax(visual.size))
+        along[longest] = 0.5 * visual.size[longest]
+    return np.array(visual.origin) + np.array([-along, along])
+
+
+@dataclass(frozen=True)
+class SideView:
+    """Where the lines of a walk are in the x-z plane of the world.
+
+    deviation: changes the posture drawn; the walk's own without one.
+    """
+
+    scene: Scene
+    deviation: Deviation | None = None
+
+    @cached_property
+    def bones(self) -> list[Bone]:
+        return bones(self.scene.biped)
+
+    def placements(self, t: float) -> dict[str, Array]:
+        """World placement (4, 4) of every link of the posture drawn."""
+        change = None if self.deviation is None else self.deviation.change(t, self.step(t))
+        return link_placements(self.scene.biped.tree, self.scene.joints(t, change))
+
+    def segments(self, t: float) -> Array:
+        """(bones, 2, 2), x and z of both ends [m], in the order of `bones`."""
+        placements = self.placements(t)
+        rows = []
+        for bone in self.bones:
+            M = placements[bone.link]
+            rows.append((bone.ends @ M[:3, :3].T + M[:3, 3])[:, [0, 2]])
+        return np.array(rows)
+
+    def step(self, t: float) -> int:
+        """Number of the single support."""
+        return self.scene.trajectory.arcs[self.scene.arc_at(t)].mode.step
+
+    def roles(self, t: float) -> list[str]:
+        """ "stance", "swing" or "" by bone at t: the legs change over at every impact."""
+        if not exchanged(self.scene.biped, self.step(t)):
+            return [bone.leg for bone in self.bones]
+        other = {"stance": "swing", "swing": "stance", "": ""}
+        return [other[bone.leg] for bone in self.bones]
+
+    def points(self, t: float) -> Array:
+        """(4,), x and z of the hip and of the swing foot [m]."""
+        trajectory, biped = self.scene.trajectory, self.scene.biped
+        t = min(max(t, trajectory.t_start), trajectory.t_end)
+        i = self.scene.arc_at(t)
+        q = trajectory.arcs[i](t)[: biped.n]
+        points = np.concatenate((biped.hip(q), biped.swing_foot(q)))
+        return points + np.tile(self.scene.foothold(i), 2)
+
+    @cached_property
+    def _about_foot(self) -> Array:
+        """(K, 2), x and z of the ends of all lines at 50 times, from the stance foot [m]."""
+        scene = self.scene
+        times = np.linspace(scene.trajectory.t_start, scene.trajectory.t_end, 50)
+        return np.concatenate(
+            [
+                self.segments(float(t)).reshape(-1, 2) - scene.foothold(scene.arc_at(float(t)))
+                for t in times
+            ]
+        )
+
+    @cached_property
+    def height(self) -> float:
+        """Highest point of the robot above its stance foot on this walk [m], for the limits of a picture."""
+        return float(self._about_foot[:, 1].max())
+
+    @cached_property
+    def width(self) -> float:
+        """How far the robot reaches to either side of its stance foot on this walk [m]."""
+        return float(np.abs(self._about_foot[:, 0]).max())
+
+    @cached_property
+    def metres_per_newton(self) -> float:
+        """Scale of the arrow of the ground reaction."""
+        return WEIGHT_LENGTH / self.scene.biped.weight

@@ -1,0 +1,1 @@
+"""Walks in Meshcat: in the browser, live or as one offline page."""

@@ -1,0 +1,271 @@
+"""Walks in the browser while this process runs: a server on the loopback address that streams poses.
+
+The page is the one of `meshcat`, without the motion; a WebSocket brings a pose per frame. It ends when the page
+is closed, on SIGINT and on SIGTERM, and says why.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import signal
+import sys
+import time
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any
+
+from tornado.httpserver import HTTPServer
+from tornado.netutil import bind_sockets
+from tornado.web import Application, HTTPError, RequestHandler
+from tornado.websocket import WebSocketClosedError, WebSocketHandler
+
+from biped_adrc.errors import InputError
+from biped_adrc.viz.meshcat.frames import pose
+from biped_adrc.viz.meshcat.view import Look, captions, scene_settings
+from biped_adrc.viz.pages import player
+from biped_adrc.viz.placement import Recorded, Scene
+
+ADDRESS = "127.0.0.1"
+GRACE = 2.0
+"""[s] a closed page may take to come back, as when it is loaded again."""
+REST = 1.0
+"""[s] between the end of the walks and their next start."""
+PING = 2.0
+"""[s] between signs of life asked of the page, and how long it may take to give one."""
+
+FAREWELL = 0.5
+"""[s] the pages are given to be told of the end."""
+
+Say = Callable[[str], None]
+
+
+@dataclass
+class Session:
+    """What one server serves."""
+
+    html: str
+    hosts: tuple[str, ...]
+    stop: asyncio.Future[str]
+    clients: dict[Pages, asyncio.Future[None] | None] = field(default_factory=dict)
+    arrived: asyncio.Event = field(default_factory=asyncio.Event)
+    left: asyncio.Event = field(default_factory=asyncio.Event)
+    restart: bool = True
+
+    def end(self, reason: str) -> None:
+        """End the session; the first reason counts."""
+        if not self.stop.done():
+            self.stop.set_result(reason)
+
+    def send(self, message: Mapping[str, Any]) -> None:
+        """Send to every page that has taken the last message."""
+        text = json.dumps(message)
+        for client, sent in list(self.clients.items()):
+            if sent is None or sent.done():
+                self.clients[client] = client.post(text)
+
+
+class Guarded(RequestHandler):
+    """Refuses requests made under another name, as by a page that had its own name resolved to loopback."""
+
+    session: Session
+
+    def initialize(self, session: Session) -> None:
+        self.session = session
+
+    def prepare(self) -> None:
+        if self.request.host not in self.session.hosts:
+            raise HTTPError(403, f"unknown host; open http://{self.session.hosts[0]}/")
+
+
+class Front(Guarded):
+    """The page."""
+
+    def get(self) -> None:
+        self.set_header("Content-Type", "text/html; charset=utf-8")
+        self.set_header("Cache-Control", "no-store")
+        self.write(self.session.html)
+
+
+class Pages(Guarded, WebSocketHandler):
+    """The stream to one page."""
+
+    def open(self, *args: str, **kwargs: str) -> None:
+        self.session.clients[self] = None
+        self.session.restart = True
+        self.session.arrived.set()
+
+    def on_close(self) -> None:
+        self.session.clients.pop(self, None)
+        if not self.session.clients:
+            self.session.left.set()
+
+    def on_message(self, message: str | bytes) -> None:
+        """Pages have nothing to say yet."""
+
+    def post(self, text: str) -> asyncio.Future[None]:
+        """Send; the future is done when the page has taken it."""
+        return asyncio.ensure_future(self._write(text))
+
+    async def _write(self, text: str) -> None:
+        try:
+            await self.write_message(text)
+        except WebSocketClosedError:
+            self.session.clients.pop(self, None)
+
+
+def play(
+    walks: Mapping[str, Recorded],
+    look: Look,
+    *,
+    port: int = 0,
+    open_browser: bool = True,
+    wait: float = 120.0,
+    say: Say = print,
+) -> str:
+    """Show the walks in the browser until the page is closed or the process is told to stop; returns why.
+
+    look: as for a file. port: 0 for a free one. wait [s]: how long to wait for the first page. say: is given
+    the address. Raises InputError for a port that is in use and inside a running event loop.
+    """
+    if not 0 <= port <= 65535:
+        raise InputError(f"port is {port}, expected 1 to 65535, or 0 for a free one")
+    with suppress(RuntimeError):
+        asyncio.get_running_loop()
+        raise InputError(
+            "live mode runs an event loop of its own and one is running already, as in a notebook; there "
+            "a walk as the last line of a cell shows itself"
+        )
+    scenes = {name: Scene.of(walks[name]) for name in look.order(walks)}
+    settings = {**scene_settings(scenes, look), "live": True}
+    html = player(settings, " and ".join(walks), captions(scenes))
+    return asyncio.run(_serve(scenes, html, look.fps, port, open_browser, wait, say))
+
+
+async def _serve(
+    scenes: Mapping[str, Scene],
+    html: str,
+    fps: float,
+    port: int,
+    open_browser: bool,
+    wait: float,
+    say: Say,
+) -> str:
+    loop = asyncio.get_running_loop()
+    try:
+        sockets = bind_sockets(port, ADDRESS)
+    except (OSError, OverflowError) as error:
+        raise InputError(
+            f"port {port} cannot be used on {ADDRESS} ({error}); leave out --port for a free one"
+        ) from error
+    port = sockets[0].getsockname()[1]
+    session = Session(html, (f"{ADDRESS}:{port}", f"localhost:{port}"), loop.create_future())
+    for number in (signal.SIGINT, signal.SIGTERM):
+        loop.add_signal_handler(number, session.end, f"stopped by {number.name}")
+    pages = [(r"/", Front, {"session": session}), (r"/poses", Pages, {"session": session})]
+    server = HTTPServer(
+        Application(
+            pages,
+            websocket_ping_interval=PING,
+            websocket_ping_timeout=PING,
+            log_function=lambda handler: None,
+        )
+    )
+    server.add_sockets(sockets)
+    say(f"http://{ADDRESS}:{port}/  (Ctrl-C ends it)")
+    launcher = await _launch(f"http://{ADDRESS}:{port}/") if open_browser else None
+    tasks = [
+        asyncio.create_task(_stream(session, scenes, fps)),
+        asyncio.create_task(_watch(session, wait)),
+    ]
+    for task in tasks:
+        task.add_done_callback(lambda done: _report(session, done))
+    try:
+        reason = await session.stop
+    finally:
+        await _close(session, server, tasks, launcher)
+    for task in tasks:
+        if task.done() and not task.cancelled() and task.exception() is not None:
+            raise task.exception()  # type: ignore[misc]
+    return reason
+
+
+def _report(session: Session, task: asyncio.Task[None]) -> None:
+    """A task that failed ends the session."""
+    if not task.cancelled() and task.exception() is not None:
+        session.end("failed")
+
+
+async def _launch(url: str) -> asyncio.subprocess.Process:
+    """The user's browser, from a process of its own: some browsers do not return."""
+    nowhere = asyncio.subprocess.DEVNULL
+    return await asyncio.create_subprocess_exec(
+        sys.executable, "-m", "webbrowser", url, stdin=nowhere, stdout=nowhere, stderr=nowhere
+    )
+
+
+async def _stream(session: Session, scenes: Mapping[str, Scene], fps: float) -> None:
+    """A message per frame while a page is open; from the start again after the end."""
+    start = min(scene.trajectory.t_start for scene in scenes.values())
+    end = max(scene.trajectory.t_end for scene in scenes.values())
+    began = time.monotonic()
+    while True:
+        await session.arrived.wait()
+        t = start + time.monotonic() - began
+        if session.restart or t > end + REST:
+            began, t, session.restart = time.monotonic(), start, False
+            session.send({"t": start, "restart": True, "poses": _poses(scenes, start)})
+        else:
+            t = min(t, end)
+            session.send({"t": t, "poses": _poses(scenes, t)})
+        await asyncio.sleep(1.0 / fps)
+
+
+def _poses(scenes: Mapping[str, Scene], t: float) -> list[dict[str, Any]]:
+    found = []
+    for scene in scenes.values():
+        at = min(max(t, scene.trajectory.t_start), scene.trajectory.t_end)
+        i = scene.arc_at(at)
+        p = pose(scene, i, at)
+        shown = {name: getattr(p, name).tolist() for name in ("joints", "loads", "points")}
+        found.append({"arc": i, **shown})
+    return found
+
+
+async def _watch(session: Session, wait: float) -> None:
+    """End when no page comes, and when the last one has gone for good."""
+    try:
+        await asyncio.wait_for(session.arrived.wait(), wait)
+    except TimeoutError:
+        session.end(f"no browser has opened the page within {wait:g} s")
+        return
+    while True:
+        await session.left.wait()
+        session.left.clear()
+        await asyncio.sleep(GRACE)
+        if not session.clients:
+            session.end("the browser has closed the page")
+            return
+
+
+async def _close(
+    session: Session,
+    server: HTTPServer,
+    tasks: list[asyncio.Task[None]],
+    launcher: asyncio.subprocess.Process | None,
+) -> None:
+    for task in tasks:
+        task.cancel()
+    server.stop()
+    over = json.dumps({"over": "This session was ended where it was started."})
+    told = [client.post(over) for client in list(session.clients)]
+    if told:
+        await asyncio.wait(told, timeout=FAREWELL)
+    for client in list(session.clients):
+        client.close()
+    await asyncio.wait(tasks)
+    await server.close_all_connections()
+    if launcher is not None and launcher.returncode is None:
+        launcher.kill()
+        await launcher.wait()

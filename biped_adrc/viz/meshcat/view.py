@@ -1,0 +1,225 @@
+"""Walks in Meshcat: one offline HTML file with the viewer, the robots, their motion and the controls."""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.errors import InputError
+from biped_adrc.model.biped import Biped
+from biped_adrc.viz.from_the_side.side_view import SideView
+from biped_adrc.viz.meshcat import scene as draw
+from biped_adrc.viz.meshcat.frames import Frames
+from biped_adrc.viz.pages import player
+from biped_adrc.viz.placement import Recorded, Scene, ending, exchanged, is_wheel
+from biped_adrc.viz.style import (
+    METRES_PER_NEWTON_METRE,
+    REACTION,
+    STANCE,
+    SWING,
+    TORQUE,
+    WEIGHT_LENGTH,
+)
+
+GHOST = 0.35
+"""Opacity of a ghost."""
+LANE = 0.4
+"""[m], by which each ghost walks farther from the camera: faces in one plane flicker."""
+LONGEST = 1.2
+"""[m], of the arrow of a ground reaction; that of a larger one is cut, and the page says so."""
+TRACE_POINTS = 20_000
+"""Room for the traces of a walk whose length is not known beforehand."""
+TALL = 1.6
+"""[m], the highest robot the cameras show from where they are for RABBIT; for higher ones they stand back."""
+VIEWS = ("side", "perspective")
+
+Marks = Sequence[tuple[float, float, str]]
+
+
+@dataclass(frozen=True)
+class Look:
+    """How walks are shown.
+
+    solid: name of the walk drawn opaque and followed by the camera, the last one if None; the others are
+    translucent. marks: (start, stop, text) [s], shown beside the clock. fps [1/s]: frames sampled from the
+    trajectories. view: "side" (orthographic) or "perspective".
+    """
+
+    solid: str | None = None
+    marks: Marks = ()
+    fps: float = 60.0
+    view: str = "side"
+
+    def order(self, walks: Mapping[str, Recorded]) -> list[str]:
+        """The solid walk first, then the ghosts. Raises InputError for what does not fit."""
+        if not walks:
+            raise InputError("there is no walk to animate; expected at least one")
+        if self.view not in VIEWS:
+            raise InputError(f"view is '{self.view}', choose one of {list(VIEWS)}")
+        solid = list(walks)[-1] if self.solid is None else self.solid
+        if solid not in walks:
+            raise InputError(
+                f"there is no walk '{solid}' to draw solid; choose one of {list(walks)}"
+            )
+        return [solid, *(name for name in walks if name != solid)]
+
+
+def animation_html(walks: Mapping[str, Recorded], look: Look | None = None) -> str:
+    """The walks, overlaid, as one page that needs no server and no network; the same walks give the same text.
+
+    Raises InputError.
+    """
+    look = Look() if look is None else look
+    scenes = {name: Scene.of(walks[name]) for name in look.order(walks)}
+    frames = {name: Frames.of(scene, look.fps) for name, scene in scenes.items()}
+    settings = scene_settings(scenes, look, {name: len(f.t) for name, f in frames.items()})
+    for walk, f in zip(settings["walks"], frames.values(), strict=True):
+        walk["data"] = _packed(f)
+    return player(settings, " and ".join(walks), captions(scenes))
+
+
+def _packed(frames: Frames) -> dict[str, str]:
+    """Times as float64, the rest as float32, in base64."""
+    kinds = {"t": np.float64} | dict.fromkeys(
+        ("arc", "joints", "rates", "loads", "points"), np.float32
+    )
+    packed = {name: np.asarray(getattr(frames, name), dtype=kind) for name, kind in kinds.items()}
+    return {name: base64.b64encode(x.tobytes()).decode("ascii") for name, x in packed.items()}
+
+
+# -- scene -----------------------------------------------------------------------------------------
+def scene_settings(
+    scenes: Mapping[str, Scene], look: Look, points: Mapping[str, int] | None = None
+) -> dict[str, Any]:
+    """What the player is told: Meshcat's commands and, by walk, the paths of what moves.
+
+    scenes: the solid walk first. points: number of nodes of each trace.
+    """
+    window = draw.MemoryWindow()
+    viewer = window.viewer
+    names = node_names(scenes)
+    described = []
+    for lane, (name, scene) in enumerate(scenes.items()):
+        opacity, room = (1.0 if lane == 0 else GHOST), (points or {}).get(name, TRACE_POINTS)
+        robot = viewer[f"robots/{names[name]}"]
+        robot.set_transform(draw.shift((0.0, LANE * lane, 0.0)))
+        path = f"meshcat/robots/{names[name]}"
+        over = {"name": name, "end": scene.trajectory.t_end, "ending": ending(scene.trajectory)}
+        described.append(over | _add_walk(robot, path, scene, opacity, room))
+    solid = next(iter(scenes.values()))
+    draw.add_ground(viewer["ground"], list(scenes.values()), draw.sole(solid.biped), LANE)
+    draw.set_stage(viewer)
+    tree, base = solid.biped.tree, solid.biped.description.base[0]
+    base_x = next(joint for joint in tree.joints if joint.name == base)
+    scale = max(1.0, SideView(solid).height / TALL)
+    return {
+        "walks": described,
+        "leader": 0,
+        "follow": f"meshcat/robots/{next(iter(names.values()))}/{draw.joint_path(tree, base_x)}",
+        "marks": [list(mark) for mark in look.marks],
+        "fps": look.fps,
+        "start": min(scene.trajectory.t_start for scene in scenes.values()),
+        "end": max(scene.trajectory.t_end for scene in scenes.values()),
+        "view": look.view,
+        "views": {kind: _view(kind, scale) for kind in VIEWS},
+        "commands": window.packed,
+        "live": False,
+    }
+
+
+def _view(kind: str, scale: float) -> dict[str, Any]:
+    window = draw.MemoryWindow(kind)
+    position, target = draw.set_camera(window.viewer, kind, scale)
+    return {"commands": window.packed, "position": position, "target": target}
+
+
+def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) -> dict[str, Any]:
+    """Draw one walk and say where its parts are."""
+    biped, depth = scene.biped, draw.sole(scene.biped)
+    tree = biped.tree
+    draw.add_robot(robot, biped, opacity)
+    prints = draw.add_footprints(robot["footprints"], scene, depth, opacity)
+    draw.add_trace(robot["hip_trace"], room, draw.DARK, opacity)
+    draw.add_trace(robot["foot_trace"], room, SWING, opacity)
+    draw.add_arrow(robot["ground_reaction"], REACTION, opacity)
+    rings = [_add_ring(robot, biped, name, opacity) for name in biped.description.joints]
+    return {
+        "joints": [
+            {
+                "path": f"{path}/{draw.joint_path(tree, joint)}",
+                "type": joint.type,
+                "axis": list(joint.axis),
+                "origin": list(joint.origin),
+            }
+            for joint in tree.joints
+            if joint.type != "fixed"
+        ],
+        "legs": [[f"{path}/{part}" for part in leg] for leg in draw.leg_visuals(biped)],
+        "colours": [draw.colour(STANCE), draw.colour(SWING)],
+        "rings": [f"{path}/{ring}/turn" for ring in rings],
+        "arrow": f"{path}/ground_reaction",
+        "traces": [f"{path}/hip_trace", f"{path}/foot_trace"],
+        "footprints": [f"{path}/footprints/{name}" for name in prints],
+        "supports": [
+            {
+                "number": arc.mode.step,
+                "stance": int(exchanged(biped, arc.mode.step)),
+                "x": scene.foothold(i)[0],
+                "z": scene.foothold(i)[1],
+            }
+            for i, arc in enumerate(scene.trajectory.arcs)
+        ],
+        "fall": math.tan(scene.walker.slope),
+        "ground": -depth,
+        "head": draw.HEAD,
+        "metres_per_newton": WEIGHT_LENGTH / biped.weight,
+        "longest": LONGEST,
+        "metres_per_newton_metre": METRES_PER_NEWTON_METRE,
+    }
+
+
+def _add_ring(robot: Any, biped: Biped, name: str, opacity: float) -> str:
+    """The ring of a joint; the torso's is at its COM, away from the hips."""
+    joint = next(joint for joint in biped.tree.joints if joint.name == name)
+    inertial = biped.tree.links[joint.child].inertial
+    torso = name not in biped.description.actuated and inertial is not None
+    path = f"{draw.joint_path(biped.tree, joint)}/torque"
+    origin = inertial.com if torso and inertial is not None else (0.0, 0.0, 0.0)
+    draw.add_ring(robot[path], origin, TORQUE, opacity)
+    return path
+
+
+def node_names(names: Mapping[str, Any]) -> dict[str, str]:
+    """Each name as it may stand in a path of the scene; no two alike."""
+    found: dict[str, str] = {}
+    for name in names:
+        plain = "".join(c if c.isalnum() else "_" for c in name) or "walk"
+        while plain in found.values():
+            plain += "_"
+        found[name] = plain
+    return found
+
+
+def captions(scenes: Mapping[str, Scene]) -> list[tuple[str, str]]:
+    """(colour, text) of the legend; the colour is empty for plain text."""
+    solid, *ghosts = scenes
+    biped = scenes[solid].biped
+    newtons = 0.1 * biped.weight / WEIGHT_LENGTH
+    walking = [(STANCE.lower(), "stance leg"), (SWING.lower(), "swing leg")]
+    entries = [
+        *([] if is_wheel(biped) else walking),
+        (REACTION.lower(), f"ground reaction, 0.1 m = {newtons:.0f} N"),
+        (
+            TORQUE.lower(),
+            f"torque from outside, radius 0.1 m = {0.1 / METRES_PER_NEWTON_METRE:.0f} N m",
+        ),
+    ]
+    if ghosts:
+        text = f"{solid}: solid. {', '.join(ghosts)}: translucent, {LANE:g} m farther away."
+        return [("", text), *entries]
+    return [("", f"{solid}."), *entries]

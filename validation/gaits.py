@@ -1,0 +1,126 @@
+"""Laws that any periodic gait obeys, on every stored gait that the impact does not leave.
+
+    int u' q_b' dt = KE- - KE+              net joint work is what the impact takes, on level ground
+    lambda_1 = delta^2                      the largest multiplier of the closed loop, in closed form
+    zeta+ - zeta+' = delta^2 (zeta - zeta') the map of zeta = sigma-^2 / 2 is affine
+
+Work by quadrature over the zero dynamics; multipliers of the walk simulated under NPD, once by the variational
+equation and once by two walks that start 1 % faster and slower. Westervelt, Grizzle, Koditschek 2003.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from biped_adrc.analysis.return_map import ReturnMap
+from biped_adrc.analysis.stability import Method, Tolerances, invariance_gap, stability_table
+from biped_adrc.analysis.variational import periodic_orbit
+from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.control.npd import NPDController
+from biped_adrc.gait.design.request import StepLimits
+from biped_adrc.gait.gait import Gait, gait_names, load_gait
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.model.biped import Biped
+from biped_adrc.scenario.run import Cycle
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.studies.cycle_stability import find_cycle, gait_cycle
+from biped_adrc.studies.gait_design import design_gait
+from biped_adrc.types import Array
+from validation.passive import simplest
+from validation.row import Row, at_most
+
+FASTER = 0.01  # of the speed before impact, dimensionless
+ROBOTS = ("rimless_wheel", "compass", "simplest", "three_link", "rabbit")
+ENERGY = "energy lost at impact"
+CLOSED = "delta^2 of the zero dynamics"
+
+
+def invariant_gaits(preset: str) -> tuple[str, ...]:
+    """Names of the stored gaits of RABBIT whose constraint the impact does not leave."""
+    biped, limit = Biped.load("rabbit", preset), Tolerances().invariance
+    gaits = (load_gait(name, biped) for name in gait_names("rabbit", preset))
+    return tuple(g.name for g in gaits if invariance_gap(biped, g.constraint) <= limit)
+
+
+def work_rows(preset: str) -> tuple[Row, ...]:
+    """One row for every stored gait."""
+    biped = Biped.load("rabbit", preset)
+    return tuple(_work_row(biped, load_gait(n, biped)) for n in invariant_gaits(preset))
+
+
+def _work_row(biped: Biped, gait: Gait) -> Row:
+    q, v = gait.q_minus, gait.v_minus
+    after = biped.impact(q, v)
+    zero = ZeroDynamics.of(biped, gait.constraint)
+    orbit = zero.orbit(biped.angular_momentum(after.q, after.v))
+    work = float(orbit.time_weights @ np.sum(orbit.u * orbit.v[:, : biped.p], axis=1))
+    lost = biped.kinetic_energy(q, v) - biped.kinetic_energy(after.q, after.v)
+    name = f"RABBIT {biped.preset}, {gait.name}"
+    return Row(name, "net joint work of a step [J]", lost, work, 1e-8, ENERGY)
+
+
+def multiplier_rows(preset: str, gait: str) -> tuple[Row, ...]:
+    """delta^2 against the simulated walk, twice."""
+    cycle = gait_cycle(Scenario("NPD", preset=preset, gait=gait))
+    biped = cycle.P.walker.plant
+    delta2 = ZeroDynamics.of(biped, load_gait(gait, biped).constraint).delta ** 2
+    _, step = periodic_orbit(cycle.P, cycle.guess, 1e-7)
+    variational = float(step.multipliers[0].real)
+    name, walks = f"RABBIT {preset}, {gait}", f"walks that start {FASTER:.0%} faster and slower"
+    return (
+        Row(name, "largest multiplier, variational equation", delta2, variational, 1e-6, CLOSED),
+        Row(name, f"the same, {walks}", delta2, slope_of_zeta(cycle), 1e-6, CLOSED),
+    )
+
+
+def slope_of_zeta(cycle: Cycle) -> float:
+    """d zeta+ / d zeta of the simulated walk by two walks beside the gait's orbit."""
+    biped, (q, v) = cycle.P.walker.plant, np.split(cycle.guess, 2)
+
+    def zeta(x: Array) -> float:
+        return 0.5 * biped.angular_momentum(*np.split(x, 2)) ** 2
+
+    before = [np.concatenate((q, (1.0 + side * FASTER) * v)) for side in (1.0, -1.0)]
+    after = [cycle.P.lift(cycle.P(cycle.P.project(x))) for x in before]
+    return (zeta(after[0]) - zeta(after[1])) / (zeta(before[0]) - zeta(before[1]))
+
+
+# -- every robot -----------------------------------------------------------------------------------
+def designed_three_link() -> Cycle:
+    """The three-link walker on a gait designed for it, its foot allowed to scuff."""
+    limits = StepLimits(clearance=None)
+    gait = design_gait("three_link", 0.9, 0.6, limits=limits).gait
+    walker = Walker(Biped.load("three_link"), NPDController(gait.constraint))
+    P = ReturnMap(walker, RK4(5e-4), difference=1e-4, pitch=float(gait.q_minus[-1]))
+    return Cycle(P, walker.initial_state(gait.q_minus, gait.v_minus))
+
+
+def cycle_of(robot: str) -> Cycle:
+    """A cycle of a registered robot; the simplest walker with feet heavy enough for differences of it."""
+    if robot == "simplest":
+        cycle = simplest(1e-4)
+        return replace(cycle, P=replace(cycle.P, difference=2e-4))
+    return designed_three_link() if robot == "three_link" else find_cycle(robot)
+
+
+def robot_rows(robot: str) -> tuple[Row, ...]:
+    """All multipliers by the variational equation against extrapolated central differences."""
+    cycle = cycle_of(robot)
+    _, step = periodic_orbit(cycle.P, cycle.guess, 1e-9)
+    table = stability_table(cycle.P, step)
+    exact, central = (
+        next(row for row in table.rows if row.method is method)
+        for method in (Method.VARIATIONAL, Method.CENTRAL)
+    )
+    one, other = (float(row.magnitudes[0]) for row in (central, exact))
+    t, count = table.tolerances, len(exact.multipliers)
+    unit = f"max({t.absolute:g}, {t.relative:g} |lambda|)"
+    by = "central differences of the return map"
+    name = "simplest, feet of 1e-4 of the hip's mass" if robot == "simplest" else robot
+    return (
+        Row(name, "largest |multiplier|, variational equation", one, other, 1e-6, by),
+        at_most(name, f"gap of all {count}, in units of {unit}", 1.0, table.gap(central), by),
+    )

@@ -1,0 +1,64 @@
+"""The groups of the verification, each with what it says and the functions that make its rows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+from biped_adrc.errors import InputError
+from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.resources import packaged
+from validation import frost_urdf, gaits, passive, rabbit, three_link
+from validation.row import PRESETS, Row
+
+DESIGNED = ("identified", "tac2003")
+Maker = Callable[[], tuple[Row, ...]]
+
+
+@dataclass(frozen=True)
+class Group:
+    """`text` is Markdown; `makers` give the rows, part by part."""
+
+    name: str
+    title: str
+    text: str
+    makers: tuple[Maker, ...]
+
+
+def groups() -> tuple[Group, ...]:
+    """All of them, in the order of the page."""
+    speeds = [(preset, speed) for preset in DESIGNED for speed in rabbit.SPEEDS]
+    stored = [(preset, gait) for preset in PRESETS for gait in gaits.invariant_gaits(preset)]
+    walkers = ("ball", "wheel", "simplest", "short_step", "heavy_feet", "compass")
+    makers: dict[str, tuple[Maker, ...]] = {
+        "passive": tuple(getattr(passive, f"{name}_rows") for name in walkers),
+        "three-link": (three_link.three_link_rows,),
+        "tac2003": (rabbit.printed_rows, *(partial(rabbit.designed_rows, L) for L in (None, 0.4))),
+        "paper": (
+            rabbit.poles_row,
+            *(partial(rabbit.fixed_point_rows, preset) for preset in PRESETS),
+        ),
+        "work": tuple(partial(gaits.work_rows, preset) for preset in PRESETS),
+        "multipliers": tuple(partial(gaits.multiplier_rows, *pair) for pair in stored),
+        "robots": tuple(partial(gaits.robot_rows, robot) for robot in gaits.ROBOTS),
+        "design": (
+            *(partial(rabbit.design_rows, *pair) for pair in speeds),
+            *(partial(rabbit.through_rows, preset) for preset in DESIGNED),
+        ),
+        "hip": (
+            rabbit.published_force_rows,
+            *(partial(rabbit.hip_rows, c) for c in CONTROLLERS),
+        ),
+        "senses": (frost_urdf.sense_rows,),
+    }
+    texts = packaged("validation", "groups.toml")
+    return tuple(Group(n, **said, makers=makers[n]) for n, said in texts.items())
+
+
+def group_named(name: str) -> Group:
+    """Raises InputError with the names there are."""
+    found = {group.name: group for group in groups()}
+    if name not in found:
+        raise InputError(f"there is no group '{name}'; choose one of {list(found)}")
+    return found[name]
