@@ -41,7 +41,9 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array, ComplexArray
 
 BUMP = 64.0 * np.array([0.0, 0.0, 0.0, 1.0, -3.0, 3.0, -1.0])
-"""Coefficients of b(s) = 64 s^3 (1 - s)^3 in powers of s."""
+"""Coefficients (7,) of b(s) = 64 s^3 (1 - s)^3 in powers of s: zero with two derivatives at both ends,
+so that the correction changes neither begin nor end of a step.
+"""
 DIFFERENCE = 1e-3
 """Half width of the central differences: in beta [rad], and relative in z."""
 
@@ -57,15 +59,15 @@ DIRECTIONS: Mapping[str, tuple[float, ...]] = {
     "stance knee": STANCE_KNEE,
     "swing knee": (0.0, 0.0, 0.0, 1.0),
 }
-"""By name, for a robot with RABBIT's joints."""
+"""Directions d (p,) by name, for a robot with RABBIT's joints."""
 
 
 @dataclass(frozen=True)
 class StrideResponse:
-    """The linear map from step to step."""
+    """The linear map from step to step of one gait and one direction."""
 
     a: float
-    """Multiplier of the walking cycle."""
+    """delta^2, multiplier of the walking cycle, dimensionless."""
     b: float
     """[kg^2 m^4/s^2 per rad]."""
     c: float
@@ -79,7 +81,7 @@ class StrideResponse:
         return self.d + self.c * self.b / (1.0 - self.a)
 
     def poles(self, gains: StrideGains) -> ComplexArray:
-        """The poles of the loop, the largest magnitude first."""
+        """The three poles of the loop (3,), dimensionless, the largest magnitude first."""
         walk, plant = [1.0, -self.a], [self.d, self.c * self.b - self.d * self.a]
         law = [gains.K_P + gains.K_I, -gains.K_P]
         equation = np.polyadd(np.polymul([1.0, -1.0, 0.0], walk), np.polymul(law, plant))
@@ -87,7 +89,10 @@ class StrideResponse:
         return roots[np.argsort(-np.abs(roots))]
 
     def gains(self, limit: float = 0.3) -> StrideGains:
-        """K_P and K_I of the triple pole. Raises InputError where it is not inside the unit circle."""
+        """K_P and K_I of the triple pole; limit: bound on |beta| [rad].
+
+        Raises InputError where the pole is not inside the unit circle.
+        """
         zero = self.c * self.b - self.d * self.a
         mu = zero / self.d if self.d else math.inf
         r = float(np.cbrt(mu * (mu + 1.0) * (mu + self.a))) - mu
@@ -107,9 +112,10 @@ def stride_pi(
     direction: Sequence[float] = TORSO_LEAN,
     limit: float = 0.3,
 ) -> StridePI:
-    """The PI from step to step around `inner`, with the gains of the triple pole.
+    """The PI from step to step around the controller `inner`, with the gains of the triple pole.
 
-    direction: d (p,). limit: bound on |beta| [rad]. Raises as `stride_response` and `StrideResponse.gains`.
+    direction: d (p,), dimensionless. limit: bound on |beta| [rad]. Raises as `stride_response` and
+    `StrideResponse.gains`.
     """
     along = tuple(float(d) for d in direction)
     gains = stride_response(gait, biped, along).gains(limit)
@@ -130,7 +136,8 @@ def stride_response(
 ) -> StrideResponse:
     """The response of a gait whose constraint is hybrid invariant, or made so by ReferenceReset.
 
-    Raises InputError for a direction of the wrong length, GaitError where the zero dynamics have no cycle.
+    direction: d (p,), dimensionless. Raises InputError for a direction of the wrong length,
+    GaitError where the zero dynamics have no stable cycle.
     """
     h, shift = gait.constraint, DIFFERENCE * np.array(direction, dtype=float)
     if len(shift) != biped.p:
@@ -155,25 +162,28 @@ def stride_response(
 
 @dataclass(frozen=True)
 class DirectionMerit:
-    """One direction d (p,) of the correction."""
+    """What one direction d (p,) of the correction gains and costs."""
 
     name: str
     direction: tuple[float, ...]
     static_gain: float
-    """g [m/s per rad]."""
+    """g, speed per correction [m/s per rad]."""
     torque: float
-    """U [N m per rad]."""
+    """U, torque per correction [N m per rad]."""
 
     @property
     def merit(self) -> float:
-        """|g| / U [m/s per N m]."""
+        """|g| / U, speed per torque [m/s per N m]."""
         return abs(self.static_gain) / self.torque
 
 
 def direction_merits(
     gait: Gait, biped: Biped, directions: Mapping[str, tuple[float, ...]] = DIRECTIONS
 ) -> tuple[DirectionMerit, ...]:
-    """Every direction, the best first. Raises InputError without one, and as `stride_response`."""
+    """Merits of all directions, the best first.
+
+    Raises InputError without a direction, and as `stride_response`.
+    """
     if not directions:
         raise InputError("no direction of the stride's correction was given, expected at least one")
     found = [_merit(gait, biped, name, d) for name, d in directions.items()]
@@ -181,6 +191,7 @@ def direction_merits(
 
 
 def _merit(gait: Gait, biped: Biped, name: str, d: tuple[float, ...]) -> DirectionMerit:
+    """Merit of one direction. Raises InputError for a direction that bends no joint."""
     gain = stride_response(gait, biped, d).static_gain
 
     def torque(beta: float) -> Array:

@@ -21,13 +21,16 @@ from biped_adrc.robots.symmetry import twins
 from biped_adrc.types import Array
 
 KINDS = ("mass", "com", "inertia", "friction")
+"""Names of the fields of `ModelErrors`, in the order in which they are drawn."""
 
 
 @dataclass(frozen=True)
 class ModelErrors:
-    """Relative errors: mass, com, inertia by body or link, friction by joint; 0.1 is ten per cent more.
+    """Relative errors, dimensionless: 0.1 is ten per cent more. mass, com, inertia: by body or link;
+    friction, viscous and static alike: by joint.
 
-    Raises InputError for an error that is not finite, or that leaves no mass or inertia, or negative friction.
+    Raises InputError for an error that is not finite, or that leaves no mass or inertia, or
+    negative friction.
     """
 
     mass: Mapping[str, float] = field(default_factory=dict)
@@ -59,10 +62,11 @@ class ModelErrors:
         friction: float = 0.3,
         links: tuple[str, ...] | None = None,
     ) -> ModelErrors:
-        """Errors of every body drawn evenly from +-width by a seed; links: of these bodies alone.
+        """Errors of every body, drawn evenly from +-width by a seed; links: of these bodies alone.
 
-        Friction is drawn for the joints that have some, where the robot was loaded with friction. The errors
-        depend on the seed and on the bodies, in their order. Raises InputError for a width outside [0, 1).
+        mass, com, inertia, friction: the widths, dimensionless. Friction is drawn for the joints
+        that have some, where the robot was loaded with friction. The errors depend on the seed and
+        on the bodies, in their order. Raises InputError for a width outside [0, 1).
         """
         for kind, width in zip(KINDS, (mass, com, inertia, friction), strict=True):
             if not 0.0 <= width < 1.0:
@@ -81,7 +85,9 @@ class ModelErrors:
         return cls(m, d, J, {joint: e for pair, e in by_pair for joint in pair})
 
     def apply(self, biped: Biped) -> Biped:
-        """`biped` with these errors. Raises ModelError for a body or joint it has not, or unequal legs."""
+        """`biped` with these errors. Raises ModelError for an unknown body or joint, or legs that
+        become unequal.
+        """
         factors = {k: {x: 1.0 + e for x, e in getattr(self, k).items()} for k in KINDS[:3]}
         made = replace(biped, tree=biped.scaled(factors))
         if self.friction:
@@ -90,7 +96,9 @@ class ModelErrors:
         return made
 
     def _rubbed(self, biped: Biped) -> Biped:
-        """With errors of friction."""
+        """The biped with its viscous and static friction multiplied; twin joints must have the same
+        error.
+        """
         d = biped.description
         if not biped.friction:
             raise ModelError(
@@ -117,9 +125,10 @@ class ModelErrors:
 
 
 def impact_error(seed: int, spread: float, n: int) -> Array:
-    """e (n,) drawn evenly from +-spread by a seed: an impact that leaves (1 + e) q'+ in place of q'+ of (7).
+    """Relative errors e (n,) of the velocities after impact, drawn evenly from +-spread by a seed.
 
-    Raises InputError for a spread outside [0, 1).
+    The impact then leaves (1 + e) q'+ in place of q'+ of (7). Raises InputError for a spread
+    outside [0, 1).
     """
     if not 0.0 <= spread < 1.0:
         raise InputError(f"the spread of impact errors is {spread}, expected 0 <= spread < 1")
@@ -127,13 +136,16 @@ def impact_error(seed: int, spread: float, n: int) -> Array:
 
 
 def _seed(seed: int) -> int:
+    """The seed itself. Raises InputError unless it is a whole number >= 0."""
     if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
         raise InputError(f"the seed of model errors is {seed}, expected a whole number >= 0")
     return seed
 
 
 def _rubbing(biped: Biped) -> Iterator[tuple[str, ...]]:
-    """Joints with friction, a joint and its twin of the other leg together; none where friction is off."""
+    """Joints with friction, a joint and its twin of the other leg together; none where friction is
+    off.
+    """
     d, met = biped.description, set[str]()
     twin = twins(biped.tree, d.feet)
     above = {joint.child: joint.name for joint in biped.tree.joints}

@@ -21,12 +21,17 @@ if TYPE_CHECKING:
 
 STATES, SEED = 4, 5
 ACCURACY = 1e-6
-"""Largest relative round-off in D_s^-1; feet of 1e-7 of the hip's mass leave 1e-8."""
+"""Largest relative round-off in D_s^-1 (eps times the condition number), dimensionless. Feet with 1e-7
+of the hip's mass still reach 1e-8.
+"""
 _ALONG = 1e-6  # how far an axis may be from y, x or z, dimensionless
 
 
 def check_planar(tree: Tree, d: RobotDescription) -> None:
-    """Joints turn about y, the base slides along x and z. Raises ModelError that names the joint."""
+    """Check that joints turn about y and that the base slides along x and z.
+
+    Raises ModelError that names the joint, its axis and the expected one.
+    """
     wanted: list[tuple[str, str, Vector]] = [
         (d.base[0], "prismatic", (1.0, 0.0, 0.0)),
         (d.base[1], "prismatic", (0.0, 0.0, 1.0)),
@@ -51,7 +56,9 @@ def check_planar(tree: Tree, d: RobotDescription) -> None:
 
 
 def check_numbers(biped: Biped) -> None:
-    """D_s is positive definite, Omega and the impact are finite, at random states. Raises ModelError."""
+    """Check at random states that D_s is positive definite and well conditioned, and that Omega and
+    the impact are finite. Raises ModelError that says what to look for in the URDF.
+    """
     random, n = np.random.default_rng(SEED), biped.n
     where = f"URDF '{biped.tree.source}', robot '{biped.description.name}'"
     for _ in range(STATES):
@@ -76,6 +83,9 @@ def check_numbers(biped: Biped) -> None:
 
 
 def _check_definite(D: Array, where: str) -> None:
+    """Raise ModelError unless D (n, n) is positive definite with a condition number that doubles can
+    hold.
+    """
     finite = bool(np.all(np.isfinite(D)))
     least, most = np.linalg.eigvalsh(D)[[0, -1]] if finite else (np.nan, np.nan)
     if not most * np.finfo(float).eps <= ACCURACY * least:
@@ -87,4 +97,5 @@ def _check_definite(D: Array, where: str) -> None:
 
 
 def _text(axis: Vector) -> str:
+    """An axis for a message."""
     return f"({', '.join(f'{a:g}' for a in axis)})"

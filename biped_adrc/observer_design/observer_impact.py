@@ -28,9 +28,11 @@ from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array
 
 DEGREE = 20
-"""Of the polynomial in time that stands for xi along the orbit."""
+"""Degree of the polynomial in time that approximates xi along the orbit."""
 DERIVATIVES = 3
-"""Of xi that are taken from it; those above count as known, since a fit has none to give."""
+"""How many derivatives of xi are taken from it; higher ones count as known, since the fit is too
+rough.
+"""
 INSTANTS, LONG = 400, 8.0
 """Of the response, and its length in time constants of the slowest pole."""
 
@@ -52,15 +54,20 @@ class Impact(NamedTuple):
     """States of the chain in physical units, (order, p): q_b, q_b', xi, xi', ..."""
 
     before: Array
+    """True states of the chain just before impact (order, p)."""
     after: Array
+    """True states just after impact, in the coordinates of the next step (order, p)."""
     swap: Any
-    """(p,) ints, the relabelling of the joints."""
+    """Permutation of the joints at impact (p,), ints."""
     inertia: Array
-    """kappa^-1 (p, p) after it [kg m^2]."""
+    """kappa^-1 (p, p) just after impact [kg m^2]."""
 
 
 def orbit_impact(biped: Biped, gait: Gait, order: int) -> Impact:
-    """The impact of the gait's periodic orbit. Raises GaitError where the orbit cannot be had."""
+    """The impact of the gait's periodic orbit, for an observer with `order` = m + 2 states per joint.
+
+    Raises GaitError where the gait has no periodic orbit.
+    """
     orbit = ZeroDynamics.of(biped, gait.constraint).cycle
     xi = np.array([biped.reduction(q, v).xi for q, v in zip(orbit.q, orbit.v, strict=True)])
     rate = orbit.v @ gait.constraint.phase
@@ -80,14 +87,17 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> Impact:
 
 
 def _times(theta: Array, rate: Array, start: float) -> Array:
-    """t at the nodes: the integral of 1 / Theta' from the start of the step."""
+    """Time at the nodes (K,) [s]: the integral of 1 / Theta' from the start of the step.
+
+    theta (K,) [rad] and rate Theta' (K,) [rad/s] along the orbit; start: Theta+ [rad].
+    """
     slowness = Chebyshev.fit(theta, 1.0 / rate, DEGREE)
     whole = slowness.integ()
     return whole(theta) - whole(start)
 
 
 def reset_error(impact: Impact, policy: ResetPolicy) -> Array:
-    """e(0+) (order, p) in physical units."""
+    """e(0+) (order, p) in physical units, [rad], [rad/s], [rad/s^2], ..., that a reset policy leaves."""
     estimate = impact.before if policy is ResetPolicy.NONE else impact.before[:, impact.swap]
     estimate = estimate.copy()
     if policy in (ResetPolicy.MEASURED, ResetPolicy.MODEL):
@@ -101,7 +111,10 @@ def reset_error(impact: Impact, policy: ResetPolicy) -> Array:
 def impact_peak(
     observer: GPIObserver, impact: Impact, policy: ResetPolicy, gains: Gains = TABLE_II
 ) -> ImpactPeak:
-    """The response to e(0+), over LONG time constants; e_3 = 0 for m = 0, which has no xi^."""
+    """Peaks of the response to e(0+), over LONG time constants; e_3 = 0 for m = 0, which has no xi^.
+
+    The response is computed in scaled states, by matrix exponentials at each time.
+    """
     w, k = observer.scale, observer.order
     E = reset_error(impact, policy) / w ** np.arange(k)[:, np.newaxis]
     A = observer.error_system().A

@@ -118,6 +118,7 @@ def loop_to_ss(controller: ADRCController, joint: int = 0) -> StateSpace:
 
 
 def _checked(observer: Observer) -> GPIObserver:
+    """The observer itself. Raises InputError for another kind."""
     return checked_gpi(observer, "state space")
 
 
@@ -135,7 +136,7 @@ def _estimates(observer: GPIObserver) -> Array:
 
 
 def _error(observer: GPIObserver) -> tuple[Array, Array]:
-    """A_e and the columns of xi and n."""
+    """A_e (m + 2, m + 2) and the columns of xi and n (m + 2, 2), in scaled states."""
     B = np.hstack((np.zeros((observer.order, 1)), -_injection(observer)))
     system = observer.error_system()
     B[1, 0] = system.velocity_scale
@@ -143,10 +144,12 @@ def _error(observer: GPIObserver) -> tuple[Array, Array]:
 
 
 def _error_names(observer: GPIObserver) -> list[str]:
+    """Names of the states E_k."""
     return [f"E_{i + 1}" for i in range(observer.order)]
 
 
 def _state_space(A: Any, B: Any, C: Any, D: Any = None, **names: Any) -> StateSpace:
+    """The system of these matrices and names. Raises InputError when python-control is missing."""
     D = np.zeros((len(C), B.shape[1])) if D is None else D
     try:
         control = import_module("control")

@@ -23,14 +23,20 @@ from biped_adrc.types import Array
 
 STATES, SEED = 20, 0
 LIMIT = 1e-9
-"""Largest relative gap; double precision leaves about 1e-12."""
+"""Largest relative gap of a law; double precision leaves about 1e-12."""
 ACCURACY = 1e-6
-"""Largest relative round-off in q''; feet of 1e-7 of the hip's mass leave 1e-8."""
+"""Largest relative round-off in q'' (eps times the condition number of D_s), dimensionless. Feet with
+1e-7 of the hip's mass leave 1e-8.
+"""
 DEFINITE = "D_s is positive definite; round-off left in q'' by its condition"
+"""The one check whose limit is ACCURACY."""
 
 
 def checks(biped: Biped) -> tuple[Check, ...]:
-    """The laws at `STATES` random states drawn with `SEED`: angles in +-pi, rates of 3 rad/s."""
+    """The laws at `STATES` random states drawn with `SEED`: angles in +-pi, rates of 3 rad/s.
+
+    One `Check` per law, with the largest gap over the states. A NaN counts as broken.
+    """
     random = np.random.default_rng(SEED)
     laws: dict[str, float] = {}
     for _ in range(STATES):
@@ -47,7 +53,10 @@ def checks(biped: Biped) -> tuple[Check, ...]:
 
 
 def angular_momentum(biped: Biped, q: Array, v_e: Array, point: Array) -> float:
-    """H_c [kg m^2/s] of the bodies about `point` (x, z) from the stance foot, at q_e' = v_e (n + 2,)."""
+    """H_c [kg m^2/s] of the bodies about `point` (x, z) [m] from the stance foot, clockwise positive.
+
+    q (n,) [rad], and the velocity q_e' = v_e (n + 2,) [rad/s, m/s].
+    """
     f = biped.floating
     pin.computeCentroidalMomentum(f.model, f.data, f.configuration(q), f.velocity_map(q) @ v_e)
     arm = f.data.com[0] - np.array([point[0], 0.0, point[1]])
@@ -55,6 +64,7 @@ def angular_momentum(biped: Biped, q: Array, v_e: Array, point: Array) -> float:
 
 
 def _gap(found: Array, expected: Array) -> float:
+    """Largest difference of two arrays relative to the largest entry of the expected one."""
     return float(np.max(np.abs(found - expected)) / np.max(np.abs(expected)))
 
 
@@ -68,6 +78,10 @@ def _places(b: Biped, q: Array, frames: tuple[str, str]) -> Array:
 
 
 def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
+    """Laws of single support at q, v (n,) [rad, rad/s], each with its gap.
+
+    D_s and Omega, D_s positive definite, places of hip and foot, and the direction of the phase.
+    """
     D, Omega = b.floating.projected(q, v)
     yield "D_s of the pinned model is the floating one's, constrained", _gap(b.inertia(q), D)
     yield "Omega of the pinned model is the floating one's, constrained", _gap(b.bias(q, v), Omega)
@@ -87,6 +101,9 @@ def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]
 
 
 def _impact(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
+    """Laws of the plastic impact at q, v (n,) [rad, rad/s], each with its gap; H relative to a
+    momentum of the same energy.
+    """
     hit, contact = b.impact(q, v), b.swing_foot(q)
     before, after = b.kinetic_energy(q, v), b.kinetic_energy(hit.q, hit.v)
     foot = b.E_2(q) @ hit.v_e
@@ -100,6 +117,7 @@ def _impact(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
 
 
 def _exchange(b: Biped, q: Array) -> Iterator[tuple[str, float]]:
+    """Laws of the exchange of legs at q (n,) [rad], each with its gap."""
     new = b.relabel(q)
     length = np.linalg.norm(b.hip(np.zeros(b.n)))
     yield "legs: exchanging them twice changes nothing", _gap(b.relabel(new), q)

@@ -47,7 +47,11 @@ _STANCE, _SWING, _TRUNK = (0.0, 0.45, 0.7, 1.0), (0.84, 0.37, 0.0, 1.0), (0.35, 
 
 
 def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
-    """The tree itself where a link has a shape, else the tree with sticks and a sentence that says so."""
+    """The tree itself where a link has a shape, else the tree with sticks, and a sentence that says
+    so.
+
+    Links of the stance leg, the swing leg and the trunk get different colours.
+    """
     if any(link.visuals for link in tree.links.values()):
         return tree, ()
     legs = [{joint.child for joint in tree.path_to_root(foot)} for foot in feet]
@@ -61,6 +65,7 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
 
 
 def _shapes(tree: Tree, link: Link, colour: tuple[float, ...]) -> tuple[Visual, ...]:
+    """Sticks from the link's origin to the joints below it, or to its COM, and a ball at the COM."""
     rgba = (colour[0], colour[1], colour[2], colour[3])
     ends = [joint.origin for joint in tree.joints_below(link.name) if any(joint.origin)]
     if link.inertial is None:
@@ -72,7 +77,9 @@ def _shapes(tree: Tree, link: Link, colour: tuple[float, ...]) -> tuple[Visual, 
 
 
 def _stick(end: Vector, rgba: tuple[float, float, float, float]) -> tuple[Visual, ...]:
-    """From the origin to `end` [m]."""
+    """A stick from the origin to `end` [m]: upright cylinder, horizontal box, or a row of balls
+    between.
+    """
     x, _, z = end
     length = math.hypot(x, z)
     radius = _RADIUS * length
@@ -86,30 +93,34 @@ def _stick(end: Vector, rgba: tuple[float, float, float, float]) -> tuple[Visual
 
 
 PRESET = "urdf"
+"""Name of the preset that holds the masses of the URDF."""
 FRICTION = 0.6
-"""Dry friction of the feet where none is given: RABBIT's, dimensionless."""
+"""Dry friction mu of the feet where none is given: RABBIT's, dimensionless."""
 
 _SIDES = re.compile(r"(^|[_-])(left|right|l|r)(?=$|[_-])", re.IGNORECASE)
+"""The part of a link's name that says left or right."""
 
 
 @dataclass(frozen=True)
 class Hints:
-    """What a URDF does not say; None is guessed where there is one answer.
-
-    feet: links of the stance and the swing foot. actuated: joints with a motor, q1, q2, ... in order. hip:
-    link whose origin is the hip. torque [N m]: limit of a motor. friction_coefficient: of the feet. armature
-    [kg m^2]: rotor inertia per motor, reflected to the joint. gravity [m/s^2]. tip [m]: place of the feet
-    in the frames of the links `feet`, for a URDF that ends with its shins.
-    """
+    """What a URDF does not say; None is guessed where there is one answer."""
 
     feet: tuple[str, ...] | None = None
+    """Links of the stance and the swing foot."""
     actuated: tuple[str, ...] | None = None
+    """Joints with a motor, q1, q2, ... in order."""
     hip: str | None = None
+    """Link whose origin is the hip."""
     torque: float | None = None
+    """Limit of every motor [N m]."""
     friction_coefficient: float | None = None
+    """Dry friction mu of the feet, dimensionless."""
     armature: float = 0.0
+    """Rotor inertia per motor, reflected to the joint [kg m^2]."""
     gravity: float = GRAVITY
+    """[m/s^2]."""
     tip: tuple[float, float, float] | None = None
+    """Place of the feet in the frames of the links `feet` [m], for a URDF that ends with its shins."""
 
 
 def record_of(
@@ -120,7 +131,10 @@ def record_of(
     torque: float,
     hints: Hints,
 ) -> dict[str, Any]:
-    """What a robot.toml says of it."""
+    """The tables of the robot.toml that describes this robot, as plain values.
+
+    torque: limit of every motor [N m].
+    """
     moving = [joint.name for joint in parts.moving]
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
     source = f"The <inertial> elements of {Path(reading.tree.source).name}."
@@ -151,7 +165,10 @@ def record_of(
 
 
 def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
-    """Links with mass by body: twins together, under their name without the side."""
+    """Links with mass by body: twins together, under their name without the side.
+
+    A name that is empty or taken without its side is replaced by that of the first link.
+    """
     twins = dict(pairs(tree, feet))
     heavy = [name for name, link in tree.links.items() if link.inertial is not None]
     bodies: dict[str, list[str]] = {}
@@ -171,6 +188,7 @@ def to_toml(record: Mapping[str, Any]) -> str:
 
 
 def _lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+    """Lines of a table and of those inside it; `path` is its name, part by part."""
     values = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
     tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
     if path and values:
@@ -181,11 +199,13 @@ def _lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
 
 
 def _key(key: str) -> str:
+    """A key as TOML writes it, in quotes unless it is bare."""
     bare = key.isascii() and key.replace("_", "").replace("-", "").isalnum()
     return key if bare else json.dumps(key, ensure_ascii=False)
 
 
 def _value(value: Any) -> str:
+    """A string, number or list as TOML writes it."""
     if isinstance(value, list):
         return f"[{', '.join(_value(item) for item in value)}]"
     return json.dumps(value, ensure_ascii=False)
@@ -193,21 +213,24 @@ def _value(value: Any) -> str:
 
 @dataclass(frozen=True)
 class Derived:
-    """A biped derived from a URDF, and how."""
+    """A biped derived from a URDF, with what was guessed and checked on the way."""
 
     biped: Biped
     said: tuple[str, ...]
+    """What was found and guessed, in sentences."""
     checks: tuple[Check, ...]
+    """The laws of `import_checks` with their numbers."""
     record: Mapping[str, Any]
-    """As in a robot.toml."""
+    """Contents of its robot.toml."""
 
     @property
     def broken(self) -> tuple[Check, ...]:
-        """Checks that do not hold."""
+        """Laws that do not hold; empty for a robot that can be used."""
         return tuple(check for check in self.checks if not check.holds)
 
     def write(self, folder: Path | str) -> Path:
-        """Write floating.urdf and robot.toml for `Biped.load`; the path of robot.toml.
+        """Write floating.urdf and robot.toml for `Biped.load` into a folder; returns the path of
+        robot.toml.
 
         Raises OutputError where one of them exists already or cannot be written.
         """
@@ -230,9 +253,10 @@ def biped_from_urdf(
     armature: float = 0.0,
     tip: tuple[float, float, float] | None = None,
 ) -> Biped:
-    """The Biped of a URDF, once every check holds; see `Hints` for the options and `derive` for the rest.
+    """The Biped of a URDF, once every check holds; see `Hints` for the options and `derive` for the
+    rest.
 
-    Raises ModelError.
+    torque [N m], armature [kg m^2], tip [m]. Raises ModelError, with the laws that do not hold.
     """
     derived = derive(path, Hints(feet, actuated, hip, torque, armature=armature, tip=tip))
     if derived.broken:
@@ -242,7 +266,7 @@ def biped_from_urdf(
 
 
 def derive(path: Path | str, hints: Hints | None = None) -> Derived:
-    """Derive and check a biped from a URDF.
+    """Derive a biped from a URDF and check it. Checks that fail do not raise; they are in `broken`.
 
     Raises ModelError that names the link, joint or file, and what to give or to change.
     """
@@ -270,7 +294,7 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
 
 
 def _with_tips(path: Path | str, hints: Hints) -> tuple[Reading, tuple[str, ...] | None]:
-    """The URDF, and the feet: those of the hints, or links put at their tips."""
+    """The URDF, and the feet: those of the hints, or links put at their tips. Raises ModelError."""
     if hints.tip is None:
         return read(path), hints.feet
     if hints.feet is None or not all(map(math.isfinite, hints.tip)):
@@ -285,6 +309,11 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[Reading, tuple[str, ...]
 def _motors(
     reading: Reading, moving: tuple[Joint, ...], hints: Hints
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Joints with a motor in order, and a sentence where they were guessed.
+
+    Guessed: all joints but those whose <limit effort> is 0. Raises ModelError for unknown or
+    doubled names.
+    """
     names = tuple(joint.name for joint in moving)
     if hints.actuated is None:
         found = tuple(name for name in names if reading.effort.get(name) != 0.0)
@@ -303,7 +332,11 @@ def _motors(
 def _torque(
     reading: Reading, actuated: tuple[str, ...], hints: Hints
 ) -> tuple[float, tuple[str, ...]]:
-    """The torque limit of all motors [N m]; 1 where there is none, as a record asks for a number."""
+    """The torque limit of all motors [N m], and a sentence where it was found in the URDF.
+
+    The weakest motor's limit counts for all; 1 for a robot without motors, as a record needs a
+    number. Raises ModelError where a motor has none.
+    """
     if hints.torque is not None or not actuated:
         return (1.0 if hints.torque is None else hints.torque), ()
     without = [name for name in actuated if not reading.effort.get(name, 0.0) > 0.0]
@@ -319,6 +352,7 @@ def _torque(
 
 
 def _remarks(reading: Reading, hints: Hints) -> tuple[str, ...]:
+    """Sentences on what the URDF leaves open and which defaults were taken."""
     found = []
     if hints.friction_coefficient is None:
         found.append(f"dry friction of the feet: {FRICTION}, as of RABBIT; a URDF does not say")

@@ -28,22 +28,26 @@ from biped_adrc.robots.urdf_reader import load_tree
 
 @dataclass(frozen=True)
 class BodyParameters:
-    """mass [kg], com [m] along +z of the link, inertia [kg m^2] about the COM."""
+    """Parameters of a link that is symmetric about its axis z."""
 
     mass: float
+    """[kg]."""
     com: float
+    """Distance of the COM from the link's origin along +z [m]."""
     inertia: float
+    """About the COM and the axis y [kg m^2]."""
 
 
 GRAVITY = 9.81
-"""[m/s^2], where a record does not say otherwise."""
+"""[m/s^2], where a record does not give another value."""
 
 
 @dataclass(frozen=True)
 class Preset:
     """A parameter set: bodies by class (torso, thigh, ...), armature [kg m^2] per actuated joint.
 
-    Without bodies the URDF's own <inertial> elements hold.
+    Without bodies the URDF's own <inertial> elements hold. `source` says where the numbers come
+    from.
     """
 
     name: str
@@ -54,35 +58,50 @@ class Preset:
 
 @dataclass(frozen=True)
 class RobotDescription:
-    """What `robot.toml` says; lengths [m], torques [N m], angles [rad]."""
+    """Contents of `robot.toml`; lengths [m], torques [N m], angles [rad]."""
 
     name: str
+    """Name of the robot, as in `Biped.load`."""
     urdf: Path
+    """Path of the URDF with the floating base."""
     actuated: tuple[str, ...]
+    """Joints with a motor, q1, ..., qp in order."""
     passive: tuple[str, ...]
     """Relative joints without a motor."""
     unactuated: str
-    """The absolute pitch of the link that the base carries."""
+    """Joint of the base that is the absolute pitch of the trunk, q_N."""
     base: tuple[str, str]
+    """Prismatic joints of the base along x and z."""
     stance_foot: str
+    """Link at the tip of the stance leg; the contact point is its origin."""
     swing_foot: str
+    """Link at the tip of the swing leg."""
     hip: str
-    """Frame of the hip."""
+    """Link whose origin is the hip."""
     trunk: str
-    """Link that the floating base carries; the hip's own if the record names no other."""
+    """Link that the floating base carries; that of the hip if the record names no other."""
     phase: tuple[float, ...]
+    """Row c (n,) of the phase variable Theta = c q, dimensionless."""
     offset: tuple[float, ...]
-    """What relabelling adds to q [rad]; not zero for spokes."""
+    """r (n,) [rad] of the relabelling q+ = R q- + r; not zero for robots with spokes."""
     peak_torque: float
+    """Limit of every motor [N m]."""
     friction_coefficient: float
+    """Dry friction mu between foot and ground, dimensionless."""
     gravity: float
+    """[m/s^2]."""
     viscous: Mapping[str, float]
+    """Viscous joint friction by joint [N m s/rad]; 0 for joints that are not here."""
     static: Mapping[str, float]
+    """Static joint friction by joint [N m]; 0 for joints that are not here."""
     links: Mapping[str, tuple[str, ...]]
+    """Links by body: the class "thigh" has the links of both thighs."""
     default_preset: str
+    """Preset that is taken if none is asked for."""
     presets: Mapping[str, Preset]
+    """Parameter sets by name."""
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """[rad] by joint, where gaits are designed; joints that are not here turn freely."""
+    """Lower and upper end [rad] by joint, for gait design; joints that are not here turn freely."""
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -104,7 +123,10 @@ class RobotDescription:
         return self.presets[name]
 
     def joint_index(self, joint: str | int) -> int:
-        """Index in q of a joint given by name, as "q1".."qN", or by index from 0."""
+        """Index in q of a joint given by name, as "q1".."qN", or by index from 0.
+
+        Raises ModelError with the names that are possible.
+        """
         names = self.joints
         if isinstance(joint, int):
             if 0 <= joint < len(names):
@@ -119,7 +141,11 @@ class RobotDescription:
         )
 
     def tree(self, preset: str | None = None) -> Tree:
-        """The floating URDF with the inertials of `preset`."""
+        """The floating URDF with the inertials of `preset`. Raises ModelError.
+
+        A preset has one moment of inertia per body, about y. The moments about x and z get values
+        of a slender link, since a URDF needs them and planar motion does not depend on them.
+        """
         tree = load_tree(self.urdf)
         inertials: dict[str, Inertial] = {}
         for body, p in self.preset(preset).bodies.items():
@@ -154,7 +180,10 @@ def load_description(robot: str | Path) -> RobotDescription:
 
 
 def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
-    """The record `data`, whose URDF lies beside `path`. Raises ModelError that names the key."""
+    """The record from TOML's tables `data`, whose URDF lies beside `path`.
+
+    Raises ModelError that names the key, what was found and what was expected.
+    """
     with reading("robot record", path, ModelError):
         return _description(data, path)
 
@@ -163,6 +192,7 @@ _PLAIN = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_pre
 
 
 def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
+    """The record; raises KeyError, TypeError or ValueError, which `reading` turns into a ModelError."""
     friction = data.get("friction", {})
     description = RobotDescription(
         **{key: data[key] for key in _PLAIN},
@@ -191,12 +221,12 @@ def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
 
 
 def _count(data: Mapping[str, Any]) -> int:
-    """Number of coordinates."""
+    """Number of coordinates: actuated joints, passive joints and the pitch."""
     return len(data["actuated"]) + len(data.get("passive", ())) + 1
 
 
 def _numbers(data: Mapping[str, Any], key: str, values: Any) -> tuple[float, ...]:
-    """One number per coordinate."""
+    """One finite number per coordinate. Raises ValueError that names the key."""
     found = tuple(float(c) for c in values)
     if len(found) != _count(data) or not all(map(math.isfinite, found)):
         raise ValueError(f"{key} is {list(values)}, expected {_count(data)} finite numbers")
@@ -204,6 +234,7 @@ def _numbers(data: Mapping[str, Any], key: str, values: Any) -> tuple[float, ...
 
 
 def _range(joint: str, ends: Any) -> tuple[float, float]:
+    """Lower and upper end of a joint's range [rad]. Raises ValueError unless they are in this order."""
     low, high = (float(end) for end in ends)
     if not low < high:
         raise ValueError(
@@ -213,6 +244,7 @@ def _range(joint: str, ends: Any) -> tuple[float, float]:
 
 
 def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Preset:
+    """One of the tables [presets.NAME]: all bodies of the record, or none of them. Raises ValueError."""
     bodies = {}
     own = not any(body in record for body in data["links"])
     for body in () if own else data["links"]:
@@ -230,36 +262,38 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
 
 
 def _positive(value: object, what: str) -> float:
+    """A number above zero. Raises InputError that names it by `what`."""
     number = float(value)  # type: ignore[arg-type]
     check_positive(number, f"{what} is {value}")
     return number
 
 
 WINDOW = 5e-3
-"""[s]"""
+"""Time over which the force of the ground is averaged [s]."""
 ROUND_OFF = 1e-9
-"""By which a force on the friction cone may lie outside of it, relative."""
+"""Relative amount by which a force may lie outside the friction cone and still count as inside."""
 ENDS = 0.03
-"""Share of a step at either end in which the swing foot may be at the ground."""
+"""Share of a step at either end in which the swing foot may touch the ground, dimensionless."""
 
 
 class KnownLimits(NamedTuple):
-    """`Limits` of one robot."""
+    """`Limits` of one robot, every number known."""
 
     friction: float
-    """mu."""
+    """Dry friction mu of the ground, dimensionless."""
     torque: float
-    """[N m]"""
+    """Of every motor [N m]."""
     window: float
-    """[s]"""
+    """Time over which the ground's force is averaged [s]."""
 
 
 @dataclass(frozen=True)
 class Limits:
-    """friction: mu of the ground; torque [N m]: of every motor; None is what the robot's record says.
+    """What ground and motors can give. friction: mu of the ground; torque [N m]: of every motor; None
+    takes the value of the robot's record.
 
-    window [s]: over which the force of the ground is averaged. Raises InputError for a friction that is not
-    above 0 and at most 1, or a torque or window that is not positive.
+    window [s]: time over which the force of the ground is averaged. Raises InputError for a
+    friction that is not above 0 and at most 1, or a torque or window that is not positive.
     """
 
     friction: float | None = None
@@ -280,7 +314,7 @@ class Limits:
         check_positive(self.window, f"the force window is {self.window} s")
 
     def of(self, robot: RobotDescription) -> KnownLimits:
-        """With what the robot's record says where None was given."""
+        """These limits with the values of the robot's record where None was given."""
         mu, torque = self.friction, self.torque
         return KnownLimits(
             robot.friction_coefficient if mu is None else float(mu),
