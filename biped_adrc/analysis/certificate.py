@@ -1,11 +1,13 @@
 """The certificate of a step: what a real robot on dry ground would have needed for it.
 
-A planar model pinned at its foot cannot slip or lift off, so that is looked up afterwards: F_N and friction
-|F_T| / F_N at every instant and in the mean over a window, the same ratio of the impulses at impact, whether
-the old foot lifts off, scuffing of the swing foot, torque, and the joint work against the energy lost at
-impact. On a periodic gait on level ground these two are equal. Forces are those on the plant, along and across
-its ground. A step is legal within the `Limits`: by the mean of the force, not by an instant, and not by the
-impulse.
+A planar model pinned at its foot cannot slip or lift off, so feasibility is checked afterwards: F_N
+and friction |F_T| / F_N at every instant and in the mean over a window, the same ratio of the
+impulses at impact, whether the old foot lifts off, scuffing of the swing foot, torque, and the
+joint work against the energy lost at impact. On a periodic gait on level ground these two are
+equal. Forces are those on the plant, along and perpendicular to its ground. A step is legal within
+the `Limits`: by the mean of the force, not by an instant, and not by the impulse.
+
+`certificates` and `supports` read the `Signals` of a walk; `legality` sums them up for the walk.
 """
 
 from __future__ import annotations

@@ -1,16 +1,19 @@
 """A walk under a constant horizontal force on the hip, step by step, by quadrature.
 
-F_x [N] at the hip of height z_hip enters the unactuated row, sigma' = -G_N - z_hip F_x. With exact tracking
+How large a constant force stops a gait, if tracking were perfect? F_x [N] at the hip of height
+z_hip enters the unactuated row, sigma' = -G_N - z_hip F_x. With exact tracking
 
     sigma^2 / 2 + V_F = const in a step,   V_F(Theta) = int_{Theta+}^{Theta} (G_N + z_hip F_x) I dTheta
 
-so that, with zeta = sigma-^2 / 2 before an impact and delta = sigma+ / sigma- across it, the step after it is
+so that, with zeta = sigma-^2 / 2 before an impact and delta = sigma+ / sigma- across it, the step
+after it is
 
     zeta  ->  delta^2 zeta - V_F(Theta-),   T = int |I| / sqrt(2 (delta^2 zeta - V_F)) dTheta,
 
-and is finished if delta^2 zeta > max V_F. The force changes no impact: delta is that of the gait. With F_x = 0
-these are the zero dynamics of Westervelt, Grizzle, Koditschek, IEEE TAC 48(1), 2003. Around them the PI of
-`control.stride` sets beta from step to step. No tracking law appears: what stops this walk stops it under any.
+and is finished if delta^2 zeta > max V_F. The force changes no impact: delta is that of the gait.
+With F_x = 0 these are the zero dynamics of Westervelt, Grizzle, Koditschek, IEEE TAC 48(1), 2003.
+Around them the PI of `control.stride` sets beta from step to step. No tracking law appears: what
+stops this walk stops it under any controller that tracks the same constraint.
 """
 
 from __future__ import annotations

@@ -1,4 +1,10 @@
-"""Whether a walk was legal, step by step, and where it first was not."""
+"""Whether a walk was legal, step by step, and where it first was not.
+
+`certificate` says what every single support needed. Here the walk is judged by it: an outcome in
+one word, the reasons in words, and the extreme numbers over all steps (`Legality`). `until_illegal`
+cuts a walk at its first violation, for studies that count legal steps only. `scenario.walk` calls
+both.
+"""
 
 from __future__ import annotations
 

@@ -6,7 +6,9 @@ x1^ = q_b - e1 and x2^ = q_b' - e1' - l_(m+1) e1, hence
     e_q = [K_d s + K_p + K_d l_(m+1)] / (s^2 + K_d s + K_p) e1 + (xi - xi^) / (s^2 + K_d s + K_p)
     xi - xi^ = (s^2 + l_(m+1) s + l_m) e1
 
-(22) and (23) print l_(m+1) without its factor K_d.
+(22) and (23) print l_(m+1) without its factor K_d; `printed` gives that version, to show the
+difference. In the paper's own form and physical units; `observer_design.observer_loop` is the
+well-conditioned form that design uses.
 """
 
 from __future__ import annotations

@@ -1,4 +1,9 @@
-"""Integrals, peaks and means over a window, from the nodes of a walk, piece by piece between jumps."""
+"""Integrals, peaks and means over a window, from the stored nodes of a walk.
+
+Nodes are unevenly spaced, and a repeated time marks a jump, at an impact or a sample instant: the
+signal has a left and a right value there. So the functions work piece by piece between jumps.
+`signals`, `certificate` and the metrics of a scenario use them.
+"""
 
 from __future__ import annotations
 

@@ -2,10 +2,14 @@
 
     P: x-(k) -> x-(k + 1),   P(x*) = x*
 
-On the section the swing foot is on the ground, so the ten numbers of (q, q') have nine degrees of freedom.
-Section coordinates drop q_N, which the height of the swing foot gives back. The controller's states
-are coordinates too: without them the map of a closed loop with an observer is that of another system,
-except when the reset at impact forgets them.
+P takes a state just before impact through the impact and one single support to the next impact. On
+the section the swing foot is on the ground, so the ten numbers of (q, q') of RABBIT have nine
+degrees of freedom. Section coordinates s drop q_N, which the height of the swing foot gives back.
+The controller's states are coordinates too: without them the map of a closed loop with an observer
+is that of another system, except when the reset at impact forgets them.
+
+P runs in compiled code, several points in parallel, or step by step with Pinocchio where a part of
+the walker cannot be compiled. dP/ds is by differences here; `variational` has it without.
 """
 
 from __future__ import annotations

@@ -1,6 +1,9 @@
-"""Everything that can be read off a walk afterwards: references, errors, torques, estimates, forces.
+"""All signals of a walk: references, errors, torques, estimates, energies, contact forces.
 
-Controllers have no hidden state, so the signals are computed again from the stored states.
+A trajectory stores states only. Controllers have no hidden state, so every other signal is computed
+again from the stored states, at the stored nodes, by the same closed loop (`closed_loop.system`)
+that made them; compiled where the walk was. Plots, metrics, certificates and exports read
+`Signals`.
 """
 
 from __future__ import annotations

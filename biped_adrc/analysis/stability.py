@@ -1,4 +1,4 @@
-"""The multipliers of one walking cycle by every method beside each other, and which of them to trust.
+"""The multipliers of one walking cycle by every method side by side, and which of them to trust.
 
     variational             eigenvalues of dP/ds by the variational equation, no differences
     central differences     eigenvalues of dP/ds by differences of the return map at two widths d and d / 2,
@@ -7,8 +7,9 @@
                             where the constraint is hybrid invariant and tracked exactly
     regression              (26), (27) of the paper, on samples of a walk
 
-Two sets of multipliers are compared one to one, in the pairing that makes the sum of their distances, in units
-of the tolerance, least.
+The methods share no code below the walker, so their agreement is evidence. A method that doubts its
+own result says why (`MethodRow.doubt`). Two sets of multipliers are compared one to one, in the
+pairing that makes the sum of their distances, in units of the tolerance, least.
 """
 
 from __future__ import annotations

@@ -1,8 +1,10 @@
-"""What a number of walks says: shares, medians, pairs of walks with the same seed, and tests of both.
+"""Statistics over many walks: shares, medians, pairs of walks with the same seed, and tests of both.
 
-Shares have Wilson's interval (J. Am. Stat. Assoc. 22, 1927), medians the percentile bootstrap (Efron, 1979)
-with a fixed seed. Tests are exact: the sign test, McNemar's (Psychometrika 12, 1947) for shares of the same
-seeds, and Holm's correction (Scand. J. Statistics 6, 1979) over all that is asked in one family.
+Shares have Wilson's interval (J. Am. Stat. Assoc. 22, 1927), medians the percentile bootstrap
+(Efron, 1979) with a fixed seed. Tests are exact: the sign test, McNemar's (Psychometrika 12, 1947)
+for shares of the same seeds, and Holm's correction (Scand. J. Statistics 6, 1979) over all that is
+asked in one family. Comparisons of controllers pair the walks by seed, because one disturbance may
+be harder than another for all of them. The comparison study in `bench` calls this module.
 """
 
 from __future__ import annotations

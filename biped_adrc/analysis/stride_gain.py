@@ -1,25 +1,29 @@
-"""Gains of the stride's PI from the zero dynamics, and which joints to bend for its correction.
+"""Gains of the PI from step to step, from the zero dynamics, and which joints to bend for its
+correction.
 
-With exact tracking, z_k = sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k of
+With exact tracking, z_k = sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k
+of
 
     z_(k+1) = a z_k + b beta_k,   v_k = c z_k + d beta_k,
     a = delta^2,  b = 2 dW/dbeta,  c = dv/dz,  d = dv/dbeta
 
-are deviations from the cycle; W, delta and T are the quadratures of the zero dynamics, differenced in beta
-and z. With the PI of `control.stride` the poles of the loop are the roots of
+are deviations from the cycle; W, delta and T are the quadratures of the zero dynamics, differenced
+in beta and z. With the PI of `control.stride` the poles of the loop are the roots of
 
     lambda (lambda - 1) (lambda - a) + (K_P (lambda - 1) + K_I lambda) (d (lambda - a) + c b) = 0.
 
-At lambda = -mu, mu = (c b - d a) / d, the gains drop out, so a triple pole r, the quickest there is, has
+At lambda = -mu, mu = (c b - d a) / d, the gains drop out, so a triple pole r, the quickest there
+is, has
 
     (r + mu)^3 = mu (mu + 1) (mu + a),   K_P = r^3 / (d mu),   K_P + K_I = (1 + a - 3 r) / d.
 
-The static gain g = dv/dbeta [m/s per rad] of a direction is what the correction does to the speed in the long
-run. What it costs is the change of the motors' torque along the periodic orbit,
+The static gain g = dv/dbeta [m/s per rad] of a direction is what the correction does to the speed
+in the long run. What it costs is the change of the motors' torque along the periodic orbit,
 
     U = max over the step and the motors of |du/dbeta|   [N m per rad],
 
 and |g| / U [m/s per N m] does not change when the direction is scaled, so it compares directions.
+`stride_pi` makes the controller of `control.stride` with these gains; nothing is tuned by hand.
 """
 
 from __future__ import annotations

@@ -1,21 +1,24 @@
-"""Multipliers of a walking cycle by the variational equation and the saltation matrix of foot strike.
+"""Multipliers of a walking cycle by the variational equation and the saltation matrix of the impact.
 
     x' = f(x),            Phi' = A(x) Phi,   A = df/dx         in single support
-    x+ = Delta(x-),       Phi+ = Xi Phi-                       at foot strike, h(x-) = 0
+    x+ = Delta(x-),       Phi+ = Xi Phi-                       at impact, h(x-) = 0
     Xi = D Delta + (f+ - D Delta f-) dh / (dh f-)
 
-x = (q, q'), h the height of the swing foot over the ground, dh its row of derivatives, f- and f+ the flow
-before and after impact (Aizerman, Gantmacher, 1958; Leine, Nijmeijer, 2004). The return map (24) is not
-differenced: A comes from the derivatives of ABA, D Delta from those of the impact map.
+x = (q, q'), h the height of the swing foot over the ground, dh its row of derivatives, f- and f+
+the flow before and after impact (Aizerman, Gantmacher, 1958; Leine, Nijmeijer, 2004). The return
+map (24) is not differenced: A comes from the derivatives of ABA, D Delta from those of the impact
+map (`model.derivatives`). The result is exact up to the error of the integration method.
 
 On the section, with E the matrix that drops q_N and L = ds -> dx the tangent that keeps h = 0,
 
     dP/ds = E Pi Phi D Delta L,   Pi = 1 - f- dh / (dh f-),
 
-since Xi L = D Delta L. Xi Phi has the same multipliers and the 1 of a flow that does not depend on time.
+since Xi L = D Delta L. Xi Phi has the same multipliers and the 1 of a flow that does not depend on
+time.
 
-The derivative of the torque is found by differentiating the law of NPD on a virtual constraint; for any other
-controller without states it is a difference quotient of fourth order of the torque alone (`DIFFERENCE`).
+The derivative of the torque is found by differentiating the law of NPD on a virtual constraint; for
+any other controller without states it is a difference quotient of fourth order of the torque alone
+(`DIFFERENCE`). Controllers with states, sampled time and disturbances are refused.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """What the zero dynamics say of a gait before any simulation: does it walk, from where, how fast.
 
-Numbers of `biped_adrc.gait.zero_orbits` and `biped_adrc.gait.zero_orbits` with their units. They hold for the
-closed loop as far as it keeps to the constraint: exactly for a constraint that the impact does not leave
-(hybrid invariant), tracked without error.
+The numbers of `gait.zero_dynamics` and `gait.zero_orbits` with their units, as text. They hold for
+the closed loop as far as it keeps to the constraint: exactly for a constraint that the impact does
+not leave (hybrid invariant), tracked without error. Where that is in doubt the report says so.
 """
 
 from __future__ import annotations

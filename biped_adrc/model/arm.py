@@ -1,9 +1,12 @@
-"""A fully actuated arm on a fixed base: every joint has a motor, so p = n and nothing is left over.
+"""A fully actuated arm on a fixed base: every joint has a motor, so p = n and no row is unactuated.
 
     D(q) q'' + Omega(q, q') = u + zeta,   q'' = kappa u + xi,   kappa = D^-1,   xi = -D^-1 Omega
 
-which is (11)-(15) with no unactuated rows. The URDF may be any tree of revolute and prismatic joints; it is
-read as strictly as a biped's. What the hand carries is a ball fixed to the tool.
+This is (11)-(15) with p = n, so the controllers of the biped run on an arm unchanged
+(`closed_loop.arm` closes the loop). The URDF may be any tree of revolute and prismatic joints; it
+is checked as strictly as a biped's URDF, and then given to Pinocchio as it is written, because no
+re-rooting and no planar closed form is needed here. A payload is a homogeneous ball fixed to the
+tool; the controller's nominal model is usually the arm without it.
 """
 
 from __future__ import annotations

@@ -2,9 +2,16 @@
 
     D_s(q) q'' + C(q, q') q' + G_s(q) = B_s u + delta + zeta         (1)
 
-q_b are the actuated joints (stance hip, swing hip, stance knee, swing knee), q_N the absolute pitch of
-the torso. Angles are counter-clockwise positive with x to the right and z up; a link of absolute
-angle a points along (-sin a, cos a).
+q_b (p,) are the actuated joints (for RABBIT: stance hip, swing hip, stance knee, swing knee), q_N
+is the absolute pitch of the torso. Angles are counter-clockwise positive with x to the right and z
+up; a link of absolute angle a points along (-sin a, cos a). zeta is an external generalised force
+and delta what the model has wrong.
+
+`Biped` joins a robot's record (`robots.robot_toml`), its URDF tree and two Pinocchio models made
+from that tree: `pinned` at the stance foot for single support, `floating` for the impact. Every
+method here checks its angles and passes them on to one of the two. Walkers, observers, controllers,
+gait design and the compiled engine all take their numbers from this class. Use it for the plant and
+for the controller's nominal model alike; they are two objects when the model is wrong.
 """
 
 from __future__ import annotations

@@ -1,20 +1,23 @@
-"""Double support: the unpinned model (2), the plastic impact (3)-(9).
+"""Double support: the unpinned model (2) and the plastic impact (3)-(9).
 
-q_e = (q_s, p_e) with p_e the end of the support leg. The floating URDF is rooted at the torso;
-p_e' and q_s' give its velocity through the stance-foot Jacobian, `v_float = J_e(q) q_e'`, hence
+q_e = (q_s, p_e) with p_e (2,) [m] the end of the support leg. The floating URDF is rooted at the
+torso, so its own velocity v_float differs from q_e'; the Jacobian of the stance foot gives `v_float
+= J_e(q) q_e'`, hence
 
     D_e = J_e' M J_e,   E_2 = J_2 J_e                                (2), (4)
     D_e (q_e+' - q_e-') = E_2' F_2,   E_2 q_e+' = 0                  (7)
 
-F_2 = (F_T, F_N) is the impulse of the ground on the swing foot [N s]. (5) in the paper has the
-sign of E_2' F_2 against (3), (4) and (7); (7) is right.
+F_2 = (F_T, F_N) is the impulse of the ground on the swing foot [N s]. The second line says that
+only this impulse acts, and that the new stance foot neither slips nor rebounds. (5) in the paper
+has the sign of E_2' F_2 against (3), (4) and (7); (7) is right.
 
-`LinkMotion` has the angular momentum of links from their own velocities, for laws that these matrices obey:
+`LinkMotion` computes the angular momentum of single links from their own velocities, to test laws
+that these matrices must obey:
 
     L = sum_k m_k (c_k - p) x c_k' + J_k omega_k        of some links, about a point p
 
-c_k, omega_k are taken from Pinocchio's link placements and velocities, so that neither D_e nor (7) enters.
-Positive counter-clockwise with x to the right and z up.
+c_k, omega_k come from Pinocchio's link placements and velocities, so neither D_e nor (7) enters.
+Positive counter-clockwise with x to the right and z up. `Biped` makes the FloatingDynamics.
 """
 
 from __future__ import annotations

@@ -1,8 +1,12 @@
-"""Derivatives of the dynamics and of the impact with respect to the state, without difference quotients.
+"""Derivatives of the dynamics and of the impact with respect to the state, without difference
+quotients.
+
+The variational equation (`analysis.variational`) needs df/dx and dDelta/dx to more digits than
+differences of the dynamics would give.
 
 Single support, from Pinocchio's derivatives of ABA and RNEA on the pinned model in `q_tree = T q_s`
-(Carpentier, Mansard, RSS 2018). T is constant, so derivatives are only multiplied by it; rotor inertia is
-constant too and enters through the model's armature.
+(Carpentier, Mansard, RSS 2018). T is constant, so derivatives are only multiplied by it; rotor
+inertia is constant too and enters through the model's armature.
 
 Impact, in the velocity w of the floating base and the joints, where (7) reads
 
@@ -12,13 +16,14 @@ With the matrix K = [[M, -J_2'], [J_2, 0]] of (7) a change of the state gives
 
     K (dw+, dF_2) = ( d(M a)|_(a = w- - w+) + d(J_2' F_2)|_(F_2) + M dw-,   -d(J_2 w+)|_(w+) )
 
-d(M a) is the derivative of RNEA at rest under the acceleration a, less that of gravity. d(J_2' F_2) and
-d(J_2 w+) are two contractions of one tensor, the second derivative of the position p of a foot. It is written
-down from the columns (v_j, omega_j) of the foot's Jacobian,
+d(M a) is the derivative of RNEA at rest under the acceleration a, minus that of gravity alone.
+d(J_2' F_2) and d(J_2 w+) are two contractions of one tensor, the second derivative of the position
+p of a foot. It is written down from the columns (v_j, omega_j) of the foot's Jacobian,
 
     d2p / dx_i dx_j = omega_i x v_j    for i nearer the root than j, or i = j,
 
-since moving joint i turns everything beyond it. M and J_2 do not depend on where the base is.
+since moving joint i turns everything beyond it. M and J_2 do not depend on where the base is, so
+the columns of the base's position drop out.
 """
 
 from __future__ import annotations

@@ -1,10 +1,13 @@
-"""Errors of a model: masses, COMs, inertias and friction that differ from the nominal ones, `delta` of (1).
+"""Errors of a model: masses, COMs, inertias and friction that differ from the nominal ones, `delta` of
+(1).
 
     m -> (1 + e_m) m     d -> (1 + e_d) d     J -> (1 + e_J) J     b, F_c -> (1 + e_f) b, F_c
 
-with J about the COM d, which is given from the origin of the link's frame. The errors are relative, chosen or
-drawn evenly from +-width. Both legs of a biped have the same ones, as relabelling at impact needs it; so errors
-go by body ("thigh") rather than by link.
+with J about the COM d, which is given from the origin of the link's frame. The errors are relative,
+chosen by hand or drawn evenly from +-width with a seed, for studies of robustness. Both legs of a
+biped get the same errors, because relabelling at impact needs equal legs; so errors go by body
+("thigh") rather than by link. `ModelErrors.apply` makes the plant; the controller keeps the robot
+it was made with as nominal model.
 """
 
 from __future__ import annotations

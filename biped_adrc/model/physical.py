@@ -1,8 +1,9 @@
-"""Whether a robot read from a file can be computed with: planar joints, and numbers that stay numbers.
+"""Whether a robot read from a file can be computed with: planar joints, and well-conditioned numbers.
 
-Masses and inertias are checked one by one where the file is read. What is left is how they go together: joints
-that leave the plane, a mass beside another 1e20 times as large, lengths whose squares overflow. So D_s, Omega
-and the impact are evaluated at a few states.
+Masses and inertias are checked one by one where the file is read (`robots.urdf`). What is left is
+how they go together: joint axes that leave the plane, a mass beside another 1e20 times as large,
+lengths whose squares overflow. So D_s, Omega and the impact are evaluated at a few random states.
+`Biped.check` calls both functions whenever a robot is loaded or changed.
 """
 
 from __future__ import annotations

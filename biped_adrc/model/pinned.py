@@ -1,12 +1,16 @@
 """Single support: Pinocchio's terms of the model pinned at the stance foot, in the paper's q_s.
 
-The pinned tree hangs from the stance foot: its first coordinate is the absolute angle of the
-stance shin. The paper's coordinates count from the torso. Both are angles of the same links, so
-`q_tree = T q_s` with a constant T, and `D_s = T' M T`, `Omega = T' nle(T q, T v)`.
+The pinned tree hangs from the stance foot: its first coordinate is the absolute angle of the stance
+shin. The paper's coordinates count from the torso. Both are angles of the same links, so `q_tree =
+T q_s` with a constant T, and `D_s = T' M T`, `Omega = T' nle(T q, T v)`.
 
-`reroot` turns the tree of floating.urdf round at its stance foot. All frames are parallel at zero angles, so
-turning the tree round only moves origins. A joint that is walked backwards keeps its coordinate when its axis
-is negated: if the child turns by `q` about `n`, the parent turns by `q` about `-n` seen from the child.
+`reroot` makes this tree: it turns the tree of floating.urdf round at its stance foot. All frames
+are parallel at zero angles, so turning the tree round only moves origins. A joint that is walked
+backwards keeps its coordinate when its axis is negated: if the child turns by `q` about `n`, the
+parent turns by `q` about `-n` seen from the child.
+
+`Biped` holds one `PinnedDynamics` and checks the angles; nothing is checked here. Pinocchio's
+geometry is in three dimensions, the rows XZ of it are the plane of motion.
 """
 
 from __future__ import annotations

@@ -1,23 +1,27 @@
 """The planar tree in absolute angles: closed forms for any planar robot, read off its Pinocchio model.
 
-With a = A q the absolute angles of the links, every point c fixed to the robot is a sum of turned vectors,
-written as complex numbers x + i z from the stance foot:
+Pinocchio computes numbers only. Gait design (CasADi) and the compiled engine (code generated from
+expressions) need the dynamics as formulas, which this module gives for any planar robot.
+
+With a = A q the absolute angles of the links, every point c fixed to the robot is a sum of turned
+vectors, written as complex numbers x + i z from the stance foot:
 
     c = sum_i d_i exp(i a_i)
 
-so that, with d_k the COM of link k, m_k its mass, J_k its inertia about the COM, W = sum_k m_k d_k* d_k',
-and w = sum_k m_k d_k, and with c = cos a, s = sin a,
+so that, with d_k the COM of link k, m_k its mass, J_k its inertia about the COM, W = sum_k m_k d_k*
+d_k', and w = sum_k m_k d_k, and with c = cos a, s = sin a,
 
     C_ij = cos(a_j - a_i) = c_i c_j + s_i s_j,   S_ij = sin(a_j - a_i) = c_i s_j - s_i c_j
 
     D = Re W o C - Im W o S + diag J,   Omega = -(Re W o S + Im W o C) a'^2 + g Re(w exp(i a))
 
-taken to the coordinates by A, with the rotors added. The vectors d are fitted to Pinocchio's own positions,
-where the fit is exact, and the terms are compared to Pinocchio's before anything uses them. The functions take
-numbers and object arrays of symbols alike: NumPy asks each symbol for its `cos` and `sin`.
+taken to the coordinates by A, with the rotors added. The vectors d are fitted to Pinocchio's own
+positions, where the fit is exact, and the terms are compared to Pinocchio's before anything uses
+them. The functions take numbers and object arrays of symbols alike: NumPy asks each symbol for its
+`cos` and `sin`.
 
-`wrench_torque` is the generalised force of a force and a moment at a point fixed to a link: with J(q) the
-Jacobian of the point, and the link's own absolute angle b q,
+`wrench_torque` is the generalised force of a force and a moment at a point fixed to a link, for
+disturbances: with J(q) the Jacobian of the point, and the link's own absolute angle b q,
 
     zeta = J' (F_x, F_z) + b' M
 """

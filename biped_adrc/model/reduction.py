@@ -6,8 +6,12 @@
     xi = [D11 - D12 D22^-1 D21]^-1
          {xi~1 - Omega1 - D12 D22^-1 (xi~2 - Omega2)}                (14)
 
-xi~ is a generalised force [N m] in (11) and xi an acceleration [rad/s^2] in (13); the paper
-prints one letter for both. Here B1 is the identity: the motors act on the joints q_b.
+The unactuated rows of (11) are solved for q_N'' and inserted into the actuated ones, so that every
+actuated joint is a double integrator with an input gain kappa and a total disturbance xi.
+Controllers and observers work on (13) alone.
+
+xi~ is a generalised force [N m] in (11) and xi an acceleration [rad/s^2] in (13); the paper prints
+one letter for both. Here B1 is the identity: the motors act on the joints q_b.
 """
 
 from __future__ import annotations

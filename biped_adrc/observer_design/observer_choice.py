@@ -1,12 +1,18 @@
-"""The largest bandwidth that a robot's encoders, clock and motors allow an observer, for each order.
+"""The largest bandwidth that a robot's encoders, sampling and motors allow an observer, for each order
+m.
 
-An encoder of N counts per revolution leaves an error between -pi / N and pi / N, of variance (2 pi / N)^2 / 12,
-independent from tick to tick while the joint moves by counts. In joint i it makes a torque of
+An encoder of N counts per revolution leaves an error between -pi / N and pi / N, of variance (2 pi
+/ N)^2 / 12, independent from one sample instant to the next while the joint moves by counts. In
+joint i it makes a torque of
 
     rms u_i = sigma_a sqrt(sum_j (kappa^-1)_ij^2)
 
-with sigma_a from the sampled loop. The encoders' part in Theta and in the rates of the reference, which no
-observer filters, is not in it.
+with sigma_a [rad/s^2] from the sampled loop. The encoders' part in Theta and in the rates of the
+reference, which no observer filters, is not included.
+
+An observer is allowed on the `Hardware` if its sampled loop is stable for kappa 20 % off, and if
+the torque noise ("ripple") of one count stays below a share of the torque limit. `observer_design`
+calls `recommend` for its last table.
 """
 
 from __future__ import annotations

@@ -1,8 +1,10 @@
-"""What a GPI observer asks of a robot's encoders, clock and motors, and which one they allow.
+"""What a GPI observer demands of a robot's encoders, sampling and motors, and which one they allow.
 
-`observer_report` puts together what the linear loop of one joint says: gains and conditioning, transfer
-functions, delay margins, the largest stable period, the torque that one encoder count makes, the peak after an
-impact, and the largest bandwidth of each order that the robot allows.
+`observer_report` puts together what the linear loop of one joint says: gains and conditioning,
+transfer functions, delay margins, the largest stable period, the torque noise of one encoder count,
+the peak after an impact, and the largest bandwidth of each order that the robot allows. The numbers
+come from the other modules of this folder, each computed when first asked for; `observer_tables`
+turns them into text. The command `biped-adrc observer` and `ba.observer_report` call it.
 """
 
 from __future__ import annotations

@@ -1,14 +1,15 @@
-"""What an observer says wrongly after an impact, by its linear error dynamics, for each reset policy.
+"""The estimation error that an impact leaves in an observer, by its linear error dynamics.
 
     e' = A^ e   (19),   e(0+) = what is true after impact - what the reset makes of the estimates before it
 
-Before impact the estimates are taken as right, along the gait's periodic orbit: q_b, q_b', xi and its first
-derivatives. The torque that the error costs is the deviation
+At an impact velocities and xi jump; each `ResetPolicy` guesses the new states differently. Before
+impact the estimates are taken as right, along the gait's periodic orbit: q_b, q_b', xi and its
+first derivatives. The torque that the error costs is the deviation
 
     u - u* = kappa^-1 (K_p e_1 + K_d e_2 + e_3)
 
-from that of right estimates, with kappa as it is just after impact. Linear, and so without the torque limit
-and without what a fall would do.
+from the torque of right estimates, with kappa as it is just after impact. The model is linear, so
+it knows neither the torque limit nor a fall. `observer_tables` shows one row per reset policy.
 """
 
 from __future__ import annotations

@@ -1,25 +1,29 @@
-"""The linear loop of one joint under ADRC with a torque that comes late: its gain and its delay margin.
+"""The linear loop of one joint under ADRC whose torque acts after a delay: loop gain and delay margin.
 
-With chi(s) the observer's polynomial (19), a = kappa u - q_d'' and e = q_b - q_d, the robot and (20) are
+With chi(s) the observer's polynomial (19), a = kappa u - q_d'' and e = q_b - q_d, the robot and
+(20) are
 
     e'' = g a(t - d) + xi,    a = -K_p x1^ - K_d x2^ - xi^
 
-g is kappa of the robot over that of the model, 1 where the model is right. Broken at the delay the loop has
-the gain L(s), and roots on the imaginary axis where exp(i w d) = -L(i w):
+g is kappa of the robot over that of the model, 1 where the model is right. Opened at the delay, the
+loop has the gain L(s), and roots on the imaginary axis where exp(i w d) = -L(i w):
 
-    hidden   L = g P / (s^(m+2) Q)         the observer is fed with a(t)
+    unknown  L = g P / (s^(m+2) Q)         the observer is fed with a(t)
     known    L = g (K_d s + K_p) / s^2 + (g - 1) (chi - s^m Q) / chi       it is fed with a(t - d)
 
     Q = s^2 + (l_(m+1) + K_d) s + l_m + K_p + K_d l_(m+1)
     P = the terms of (s^2 + K_d s + K_p) chi below s^(m+2)
 
-since s^(m+2) Q + P = (s^2 + K_d s + K_p) chi, which for g = 1 and d = 0 is the characteristic polynomial. All
-coefficients of P and Q are sums of products of positive ones, and s is counted in w, the geometric mean of the
-poles. Without delay and with g = 1
+since s^(m+2) Q + P = (s^2 + K_d s + K_p) chi, which for g = 1 and d = 0 is the characteristic
+polynomial. All coefficients of P and Q are sums of products of positive ones, so nothing cancels,
+and s is counted in units of w, the geometric mean of the poles, which keeps the numbers near 1.
+Without delay and with g = 1
 
     e / xi = s^m Q / ((s^2 + K_d s + K_p) chi)                    (23), corrected
     xi^ / xi = (chi - s^(m+2) - l_(m+1) s^(m+1) - l_m s^m) / chi
     a / n = -s^2 P / ((s^2 + K_d s + K_p) chi)                    n: error of the measured q_b
+
+`observer_sampled` has the same loop in sampled time, `analysis.linear_loop` (23) as printed.
 """
 
 from __future__ import annotations

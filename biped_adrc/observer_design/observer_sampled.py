@@ -1,6 +1,8 @@
-"""The linear loop of one joint in sampled time: what is stable, and what an encoder does to the torque.
+"""The linear loop of one joint in sampled time: what is stable, and how an encoder disturbs the
+torque.
 
-With T the period, the torque held between ticks and acting (j + f) T after its tick, 0 <= f < 1,
+With T the period, the torque held between sample instants and acting (j + f) T after its instant, 0
+<= f < 1,
 
     e_(k+1)    = e_k + T e'_k + T^2 (g alpha + xi) / 2,     T e'_(k+1) = T e'_k + T^2 (g alpha + xi)
 
@@ -9,10 +11,14 @@ where alpha changes from a_(k-j-1) to a_(k-j) at t_k + f T, and
     current   Z <- Z + L (e + n - Z_1),  a = -F Z,  Z <- Phi Z + Gamma a       as `SampledGPIObserver`
     held      a = -F Z,  Z <- exp(A T) Z + int_0^T exp(A s) ds (w l (e + n) + b a)
 
-The held form is the continuous observer (17) with its measurement held for a period. X = (e, T e', Z, torques
-on their way) obeys X <- X + M X + B (xi, n). M is formed without its unit matrix: at short periods all
-eigenvalues gather at 1, and what tells them apart would be lost. The observer is fed with a_k, or, when the
-delay is known, with the mean of what acts until the next tick, which is exact for whole periods alone.
+The held form is the continuous observer (17) with its measurement held for a period. X = (e, T e',
+Z, torques on their way) obeys X <- X + M X + B (xi, n). M is formed without its unit matrix: at
+short periods all eigenvalues gather at 1, and what distinguishes them would be lost in round-off.
+The observer is fed with a_k, or, when the delay is known, with the mean of what acts until the next
+sample instant, which is exact for whole periods alone.
+
+`observer_choice` asks it for stability and for the noise of the torque, `observer_design` for the
+largest period and delay.
 """
 
 from __future__ import annotations

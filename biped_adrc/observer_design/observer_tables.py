@@ -1,4 +1,9 @@
-"""The observer report as tables of text, for a terminal or a page."""
+"""The observer report as text: a verdict in one sentence, and five tables.
+
+For a terminal (`ObserverReport.text`) or a page. Every function takes the report and asks it for
+its numbers; nothing is computed here but the peaks after an impact. The columns "delay hidden" and
+"known" are the delay unknown and known to the observer.
+"""
 
 from __future__ import annotations
 

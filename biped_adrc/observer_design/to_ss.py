@@ -1,6 +1,7 @@
 """Observer and linear loop as `control.StateSpace` of the package python-control.
 
-The GPI observer (17) in its scaled states z_k = x_k / w^(k-1), with inputs y = q_b and the torques u:
+For users who want Bode plots, margins or reductions with the tools they know. Three systems; the
+GPI observer (17) in its scaled states z_k = x_k / w^(k-1), with inputs y = q_b and the torques u:
 
     z' = A z + w l (y - z_1) + b kappa u / w,    x1^ = z_1,  x2^ = w z_2,  xi^ = w^2 z_3
 
@@ -8,12 +9,14 @@ Its error (19), e_k = x_k - x_k^, under the total disturbance xi and with a meas
 
     E' = A_e E + b xi / w - w l n,               e1 = E_1,  e2 = w E_2,  xi^ = -w^2 E_3
 
-and the loop of one joint (20) where the model's kappa is right, with e_q = q_b - q_d, as in (21) to (23):
+and the loop of one joint (20) where the model's kappa is right, with e_q = q_b - q_d, as in (21) to
+(23):
 
     e_q'' = -K_d (e_q' - e2) - K_p (e_q - e1) + xi - xi^
     kappa u - q_d'' = -K_d (e_q' - e2) - K_p (e_q - e1) - xi^
 
-l, w and A_e are those of `GPIObserver`; in x itself the matrix of Table I has condition number 3e29.
+l, w and A_e are those of `GPIObserver`; in x itself the matrix of Table I has condition number
+3e29. python-control is imported only when a system is made, since it is an extra.
 """
 
 from __future__ import annotations

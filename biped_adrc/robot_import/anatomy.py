@@ -1,14 +1,18 @@
-"""Who is who in the tree of a planar biped: feet, motors, hip, and the phase.
+"""The parts of a planar biped found in its tree: feet, hip, order of the joints, and the phase
+variable.
 
-The phase is the absolute angle of the virtual stance leg from the hip to the stance foot, counter-clockwise
-with x to the right and z up, so that it falls while the robot walks to +x. With a_k the absolute angles of
-the links of the stance leg and l_k the lengths of the leg in them,
+The phase is the absolute angle of the virtual stance leg from the hip to the stance foot,
+counter-clockwise with x to the right and z up, so that it falls while the robot walks to +x. With
+a_k the absolute angles of the links of the stance leg and l_k the lengths of the leg in them,
 
     Theta = sum_k l_k a_k / sum_k l_k = c q + const
 
-which is q5 + q1 + q3/2 for RABBIT. For two links of equal length this is the angle itself (an isosceles
-triangle), for others its first-order part about the straight leg; a row c is what a virtual constraint needs.
-What the URDF does not say is guessed only when there is one answer, and every guess is a sentence in `said`.
+which is q5 + q1 + q3/2 for RABBIT. For two links of equal length this is the angle itself (an
+isosceles triangle), for others its first-order part about the straight leg; a virtual constraint
+needs a constant row c.
+
+`import_robot.derive` calls `anatomy` after the base is known. What the URDF does not say is guessed
+only when there is one answer, and every guess is a sentence in `said`.
 """
 
 from __future__ import annotations

@@ -1,12 +1,16 @@
-"""Laws a derived biped must keep, each with the number it was measured at.
+"""Laws of mechanics an imported biped must obey, each with the number it was measured at.
 
-At random states, against the floating model, with H_c the angular momentum about a point c taken from
-masses, COM velocities and spins of the bodies:
+An import has many ways to be subtly wrong: a sense, an offset, an inertia in the wrong frame. These
+laws hold for every planar biped, so they need no reference values. At random states, against the
+floating model, with H_c the angular momentum about a point c taken from masses, COM velocities and
+spins of the bodies:
 
     D_s, Omega = Z' M Z, Z' (nle + M Z')      pinned = floating, constrained at the foot
     E_2 q_e+' = 0,  H_c+ = H_c-,  T+ <= T-    the plastic impact at c = p_2
-    R R = 1,  p_2(R q) = -p_2(q)              the legs change over
+    R R = 1,  p_2(R q) = -p_2(q)              the legs exchange their roles
     Theta' = -1                               while the robot topples forwards at 1 rad/s
+
+`import_robot.derive` runs them; `biped_from_urdf` refuses a robot for which one is broken.
 """
 
 from __future__ import annotations

@@ -1,21 +1,26 @@
-"""A robot from one URDF: everything the record of a robot says, derived and checked.
+"""A robot from one URDF: everything its record robot.toml says, derived and checked.
 
     derived = derive("walker.urdf")
     derived.biped    the Biped, with the masses of the URDF as its preset "urdf"
     derived.said     what was guessed, in sentences
     derived.checks   the laws it was checked against, with their numbers
 
-The URDF describes a planar biped with point feet: revolute joints about y, equal legs, each with a link at its
-tip. Frames may be turned, angles may run either way; q keeps the file's zeros and senses. The section of
-the return map is foot strike, the height of the swing foot, which follows from the feet.
+The URDF describes a planar biped with point feet: revolute joints about y, equal legs, each with a
+link at its tip. Frames may be turned, angles may run either way; q keeps the file's zeros and
+senses. The section of the return map is the impact, where the height of the swing foot is zero; it
+follows from the feet.
 
-Its record is in the words of a robot.toml, and written as TOML: `tomllib` reads and does not write. Strings,
-numbers, lists and tables are all a record holds, and JSON's strings are basic strings of TOML.
+The way: `urdf_reader.read` -> `planar_base.on_planar_base` -> `anatomy` -> `drawable` -> motors and
+limits -> `symmetry.check_alike` -> `record_of` -> Biped -> `import_checks.checks`.
 
-A robot whose URDF has no shape that can be drawn gets sticks from joint to joint, and balls. A stick runs from
-the origin of a link to every joint below it, or to its COM where nothing lies below. It is a cylinder along z,
-a box along x, and a row of balls where it stands obliquely. At every COM lies a ball of steel that weighs as
-much as the body, r = (3 m / (4 pi rho))^(1/3).
+The record uses the words of a robot.toml, and is written as TOML by `to_toml`: `tomllib` reads and
+does not write. Strings, numbers, lists and tables are all a record holds, and JSON's strings are
+basic strings of TOML.
+
+A robot whose URDF has no shape that can be drawn gets sticks from joint to joint, and balls. A
+stick runs from the origin of a link to every joint below it, or to its COM where nothing lies
+below. It is a cylinder along z, a box along x, and a row of balls where it stands obliquely. At
+every COM lies a ball of steel with the mass of the body, r = (3 m / (4 pi rho))^(1/3).
 """
 
 from __future__ import annotations

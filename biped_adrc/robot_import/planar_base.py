@@ -1,8 +1,10 @@
 """A tree that moves in the plane x-z on a base (x, z, pitch): found in a URDF, or put above its root.
 
-The base is two prismatic joints along x and z and one revolute joint about y, in this order from the root, with
-nothing of mass in between. Its position is eliminated by the stance contact, so only the pitch is a coordinate.
-A URDF without a base floats on its root link; the base put there turns in the sense of its other joints.
+The base is two prismatic joints along x and z and one revolute joint about y, in this order from
+the root, with no mass in between. The stance contact determines its position, so only the pitch
+remains as a coordinate, q_N. A URDF without a base floats on its root link; the base put there
+turns in the sense of its other joints. Called by `import_robot.derive`, before feet and hip are
+looked for.
 """
 
 from __future__ import annotations

@@ -1,13 +1,17 @@
-"""The registry: a robot is a folder of `urdf/` with a `robot.toml` beside its URDF.
+"""The record of a robot, `robot.toml`: read, checked, and the registry of the robots in the package.
 
-The record names the actuated joints in the order q1, q2, ..., the unactuated pitch, the planar base,
-the feet, the phase variable, and parameter presets with their sources.
+A robot is a folder of `urdf/` with a `robot.toml` beside its URDF. The record names the actuated
+joints in the order q1, q2, ..., the unactuated pitch, the planar base, the feet, the phase
+variable, and parameter presets with their sources. A URDF cannot say any of these. `Biped.load`
+starts here.
 
-`Limits` are what ground and motors can give, within which a walk is legal. A walk makes a single support
-legally when the force of the ground, averaged over any window within it, lies in the friction cone (F_N > 0 and
-|F_T| <= mu F_N), every torque is within the motors' limit, and the swing foot does not scuff away from the ends
-of the step. The impulse at impact is not part of it. A mean and not an instant: the edge of a push breaks the
-cone for a millisecond and a foot does not move in it, while torques that chatter break it in the mean as well.
+`Limits` are what ground and motors can give, within which a walk is legal. A walk makes a single
+support legally when the force of the ground, averaged over any window within it, lies in the
+friction cone (F_N > 0 and |F_T| <= mu F_N), every torque is within the motors' limit, and the swing
+foot does not scuff away from the ends of the step. The impulse at impact is not part of it. A mean
+and not an instant is used: the edge of a push leaves the cone for a millisecond and a foot does not
+move in it, while torques that chatter leave it in the mean as well. `analysis.certificate` applies
+the limits.
 """
 
 from __future__ import annotations

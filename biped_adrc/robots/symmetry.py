@@ -1,15 +1,16 @@
-"""The legs change over at impact: the same configuration in the coordinates of the next single support.
+"""The legs exchange their roles at impact: the same configuration in coordinates of the next step.
 
     q+ = R q- + r,   v+ = R v-
 
-Links of one leg have twins in the other; the trunk, and what else turns, is its own. With A the absolute
-angles of the links, a = A q, and P the exchange of twins, R solves A R = P A. So R is a permutation for hips
-that count from a torso, and a combination for a hip that counts from the other leg. r is not zero for robots
-with spokes.
+Links of one leg have twins in the other; the trunk and any other link are their own twins. With A
+the absolute angles of the links, a = A q, and P the exchange of twins, R solves A R = P A. So R is
+a permutation for hips that count from a torso, and a combination for a hip that counts from the
+other leg. r is not zero for robots with spokes; it comes from the record.
 
-This takes two legs for granted that are alike, body by body, which `check_alike` checks. Twins are paired
-upwards from the feet. They must agree in mass, COM, inertia about y, place on their parent, in the sense of
-their joints and in having a motor; then r = 0 and, where hips count from a torso, R is a permutation.
+This assumes two legs that are alike, body by body, which `check_alike` tests when a robot is
+imported. Twins are paired upwards from the feet. They must agree in mass, COM, inertia about y,
+place on their parent, in the sense of their joints and in having a motor; then r = 0 and, where
+hips count from a torso, R is a permutation.
 """
 
 from __future__ import annotations

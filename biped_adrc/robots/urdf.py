@@ -1,8 +1,10 @@
-"""A robot as a small tree of links and joints, edits on it, what makes it physical, and writing it as URDF.
+"""A robot as a small tree of links and joints: edits on it, what makes it physical, writing it as
+URDF.
 
-Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0.
-So a file is read by `urdf_reader` and validated here first, parameters are changed on this tree, and Pinocchio
-is given the text this module writes.
+Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0. So
+a file is read by `urdf_reader` and validated here first; parameters are changed on this tree
+(presets, model errors, re-rooting at a foot), and Pinocchio is given the text that `to_xml` writes.
+All records are frozen: an edit makes a new tree.
 """
 
 from __future__ import annotations

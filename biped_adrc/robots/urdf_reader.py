@@ -1,15 +1,20 @@
-"""Reading a URDF: a strict one with parallel frames, or any one of a planar robot, whose frames are turned.
+"""Reading a URDF: a strict one with parallel frames, or any planar robot, whose frames may be turned.
 
-With R_p the turn of the parent's frame at zero angles and (x, R) the origin of a joint in it,
+The rest of the package works with parallel frames at zero angles (`urdf.Joint`). `load_tree`
+demands them, for the robots of the package. `read` accepts frames of any orientation and turns them
+parallel, for `robot_import`. With R_p the rotation of the parent's frame at zero angles and (x, R)
+the origin of a joint in it,
 
     R_c = R_p R,   x' = R_p x,   n' = R_c n                          (joints)
     c' = R_c c,    I' = (R_c R_i) I (R_c R_i)'                       (bodies)
 
-so a leg that hangs down by an origin of rpy = (0, pi, 0) becomes a leg that points along -z. Angles keep
-their names, senses and zeros. A `continuous` joint becomes `revolute`, for which nq = nv. Shapes that are
-meshes or stand oblique after the turn are not kept: the strict tree has upright primitives only.
+so a leg that hangs down by an origin of rpy = (0, pi, 0) becomes a leg that points along -z. Angles
+keep their names, senses and zeros. A `continuous` joint becomes `revolute`, for which nq = nv.
+Shapes that are meshes or stand oblique after the turn are not kept: the strict tree has upright
+primitives only.
 
-The limits <limit effort lower upper> and the friction <dynamics damping friction> are kept beside the tree.
+The limits <limit effort lower upper> and the friction <dynamics damping friction> are kept beside
+the tree. Every ModelError names the file, the element, what was found and what was expected.
 """
 
 from __future__ import annotations
