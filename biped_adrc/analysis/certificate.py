@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -178,8 +177,30 @@ def supports(
 
 
 def support(walker: Walker, s: Signals, k: KnownLimits, finished: bool = True) -> Support:
-    """What the single support in s needed; `finished` where it ended in an impact."""
-    return Support(**_needs(walker, s, k, finished))
+    """What the single support in s needed; `finished` where it ended in an impact.
+
+    s: the signals of this single support alone; k: the limits, for the window and the friction
+    cone.
+    """
+    F = forces(walker, s)
+    duration = float(s.t[-1] - s.t[0])
+    _, means = window_means(s.t, F, k.window)
+    out = outside(F, k.friction).astype(float)
+    share = float(np.trapezoid(out, s.t)) / duration if duration > 0.0 else float(out[-1])
+    return Support(
+        step=int(s.step[0]),
+        duration=duration,
+        least_normal_force=float(np.min(F[:, 1])),
+        friction=largest_ratio(F),
+        share_outside=share,
+        mean_normal_force=float(np.min(means[:, 1])),
+        mean_friction=largest_ratio(means),
+        scuffing=float(np.max(depths(walker, s, finished))),
+        peak_torque=float(np.max(np.abs(s.u), initial=0.0)),
+        friction_limit=k.friction,
+        torque_limit=k.torque,
+        window=k.window,
+    )
 
 
 def struck(arc: Arc) -> bool:
@@ -221,28 +242,6 @@ def _height(walker: Walker, s: Signals) -> Array:
     return s.swing_foot[:, 1] + math.tan(walker.slope) * s.swing_foot[:, 0]
 
 
-def _needs(walker: Walker, s: Signals, k: KnownLimits, finished: bool) -> dict[str, Any]:
-    F = forces(walker, s)
-    duration = float(s.t[-1] - s.t[0])
-    _, means = window_means(s.t, F, k.window)
-    out = outside(F, k.friction).astype(float)
-    share = float(np.trapezoid(out, s.t)) / duration if duration > 0.0 else float(out[-1])
-    return {
-        "step": int(s.step[0]),
-        "duration": duration,
-        "least_normal_force": float(np.min(F[:, 1])),
-        "friction": largest_ratio(F),
-        "share_outside": share,
-        "mean_normal_force": float(np.min(means[:, 1])),
-        "mean_friction": largest_ratio(means),
-        "scuffing": float(np.max(depths(walker, s, finished))),
-        "peak_torque": float(np.max(np.abs(s.u), initial=0.0)),
-        "friction_limit": k.friction,
-        "torque_limit": k.torque,
-        "window": k.window,
-    }
-
-
 def outside(F: Array, mu: float) -> NDArray[np.bool_]:
     """Whether (F_T, F_N) (K, 2) [N] is outside the friction cone (K,); a force with NaN is."""
     return ~((F[:, 1] > 0.0) & (np.abs(F[:, 0]) <= (1.0 + ROUND_OFF) * mu * F[:, 1]))
@@ -268,7 +267,7 @@ def _certificate(walker: Walker, s: Signals, x_minus: Array, k: KnownLimits) -> 
     length = float(b.swing_foot(q)[0]) / math.cos(walker.slope)
     after = b.kinetic_energy(impact.q, impact.v)
     return Certificate(
-        **_needs(walker, s, k, True),
+        **vars(support(walker, s, k)),
         step_length=length,
         impulse_ratio=float(abs(impact.impulse @ along)) / normal if normal > 0.0 else math.inf,
         old_foot_velocity=float(impact.old_foot_velocity @ across),

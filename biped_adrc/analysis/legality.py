@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -130,7 +130,7 @@ class Legality:
         time, share = zip(*((s.duration, s.share_outside) for s in self.supports), strict=True)
         return float(np.average(share, weights=time) if any(time) else np.max(share))
 
-    def record(self) -> dict[str, Any]:
+    def record(self) -> dict[str, object]:
         """Outcome, numbers and reasons as plain values; None where a number is not finite, such as a
         friction without contact.
         """

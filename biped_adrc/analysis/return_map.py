@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import tan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -38,7 +38,9 @@ if TYPE_CHECKING:
 
 _CHORD = 0.1  # the residual must fall by this factor with the old dP/ds, else it is taken anew
 
-Mapper = Callable[[Callable[[Any], Array], Iterable[Any]], Iterable[Array]]
+AfterImpact = tuple[Array, Mode]
+"""State (2 n + c,) [rad, rad/s] just after an impact, and its mode."""
+Mapper = Callable[[Callable[[AfterImpact], Array], Iterable[AfterImpact]], Iterable[Array]]
 """A function like `map`; a parallel one evaluates the differences of dP/ds at once."""
 
 

@@ -33,7 +33,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array, ComplexArray
 
 
-class Method(Enum):
+class StabilityMethod(Enum):
     """How multipliers were found; the values are the names in the table."""
 
     VARIATIONAL = "variational equation"
@@ -72,7 +72,7 @@ class Tolerances:
 class MethodRow:
     """Multipliers by one method."""
 
-    method: Method
+    method: StabilityMethod
     multipliers: ComplexArray
     """(k,), the largest magnitude first."""
     uncertainty: float = 0.0
@@ -117,7 +117,7 @@ class StabilityTable:
         delta^2 is only one of the multipliers, and the regression gives none of them for certain.
         Raises InputError when no row is left.
         """
-        for method in (Method.VARIATIONAL, Method.CENTRAL):
+        for method in (StabilityMethod.VARIATIONAL, StabilityMethod.CENTRAL):
             for row in self.rows:
                 if row.method is method and not row.doubt:
                     return row
@@ -148,7 +148,7 @@ class StabilityTable:
         multipliers.
         """
         ratio = self.tolerances.distance(row.multipliers, self.trusted.multipliers)
-        if row.method is Method.ZERO_DYNAMICS:
+        if row.method is StabilityMethod.ZERO_DYNAMICS:
             return float(np.min(ratio))
         if ratio.shape[0] != ratio.shape[1]:
             return float("inf")
@@ -183,9 +183,9 @@ class StabilityTable:
 
     def _limit(self, row: MethodRow) -> str:
         """What a disagreement comes from, as far as the rows say."""
-        if row.method is Method.ZERO_DYNAMICS:
+        if row.method is StabilityMethod.ZERO_DYNAMICS:
             return "; the closed loop does not keep to the zero dynamics, or the step is too long"
-        if row.method is not Method.CENTRAL or row.uncertainty == 0.0:
+        if row.method is not StabilityMethod.CENTRAL or row.uncertainty == 0.0:
             return ""
         distance = _farthest(np.abs(row.multipliers[:, np.newaxis] - self.trusted.multipliers))
         if distance <= 2.0 * row.uncertainty:
@@ -224,7 +224,7 @@ def variational_row(step: StepDerivative, tolerances: Tolerances) -> MethodRow:
             f"its Phi carries the flow along to {step.flow_residual:.1e} only, expected "
             f"{tolerances.flow:g}: take a shorter step, or look whether the flow depends on time"
         )
-    return MethodRow(Method.VARIATIONAL, step.multipliers, doubt=doubt)
+    return MethodRow(StabilityMethod.VARIATIONAL, step.multipliers, doubt=doubt)
 
 
 def central_row(P: ReturnMap, s: Array) -> MethodRow:
@@ -235,13 +235,13 @@ def central_row(P: ReturnMap, s: Array) -> MethodRow:
     """
     wide, narrow = P.jacobian(s), replace(P, difference=0.5 * P.difference).jacobian(s)
     best, half = sorted_eigenvalues((4.0 * narrow - wide) / 3.0), sorted_eigenvalues(narrow)
-    return MethodRow(Method.CENTRAL, best, _farthest(np.abs(best[:, np.newaxis] - half)))
+    return MethodRow(StabilityMethod.CENTRAL, best, _farthest(np.abs(best[:, np.newaxis] - half)))
 
 
 def regression_row(regression: Regression) -> MethodRow:
     """The row of the regression. Doubted when the data do not determine Phi, see `Regression.warning`."""
     values = sorted_eigenvalues(regression.Phi)
-    return MethodRow(Method.REGRESSION, values, doubt=regression.warning)
+    return MethodRow(StabilityMethod.REGRESSION, values, doubt=regression.warning)
 
 
 def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> MethodRow | None:
@@ -266,7 +266,7 @@ def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> MethodRow | Non
     if abs(walker.clearance(zero.end_state(1.0)[0])) > tolerances.invariance:
         return None
     delta = zero.delta
-    return MethodRow(Method.ZERO_DYNAMICS, np.array([delta**2], dtype=complex))
+    return MethodRow(StabilityMethod.ZERO_DYNAMICS, np.array([delta**2], dtype=complex))
 
 
 def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:

@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
@@ -110,7 +110,7 @@ class Arm:
         return replace(self, payload=Payload(mass, com, radius))._checked()
 
     @cached_property
-    def model(self) -> Any:
+    def model(self) -> pin.Model:
         """Pinocchio's model, payload included, with gravity along -z.
 
         Raises ModelError for a URDF that Pinocchio refuses, and for joints with more numbers than
@@ -135,7 +135,7 @@ class Arm:
         return model
 
     @cached_property
-    def _data(self) -> Any:
+    def _data(self) -> pin.Data:
         return self.model.createData()
 
     @cached_property

@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
@@ -177,7 +177,7 @@ class LinkMotion:
     """(n,) [rad]."""
     v_e: Array
     """(q_s', p_e') (n + 2,) [rad/s, m/s]."""
-    data: Any = field(init=False, repr=False)
+    data: pin.Data = field(init=False, repr=False)
     """Pinocchio's work data at this state."""
 
     def __post_init__(self) -> None:
@@ -188,7 +188,7 @@ class LinkMotion:
         pin.updateFramePlacements(f.model, data)
         object.__setattr__(self, "data", data)
 
-    def momentum(self, joints: Iterable[int] | None = None) -> Any:
+    def momentum(self, joints: Iterable[int] | None = None) -> pin.Force:
         """Spatial momentum [N s], [N m s] of the links that move with `joints` (Pinocchio's numbers),
         in the axes of the world about its origin; None takes all of them.
         """

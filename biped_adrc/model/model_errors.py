@@ -18,7 +18,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from biped_adrc.errors import InputError, ModelError
+from biped_adrc.errors import InputError, ModelError, check_whole
 from biped_adrc.model.biped import Biped
 from biped_adrc.robots.symmetry import twins
 from biped_adrc.types import Array
@@ -76,7 +76,7 @@ class ModelErrors:
                 raise InputError(
                     f"the width of errors of {kind} is {width}, expected 0 <= width < 1"
                 )
-        random = np.random.default_rng(_seed(seed))
+        random = _random(seed)
         bodies = tuple(biped.description.links) if links is None else links
         m, d, J = (
             dict(zip(bodies, random.uniform(-width, width, len(bodies)).tolist(), strict=True))
@@ -135,14 +135,13 @@ def impact_error(seed: int, spread: float, n: int) -> Array:
     """
     if not 0.0 <= spread < 1.0:
         raise InputError(f"the spread of impact errors is {spread}, expected 0 <= spread < 1")
-    return np.random.default_rng(_seed(seed)).uniform(-spread, spread, n)
+    return _random(seed).uniform(-spread, spread, n)
 
 
-def _seed(seed: int) -> int:
-    """The seed itself. Raises InputError unless it is a whole number >= 0."""
-    if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
-        raise InputError(f"the seed of model errors is {seed}, expected a whole number >= 0")
-    return seed
+def _random(seed: int) -> np.random.Generator:
+    """Random numbers of a seed. Raises InputError unless it is a whole number >= 0."""
+    check_whole(seed, f"the seed of model errors is {seed}")
+    return np.random.default_rng(seed)
 
 
 def _rubbing(biped: Biped) -> Iterator[tuple[str, ...]]:

@@ -30,7 +30,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 import pinocchio as pin
@@ -41,6 +41,8 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.pinned import frame_index
 from biped_adrc.types import Array, ComplexArray
 
+Numbers = TypeVar("Numbers", Array, NDArray[np.object_])
+"""Arrays of numbers, or of symbols that stand for numbers; functions of both return the same kind."""
 EXACT = 1e-11
 """Largest difference to Pinocchio's D_s, Omega, swing foot and hip, relative to their largest entry."""
 
@@ -83,7 +85,7 @@ class Joined(Protocol):
     """
 
     @property
-    def A(self) -> NDArray[Any]:
+    def A(self) -> NDArray[np.int_] | Array:
         """Matrix (n, n) of the absolute angles [rad], a = A q."""
 
 
@@ -178,20 +180,22 @@ def fitted(
 
 
 # -- laws, for numbers and symbols -----------------------------------------------------------------
-class Turned(NamedTuple):
+class Turned(NamedTuple, Generic[Numbers]):
     """Cosines and sines of the absolute angles, each (n,), dimensionless."""
 
-    c: Any
-    s: Any
+    c: Numbers
+    s: Numbers
 
 
-def turned(robot: Joined, q: Any) -> Turned:
+def turned(robot: Joined, q: Numbers) -> Turned[Numbers]:
     """cos and sin of a = A q at the angles q (n,) [rad]."""
     a = robot.A @ q
     return Turned(np.cos(a), np.sin(a))
 
 
-def inertia_and_bias(robot: Joined, K: PlantArrays, q: Any, v: Any) -> tuple[Any, Any]:
+def inertia_and_bias(
+    robot: Joined, K: PlantArrays, q: Numbers, v: Numbers
+) -> tuple[Numbers, Numbers]:
     """D_s (n, n) [kg m^2] and Omega (n,) [N m] at q (n,) [rad], v (n,) [rad/s], by the module's
     formulas.
     """
@@ -206,7 +210,9 @@ def inertia_and_bias(robot: Joined, K: PlantArrays, q: Any, v: Any) -> tuple[Any
     return D_s, A.T @ (_weight(K, t) - (K.W_re * S + K.W_im * C) @ (A @ v) ** 2)
 
 
-def gravity_and_turning(robot: Joined, K: PlantArrays, t: Turned, v: Any) -> tuple[Any, Any]:
+def gravity_and_turning(
+    robot: Joined, K: PlantArrays, t: Turned[Numbers], v: Numbers
+) -> tuple[Numbers, Numbers]:
     """G_s (n,) [N m], and C' q' = dT/dq (n,) [N m], at the angles t and rates v (n,) [rad/s]."""
     A, rate = robot.A, robot.A @ v
     C, S = _differences(t)
@@ -214,29 +220,29 @@ def gravity_and_turning(robot: Joined, K: PlantArrays, t: Turned, v: Any) -> tup
     return A.T @ _weight(K, t), A.T @ turning
 
 
-def _differences(t: Turned) -> tuple[Any, Any]:
+def _differences(t: Turned[Numbers]) -> tuple[Numbers, Numbers]:
     """cos and sin of a_j - a_i off the diagonal (n, n), 0 on it: there they are 1 and 0 exactly."""
     off = 1.0 - np.eye(len(t.c))
     C = (np.outer(t.c, t.c) + np.outer(t.s, t.s)) * off
     return C, (np.outer(t.c, t.s) - np.outer(t.s, t.c)) * off
 
 
-def _weight(K: PlantArrays, t: Turned) -> Any:
+def _weight(K: PlantArrays, t: Turned[Numbers]) -> Numbers:
     """dV/da (n,) [N m], gravity in absolute angles."""
     return K.gravity * (K.w_re * t.c - K.w_im * t.s)
 
 
-def point(t: Turned, re: Any, im: Any) -> tuple[Any, Any]:
+def point(t: Turned[Numbers], re: Array, im: Array) -> tuple[Numbers, Numbers]:
     """(x, z) [m] of a point from the stance foot, from its vectors d = re + i im (n,) [m]."""
     return re @ t.c - im @ t.s, im @ t.c + re @ t.s
 
 
-def jacobian(robot: Joined, t: Turned, re: Any, im: Any) -> Any:
+def jacobian(robot: Joined, t: Turned[Numbers], re: Array, im: Array) -> Numbers:
     """d(x, z)/dq (2, n) [m] of a point with vectors d = re + i im (n,) [m]."""
     return np.array([robot.A.T @ (-(re * t.s) - im * t.c), robot.A.T @ (re * t.c - im * t.s)])
 
 
-def ground_reaction(robot: Joined, K: PlantArrays, q: Any, v: Any, a: Any) -> Any:
+def ground_reaction(robot: Joined, K: PlantArrays, q: Numbers, v: Numbers, a: Numbers) -> Numbers:
     """Force (F_T, F_N) (2,) [N] of the ground on the stance foot, for q'' = a (n,): m (p_com'' - g)."""
     t, rate2 = turned(robot, q), (robot.A @ v) ** 2
     F_x, F_z = jacobian(robot, t, K.w_re, K.w_im) @ a

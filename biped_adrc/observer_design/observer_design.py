@@ -30,7 +30,7 @@ from biped_adrc.observer_design.observer_choice import (
     recommend,
     without_observer,
 )
-from biped_adrc.observer_design.observer_impact import Impact, orbit_impact
+from biped_adrc.observer_design.observer_impact import ImpactStates, orbit_impact
 from biped_adrc.observer_design.observer_loop import (
     ObserverLoop,
     bandwidth,
@@ -71,7 +71,7 @@ class ObserverReport(OnHardware):
 
     robot: str = field(kw_only=True)
     """Name and preset of the robot."""
-    impact: Impact = field(kw_only=True)
+    impact: ImpactStates = field(kw_only=True)
     """Impact of the gait's periodic orbit."""
 
     @cached_property

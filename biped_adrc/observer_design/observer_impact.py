@@ -14,10 +14,11 @@ it knows neither the torque limit nor a fall. `observer_tables` shows one row pe
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import Chebyshev
+from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from biped_adrc.control.tracking import TABLE_II, Gains
@@ -51,20 +52,22 @@ class ImpactPeak(NamedTuple):
     """u - u* [N m]."""
 
 
-class Impact(NamedTuple):
-    """States of the chain in physical units, (order, p): q_b, q_b', xi, xi', ..."""
+class ImpactStates(NamedTuple):
+    """True states of the observer's chain at an impact in physical units: q_b [rad], q_b' [rad/s], xi
+    [rad/s^2], xi', ...; one row per state, one column per joint.
+    """
 
     before: Array
     """True states of the chain just before impact (order, p)."""
     after: Array
     """True states just after impact, in the coordinates of the next step (order, p)."""
-    swap: Any
+    swap: NDArray[np.int_]
     """Permutation of the joints at impact (p,), ints."""
     inertia: Array
     """kappa^-1 (p, p) just after impact [kg m^2]."""
 
 
-def orbit_impact(biped: Biped, gait: Gait, order: int) -> Impact:
+def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
     """The impact of the gait's periodic orbit, for an observer with `order` = m + 2 states per joint.
 
     Raises GaitError where the gait has no periodic orbit.
@@ -84,7 +87,7 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> Impact:
         rows += [np.zeros(biped.p)] * order
         ends.append(np.array(rows[:order]))
     inertia = biped.reduction(*gait.start(biped)).kappa_inverse
-    return Impact(ends[0], ends[1], biped.relabelling[: biped.p], inertia)
+    return ImpactStates(ends[0], ends[1], biped.relabelling[: biped.p], inertia)
 
 
 def _times(theta: Array, rate: Array, start: float) -> Array:
@@ -97,7 +100,7 @@ def _times(theta: Array, rate: Array, start: float) -> Array:
     return whole(theta) - whole(start)
 
 
-def reset_error(impact: Impact, policy: ResetPolicy) -> Array:
+def reset_error(impact: ImpactStates, policy: ResetPolicy) -> Array:
     """e(0+) (order, p) in physical units, [rad], [rad/s], [rad/s^2], ..., that a reset policy leaves."""
     estimate = impact.before if policy is ResetPolicy.NONE else impact.before[:, impact.swap]
     estimate = estimate.copy()
@@ -110,7 +113,7 @@ def reset_error(impact: Impact, policy: ResetPolicy) -> Array:
 
 
 def impact_peak(
-    observer: GPIObserver, impact: Impact, policy: ResetPolicy, gains: Gains = TABLE_II
+    observer: GPIObserver, impact: ImpactStates, policy: ResetPolicy, gains: Gains = TABLE_II
 ) -> ImpactPeak:
     """Peaks of the response to e(0+), over LONG time constants; e_3 = 0 for m = 0, which has no xi^.
 

@@ -55,7 +55,7 @@ class DelayMargin(NamedTuple):
     """[rad/s], nan for a loop that is unstable without a delay."""
 
 
-class Condition(NamedTuple):
+class Conditioning(NamedTuple):
     """Condition number of the observer matrix (19) in the 2-norm."""
 
     physical: float
@@ -216,7 +216,7 @@ def checked_gpi(observer: Observer, what: str) -> GPIObserver:
     return observer
 
 
-def conditioning(observer: GPIObserver) -> Condition:
+def conditioning(observer: GPIObserver) -> Conditioning:
     """Condition number of the matrix of (19) in its own and in scaled states, by the inverse in closed
     form.
 
@@ -234,7 +234,7 @@ def conditioning(observer: GPIObserver) -> Condition:
         return float(np.linalg.norm(A, 2) * np.linalg.norm(inverse, 2))
 
     w = observer.scale
-    return Condition(condition(observer.gains, 1.0), condition(w * observer.parameters.gains, w))
+    return Conditioning(condition(observer.gains, 1.0), condition(w * observer.parameters.gains, w))
 
 
 def bandwidth(response: Callable[[Array], ComplexArray], low: float, high: float) -> float:

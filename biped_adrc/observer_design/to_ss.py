@@ -22,7 +22,7 @@ l, w and A_e are those of `GPIObserver`; in x itself the matrix of Table I has c
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -55,7 +55,7 @@ def to_ss(observer: GPIObserver, kappa: Array | float = 1.0) -> StateSpace:
     input_row[1] = 1.0 / observer.scale
     joints = [""] if p == 1 else [f"_{i + 1}" for i in range(p)]
     A, B_y, C = (
-        np.kron(part, np.eye(p))
+        np.asarray(np.kron(part, np.eye(p)), dtype=float)
         for part in (observer.error_system().A, _injection(observer), _estimates(observer))
     )
     return _state_space(
@@ -151,7 +151,9 @@ def _error_names(observer: GPIObserver) -> list[str]:
     return [f"E_{i + 1}" for i in range(observer.order)]
 
 
-def _state_space(A: Any, B: Any, C: Any, D: Any = None, **names: Any) -> StateSpace:
+def _state_space(
+    A: Array, B: Array, C: Array, D: Array | None = None, **names: object
+) -> StateSpace:
     """The system of these matrices and names. Raises InputError when python-control is missing."""
     D = np.zeros((len(C), B.shape[1])) if D is None else D
     try:

@@ -5,6 +5,6 @@
 - `anatomy`       feet, hip, order of the joints and phase variable
 - `import_checks` laws of mechanics the result must obey, with numbers
 
-`ba.biped_from_urdf` and the commands `biped-adrc robot check` and `robot new` call it. Nothing else in the package
-does: afterwards the robot is data like any other.
+`ba.biped_from_urdf` and the commands `biped-adrc robot check` and `robot new` call it. Nothing else
+in the package does: afterwards the robot is data like any other.
 """

@@ -31,7 +31,6 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from biped_adrc.checks import Check
 from biped_adrc.errors import ModelError, OutputError
@@ -40,10 +39,10 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.robot_import.anatomy import Anatomy, anatomy
 from biped_adrc.robot_import.import_checks import checks
 from biped_adrc.robot_import.planar_base import PlanarBase, on_planar_base
-from biped_adrc.robots.robot_toml import GRAVITY, description_of
+from biped_adrc.robots.robot_toml import GRAVITY, RobotRecord, description_of
 from biped_adrc.robots.symmetry import check_alike, pairs
 from biped_adrc.robots.urdf import Joint, Link, Tree, Vector, Visual, to_xml
-from biped_adrc.robots.urdf_reader import Reading, read, tip_of
+from biped_adrc.robots.urdf_reader import UrdfContents, read, tip_of
 
 _STEEL = 7800.0  # [kg/m^3]
 _RADIUS = 0.03  # of a stick, as a fraction of its length
@@ -129,13 +128,13 @@ class Hints:
 
 
 def record_of(
-    reading: Reading,
+    reading: UrdfContents,
     body: PlanarBase,
     parts: Anatomy,
     actuated: tuple[str, ...],
     torque: float,
     hints: Hints,
-) -> dict[str, Any]:
+) -> RobotRecord:
     """The tables of the robot.toml that describes this robot, as plain values.
 
     torque: limit of every motor [N m].
@@ -161,8 +160,10 @@ def record_of(
         "gravity": hints.gravity,
         "ranges": {name: list(reading.ranges[name]) for name in moving if name in reading.ranges},
         "friction": {
-            kind: {name: values[name] for name in moving if name in values}
-            for kind, values in (("viscous", reading.viscous), ("static", reading.static))
+            "viscous": {
+                joint: reading.viscous[joint] for joint in moving if joint in reading.viscous
+            },
+            "static": {joint: reading.static[joint] for joint in moving if joint in reading.static},
         },
         "links": _bodies(body.tree, parts.feet),
         "presets": {PRESET: {"source": source, "armature": hints.armature}},
@@ -187,12 +188,12 @@ def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
     return bodies
 
 
-def to_toml(record: Mapping[str, Any]) -> str:
+def to_toml(record: Mapping[str, object]) -> str:
     """TOML text of `record`: its values first, then its tables; empty tables are left out."""
     return "\n".join(_lines(record, ())).strip() + "\n"
 
 
-def _lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+def _lines(table: Mapping[str, object], path: tuple[str, ...]) -> Iterator[str]:
     """Lines of a table and of those inside it; `path` is its name, part by part."""
     values = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
     tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
@@ -209,7 +210,7 @@ def _key(key: str) -> str:
     return key if bare else json.dumps(key, ensure_ascii=False)
 
 
-def _value(value: Any) -> str:
+def _value(value: object) -> str:
     """A string, number or list as TOML writes it."""
     if isinstance(value, list):
         return f"[{', '.join(_value(item) for item in value)}]"
@@ -225,7 +226,7 @@ class Derived:
     """What was found and guessed, in sentences."""
     checks: tuple[Check, ...]
     """The laws of `import_checks` with their numbers."""
-    record: Mapping[str, Any]
+    record: RobotRecord
     """Contents of its robot.toml."""
 
     @property
@@ -298,7 +299,7 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     return Derived(biped, said, checks(biped), record)
 
 
-def _with_tips(path: Path | str, hints: Hints) -> tuple[Reading, tuple[str, ...] | None]:
+def _with_tips(path: Path | str, hints: Hints) -> tuple[UrdfContents, tuple[str, ...] | None]:
     """The URDF, and the feet: those of the hints, or links put at their tips. Raises ModelError."""
     if hints.tip is None:
         return read(path), hints.feet
@@ -312,7 +313,7 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[Reading, tuple[str, ...]
 
 # -- motors ----------------------------------------------------------------------------------------
 def _motors(
-    reading: Reading, moving: tuple[Joint, ...], hints: Hints
+    reading: UrdfContents, moving: tuple[Joint, ...], hints: Hints
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Joints with a motor in order, and a sentence where they were guessed.
 
@@ -335,7 +336,7 @@ def _motors(
 
 
 def _torque(
-    reading: Reading, actuated: tuple[str, ...], hints: Hints
+    reading: UrdfContents, actuated: tuple[str, ...], hints: Hints
 ) -> tuple[float, tuple[str, ...]]:
     """The torque limit of all motors [N m], and a sentence where it was found in the URDF.
 
@@ -356,7 +357,7 @@ def _torque(
     return least, (f"torque limit: {least:g} N m, of {which}",)
 
 
-def _remarks(reading: Reading, hints: Hints) -> tuple[str, ...]:
+def _remarks(reading: UrdfContents, hints: Hints) -> tuple[str, ...]:
     """Sentences on what the URDF leaves open and which defaults were taken."""
     found = []
     if hints.friction_coefficient is None:

@@ -18,10 +18,10 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NotRequired, TypedDict, cast
 
 from biped_adrc.errors import InputError, ModelError, check_positive
 from biped_adrc.files import reading
@@ -40,6 +40,41 @@ class BodyParameters:
     """Distance of the COM from the link's origin along +z [m]."""
     inertia: float
     """About the COM and the axis y [kg m^2]."""
+
+
+class FrictionRecord(TypedDict, total=False):
+    """The table [friction] of a robot.toml: by joint, as `RobotDescription.viscous` and `static`."""
+
+    viscous: Mapping[str, float]
+    static: Mapping[str, float]
+
+
+class RobotRecord(TypedDict):
+    """The tables of a robot.toml as TOML reads them; meaning and units of the fields as in
+    `RobotDescription`. Optional ones may be missing in the file.
+    """
+
+    name: str
+    urdf: str
+    actuated: Sequence[str]
+    passive: NotRequired[Sequence[str]]
+    unactuated: str
+    base: Sequence[str]
+    stance_foot: str
+    swing_foot: str
+    hip: str
+    trunk: NotRequired[str]
+    phase: Sequence[float]
+    offset: NotRequired[Sequence[float]]
+    peak_torque: float
+    friction_coefficient: float
+    gravity: NotRequired[float]
+    ranges: NotRequired[Mapping[str, Sequence[float]]]
+    friction: NotRequired[FrictionRecord]
+    links: Mapping[str, Sequence[str]]
+    default_preset: str
+    presets: Mapping[str, Mapping[str, Any]]
+    """By name: `source`, `armature`, and a table of `BodyParameters` for every body."""
 
 
 GRAVITY = 9.81
@@ -180,10 +215,10 @@ def load_description(robot: str | Path) -> RobotDescription:
         path = data_folder("urdf") / str(robot) / "robot.toml"
     with reading("robot record", path, ModelError):
         data = tomllib.loads(path.read_text(encoding="utf-8"))
-    return description_of(data, path)
+    return description_of(cast(RobotRecord, data), path)
 
 
-def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
+def description_of(data: RobotRecord, path: Path) -> RobotDescription:
     """The record from TOML's tables `data`, whose URDF lies beside `path`.
 
     Raises ModelError that names the key, what was found and what was expected.
@@ -192,14 +227,16 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         return _description(data, path)
 
 
-_PLAIN = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
-
-
-def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
+def _description(data: RobotRecord, path: Path) -> RobotDescription:
     """The record; raises KeyError, TypeError or ValueError, which `reading` turns into a ModelError."""
     friction = data.get("friction", {})
     description = RobotDescription(
-        **{key: data[key] for key in _PLAIN},
+        name=data["name"],
+        unactuated=data["unactuated"],
+        stance_foot=data["stance_foot"],
+        swing_foot=data["swing_foot"],
+        hip=data["hip"],
+        default_preset=data["default_preset"],
         urdf=path.parent / data["urdf"],
         actuated=tuple(data["actuated"]),
         passive=tuple(data.get("passive", ())),
@@ -224,12 +261,12 @@ def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
     return description
 
 
-def _count(data: Mapping[str, Any]) -> int:
+def _count(data: RobotRecord) -> int:
     """Number of coordinates: actuated joints, passive joints and the pitch."""
     return len(data["actuated"]) + len(data.get("passive", ())) + 1
 
 
-def _numbers(data: Mapping[str, Any], key: str, values: Any) -> tuple[float, ...]:
+def _numbers(data: RobotRecord, key: str, values: Sequence[float]) -> tuple[float, ...]:
     """One finite number per coordinate. Raises ValueError that names the key."""
     found = tuple(float(c) for c in values)
     if len(found) != _count(data) or not all(map(math.isfinite, found)):
@@ -237,7 +274,7 @@ def _numbers(data: Mapping[str, Any], key: str, values: Any) -> tuple[float, ...
     return found
 
 
-def _range(joint: str, ends: Any) -> tuple[float, float]:
+def _range(joint: str, ends: Sequence[float]) -> tuple[float, float]:
     """Lower and upper end of a joint's range [rad]. Raises ValueError unless they are in this order."""
     low, high = (float(end) for end in ends)
     if not low < high:
@@ -247,7 +284,7 @@ def _range(joint: str, ends: Any) -> tuple[float, float]:
     return low, high
 
 
-def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Preset:
+def _preset(name: str, record: Mapping[str, Any], data: RobotRecord) -> Preset:
     """One of the tables [presets.NAME]: all bodies of the record, or none of them. Raises ValueError."""
     bodies = {}
     own = not any(body in record for body in data["links"])

@@ -13,7 +13,6 @@ import math
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -45,9 +44,9 @@ class Inertial:
 
     def scaled(self, kind: str, factor: float) -> Inertial:
         """A copy with "mass", "com" or "inertia" multiplied by a dimensionless factor."""
-        old: Any = getattr(self, kind)
-        new: Any = factor * old if kind == "mass" else tuple(factor * x for x in old)
-        return replace(self, **{kind: new})
+        old = np.asarray(getattr(self, kind))
+        new = (factor * old).tolist()
+        return Inertial(**(vars(self) | {kind: new if kind == "mass" else tuple(new)}))
 
 
 @dataclass(frozen=True)

@@ -59,7 +59,7 @@ Turns = Mapping[str, Array] | None
 
 
 @dataclass(frozen=True)
-class Reading:
+class UrdfContents:
     """A robot with parallel frames, and what its file says beside the tree, by joint."""
 
     tree: Tree
@@ -101,7 +101,7 @@ def straightened(root: ET.Element, source: str) -> tuple[Tree, tuple[str, ...], 
     return tree, undrawn, flat
 
 
-def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> Reading:
+def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfContents:
     """Read and validate a URDF with frames of any orientation.
 
     tips: by link, a place in its own frame [m] where a link without mass, `LINK_tip`, is put: a
@@ -114,7 +114,7 @@ def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> Reading:
     tree, undrawn, flat = straightened(robot, source)
     moving = [j for j in robot.findall("joint") if j.get("type") in _CIRCULAR]
     low, high = (_by_joint(moving, "limit", key, source, -math.inf) for key in ("lower", "upper"))
-    return Reading(
+    return UrdfContents(
         tree,
         _by_joint(moving, "limit", "effort", source),
         {
