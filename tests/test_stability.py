@@ -222,7 +222,7 @@ def test_a_law_of_ones_own_is_not_taken_for_npd(biped: ba.Biped, gait: ba.Gait) 
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     halved = replace(walker, controller=Halved(gait.constraint))
     x = np.concatenate((gait.q_minus, 1.1 * gait.v_minus))
-    one, other = (torque_derivative(w, 0.0, x, ba.Mode()) for w in (walker, halved))
+    one, other = (torque_derivative(w, w.instant(0.0, x, ba.Mode())) for w in (walker, halved))
     np.testing.assert_allclose(other, 0.5 * one, rtol=0.0, atol=1e-9 * np.max(np.abs(one)))
     pushed = replace(walker, disturbance=ba.TorqueStep([1.0, 0, 0, 0, 0], step=1, start=0.1))
     assert zero_dynamics_row(walker, Tolerances()) is not None

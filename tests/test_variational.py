@@ -170,10 +170,10 @@ def test_derivative_of_the_flow(any_biped):
     for name, walker in loops(any_biped).items():
         for q, v, _ in states(any_biped, 3, size=0.1):
             x = np.concatenate((q, v))
-            A = flow_derivative(walker, 0.0, x, FIRST)
+            A = flow_derivative(walker, walker.instant(0.0, x, FIRST))
             close(A, difference(lambda y, w=walker: w.flow(0.0, y, FIRST), x, 2e-4), 1e-7)
             if name == "NPD, limited":
-                du = torque_derivative(walker, 0.0, x, FIRST)
+                du = torque_derivative(walker, walker.instant(0.0, x, FIRST))
                 cut = np.abs(walker.instant(0.0, x, FIRST).u) >= 500.0
                 saturated += int(np.sum(cut))
                 assert np.all(du[cut] == 0.0)
@@ -186,7 +186,7 @@ def test_differences_of_a_law_are_of_order_four_and_end_at_round_off(any_biped):
     walker = npd(any_biped)
     q, v, _ = next(states(any_biped, size=0.1))
     i = walker.instant(0.0, np.concatenate((q, v)), FIRST)
-    exact = torque_derivative(walker, 0.0, np.concatenate((q, v)), FIRST)
+    exact = torque_derivative(walker, walker.instant(0.0, np.concatenate((q, v)), FIRST))
     size = np.max(np.abs(exact))
 
     def error(*width):

@@ -172,7 +172,8 @@ def supports(
     """
     k = (limits or Limits()).of(walker.plant.description)
     return tuple(
-        support(walker, signals.of_step(arc.mode.step), k, struck(arc)) for arc in trajectory.arcs
+        support(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc))
+        for arc in trajectory.arcs
     )
 
 
@@ -203,7 +204,7 @@ def support(walker: Walker, s: Signals, k: KnownLimits, finished: bool = True) -
     )
 
 
-def struck(arc: Arc) -> bool:
+def ended_in_impact(arc: Arc) -> bool:
     """Whether a single support ended in an impact of the swing foot."""
     return arc.event is not None and arc.event.guard == FOOT_STRIKE
 

@@ -19,10 +19,10 @@ from biped_adrc.analysis.certificate import (
     Certificate,
     Support,
     depths,
+    ended_in_impact,
     forces,
     largest_ratio,
     outside,
-    struck,
 )
 from biped_adrc.analysis.quadrature import window_means
 from biped_adrc.analysis.signals import Signals
@@ -203,7 +203,7 @@ def until_illegal(
     """
     k = (limits or Limits()).of(walker.plant.description)
     for number, arc in enumerate(trajectory.arcs):
-        found = first_violation(walker, signals.of_step(arc.mode.step), k, struck(arc))
+        found = first_violation(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc))
         if found is None:
             continue
         kept = max(1, int(np.searchsorted(arc.t, found.t, side="right")))

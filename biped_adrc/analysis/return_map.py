@@ -135,7 +135,7 @@ class ReturnMap:
         starts = [after_impact(self.walker, 0.0, self.lift(s), Mode()) for s in points]
         compiled = self._compiled(len(starts[0][0]))
         if compiled is None:
-            strikes = mapper(lambda start: self.next_strike(self.walker, *start).x_minus, starts)
+            strikes = mapper(lambda start: self.next_impact(self.walker, *start).x_minus, starts)
             return [self.project(x) for x in strikes]
         made = compiled(starts)
         for walked in made:
@@ -166,7 +166,7 @@ class ReturnMap:
             return None
         return Strides(walker, 2.0 * self.walker.max_step_time)
 
-    def next_strike(self, system: HybridSystem, x: Array, mode: Mode) -> Event:
+    def next_impact(self, system: HybridSystem, x: Array, mode: Mode) -> Event:
         """The next impact of the walker, or of a system that carries it along, from x (2 n + c,) after
         impact.
 

@@ -59,15 +59,12 @@ relatively.
 
 
 # -- the torque ------------------------------------------------------------------------------------
-def torque_derivative(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
-    """du/dx (p, 2 n) [N m/rad, N m s/rad] of the applied torque, at x (2 n,); zero for saturated
-    motors.
+def torque_derivative(walker: Walker, i: Instant) -> Array:
+    """du/dx (p, 2 n) [N m/rad, N m s/rad] of the applied torque at an instant of the walk.
+
+    Zero for passive walkers and in the rows of saturated motors, exact for NPD, by differences for
+    other controllers.
     """
-    return _torque_derivative(walker, walker.instant(t, x, mode))
-
-
-def _torque_derivative(walker: Walker, i: Instant) -> Array:
-    """du/dx (p, 2 n): zero for passive walkers, exact for NPD, by differences for other controllers."""
     law = walker.law
     if type(law) is Passive:
         return np.zeros((walker.plant.p, 2 * walker.plant.n))
@@ -149,19 +146,16 @@ def differenced_torque(walker: Walker, i: Instant, difference: float = DIFFERENC
 
 
 # -- the flow and the impact -----------------------------------------------------------------------
-def flow_derivative(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
-    """A = df/dx (2 n, 2 n) of single support, at t [s] and x (2 n,) [rad, rad/s]."""
-    return _flow_derivative(walker, walker.instant(t, x, mode))
-
-
-def _flow_derivative(walker: Walker, i: Instant) -> Array:
-    """A (2 n, 2 n) at an instant whose torque and force are already computed."""
+def flow_derivative(walker: Walker, i: Instant) -> Array:
+    """A = df/dx (2 n, 2 n) of single support at an instant, from its torque and force; x in [rad,
+    rad/s].
+    """
     n, m = walker.plant.n, i.measurement
     plant = acceleration_derivatives(walker.plant, m.q, m.v, i.force)
     A = np.zeros((2 * n, 2 * n))
     A[:n, n:] = np.eye(n)
     A[n:, :n], A[n:, n:] = plant.dq, plant.dv
-    A[n:] += plant.dforce @ (walker.plant.B @ _torque_derivative(walker, i))
+    A[n:] += plant.dforce @ (walker.plant.B @ torque_derivative(walker, i))
     return A
 
 
@@ -243,7 +237,7 @@ class VariationalSystem(HybridSystem):
         """Time derivative of y: the walker's flow, and A Phi."""
         x, Phi = split_matrix(y)
         i = self.walker.instant(t, x, mode)
-        A = _flow_derivative(self.walker, i)
+        A = flow_derivative(self.walker, i)
         return np.concatenate((i.measurement.v, i.a, (A @ Phi).ravel()))
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
@@ -326,7 +320,7 @@ def _single_support(P: ReturnMap, x: Array) -> tuple[tuple[Array, Mode], Event]:
     y0 = system.start(x)
     struck = after_impact(P.walker, 0.0, x, Mode())
     y0[: len(x)] = struck[0]
-    return struck, P.next_strike(system, y0, struck[1])
+    return struck, P.next_impact(system, y0, struck[1])
 
 
 def section_tangent(walker: Walker, x: Array) -> Array:

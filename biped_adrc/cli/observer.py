@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from biped_adrc.control.tracking import Gains
     from biped_adrc.gait.gait import Gait
     from biped_adrc.model.biped import Biped
-    from biped_adrc.observer_design.observer_design import ObserverReport
+    from biped_adrc.observer_design.observer_report import ObserverReport
     from biped_adrc.observers.gpi import GPIObserver
     from biped_adrc.studies.observer_check import DelayCheck, Walked
 
@@ -45,7 +45,7 @@ def observer_command(
     from biped_adrc.control.tracking import Gains
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.model.biped import Biped
-    from biped_adrc.observer_design.observer_design import observer_report
+    from biped_adrc.observer_design.observer_report import observer_report
 
     chosen, gains = _observer(poles, bandwidth, order), Gains(k_p, k_d)
     path = None if out is None else output_path(out, FIGURES)

@@ -14,6 +14,7 @@ import numpy as np
 
 from biped_adrc.errors import ModelError, SingularError
 from biped_adrc.robots.robot_toml import RobotDescription
+from biped_adrc.robots.symmetry import text_of
 from biped_adrc.robots.urdf import Tree, Vector
 from biped_adrc.types import Array
 
@@ -51,8 +52,8 @@ def check_planar(tree: Tree, d: RobotDescription) -> None:
             along = abs(along)
         if joint.type != kind or not abs(along - 1.0) <= _ALONG:
             raise ModelError(
-                f"URDF '{tree.source}', joint '{name}': {joint.type} along {_text(joint.axis)}, expected "
-                f"{kind} along {_text(axis)}: a planar robot moves in x and z"
+                f"URDF '{tree.source}', joint '{name}': {joint.type} along {text_of(joint.axis)}, expected "
+                f"{kind} along {text_of(axis)}: a planar robot moves in x and z"
             )
 
 
@@ -95,8 +96,3 @@ def _check_definite(D: Array, where: str) -> None:
             "a ratio that double precision can hold; look for a body that nothing moves, and for masses, "
             "inertias and lengths that are far apart"
         )
-
-
-def _text(axis: Vector) -> str:
-    """An axis for a message."""
-    return f"({', '.join(f'{a:g}' for a in axis)})"

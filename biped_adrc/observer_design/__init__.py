@@ -4,7 +4,7 @@
 - `observer_sampled` the same loop in sampled time: eigenvalues, and noise of the encoder
 - `observer_impact`  the estimation error that an impact leaves
 - `observer_choice`  the largest bandwidth that the hardware allows, for each order m
-- `observer_design`  the report that puts all of this together, `observer_report`
+- `observer_report`  the report that puts all of this together, `observer_report`
 - `observer_tables`  the report as text
 - `to_ss`            observer and loop as state spaces of python-control
 

@@ -11,7 +11,7 @@ with sigma_a [rad/s^2] from the sampled loop. The encoders' part in Theta and in
 reference, which no observer filters, is not included.
 
 An observer is allowed on the `Hardware` if its sampled loop is stable for kappa 20 % off, and if
-the torque noise ("ripple") of one count stays below a share of the torque limit. `observer_design`
+the torque noise ("ripple") of one count stays below a share of the torque limit. `observer_report`
 calls `recommend` for its last table.
 """
 
@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.control.tracking import Gains
-from biped_adrc.observer_design.observer_loop import joint_gains, observer_loop
+from biped_adrc.observer_design.observer_loop import ObserverLoop, joint_gains, observer_loop
 from biped_adrc.observer_design.observer_sampled import (
     SampledLoop,
     largest_delay,
@@ -118,6 +118,11 @@ class OnHardware:
         )
 
     @cached_property
+    def loop(self) -> ObserverLoop:
+        """The loop of the joint in continuous time."""
+        return observer_loop(self.observer, self.gains, self.joint)
+
+    @cached_property
     def ripple(self) -> float:
         """rms torque [N m] of the error of one encoder count; infinite for an unstable loop."""
         return self.sampled().rms(count_error(self.hardware.counts)) * self.hardware.inertia
@@ -138,8 +143,7 @@ class OnHardware:
     @cached_property
     def rejection(self) -> float:
         """|e / xi| at REJECTED [s^2], in continuous time."""
-        loop = observer_loop(self.observer, self.gains, self.joint)
-        return float(np.abs(loop.tracking_error(np.array([REJECTED])))[0])
+        return float(np.abs(self.loop.tracking_error(np.array([REJECTED])))[0])
 
 
 def recommend(hardware: Hardware, gains: Gains, m: int, joint: int = 0) -> Recommended:

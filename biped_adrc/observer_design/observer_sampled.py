@@ -17,7 +17,7 @@ short periods all eigenvalues gather at 1, and what distinguishes them would be 
 The observer is fed with a_k, or, when the delay is known, with the mean of what acts until the next
 sample instant, which is exact for whole periods alone.
 
-`observer_choice` asks it for stability and for the noise of the torque, `observer_design` for the
+`observer_choice` asks it for stability and for the noise of the torque, `observer_report` for the
 largest period and delay.
 """
 

@@ -17,7 +17,7 @@ from biped_adrc.observer_design.observer_loop import conditioning
 from biped_adrc.observers.base import ResetPolicy
 
 if TYPE_CHECKING:
-    from biped_adrc.observer_design.observer_design import ObserverReport
+    from biped_adrc.observer_design.observer_report import ObserverReport
 
 
 class Section(NamedTuple):

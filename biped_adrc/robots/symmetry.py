@@ -91,7 +91,7 @@ def check_alike(tree: Tree, feet: tuple[str, str], pitch: str, actuated: tuple[s
         for what in a:
             if not _close(a[what], b[what]):
                 raise ModelError(
-                    f"{where} {what} is {_text(a[what])} of '{one}' and {_text(b[what])} of '{other}'; the "
+                    f"{where} {what} is {text_of(a[what])} of '{one}' and {text_of(b[what])} of '{other}'; the "
                     "legs change over at impact, so make them equal, with equal zeros of their joints"
                 )
         joints = tree.joint_above(one), tree.joint_above(other)
@@ -126,13 +126,13 @@ def _check_joints(
     places = (one.origin[0], one.origin[2]), (other.origin[0], other.origin[2])
     if not _close(*places):
         raise ModelError(
-            f"{where} the place (x, z) [m] is {_text(places[0])} of '{one.name}' and {_text(places[1])} of "
+            f"{where} the place (x, z) [m] is {text_of(places[0])} of '{one.name}' and {text_of(places[1])} of "
             f"'{other.name}'; make it equal"
         )
     if one.type != other.type or (one.type == "revolute" and one.axis != other.axis):
         raise ModelError(
-            f"{where} '{one.name}' is {one.type} about {_text(one.axis)} and '{other.name}' {other.type} "
-            f"about {_text(other.axis)}; give both the same type and sense"
+            f"{where} '{one.name}' is {one.type} about {text_of(one.axis)} and '{other.name}' {other.type} "
+            f"about {text_of(other.axis)}; give both the same type and sense"
         )
     if (one.name in actuated) != (other.name in actuated):
         raise ModelError(
@@ -146,7 +146,7 @@ def _close(a: tuple[float, ...], b: tuple[float, ...]) -> bool:
     return math.dist(a, b) <= _ALIKE * max(math.hypot(*a), math.hypot(*b))
 
 
-def _text(values: tuple[float, ...]) -> str:
+def text_of(values: tuple[float, ...]) -> str:
     """One number, or several in parentheses, for a message."""
     text = ", ".join(f"{value:.6g}" for value in values)
     return text if len(values) == 1 else f"({text})"

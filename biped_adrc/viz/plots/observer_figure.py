@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from biped_adrc.errors import InputError
-from biped_adrc.observer_design.observer_design import ObserverReport
+from biped_adrc.observer_design.observer_report import ObserverReport
 from biped_adrc.viz.style import DASHES, GREY, PALETTE, label, new_figure, style
 
 FEWEST, FLOOR = 400, 1e-12

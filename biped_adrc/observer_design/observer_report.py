@@ -31,11 +31,7 @@ from biped_adrc.observer_design.observer_choice import (
     without_observer,
 )
 from biped_adrc.observer_design.observer_impact import ImpactStates, orbit_impact
-from biped_adrc.observer_design.observer_loop import (
-    ObserverLoop,
-    bandwidth,
-    observer_loop,
-)
+from biped_adrc.observer_design.observer_loop import bandwidth
 from biped_adrc.observer_design.observer_sampled import largest_delay, largest_period
 from biped_adrc.observer_design.observer_tables import Section, sections, verdict
 from biped_adrc.observers.base import Observer
@@ -73,11 +69,6 @@ class ObserverReport(OnHardware):
     """Name and preset of the robot."""
     impact: ImpactStates = field(kw_only=True)
     """Impact of the gait's periodic orbit."""
-
-    @cached_property
-    def loop(self) -> ObserverLoop:
-        """The loop of the joint in continuous time."""
-        return observer_loop(self.observer, self.gains, self.joint)
 
     @cached_property
     def sampled_margins(self) -> tuple[float, float]:
