@@ -7,7 +7,7 @@
                             where the constraint is hybrid invariant and tracked exactly
     regression              (26), (27) of the paper, on samples of a walk
 
-The methods share no code below the walker, so their agreement is evidence. A method that doubts its
+The methods find dP/ds in independent ways, so their agreement is evidence. A method that doubts its
 own result says why (`MethodRow.doubt`). Two sets of multipliers are compared one to one, in the
 pairing that makes the sum of their distances, in units of the tolerance, least.
 """

@@ -38,7 +38,7 @@ class ZeroDynamicsReport:
     limits: Limits
     """Friction, torque and slope that the domain respects."""
     domain: Domain
-    """The range of zeta from which the walk goes on within the limits."""
+    """The range of zeta in which a step keeps the limits."""
     zeta_star: float
     """sigma-^2 / 2 of the periodic orbit [kg^2 m^4/s^2]."""
     impulse_ratio: float

@@ -81,7 +81,7 @@ class PlantArrays(NamedTuple):
 
 class Joined(Protocol):
     """Anything with the matrix A of the absolute angles: a `PlanarTree`, a `LinkPoint`, the engine's
-    structure.
+    robot.
     """
 
     @property

@@ -4,7 +4,7 @@
 transfer functions, delay margins, the largest stable period, the torque noise of one encoder count,
 the peak after an impact, and the largest bandwidth of each order that the robot allows. The numbers
 come from the other modules of this folder, each computed when first asked for; `observer_tables`
-turns them into text. The command `biped-adrc observer` and `ba.observer_report` call it.
+turns them into text. The command `biped-adrc observer` calls it.
 """
 
 from __future__ import annotations

@@ -44,9 +44,9 @@ class Inertial:
 
     def scaled(self, kind: str, factor: float) -> Inertial:
         """A copy with "mass", "com" or "inertia" multiplied by a dimensionless factor."""
-        old = np.asarray(getattr(self, kind))
-        new = (factor * old).tolist()
-        return Inertial(**(vars(self) | {kind: new if kind == "mass" else tuple(new)}))
+        old = getattr(self, kind)
+        new = factor * old if kind == "mass" else tuple(factor * x for x in old)
+        return Inertial(**(vars(self) | {kind: new}))
 
 
 @dataclass(frozen=True)
