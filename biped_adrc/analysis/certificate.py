@@ -24,7 +24,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.errors import InputError
 from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.robots.robot_toml import ENDS, ROUND_OFF, KnownLimits, Limits
+from biped_adrc.robots.robot_toml import ENDS, ROUND_OFF, KnownLimits, Limits, completed
 from biped_adrc.types import Array
 
 REASONS = ("normal_force", "friction", "torque", "scuffing")
@@ -98,11 +98,7 @@ class Support:
                 f"the certificate is of forces averaged over {self.window:g} s, the limits ask for "
                 f"{limits.window:g} s; take the certificates anew, with walk.certified(limits)"
             )
-        return KnownLimits(
-            own.friction if limits.friction is None else limits.friction,
-            own.torque if limits.torque is None else limits.torque,
-            own.window,
-        )
+        return completed(limits, own)
 
     def record(self) -> dict[str, float]:
         """All fields as a dictionary of numbers."""

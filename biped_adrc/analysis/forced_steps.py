@@ -53,12 +53,16 @@ class ForcedStep(NamedTuple):
 
 
 class ForcedCurve(NamedTuple):
-    """|I| [kg m^2] and V_F [kg^2 m^4/s^2] (NODES,) at Gauss nodes with weights [rad], and V_F(Theta-)."""
+    """The integrand of one step under a force, at Gauss nodes along Theta."""
 
     inertia: Array
+    """|I(Theta)| (NODES,) [kg m^2], with dTheta/dt = sigma / I."""
     potential: Array
+    """V_F(Theta) (NODES,) [kg^2 m^4/s^2]."""
     end: float
+    """V_F(Theta-) [kg^2 m^4/s^2]."""
     weights: Array
+    """Weights of the quadrature in |Theta| (NODES,) [rad]."""
 
     @classmethod
     def of(cls, biped: Biped, h: VirtualConstraint, force: float) -> ForcedCurve:

@@ -73,6 +73,7 @@ class MethodRow:
     """Multipliers by one method."""
 
     method: StabilityMethod
+    """How they were found."""
     multipliers: ComplexArray
     """(k,), the largest magnitude first."""
     uncertainty: float = 0.0

@@ -170,6 +170,7 @@ class DirectionMerit:
 
     name: str
     direction: tuple[float, ...]
+    """d (p,), dimensionless."""
     static_gain: float
     """g, speed per correction [m/s per rad]."""
     torque: float

@@ -38,13 +38,14 @@ ACCURACY = 1e-9
 
 
 class Payload(NamedTuple):
-    """A homogeneous solid ball that is fixed to the tool: mass [kg], centre in the tool's frame [m],
-    radius [m]. Its inertia about the centre is 2/5 m r^2.
-    """
+    """A homogeneous solid ball that is fixed to the tool; its inertia about the centre is 2/5 m r^2."""
 
     mass: float
+    """[kg]."""
     com: Vector
+    """Centre (x, y, z) in the frame of the tool [m]."""
     radius: float
+    """[m]."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +66,7 @@ class Arm:
     effort: Array
     """Largest torque of each motor from <limit effort> (n,) [N m] or [N]; infinite without a limit."""
     payload: Payload | None = None
+    """What the tool carries; None for the bare arm."""
 
     @classmethod
     def load(cls, urdf: Path | str, tool: str) -> Arm:

@@ -29,17 +29,20 @@ KINDS = ("mass", "com", "inertia", "friction")
 
 @dataclass(frozen=True)
 class ModelErrors:
-    """Relative errors, dimensionless: 0.1 is ten per cent more. mass, com, inertia: by body or link;
-    friction, viscous and static alike: by joint.
+    """Relative errors, dimensionless: 0.1 is ten per cent more.
 
     Raises InputError for an error that is not finite, or that leaves no mass or inertia, or
     negative friction.
     """
 
     mass: Mapping[str, float] = field(default_factory=dict)
+    """By body or link; the inertia about the COM is not scaled with it."""
     com: Mapping[str, float] = field(default_factory=dict)
+    """By body or link, of the distance of the COM from the link's origin."""
     inertia: Mapping[str, float] = field(default_factory=dict)
+    """By body or link, about the COM."""
     friction: Mapping[str, float] = field(default_factory=dict)
+    """By joint, of viscous and static friction alike."""
 
     def __post_init__(self) -> None:
         for kind in KINDS:

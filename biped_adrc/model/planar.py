@@ -184,7 +184,9 @@ class Turned(NamedTuple, Generic[Numbers]):
     """Cosines and sines of the absolute angles, each (n,), dimensionless."""
 
     c: Numbers
+    """cos a."""
     s: Numbers
+    """sin a."""
 
 
 def turned(robot: Joined, q: Numbers) -> Turned[Numbers]:

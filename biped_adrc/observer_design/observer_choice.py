@@ -102,7 +102,9 @@ class OnHardware:
     hardware: Hardware
     observer: GPIObserver
     gains: Gains
+    """K_p and K_d of (20)."""
     joint: int = 0
+    """Which of the gains, where there is one number per joint."""
 
     def sampled(self, ratio: float = 1.0) -> SampledLoop:
         """The sampled loop with `ratio` times the model's kappa, dimensionless."""

@@ -66,15 +66,15 @@ class Conditioning(NamedTuple):
 
 @dataclass(frozen=True)
 class ObserverLoop:
-    """The loop of one joint in continuous time. Make it with `observer_loop`.
-
-    K_p [1/s^2] and K_d [1/s] are the gains of the joint; kappa_ratio is g, dimensionless.
-    """
+    """The loop of one joint in continuous time. Make it with `observer_loop`."""
 
     observer: GPIObserver
     K_p: float
+    """[1/s^2]."""
     K_d: float
+    """[1/s]."""
     kappa_ratio: float = 1.0
+    """g, kappa of the robot over that of the model, dimensionless."""
 
     # -- polynomials in s / w, highest power first --------------------------------------------------
     @cached_property
@@ -268,6 +268,9 @@ def joint_gains(gains: Gains, joint: int) -> tuple[float, float]:
 
 
 def _of_joint(values: Array, joint: int) -> float:
+    """The joint's number, or the one number for all joints. Raises InputError for a joint that has
+    none.
+    """
     if len(values) == 1:
         return float(values[0])
     if not 0 <= joint < len(values):

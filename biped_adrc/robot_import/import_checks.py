@@ -3,7 +3,7 @@
 An import has many ways to be subtly wrong: a sense, an offset, an inertia in the wrong frame. These
 laws hold for every planar biped, so they need no reference values. At random states, against the
 floating model, with H_c the angular momentum about a point c taken from masses, COM velocities and
-spins of the bodies:
+spins of the bodies (`contact.LinkMotion`):
 
     D_s, Omega = Z' M Z, Z' (nle + M Z')      pinned = floating, constrained at the foot
     E_2 q_e+' = 0,  H_c+ = H_c-,  T+ <= T-    the plastic impact at c = p_2
@@ -22,6 +22,7 @@ import pinocchio as pin
 
 from biped_adrc.checks import Check, at_most
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.contact import LinkMotion
 from biped_adrc.model.pinned import frame_index
 from biped_adrc.types import Array
 
@@ -54,17 +55,6 @@ def checks(biped: Biped) -> tuple[Check, ...]:
             laws[law] = float(np.maximum(laws.get(law, 0.0), gap))
     limits = {DEFINITE: ACCURACY}
     return tuple(at_most(law, "law", gap, limits.get(law, LIMIT)) for law, gap in laws.items())
-
-
-def angular_momentum(biped: Biped, q: Array, v_e: Array, point: Array) -> float:
-    """H_c [kg m^2/s] of the bodies about `point` (x, z) [m] from the stance foot, clockwise positive.
-
-    q (n,) [rad], and the velocity q_e' = v_e (n + 2,) [rad/s, m/s].
-    """
-    f = biped.floating
-    pin.computeCentroidalMomentum(f.model, f.data, f.configuration(q), f.velocity_map(q) @ v_e)
-    arm = f.data.com[0] - np.array([point[0], 0.0, point[1]])
-    return float(f.data.hg.angular[1] + np.cross(arm, f.data.hg.linear)[1])
 
 
 def _gap(found: Array, expected: Array) -> float:
@@ -113,8 +103,10 @@ def _impact(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
     foot = b.E_2(q) @ hit.v_e
     yield "impact: the new stance foot is at rest", float(np.max(np.abs(foot)) / np.linalg.norm(v))
     yield "impact: kinetic energy does not grow", max(0.0, after / before - 1.0)
-    H_before = angular_momentum(b, q, np.append(v, [0.0, 0.0]), contact)
-    H_after = angular_momentum(b, q, hit.v_e, contact)
+    H_before, H_after = (
+        LinkMotion(b.floating, q, rates).about(contact)
+        for rates in (np.append(v, [0.0, 0.0]), hit.v_e)
+    )
     scale = np.sqrt(2.0 * before * b.mass) * max(np.linalg.norm(contact), np.linalg.norm(b.hip(q)))
     law = "impact: angular momentum about the new foot is kept"
     yield law, float(abs(H_after - H_before) / scale)

@@ -83,16 +83,15 @@ GRAVITY = 9.81
 
 @dataclass(frozen=True)
 class Preset:
-    """A parameter set: bodies by class (torso, thigh, ...), armature [kg m^2] per actuated joint.
-
-    Without bodies the URDF's own <inertial> elements hold. `source` says where the numbers come
-    from.
-    """
+    """A parameter set of a robot."""
 
     name: str
     source: str
+    """Where the numbers come from."""
     armature: float
+    """Rotor inertia per actuated joint, reflected to it [kg m^2]."""
     bodies: Mapping[str, BodyParameters]
+    """By class (torso, thigh, ...); empty where the URDF's own <inertial> elements hold."""
 
 
 @dataclass(frozen=True)
@@ -330,16 +329,18 @@ class KnownLimits(NamedTuple):
 
 @dataclass(frozen=True)
 class Limits:
-    """What ground and motors can give. friction: mu of the ground; torque [N m]: of every motor; None
-    takes the value of the robot's record.
+    """What ground and motors can give, within which a walk is legal; None takes the robot's record.
 
-    window [s]: time over which the force of the ground is averaged. Raises InputError for a
-    friction that is not above 0 and at most 1, or a torque or window that is not positive.
+    Raises InputError for a friction that is not above 0 and at most 1, or a torque or window that
+    is not positive.
     """
 
     friction: float | None = None
+    """Dry friction mu of the ground, dimensionless."""
     torque: float | None = None
+    """Of every motor [N m]."""
     window: float = WINDOW
+    """Time over which the force of the ground is averaged [s]."""
 
     def __post_init__(self) -> None:
         mu, torque = self.friction, self.torque
@@ -356,9 +357,15 @@ class Limits:
 
     def of(self, robot: RobotDescription) -> KnownLimits:
         """These limits with the values of the robot's record where None was given."""
-        mu, torque = self.friction, self.torque
-        return KnownLimits(
-            robot.friction_coefficient if mu is None else float(mu),
-            robot.peak_torque if torque is None else float(torque),
-            float(self.window),
-        )
+        own = KnownLimits(robot.friction_coefficient, robot.peak_torque, self.window)
+        return completed(self, own)
+
+
+def completed(limits: Limits | KnownLimits, known: KnownLimits) -> KnownLimits:
+    """`limits` with the numbers of `known` where None was given; the window is that of `known`."""
+    mu, torque = limits.friction, limits.torque
+    return KnownLimits(
+        known.friction if mu is None else float(mu),
+        known.torque if torque is None else float(torque),
+        float(known.window),
+    )

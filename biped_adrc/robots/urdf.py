@@ -95,6 +95,7 @@ class Tree:
     """A robot as read from URDF."""
 
     name: str
+    """Name of the robot."""
     links: Mapping[str, Link]
     """By name, in the order of the file."""
     joints: tuple[Joint, ...]
