@@ -33,9 +33,7 @@ REASONS = ("normal_force", "friction", "torque", "scuffing")
 
 @dataclass(frozen=True)
 class Support:
-    """One single support, also an unfinished one. A friction is infinite where the ground never
-    pushed.
-    """
+    """One single support, also an unfinished one. A friction is infinite where the ground never pushed."""
 
     step: int
     """Number of the single support, from 1."""
@@ -50,9 +48,7 @@ class Support:
     mean_normal_force: float
     """Least F_N averaged over the window [N]."""
     mean_friction: float
-    """Largest |F_T| / F_N of the forces averaged over the window, of those with F_N > 0,
-    dimensionless.
-    """
+    """Largest |F_T| / F_N of the forces averaged over the window, of those with F_N > 0, dimensionless."""
     scuffing: float
     """How deep the swing foot is below the lower of the footholds, away from the ends of the step [m]."""
     peak_torque: float
@@ -163,9 +159,7 @@ def certificates(
 def supports(
     walker: Walker, trajectory: Trajectory, signals: Signals, limits: Limits | None = None
 ) -> tuple[Support, ...]:
-    """What every single support needed, the last unfinished one included; None takes the robot's
-    limits.
-    """
+    """What every single support needed, the last unfinished one included; None takes the robot's limits."""
     k = (limits or Limits()).of(walker.plant.description)
     return tuple(
         support(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc))

@@ -77,9 +77,7 @@ class ForcedCurve(NamedTuple):
         return cls(inertia, V(theta), float(V(h.theta_minus)), abs(span) * w)
 
     def duration(self, begin: float) -> float:
-        """T [s] of the step with sigma+^2 / 2 = begin [kg^2 m^4/s^2]; infinite where it is not
-        finished.
-        """
+        """T [s] of the step with sigma+^2 / 2 = begin [kg^2 m^4/s^2]; infinite where it is not finished."""
         square = 2.0 * (begin - self.potential)
         if not min(float(np.min(square)), begin - self.end) > 0.0:
             return math.inf
@@ -94,8 +92,7 @@ def forced_walk(
     stride: StridePI | None = None,
     longest: float = 2.0,
 ) -> tuple[ForcedStep, ...]:
-    """The finished steps, at most `steps`, from the gait's orbit on, under F_x = force [N] from the
-    start.
+    """The finished steps, at most `steps`, from the gait's orbit on, under F_x = force [N] from the start.
 
     stride: the PI from step to step; the controller inside it plays no part. longest [s]: a longer
     step stops the walk. Raises InputError for values that cannot be used, GaitError where the gait

@@ -76,8 +76,7 @@ def _over_steps(worst: Callable[[list[float]], float], name: str, text: str) -> 
 
 @dataclass(frozen=True)
 class Legality:
-    """What the single supports of a walk needed, the last unfinished one included, compared with
-    limits.
+    """What the single supports of a walk needed, the last unfinished one included, compared with limits.
 
     The numbers below are extremes over all single supports, with the units of `Support`.
     """
@@ -164,8 +163,7 @@ class Violation(NamedTuple):
 def first_violation(
     walker: Walker, s: Signals, k: KnownLimits, finished: bool = True
 ) -> Violation | None:
-    """The first node, or end of a window of the mean force, at which a single support is illegal; or
-    None.
+    """The first node, or end of a window of the mean force, at which a single support is illegal; or None.
 
     s: the signals of this single support alone; finished: whether it ended in an impact.
     """
@@ -186,9 +184,7 @@ def first_violation(
 
 
 def _first(t: Array, x: Array, limit: float, text: str) -> list[Violation]:
-    """The first time t (K,) [s] at which x (K,) is above its limit or NaN, with its text; empty or
-    one.
-    """
+    """The first time t (K,) [s] at which x (K,) is above its limit or NaN, with its text; empty or one."""
     beyond = np.flatnonzero(~(x <= limit))
     return [Violation(float(t[i]), text.format(x[i])) for i in beyond[:1]]
 

@@ -28,9 +28,7 @@ def error_matrix(observer: GPIObserver) -> Array:
 
 
 def estimation_error(observer: GPIObserver, s: complex) -> complex:
-    """e1(s) / xi(s) [s^2] = s^m / chi(s) at s [rad/s], as a product over the poles, which loses no
-    digits.
-    """
+    """e1(s) / xi(s) [s^2] = s^m / chi(s) at s [rad/s], as a product over the poles, which loses no digits."""
     value = 1.0 + 0.0j
     for k, pole in enumerate(observer.poles):
         value *= (s if k < observer.m else 1.0) / (s - pole)

@@ -71,7 +71,9 @@ class ReturnMap:
     """
 
     walker: Walker
+    """The closed loop."""
     method: OneStepMethod
+    """Integration method of the flow."""
     controller_states: bool = True
     """Keep the controller's states as coordinates; False starts the controller anew at each passage."""
     difference: float = 1e-5
@@ -79,7 +81,7 @@ class ReturnMap:
     pitch: float = 0.0
     """Where the search for q_N starts [rad]."""
     engine: str = COMPILED
-    """"compiled", or "pinocchio", which also replaces it where a part has no compiled form."""
+    """Either "compiled" or "pinocchio", which also replaces it where a part has no compiled form."""
 
     def __post_init__(self) -> None:
         check_engine(self.engine)
@@ -167,8 +169,7 @@ class ReturnMap:
         return Strides(walker, 2.0 * self.walker.max_step_time)
 
     def next_impact(self, system: HybridSystem, x: Array, mode: Mode) -> Event:
-        """The next impact of the walker, or of a system that carries it along, from x (2 n + c,) after
-        impact.
+        """The next impact of the walker, or of a system that carries it along, from x (2 n + c,) after impact.
 
         Raises SimulationError, with the status, when there is none.
         """

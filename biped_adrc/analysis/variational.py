@@ -53,9 +53,7 @@ from biped_adrc.model.derivatives import (
 from biped_adrc.types import Array, ComplexArray
 
 DIFFERENCE = 2e-4
-"""Width of the quotient of the torque [rad, rad/s]; NPD's is within 1e-10 of its derivative,
-relatively.
-"""
+"""Width of the quotient of the torque [rad, rad/s]; NPD's is within 1e-10 of its derivative, relatively."""
 
 
 # -- the torque ------------------------------------------------------------------------------------
@@ -103,9 +101,7 @@ def npd_derivative(walker: Walker, law: NPDController, h: VirtualConstraint, i: 
 def _wanted_derivative(
     h: VirtualConstraint, gains: Gains, q: Array, v: Array, rate2: float
 ) -> Array:
-    """d/dx (p, 2 n) of h' Theta'' + drift + f at fixed Theta'' = rate2 [rad/s^2], q, v (n,) [rad,
-    rad/s].
-    """
+    """d/dx (p, 2 n) of h' Theta'' + drift + f at fixed Theta'' = rate2 [rad/s^2], q, v (n,) [rad, rad/s]."""
     c, p = h.phase, h.curve.coefficients.shape[0]
     theta, rate = float(c @ q), float(c @ v)
     _, h1, h2 = h.h(theta)
@@ -147,9 +143,7 @@ def differenced_torque(walker: Walker, i: Instant, difference: float = DIFFERENC
 
 # -- the flow and the impact -----------------------------------------------------------------------
 def flow_derivative(walker: Walker, i: Instant) -> Array:
-    """A = df/dx (2 n, 2 n) of single support at an instant, from its torque and force; x in [rad,
-    rad/s].
-    """
+    """A = df/dx (2 n, 2 n) of single support at an instant, from its torque and force; x in [rad, rad/s]."""
     n, m = walker.plant.n, i.measurement
     plant = acceleration_derivatives(walker.plant, m.q, m.v, i.force)
     A = np.zeros((2 * n, 2 * n))
@@ -283,15 +277,12 @@ class StepDerivative:
 
     @property
     def multipliers(self) -> ComplexArray:
-        """Eigenvalues of dP/ds (2 n - 1,), the largest magnitude first; those of the cycle when P(s) =
-        s.
-        """
+        """Eigenvalues of dP/ds (2 n - 1,), the largest magnitude first; those of the cycle when P(s) = s."""
         return sorted_eigenvalues(self.jacobian)
 
 
 def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
-    """P(s) and dP/ds at s (2 n - 1,) [rad, rad/s] along one single support, with P's walker and
-    method.
+    """P(s) and dP/ds at s (2 n - 1,) [rad, rad/s] along one single support, with P's walker and method.
 
     Raises SimulationError, with the status, when the walker does not come back; InputError as
     VariationalSystem does.
@@ -334,8 +325,7 @@ def section_tangent(walker: Walker, x: Array) -> Array:
 def periodic_orbit(
     P: ReturnMap, guess: Array, tolerance: float = 1e-11, max_iterations: int = 12
 ) -> tuple[PeriodicOrbit, StepDerivative]:
-    """Newton's method on P(s) - s from a state before impact (2 n,) [rad, rad/s], with the exact
-    dP/ds.
+    """Newton's method on P(s) - s from a state before impact (2 n,) [rad, rad/s], with the exact dP/ds.
 
     Converges quadratically. Raises SimulationError when it does not converge or the walker does not
     come back, SingularError when a multiplier is 1.

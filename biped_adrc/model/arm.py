@@ -157,9 +157,7 @@ class Arm:
 
     # -- dynamics ----------------------------------------------------------------------------------
     def inertia(self, q: Array) -> Array:
-        """Inertia matrix D(q) (n, n) [kg m^2] for revolute joints, by the composite rigid body
-        algorithm.
-        """
+        """Inertia matrix D(q) (n, n) [kg m^2] for revolute joints, by the composite rigid body algorithm."""
         return np.array(pin.crba(self.model, self._data, self._finite(q)))
 
     def bias(self, q: Array, v: Array) -> Array:
@@ -250,9 +248,7 @@ def _effort(joint: ET.Element, source: str) -> float:
 
 
 def _data_folders() -> Iterator[Path]:
-    """Folders where example-robot-data may lie: below the prefix that its wheel shares with
-    Pinocchio's.
-    """
+    """Folders where example-robot-data may lie: below the prefix that its wheel shares with Pinocchio's."""
     here = (Path(sysconfig.get_path(key)) for key in ("platlib", "purelib"))
     for place in [*(path / "cmeel.prefix" for path in here), *Path(pin.__file__).parents]:
         yield place / "share" / "example-robot-data" / "robots"

@@ -63,8 +63,7 @@ class Biped:
     def load(
         cls, robot: str | Path = "rabbit", preset: str | None = None, friction: bool = False
     ) -> Biped:
-        """A robot by name, or by the path of its robot.toml, with a parameter preset (None: the
-        default one).
+        """A robot by name, or by the path of its robot.toml, with a parameter preset (None: the default one).
 
         friction: add the record's viscous and static joint friction to the dynamics. Raises
         ModelError for an unknown robot or preset, or a URDF that is not physical.
@@ -197,9 +196,7 @@ class Biped:
         return self.pinned.coriolis(self._angles(q), self._angles(v))
 
     def reduction(self, q: Array, v: Array) -> Reduction:
-        """The split (11)-(15) at (q, q') (n,) [rad, rad/s]: D, Omega, kappa, xi and the unactuated
-        rows.
-        """
+        """The split (11)-(15) at (q, q') (n,) [rad, rad/s]: D, Omega, kappa, xi and the unactuated rows."""
         D, Omega = self.pinned.inertia_and_bias(self._angles(q), self._angles(v))
         return reduce(D, Omega, self.p)
 
@@ -214,8 +211,7 @@ class Biped:
         return BodyTerms(self.pinned.gravity(q), turning, self.pinned.mass_jacobian(q), F_0)
 
     def friction_torque(self, v: Array) -> Array:
-        """Joint friction (n,) [N m]: -viscous v - static tanh(v / STICTION_SPEED), at rates v (n,)
-        [rad/s].
+        """Joint friction (n,) [N m]: -viscous v - static tanh(v / STICTION_SPEED), at rates v (n,) [rad/s].
 
         Zero if the robot was loaded without friction.
         """
@@ -288,8 +284,7 @@ class Biped:
 
     # -- contact (2)-(9) -------------------------------------------------------------------------
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
-        """Force of the ground on the stance foot (F_T, F_N) (2,) [N] in single support at (q, q',
-        q'').
+        """Force of the ground on the stance foot (F_T, F_N) (2,) [N] in single support at (q, q', q'').
 
         Newton's law for the COM: F = m (p_com'' - g). Torques in joints and pure moments on a link
         do not enter. External forces on links would; subtract their resultant (as
@@ -323,8 +318,7 @@ class Biped:
         inertia: Mapping[str, float] | None = None,
         friction: bool | None = None,
     ) -> Biped:
-        """The robot with masses and inertias multiplied, by class or link name: a plant with `delta`
-        of (1).
+        """The robot with masses and inertias multiplied, by class or link name: a plant with `delta` of (1).
 
         Factors are dimensionless, 1.1 is ten per cent more. `mass` alone leaves the inertias about
         the COM as they are. friction: None keeps the setting. Raises ModelError for an unknown body
@@ -339,8 +333,7 @@ class Biped:
         return replace(self, tree=self.scaled(factors), friction=friction)
 
     def scaled(self, factors: Mapping[str, Mapping[str, float]]) -> Tree:
-        """The tree with "mass", "com" or "inertia" multiplied: factors by kind, then by class or link
-        name.
+        """The tree with "mass", "com" or "inertia" multiplied: factors by kind, then by class or link name.
 
         Raises ModelError for an unknown body, or one without mass.
         """

@@ -37,9 +37,7 @@ from biped_adrc.types import Array
 
 
 class Impact(NamedTuple):
-    """Result of the plastic impact at x- = (q, v): Delta (8), Sigma (9), and the state after
-    relabelling.
-    """
+    """Result of the plastic impact at x- = (q, v): Delta (8), Sigma (9), and the state after relabelling."""
 
     q: Array
     """q_s after relabelling (n,) [rad]."""
@@ -91,9 +89,7 @@ class FloatingDynamics:
         return self._velocity_map(self.configuration(q))
 
     def _velocity_map(self, x: Array) -> Array:
-        """J_e for Pinocchio's configuration x (m,): the base moves so that the stance foot moves with
-        p_e'.
-        """
+        """J_e for Pinocchio's configuration x (m,): the base moves so that the stance foot moves with p_e'."""
         J = self._foot_jacobian(x, self.stance)
         J_e = np.zeros((self.n + 2, self.n + 2))
         J_e[self.angles, np.arange(self.n)] = 1.0
@@ -124,8 +120,7 @@ class FloatingDynamics:
         return self._foot_jacobian(self.configuration(q), self.swing) @ self.velocity_map(q)
 
     def projected(self, q: Array, v: Array) -> tuple[Array, Array]:
-        """D_s (n, n) [kg m^2] and Omega (n,) [N m] from the floating model, constrained by the stance
-        contact.
+        """D_s (n, n) [kg m^2] and Omega (n,) [N m] from the floating model, constrained by the stance contact.
 
         An independent way to the pinned model's terms, used as a check. With Z = J_e[:, :n] the
         null space of the contact Jacobian, D_s = Z' M Z and Omega = Z' (nle + M Z' v), where Z' v
@@ -166,8 +161,7 @@ class FloatingDynamics:
 
 @dataclass(frozen=True)
 class LinkMotion:
-    """Placements and velocities of all links of the floating model at (q, q_e'), stance foot at the
-    origin.
+    """Placements and velocities of all links of the floating model at (q, q_e'), stance foot at the origin.
 
     Makes its own work data, so it stays valid when the model is used again.
     """
@@ -211,9 +205,7 @@ class LinkMotion:
         return place[[0, 2]]
 
     def old_leg(self) -> list[int]:
-        """Pinocchio's numbers of the joints of the leg that was the support, from its knee up to its
-        hip.
-        """
+        """Pinocchio's numbers of the joints of the leg that was the support, from its knee up to its hip."""
         model, found = self.floating.model, []
         j = int(model.frames[self.floating.stance].parentJoint)
         top = int(model.frames[self.floating.swing].parentJoint)

@@ -145,9 +145,7 @@ def momentum_derivative(floating: FloatingDynamics, x: Array, a: Array) -> Array
 
 
 def stance_velocity(floating: FloatingDynamics, x: Array, v: Array) -> tuple[Array, Array]:
-    """Z (m, n) of w- = Z q'-, the stance foot being at rest, and d(Z q'-)/dq (m, n), at x (m,) [rad,
-    m].
-    """
+    """Z (m, n) of w- = Z q'-, the stance foot being at rest, and d(Z q'-)/dq (m, n), at x (m,) [rad, m]."""
     J, H = foot_derivatives(floating, x, floating.stance)
     angles, base = floating.angles, floating.base
     Z, dZ_v = np.zeros((len(x), floating.n)), np.zeros((len(x), floating.n))
@@ -158,9 +156,7 @@ def stance_velocity(floating: FloatingDynamics, x: Array, v: Array) -> tuple[Arr
 
 
 def foot_derivatives(floating: FloatingDynamics, x: Array, foot: int) -> tuple[Array, Array]:
-    """dp/dx (2, m) and d2p/dx2 (2, m, m) of a foot's position p = (x, z) [m]; `foot` is its frame's
-    index.
-    """
+    """dp/dx (2, m) and d2p/dx2 (2, m, m) of a foot's position p = (x, z) [m]; `foot` is its frame's index."""
     columns = pin.computeFrameJacobian(
         floating.model, floating.data, x, foot, pin.LOCAL_WORLD_ALIGNED
     )

@@ -102,9 +102,7 @@ class ModelErrors:
         return made
 
     def _rubbed(self, biped: Biped) -> Biped:
-        """The biped with its viscous and static friction multiplied; twin joints must have the same
-        error.
-        """
+        """The biped with its viscous and static friction multiplied; twin joints must have the same error."""
         d = biped.description
         if not biped.friction:
             raise ModelError(
@@ -148,9 +146,7 @@ def _random(seed: int) -> np.random.Generator:
 
 
 def _rubbing(biped: Biped) -> Iterator[tuple[str, ...]]:
-    """Joints with friction, a joint and its twin of the other leg together; none where friction is
-    off.
-    """
+    """Joints with friction, a joint and its twin of the other leg together; none where friction is off."""
     d, met = biped.description, set[str]()
     twin = twins(biped.tree, d.feet)
     above = {joint.child: joint.name for joint in biped.tree.joints}

@@ -85,9 +85,7 @@ def check_numbers(biped: Biped) -> None:
 
 
 def _check_definite(D: Array, where: str) -> None:
-    """Raise ModelError unless D (n, n) is positive definite with a condition number that doubles can
-    hold.
-    """
+    """Raise ModelError unless D (n, n) is positive definite with a condition number that doubles can hold."""
     finite = bool(np.all(np.isfinite(D)))
     least, most = np.linalg.eigvalsh(D)[[0, -1]] if finite else (np.nan, np.nan)
     if not most * np.finfo(float).eps <= ACCURACY * least:

@@ -32,8 +32,7 @@ XZ = [0, 2]
 
 
 def build(tree: Tree, d: RobotDescription, armature: float) -> pin.Model:
-    """The Pinocchio model of `tree` with rotor inertia `armature` [kg m^2] at every motor, and its
-    gravity.
+    """The Pinocchio model of `tree` with rotor inertia `armature` [kg m^2] at every motor, and its gravity.
 
     Raises ModelError for a joint that has more numbers than velocities.
     """
@@ -79,16 +78,14 @@ def finite_angles(q: Array, shape: tuple[int]) -> Array:
 
 
 class PinnedDynamics:
-    """D_s, Omega, forward dynamics and kinematics at (q_s, q_s') (n,) [rad, rad/s], stance foot at
-    rest.
+    """D_s, Omega, forward dynamics and kinematics at (q_s, q_s') (n,) [rad, rad/s], stance foot at rest.
 
     Positions are (x, z) from the stance foot. `model` and `data` are Pinocchio's, `T` (n, n) maps
     q_s to the tree's coordinates, `swing` and `hip` are frame numbers.
     """
 
     def __init__(self, tree: Tree, d: RobotDescription, stance_chain: Array, armature: float):
-        """Build the model; `stance_chain` (n,) gives the pin's angle as a sum of the robot's
-        coordinates.
+        """Build the model; `stance_chain` (n,) gives the pin's angle as a sum of the robot's coordinates.
 
         Raises ModelError when the tree and the record have different numbers of coordinates.
         """
@@ -134,8 +131,7 @@ class PinnedDynamics:
         return self.T.T @ C @ self.T
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
-        """q'' (n,) [rad/s^2] under generalised forces `force` (n,) [N m], by the articulated body
-        algorithm.
+        """q'' (n,) [rad/s^2] under generalised forces `force` (n,) [N m], by the articulated body algorithm.
 
         T is square with determinant +-1: tau_tree = T^-T force and q'' = T^-1 a_tree.
         """
@@ -195,8 +191,7 @@ class PinnedDynamics:
         return mass, about_y, np.array(rows)
 
     def points(self, q: Array) -> Array:
-        """Places (x, z) (n + 2, 2) [m] from the stance foot: the COM of every body, the swing foot,
-        the hip.
+        """Places (x, z) (n + 2, 2) [m] from the stance foot: the COM of every body, the swing foot, the hip.
 
         The planar closed form is fitted to these.
         """
@@ -272,9 +267,7 @@ def _chain(tree: Tree, foot: str, torso: str) -> tuple[Joint, ...]:
 
 
 def _beside(tree: Tree, link: str, chain: tuple[Joint, ...]) -> Iterator[Joint]:
-    """All joints below `link` that are not reached by the chain: the other branches, which keep their
-    sense.
-    """
+    """All joints below `link` that are not reached by the chain: the other branches, which keep their sense."""
     for joint in tree.joints_below(link):
         if joint not in chain:
             yield joint

@@ -80,9 +80,7 @@ class PlantArrays(NamedTuple):
 
 
 class Joined(Protocol):
-    """Anything with the matrix A of the absolute angles: a `PlanarTree`, a `LinkPoint`, the engine's
-    robot.
-    """
+    """Anything with the matrix A of the absolute angles: a `PlanarTree`, a `LinkPoint`, the engine's robot."""
 
     @property
     def A(self) -> NDArray[np.int_] | Array:
@@ -116,8 +114,7 @@ class PlanarTree:
         return cls(A.astype(int), K).check(biped)
 
     def check(self, biped: Biped, samples: int = 20) -> PlanarTree:
-        """The tree itself, once D_s, Omega and the swing foot agree with Pinocchio's at random states
-        to EXACT.
+        """The tree itself, once D_s, Omega and the swing foot agree with Pinocchio's at random states to EXACT.
 
         Raises ModelError otherwise.
         """
@@ -162,8 +159,7 @@ def _parts(z: ComplexArray) -> tuple[Array, Array]:
 def fitted(
     A: Array, places: Callable[[Array], Array], exact: float
 ) -> tuple[ComplexArray, float, float]:
-    """Vectors d (points, n) [m] of points fixed to links, from their places (points, 2) [m] at angles
-    q.
+    """Vectors d (points, n) [m] of points fixed to links, from their places (points, 2) [m] at angles q.
 
     A is the matrix of the absolute angles (n, n); `places` maps q (n,) [rad] to the places. Also
     returns the largest gap of the fit and the farthest place [m]; parts below `exact` of that, or
@@ -198,9 +194,7 @@ def turned(robot: Joined, q: Numbers) -> Turned[Numbers]:
 def inertia_and_bias(
     robot: Joined, K: PlantArrays, q: Numbers, v: Numbers
 ) -> tuple[Numbers, Numbers]:
-    """D_s (n, n) [kg m^2] and Omega (n,) [N m] at q (n,) [rad], v (n,) [rad/s], by the module's
-    formulas.
-    """
+    """D_s (n, n) [kg m^2] and Omega (n,) [N m] at q (n,) [rad], v (n,) [rad/s], by the module's formulas."""
     t, A = turned(robot, q), robot.A
     C, S = _differences(t)
     D = K.W_re * C - K.W_im * S
@@ -257,9 +251,7 @@ POINT_EXACT = 1e-10
 
 
 class LinkPoint(NamedTuple):
-    """A point fixed to a link, in n coordinates; all arrays float64, so that compiled code can take
-    it.
-    """
+    """A point fixed to a link, in n coordinates; all arrays float64, so that compiled code can take it."""
 
     A: Array
     """Matrix of the absolute angles a = A q (n, n)."""
@@ -272,8 +264,7 @@ class LinkPoint(NamedTuple):
 
 
 def wrench_torque(k: LinkPoint, q: Array, f: Array) -> Array:
-    """Generalised force zeta (n,) [N m] of f = (F_x, F_z, M) (3,) [N, N, N m] at the point, at q (n,)
-    [rad].
+    """Generalised force zeta (n,) [N m] of f = (F_x, F_z, M) (3,) [N, N, N m] at the point, at q (n,) [rad].
 
     M is counter-clockwise with x to the right and z up.
     """

@@ -93,8 +93,7 @@ def reduce(D: Array, Omega: Array, p: int) -> Reduction:
 
 
 def unknown_force(terms: Reduction, a: Array, u: Array) -> Array:
-    """xi~ of (11): the generalised force D_s a + Omega - B_s u that the nominal model does not know
-    (n,) [N m].
+    """xi~ of (11): the generalised force D_s a + Omega - B_s u that the nominal model does not know (n,) [N m].
 
     With a = q'' (n,) [rad/s^2] of the plant and u (p,) [N m] it is zeta plus all that is wrong with
     the model, friction included.

@@ -39,9 +39,7 @@ SHARE = 0.1
 RABBIT's 150 N m at its peak: the rest holds three standard deviations of 15 N m.
 """
 KAPPA_RATIOS = (0.8, 1.0, 1.25)
-"""Ratios of the robot's kappa to the model's for which a recommended loop is stable: inertias known to
-20 %.
-"""
+"""Ratios of the robot's kappa to the model's for which a recommended loop is stable: inertias known to 20 %."""
 ORDERS = (0, 1, 2, 3, 5, 7)
 """Orders m of the disturbance model that are compared; an observer has m + 2 poles."""
 LEAST, MOST = 10.0, 2e4
@@ -66,9 +64,7 @@ class Hardware(NamedTuple):
     torque_limit: float
     """Of every motor [N m]."""
     inertia: float
-    """Largest sqrt(sum_j (kappa^-1)_ij^2) over joints i and the step [kg m^2]: torque per
-    acceleration.
-    """
+    """Largest sqrt(sum_j (kappa^-1)_ij^2) over joints i and the step [kg m^2]: torque per acceleration."""
 
 
 class Recommended(NamedTuple):
@@ -89,9 +85,7 @@ class Recommended(NamedTuple):
 
 
 def count_error(counts: float) -> float:
-    """Standard deviation of the angle [rad] from an encoder with `counts` per revolution: uniform
-    error.
-    """
+    """Standard deviation of the angle [rad] from an encoder with `counts` per revolution: uniform error."""
     return 2.0 * math.pi / counts / math.sqrt(12.0)
 
 

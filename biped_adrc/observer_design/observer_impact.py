@@ -32,9 +32,7 @@ from biped_adrc.types import Array
 DEGREE = 20
 """Degree of the polynomial in time that approximates xi along the orbit."""
 DERIVATIVES = 3
-"""How many derivatives of xi are taken from it; higher ones count as known, since the fit is too
-rough.
-"""
+"""How many derivatives of xi are taken from it; higher ones count as known, since the fit is too rough."""
 INSTANTS, LONG = 400, 8.0
 """Of the response, and its length in time constants of the slowest pole."""
 

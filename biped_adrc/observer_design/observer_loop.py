@@ -176,8 +176,7 @@ class ObserverLoop:
         return np.exp(np.fromiter(found, dtype=float))
 
     def delay_margin(self, known: bool = False) -> DelayMargin:
-        """The smallest delay [s] that destabilises the loop, and the frequency of the root on the
-        axis.
+        """The smallest delay [s] that destabilises the loop, and the frequency of the root on the axis.
 
         known: the observer is fed with a(t - d).
         """
@@ -205,9 +204,7 @@ def observer_loop(
 
 
 def checked_gpi(observer: Observer, what: str) -> GPIObserver:
-    """The observer itself. Raises InputError that names `what` was asked of it, if it is no
-    GPIObserver.
-    """
+    """The observer itself. Raises InputError that names `what` was asked of it, if it is no GPIObserver."""
     if not isinstance(observer, GPIObserver):
         raise InputError(
             f"the {what} of a {type(observer).__name__} was asked for, expected a GPIObserver in "
@@ -217,8 +214,7 @@ def checked_gpi(observer: Observer, what: str) -> GPIObserver:
 
 
 def conditioning(observer: GPIObserver) -> Conditioning:
-    """Condition number of the matrix of (19) in its own and in scaled states, by the inverse in closed
-    form.
+    """Condition number of the matrix of (19) in its own and in scaled states, by the inverse in closed form.
 
     With ones above the diagonal and -l in the first column, A e = f has the solution e_1 = -f_k /
     l_k, e_(i+1) = f_i + l_i e_1. The smallest singular value of a matrix with entries up to 1e29 is
@@ -238,8 +234,7 @@ def conditioning(observer: GPIObserver) -> Conditioning:
 
 
 def bandwidth(response: Callable[[Array], ComplexArray], low: float, high: float) -> float:
-    """The first frequency between low and high [rad/s] at which |response| is 3 dB below its value at
-    low.
+    """The first frequency between low and high [rad/s] at which |response| is 3 dB below its value at low.
 
     `high` where it does not fall so far. `response` maps frequencies (K,) [rad/s] to values (K,).
     """
@@ -268,9 +263,7 @@ def joint_gains(gains: Gains, joint: int) -> tuple[float, float]:
 
 
 def _of_joint(values: Array, joint: int) -> float:
-    """The joint's number, or the one number for all joints. Raises InputError for a joint that has
-    none.
-    """
+    """The joint's number, or the one number for all joints. Raises InputError for a joint that has none."""
     if len(values) == 1:
         return float(values[0])
     if not 0 <= joint < len(values):

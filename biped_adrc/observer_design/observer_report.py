@@ -78,9 +78,7 @@ class ObserverReport(OnHardware):
 
     @cached_property
     def largest_periods(self) -> dict[str, tuple[float, float]]:
-        """The largest stable period [s], for a delay unknown and known, by form of the observer and
-        delay.
-        """
+        """The largest stable period [s], for a delay unknown and known, by form of the observer and delay."""
         return {
             "no delay": self._periods(),
             "a delay of one period": self._periods(delay_periods=1.0),
@@ -100,9 +98,7 @@ class ObserverReport(OnHardware):
 
     @property
     def frequencies(self) -> Array:
-        """Grid (2000,) [rad/s] for the responses, from far below the slowest pole to far above the
-        fastest.
-        """
+        """Grid (2000,) [rad/s] for the responses, from far below the slowest pole to far above the fastest."""
         rates = np.abs(self.observer.poles)
         slow = min(rates.min(), math.sqrt(self.loop.K_p))
         return np.geomspace(0.01 * slow, 100.0 * max(rates.max(), self.loop.K_d), 2000)

@@ -69,7 +69,7 @@ class SampledLoop:
     known: bool = False
     """Whether the observer is fed with what acts rather than with the command."""
     form: str = "current"
-    """"current" or "held"."""
+    """Either "current" or "held"."""
     kappa_ratio: float = 1.0
     """g, the robot's kappa over the model's, dimensionless."""
 
@@ -186,8 +186,7 @@ class SampledLoop:
         return self.spectral_radius < 1.0
 
     def rms(self, sigma: float) -> float:
-        """Standard deviation of a [rad/s^2] under independent errors sigma [rad] of the measured
-        angles.
+        """Standard deviation of a [rad/s^2] under independent errors sigma [rad] of the measured angles.
 
         Exact, by the discrete Lyapunov equation; infinite for an unstable loop.
         """
@@ -232,8 +231,7 @@ def sampled_loop(
 
 
 def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
-    """The largest T [s] below which the loop is stable at every period, with a delay of that many
-    periods.
+    """The largest T [s] below which the loop is stable at every period, with a delay of that many periods.
 
     0 when SHORTEST is unstable already, infinite when all up to LONGEST are stable.
     """

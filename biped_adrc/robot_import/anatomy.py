@@ -101,8 +101,7 @@ def _leaves(body: PlanarBase) -> list[str]:
 
 
 def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Two feet and a sentence why: the two ends below the most joints, or the two that are called
-    feet.
+    """Two feet and a sentence why: the two ends below the most joints, or the two that are called feet.
 
     Raises ModelError where neither rule gives exactly two.
     """
@@ -125,8 +124,7 @@ def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 
 def _checked_feet(body: PlanarBase, feet: tuple[str, ...]) -> tuple[str, str]:
-    """The feet (stance, swing), once they are two links of different legs that move against each
-    other.
+    """The feet (stance, swing), once they are two links of different legs that move against each other.
 
     Raises ModelError that names what is wrong.
     """
@@ -152,9 +150,7 @@ def _checked_feet(body: PlanarBase, feet: tuple[str, ...]) -> tuple[str, str]:
 
 
 def _check_foot(tree: Tree, foot: str) -> None:
-    """A point foot lies away from the joint that moves it. Raises ModelError that says how to add a
-    tip.
-    """
+    """A point foot lies away from the joint that moves it. Raises ModelError that says how to add a tip."""
     last = next(joint for joint in tree.path_to_root(foot) if joint.type == "revolute")
     if math.dist(position(tree, foot), position(tree, last.child)) < _AWAY:
         raise ModelError(
@@ -166,8 +162,7 @@ def _check_foot(tree: Tree, foot: str) -> None:
 
 # -- joints ----------------------------------------------------------------------------------------
 def _in_order(body: PlanarBase, feet: tuple[str, str]) -> tuple[Joint, ...]:
-    """Stance hip, swing hip, stance knee, swing knee, ...; then the joints that belong to no leg
-    alone.
+    """Stance hip, swing hip, stance knee, swing knee, ...; then the joints that belong to no leg alone.
 
     From the trunk outwards, a joint of the stance leg before its twin of the swing leg: the paper's
     order.
@@ -198,9 +193,7 @@ def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
 
 
 def _check_hip(body: PlanarBase, hip: str, foot: str) -> None:
-    """Raise ModelError unless the hip hangs on the trunk and its origin survives re-rooting at the
-    foot.
-    """
+    """Raise ModelError unless the hip hangs on the trunk and its origin survives re-rooting at the foot."""
     if hip not in body.tree.links:
         raise ModelError(
             f"URDF '{body.tree.source}': there is no link '{hip}' to be the hip; it has "
@@ -225,8 +218,7 @@ def _keeps_its_origin(tree: Tree, link: str, foot: str) -> bool:
 
 
 def _phase(tree: Tree, foot: str, hip: str, joints: tuple[Joint, ...]) -> Array:
-    """Row c (n,) of Theta: the leg from the foot to the hip, cut into lengths [m] where its links
-    meet.
+    """Row c (n,) of Theta: the leg from the foot to the hip, cut into lengths [m] where its links meet.
 
     Raises ModelError where hip and foot coincide.
     """

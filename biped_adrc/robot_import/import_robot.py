@@ -51,8 +51,7 @@ _STANCE, _SWING, _TRUNK = (0.0, 0.45, 0.7, 1.0), (0.84, 0.37, 0.0, 1.0), (0.35, 
 
 
 def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
-    """The tree itself where a link has a shape, else the tree with sticks, and a sentence that says
-    so.
+    """The tree itself where a link has a shape, else the tree with sticks, and a sentence that says so.
 
     Links of the stance leg, the swing leg and the trunk get different colours.
     """
@@ -81,9 +80,7 @@ def _shapes(tree: Tree, link: Link, colour: tuple[float, ...]) -> tuple[Visual, 
 
 
 def _stick(end: Vector, rgba: tuple[float, float, float, float]) -> tuple[Visual, ...]:
-    """A stick from the origin to `end` [m]: upright cylinder, horizontal box, or a row of balls
-    between.
-    """
+    """A stick from the origin to `end` [m]: upright cylinder, horizontal box, or a row of balls between."""
     x, _, z = end
     length = math.hypot(x, z)
     radius = _RADIUS * length
@@ -235,8 +232,7 @@ class Derived:
         return tuple(check for check in self.checks if not check.holds)
 
     def write(self, folder: Path | str) -> Path:
-        """Write floating.urdf and robot.toml for `Biped.load` into a folder; returns the path of
-        robot.toml.
+        """Write floating.urdf and robot.toml for `Biped.load` into a folder; returns the path of robot.toml.
 
         Raises OutputError where one of them exists already or cannot be written.
         """
@@ -259,8 +255,7 @@ def biped_from_urdf(
     armature: float = 0.0,
     tip: tuple[float, float, float] | None = None,
 ) -> Biped:
-    """The Biped of a URDF, once every check holds; see `Hints` for the options and `derive` for the
-    rest.
+    """The Biped of a URDF, once every check holds; see `Hints` for the options and `derive` for the rest.
 
     torque [N m], armature [kg m^2], tip [m]. Raises ModelError, with the laws that do not hold.
     """

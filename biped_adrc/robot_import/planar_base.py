@@ -188,8 +188,7 @@ def _free(tree: Tree, name: str) -> str:
 
 # -- below the trunk -------------------------------------------------------------------------------
 def _check_below(found: PlanarBase) -> None:
-    """Joints below the trunk turn, each of them moves some mass, and no name of the stance contact is
-    taken.
+    """Joints below the trunk turn, each of them moves some mass, and no name of the stance contact is taken.
 
     Raises ModelError that names the joint.
     """

@@ -121,9 +121,7 @@ class Tree:
         return tuple(path)
 
     def path_below(self, link: str, top: str) -> tuple[Joint, ...] | None:
-        """Joints from `link` up to link `top`, the nearest first; None where `link` does not hang on
-        `top`.
-        """
+        """Joints from `link` up to link `top`, the nearest first; None where `link` does not hang on `top`."""
         path = self.path_to_root(link)
         ends = [k for k, joint in enumerate(path) if joint.child == top]
         return path[: ends[0]] if ends else None

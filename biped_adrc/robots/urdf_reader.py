@@ -89,8 +89,7 @@ def load_tree(path: Path | str) -> Tree:
 
 
 def straightened(root: ET.Element, source: str) -> tuple[Tree, tuple[str, ...], tuple[str, ...]]:
-    """The tree of <robot> with parallel frames, and the links without drawing and with completed
-    moments.
+    """The tree of <robot> with parallel frames, and the links without drawing and with completed moments.
 
     The two tuples are `undrawn` and `flat` of what `read` returns. `source` is the file that
     messages name. Raises ModelError.
@@ -201,8 +200,7 @@ def _by_joint(
 
 # -- its elements ----------------------------------------------------------------------------------
 def numbers(element: ET.Element | None, key: str, default: str, count: int, where: str) -> Vector:
-    """`count` finite numbers of an attribute, `default` where it is missing; for xyz, rpy, rgba and
-    size.
+    """`count` finite numbers of an attribute, `default` where it is missing; for xyz, rpy, rgba and size.
 
     Raises ModelError that quotes the attribute after `where`. Only decimal notation counts: Python
     would also read "nan", "inf" and "1_0".
@@ -234,9 +232,7 @@ def _name(element: ET.Element, key: str, where: str) -> str:
 
 
 def _printable(name: str, tag: str, where: str) -> str:
-    """The name itself. Raises ModelError for line breaks and tabs, which would spoil tables and
-    messages.
-    """
+    """The name itself. Raises ModelError for line breaks and tabs, which would spoil tables and messages."""
     if not name.isprintable():
         raise ModelError(
             f"{where}: <{tag}> names {name!r}, expected a name on one line, without tabs"
@@ -272,8 +268,7 @@ def _turns(robot: ET.Element, source: str) -> dict[str, Array]:
 
 
 def _origin(element: ET.Element, where: str, R: Array | None) -> tuple[Vector, Array | None]:
-    """Place [m] and rotation (3, 3) of an <origin> in axes turned by R; None for R demands parallel
-    frames.
+    """Place [m] and rotation (3, 3) of an <origin> in axes turned by R; None for R demands parallel frames.
 
     rpy turns about the fixed axes x, y, z in this order. Round-off of pi in rpy is set to zero, so
     that turns by right angles stay exact.
@@ -352,8 +347,7 @@ def _moments(inertia: ET.Element, where: str, R: Array | None) -> tuple[Array, b
 
 
 def _visual(element: ET.Element, where: str, R: Array | None) -> Visual | None:
-    """A shape in axes turned by R; None where frames may be turned and it is no upright primitive
-    then.
+    """A shape in axes turned by R; None where frames may be turned and it is no upright primitive then.
 
     Raises ModelError for sizes or colours that are impossible.
     """
