@@ -60,7 +60,9 @@ class Tolerances:
             check_positive(value, f"tolerance '{name}' is {value}")
 
     def distance(self, one: ComplexArray, other: ComplexArray) -> Array:
-        """|one_i - other_j| in units of what is allowed (len(one), len(other)); at most 1 where they agree."""
+        """|one_i - other_j| (k, l) in units of what is allowed, for k and l multipliers; at most 1
+        where they agree.
+        """
         a, b = one[:, np.newaxis], other[np.newaxis]
         allowed = np.maximum(self.absolute, self.relative * np.maximum(np.abs(a), np.abs(b)))
         return np.abs(a - b) / allowed

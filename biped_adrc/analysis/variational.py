@@ -228,7 +228,9 @@ class VariationalSystem(HybridSystem):
         return np.concatenate((x, np.eye(size).ravel()))
 
     def flow(self, t: float, y: Array, mode: Mode) -> Array:
-        """Time derivative of y: the walker's flow, and A Phi."""
+        """Time derivative (2 n + 4 n^2,) of y = (x, Phi): the walker's flow [rad/s, rad/s^2], and A
+        Phi.
+        """
         x, Phi = split_matrix(y)
         i = self.walker.instant(t, x, mode)
         A = flow_derivative(self.walker, i)

@@ -58,6 +58,7 @@ class SampledLoop:
     """
 
     observer: GPIObserver
+    """The GPI observer in continuous time; its current form has the poles exp(s T)."""
     period: float
     """T [s]."""
     K_p: float = 5000.0

@@ -10,8 +10,16 @@ link at its tip. Frames may be turned, angles may run either way; q keeps the fi
 senses. The section of the return map is the impact, where the height of the swing foot is zero; it
 follows from the feet.
 
-The way: `urdf_reader.read` -> `planar_base.on_planar_base` -> `anatomy` -> `drawable` -> motors and
-limits -> `symmetry.check_alike` -> `record_of` -> Biped -> `import_checks.checks`.
+The way of `derive`, each stage raising ModelError with what to change in the file:
+
+    urdf_reader.read      links and joints, frames turned parallel at zero angles
+    on_planar_base        joints in the plane x-z, base (x, z, pitch) found or added
+    anatomy               feet, hip, order of the joints, phase variable
+    drawable              shapes to draw, sticks where there are none
+    _motors, _torque      joints with a motor, and their torque limit
+    check_alike           equal legs
+    record_of             the robot.toml, from which the Biped is made
+    checks                laws of mechanics, with numbers
 
 The record uses the words of a robot.toml, and is written as TOML by `to_toml`: `tomllib` reads and
 does not write. Strings, numbers, lists and tables are all a record holds, and JSON's strings are

@@ -1,9 +1,25 @@
 """The record of a robot, `robot.toml`: read, checked, and the registry of the robots in the package.
 
-A robot is a folder of `urdf/` with a `robot.toml` beside its URDF. The record names the actuated
-joints in the order q1, q2, ..., the unactuated pitch, the planar base, the feet, the phase
-variable, and parameter presets with their sources. A URDF cannot say any of these. `Biped.load`
-starts here.
+A robot is a folder of `urdf/` with a `robot.toml` beside its URDF. The record says what a URDF
+cannot, here for RABBIT, abbreviated:
+
+    actuated = ["left_hip", "right_hip", "left_knee", "right_knee"]     # q1, ..., q4
+    unactuated = "torso_pitch"                                          # q5, absolute
+    base = ["base_x", "base_z"]
+    stance_foot = "left_foot"
+    swing_foot = "right_foot"
+    hip = "torso"
+    phase = [1.0, 0.0, 0.5, 0.0, 1.0]                                   # Theta = q5 + q1 + q3/2
+    peak_torque = 150.0                                                 # [N m]
+    friction_coefficient = 0.6
+
+    [links]                                                             # by body
+    thigh = ["left_thigh", "right_thigh"]
+    [presets.identified]
+    armature = 0.83                                                     # [kg m^2]
+    thigh = { mass = 6.8, com = 0.11, inertia = 0.47 }                  # [kg], [m], [kg m^2]
+
+`load_description` makes a `RobotDescription` of it, with which `Biped.load` starts.
 
 `Limits` are what ground and motors can give, within which a walk is legal. A walk makes a single
 support legally when the force of the ground, averaged over any window within it, lies in the
@@ -46,7 +62,9 @@ class FrictionRecord(TypedDict, total=False):
     """The table [friction] of a robot.toml: by joint, as `RobotDescription.viscous` and `static`."""
 
     viscous: Mapping[str, float]
+    """[N m s/rad]."""
     static: Mapping[str, float]
+    """[N m]."""
 
 
 class RobotRecord(TypedDict):
@@ -56,21 +74,28 @@ class RobotRecord(TypedDict):
 
     name: str
     urdf: str
+    """Name of the URDF, relative to the folder of the robot.toml."""
     actuated: Sequence[str]
     passive: NotRequired[Sequence[str]]
+    """Joints without a motor; none if it is missing."""
     unactuated: str
     base: Sequence[str]
     stance_foot: str
     swing_foot: str
     hip: str
     trunk: NotRequired[str]
+    """Link that the base carries; the hip's if it is missing."""
     phase: Sequence[float]
     offset: NotRequired[Sequence[float]]
+    """r (n,) of the relabelling [rad]; zero if it is missing."""
     peak_torque: float
     friction_coefficient: float
     gravity: NotRequired[float]
+    """[m/s^2]; 9.81 if it is missing."""
     ranges: NotRequired[Mapping[str, Sequence[float]]]
+    """Lower and upper end by joint [rad]; joints that are missing turn freely."""
     friction: NotRequired[FrictionRecord]
+    """Joint friction; none if it is missing."""
     links: Mapping[str, Sequence[str]]
     default_preset: str
     presets: Mapping[str, Mapping[str, Any]]

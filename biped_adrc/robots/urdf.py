@@ -65,11 +65,13 @@ class Visual:
 
 @dataclass(frozen=True)
 class Link:
-    """A rigid body; `inertial` is None for frames without mass."""
+    """A rigid body, or a frame without mass."""
 
     name: str
     inertial: Inertial | None
+    """None for a frame without mass."""
     visuals: tuple[Visual, ...]
+    """Shapes to draw; they have no part in contact."""
 
 
 @dataclass(frozen=True)
