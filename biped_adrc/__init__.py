@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 __version__ = "0.1.0"
 
@@ -22,7 +21,7 @@ _HOMES = {
 __all__ = tuple(_HOMES)
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name not in _HOMES:
         raise AttributeError(f"module 'biped_adrc' has no attribute '{name}'")
     return getattr(import_module(f"biped_adrc.{_HOMES[name]}"), name)

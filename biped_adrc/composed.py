@@ -12,7 +12,7 @@ from functools import cached_property, partial
 from typing import Any, ClassVar
 
 
-def written_over(part: Any, given: str, methods: frozenset[str]) -> str:
+def written_over(part: object, given: str, methods: frozenset[str]) -> str:
     """The first of `methods` that a class below that with `given` writes anew; empty for none."""
     for cls in type(part).__mro__:
         if given in vars(cls):
@@ -53,6 +53,6 @@ class Composed(ABC):
         written = written_over(self, "laws", self._methods)
         return f"{name} writes {written} over the laws that it inherits" if written else ""
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
         """Without what is made again where it is needed."""
         return {name: value for name, value in vars(self).items() if name != "_laws"}

@@ -104,7 +104,7 @@ def read_json(path: Path, what: str, error: type[BipedError] = InputError) -> An
         return json.loads(path.read_text(encoding="utf-8"))
 
 
-def plain(value: Any) -> Any:
+def plain(value: object) -> Any:
     """As JSON has it: records by their fields, arrays as lists, a number that is not finite as text."""
     if is_dataclass(value):
         value = {field.name: getattr(value, field.name) for field in fields(value)}

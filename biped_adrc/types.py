@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -10,6 +13,8 @@ Array = NDArray[np.float64]
 
 ComplexArray = NDArray[np.complex128]
 """Complex array, for eigenvalues and transfer functions."""
+
+PlainRecord = Mapping[str, Any]
 
 
 def read_only(values: ArrayLike) -> Array:

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 from rich.table import Table
 
-from biped_adrc.cli.app import app, command, console
+from biped_adrc.cli.app import app, command, console, say
 from biped_adrc.cli.sweep import (
     InThreads,
     Number,
     OtherVersions,
     Scheduler,
     carried_out,
-    say,
     study_workers,
 )
+from biped_adrc.types import PlainRecord
 
 
 @app.command()
@@ -65,7 +65,7 @@ def _names(text: str | None, every: tuple[str, ...]) -> tuple[str, ...]:
     return every if text is None else tuple(name.strip() for name in text.split(","))
 
 
-def _print(summary: dict[str, Any]) -> None:
+def _print(summary: PlainRecord) -> None:
     """The share of walks that are legal, and of those that make all steps, in brackets."""
     from biped_adrc.viz.comparison_text import nominal_text
 
@@ -81,5 +81,5 @@ def _print(summary: dict[str, Any]) -> None:
         say(line)
 
 
-def _shares(cell: dict[str, Any]) -> str:
+def _shares(cell: PlainRecord) -> str:
     return f"{100 * cell['legal'][0]:.0f} ({100 * cell['survived'][0]:.0f})"

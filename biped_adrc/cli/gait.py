@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from biped_adrc.cli.app import FIGURES, GAITS, console, gait_app, inputs, say, say_written
 from biped_adrc.cli.options import texts
 from biped_adrc.files import keep_inputs, output_path
+
+if TYPE_CHECKING:
+    from biped_adrc.gait.gait import Gait
 
 
 @gait_app.command("published")
@@ -56,7 +59,7 @@ def gait_show(gait: str = "published", robot: str = "rabbit", preset: str | None
     )
 
 
-def _save(gait: Any, out: Path | None, read: Iterable[Path] = ()) -> None:
+def _save(gait: Gait, out: Path | None, read: Iterable[Path] = ()) -> None:
     path = out or Path(gait.file_name)
     keep_inputs((path,), read)
     gait.save(path)

@@ -14,6 +14,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import parse_push
 from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, UNITS
+from biped_adrc.types import PlainRecord
 
 Pushes = Annotated[
     list[str] | None,
@@ -32,8 +33,7 @@ Command = Callable[..., None]
 
 def texts(name: str) -> Callable[[Command], Command]:
     """Options and arguments with the texts that options.toml has under this name, such as "gait.design"."""
-    table: dict[str, Any] = reduce(dict.__getitem__, name.split("."), TEXTS)
-    said = TEXTS["every"] | table
+    said = {**TEXTS["every"], **reduce(dict.__getitem__, name.split("."), TEXTS)}
 
     def decorate(command: Command) -> Command:
         plain = signature(command, eval_str=True)
@@ -50,7 +50,7 @@ def texts(name: str) -> Callable[[Command], Command]:
     return decorate
 
 
-def _shown(text: Any) -> Any:
+def _shown(text: str | PlainRecord) -> object:
     """An option, or an argument, as options.toml has it."""
     entry = {"help": text} if isinstance(text, str) else text
     if "argument" in entry:
@@ -70,7 +70,7 @@ def of_scenario(
 
     def decorate(command: Command) -> Command:
         @wraps(command)
-        def with_given(context: typer.Context, **values: Any) -> None:
+        def with_given(context: typer.Context, **values: object) -> None:
             given = {name: values.pop(name) for name in shown}
             command({name: x for name, x in given.items() if _told(context, name)}, **values)
 
@@ -112,9 +112,7 @@ def _told(context: typer.Context, name: str) -> bool:
     return source is not None and source.name == "COMMANDLINE"
 
 
-def values_of(
-    given: dict[str, Any], push: list[str] | None, sets: list[str] | None
-) -> dict[str, Any]:
+def values_of(given: PlainRecord, push: list[str] | None, sets: list[str] | None) -> PlainRecord:
     """The values of a scenario that options, pushes and --set name. Raises InputError."""
     from biped_adrc.bench.parameters import TABLES, Refused, nested, read
 
@@ -137,7 +135,7 @@ def values_of(
     return nested(values)
 
 
-def _plain(name: str, text: str) -> Any:
+def _plain(name: str, text: str) -> object:
     """A number, a truth value or a list where the text is one; lists of numbers without brackets too."""
     if not name.startswith("own.") and DEFAULTS.get(name) not in (True, False):
         return text

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console
+from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console, say
 from biped_adrc.errors import InputError
 
 if TYPE_CHECKING:
@@ -101,11 +101,6 @@ def _finished(study: Study, out: Path) -> Sweep:
             f"'{study.name}' ({study.hash[:8]}); expected the same, choose another folder"
         )
     return done
-
-
-def say(text: str) -> None:
-    """As it is."""
-    console.print(text, markup=False, highlight=False, soft_wrap=True)
 
 
 def _print_statuses(done: Sweep) -> None:

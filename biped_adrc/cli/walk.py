@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import typer
 from rich.markup import escape
@@ -12,6 +12,7 @@ from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
 from biped_adrc.cli.options import Pushes, of_scenario, texts, values_of
+from biped_adrc.types import PlainRecord
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
@@ -34,7 +35,7 @@ NUMERICS = ("friction", "slope", "method", "engine", "friction_limit", "force_wi
 @of_scenario(*COMMON, *LAW, *NUMERICS, h="--step")
 @texts("simulate")
 def simulate(
-    given: dict[str, Any],
+    given: PlainRecord,
     push: Pushes = None,
     sets: list[str] | None = None,
     as_printed: bool = False,
@@ -45,15 +46,14 @@ def simulate(
     from biped_adrc.scenario.build import limits
     from biped_adrc.scenario.scenario import Scenario
 
-    values = {"controller": usual(given)} | values_of(given, push, sets)
-    if as_printed:
-        values["solve_theta"] = False
+    printed = {"solve_theta": False} if as_printed else {}
+    values = {"controller": usual(given), **values_of(given, push, sets), **printed}
     s = Scenario(**values)
     read = inputs(s.robot, s.gait)
     _walk(s, limits(s), end_illegal, run_path(out, read))
 
 
-def usual(given: dict[str, Any], motors: str = "ADRC") -> str:
+def usual(given: PlainRecord, motors: str = "ADRC") -> str:
     """The controller where none is given; `motors` for a robot that has some."""
     from biped_adrc.robots.robot_toml import load_description
     from biped_adrc.scenario.registry import is_own
@@ -178,7 +178,7 @@ def _nominal(c: Certificate) -> str:
 @of_scenario("robot", "preset", "gait", "controller", controller="NPD")
 @texts("poincare")
 def poincare(
-    given: dict[str, Any],
+    given: PlainRecord,
     slope: float | None = None,
     sets: list[str] | None = None,
     observer_states: bool = True,
@@ -192,7 +192,7 @@ def poincare(
         nominal_step,
     )
 
-    s = Scenario(**{"controller": usual(given, "NPD")} | values_of(given, None, sets))
+    s = Scenario(**{"controller": usual(given, "NPD"), **values_of(given, None, sets)})
     cycle = cycle_of(s, observer_states, slope)
     with console.status("Newton on the return map"):
         found = cycle_stability(cycle, samples)

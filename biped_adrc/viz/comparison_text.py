@@ -6,10 +6,10 @@ They are made from the summary that `biped-adrc compare` writes: shares of walks
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from biped_adrc.resources import packaged
+from biped_adrc.types import PlainRecord
 
 TEXTS = packaged("biped_adrc.viz", "comparison.toml")
 TITLE: str = TEXTS["title"]
@@ -33,7 +33,7 @@ EQUAL_FAMILY = "equal_bandwidth"
 """Of the sentences about them; the others are about controllers at their own settings."""
 
 
-def said(summary: Mapping[str, Any], equal: bool) -> list[str]:
+def said(summary: PlainRecord, equal: bool) -> list[str]:
     """The sentences about observers at equal bandwidth, or all others."""
     families = summary["findings"].items()
     return [line for name, lines in families if (name == EQUAL_FAMILY) == equal for line in lines]
@@ -52,13 +52,13 @@ def percent(found: Sequence[float] | None) -> str:
     return interval(found, 3, 100.0)
 
 
-def by_condition(cells: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+def by_condition(cells: Sequence[PlainRecord]) -> list[PlainRecord]:
     """The cells, those of one condition together."""
     order = list(dict.fromkeys(c["condition"] for c in cells))
     return sorted(cells, key=lambda c: order.index(c["condition"]))
 
 
-def share_texts(cell: Mapping[str, Any]) -> list[str]:
+def share_texts(cell: PlainRecord) -> list[str]:
     """A row of the first table."""
     ended = ", ".join(f"{n} {status.lower()}" for status, n in cell["falls"].items())
     reasons = [
@@ -78,20 +78,20 @@ def share_texts(cell: Mapping[str, Any]) -> list[str]:
     ]
 
 
-def median_texts(cell: Mapping[str, Any]) -> list[str]:
+def median_texts(cell: PlainRecord) -> list[str]:
     """A row of the second table."""
     count = f"{round(cell['legal'][0] * cell['walks'])} of {cell['walks']}"
     return [cell["condition"], cell["controller"], count, *(interval(cell[n]) for n in MEASURES)]
 
 
-def push_texts(push: Mapping[str, Any]) -> list[str]:
+def push_texts(push: PlainRecord) -> list[str]:
     """A row of the largest pushes."""
     spans = [span(push[kind][of]) for kind in ("legal", "survived") for of in ("median", "seeds")]
     at = "" if push["bandwidth"] is None else f", {push['bandwidth']:.0f} rad/s"
     return [push["direction"], push["phase"], push["controller"] + at, *spans]
 
 
-def by_direction(pushes: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+def by_direction(pushes: Sequence[PlainRecord]) -> list[PlainRecord]:
     """The pushes, those on the same joints in the same phase together."""
     return sorted(pushes, key=lambda p: (p["direction"], p["phase"]))
 
@@ -104,7 +104,7 @@ def span(found: Sequence[float | None]) -> str:
     return f"{low:.3g}" if low == high else f"{low:.3g} to {high:.3g}"
 
 
-def equal_texts(equal: Sequence[Mapping[str, Any]]) -> list[list[str]]:
+def equal_texts(equal: Sequence[PlainRecord]) -> list[list[str]]:
     """The rows of the observers at their own and at equal bandwidth."""
     order = list(dict.fromkeys(x["own"]["condition"] for x in equal))
     ordered = sorted(equal, key=lambda x: order.index(x["own"]["condition"]))
@@ -122,7 +122,7 @@ def equal_texts(equal: Sequence[Mapping[str, Any]]) -> list[list[str]]:
     ]
 
 
-def nominal_text(nominal: Mapping[str, Any]) -> str:
+def nominal_text(nominal: PlainRecord) -> str:
     """What the undisturbed walk needs, and what of it is illegal already."""
     walk = "The gait itself, walked by NPD from its own start with nothing wrong,"
     if nominal["status"] != "COMPLETED":

@@ -12,7 +12,6 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
 from jinja2 import Environment, PackageLoader
 from markupsafe import Markup
@@ -21,6 +20,7 @@ from matplotlib.figure import Figure
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
 from biped_adrc.resources import packaged
+from biped_adrc.types import PlainRecord
 from biped_adrc.viz import comparison_text as t
 from biped_adrc.viz.style import render
 
@@ -50,7 +50,7 @@ def captions(page: str) -> Captions:
     return {name: (x["title"], " ".join(x["text"].split())) for name, x in found}
 
 
-def rendered(template: str, **values: Any) -> str:
+def rendered(template: str, **values: object) -> str:
     """The text of a page; every value is escaped, numbers are shown to four significant digits."""
     return _environment().get_template(f"{template}.html.j2").render(values)
 
@@ -70,7 +70,7 @@ def own_file(name: str) -> Markup:
     return Markup(files("biped_adrc.viz").joinpath(name).read_text(encoding="utf-8"))
 
 
-def plain(value: Any) -> str:
+def plain(value: object) -> str:
     """A value as text."""
     if isinstance(value, str):
         return value
@@ -101,7 +101,7 @@ def data_uri(title: str, source: str | bytes | Path) -> str:
 
 def write_report(
     path: Path,
-    summary: Mapping[str, Any],
+    summary: PlainRecord,
     figures: Mapping[str, str | Path],
     animation: str | None = None,
 ) -> None:
@@ -114,7 +114,7 @@ def write_report(
 
 
 def report_html(
-    summary: Mapping[str, Any],
+    summary: PlainRecord,
     figures: Mapping[str, str | Path],
     animation: str | None = None,
 ) -> str:
@@ -139,7 +139,7 @@ def _figure(name: str, source: str | Path) -> tuple[str, str, str]:
     return title, caption, data_uri(title, source)
 
 
-def comparison_html(summary: Mapping[str, Any], figures: Mapping[str, str]) -> str:
+def comparison_html(summary: PlainRecord, figures: Mapping[str, str]) -> str:
     """The text of the page of a comparison; figures: name -> SVG text."""
     shown, cells = captions("comparison").items(), t.by_condition(summary["cells"])
     return rendered(
@@ -153,7 +153,7 @@ def comparison_html(summary: Mapping[str, Any], figures: Mapping[str, str]) -> s
     )
 
 
-def player(settings: Mapping[str, Any], title: str, legend: Sequence[tuple[str, str]]) -> str:
+def player(settings: Mapping[str, object], title: str, legend: Sequence[tuple[str, str]]) -> str:
     """The page that plays `settings` (see `meshcat.scene_settings`) in Meshcat's viewer.
 
     legend: colours and texts, which are plain and are escaped here.

@@ -164,7 +164,7 @@ class Recorded(Protocol):
 
 
 @dataclass(frozen=True)
-class Scene:
+class WalkScene:
     """A walk laid out in the world; `footholds`, `heights` (arcs,) are x and z of the stance foot [m]."""
 
     walker: Walker
@@ -175,7 +175,7 @@ class Scene:
     """Of a walk whose controller is not there."""
 
     @classmethod
-    def of(cls, walk: Recorded) -> Scene:
+    def of(cls, walk: Recorded) -> WalkScene:
         """The first stance foot stands at x = z = 0; each impact moves it by p_2 of x-."""
         foot, feet, plant = np.zeros(2), [], walk.walker.plant
         for arc in walk.trajectory.arcs:
@@ -227,7 +227,7 @@ class Scene:
         return joint_values(self.biped, q, arc.mode.step, x, z)
 
 
-class Loads(NamedTuple):
+class DrawnLoads(NamedTuple):
     """Forces at one stored node."""
 
     ground_reaction: Array
@@ -236,7 +236,7 @@ class Loads(NamedTuple):
     """(n,) external torque on the drawn joints of q1..qn [N m]."""
 
 
-def loads(scene: Scene, t: float) -> Loads:
+def loads(scene: WalkScene, t: float) -> DrawnLoads:
     """The loads at the last stored node up to t [s]; of the ends of the run outside it.
 
     Controller states are not interpolated: a fast observer's would not survive it.
@@ -251,7 +251,9 @@ def loads(scene: Scene, t: float) -> Loads:
         row = k + sum(len(before.t) for before in arcs[:at])
         force, zeta = known.ground_reaction[row], known.zeta[row]
     # with q drawn as R q, power zeta' q' is that of R^-T zeta, and R is its own inverse
-    return Loads(force, scene.biped.R.T @ zeta if exchanged(scene.biped, arc.mode.step) else zeta)
+    return DrawnLoads(
+        force, scene.biped.R.T @ zeta if exchanged(scene.biped, arc.mode.step) else zeta
+    )
 
 
 def ending(trajectory: Trajectory) -> str:

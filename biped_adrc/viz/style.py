@@ -11,11 +11,11 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.typing import LineStyleType
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes
@@ -33,7 +33,7 @@ WEIGHT_LENGTH = 0.4
 """[m], length of the arrow of a ground reaction as large as the robot's weight."""
 METRES_PER_NEWTON_METRE = 0.004
 """Radius of the ring of an external torque [m / N m]."""
-DASHES: tuple[Any, ...] = ("-", (0, (6, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1, 1.5)))
+DASHES: tuple[LineStyleType, ...] = ("-", (0, (6, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1, 1.5)))
 
 _PATH = re.compile(rb'\bd="[^"]*"')
 _LONG = re.compile(rb"-?\d+\.\d{3,}")
@@ -71,8 +71,8 @@ def named_cells(
     """Axes of a table drawn in cells, one for each pair of a row, from the top, and a column."""
     axes.set_xlim(-0.5, len(columns) - 0.5)
     axes.set_ylim(len(rows) - 0.5, -0.5)
-    aligned: dict[str, Any] = {"rotation": rotation, "ha": "right"} if rotation else {}
-    axes.set_xticks(range(len(columns)), columns, **aligned)
+    aligned = "right" if rotation else "center"
+    axes.set_xticks(range(len(columns)), columns, rotation=rotation, ha=aligned)
     axes.set_yticks(range(len(rows)), rows)
     axes.grid(False)
 

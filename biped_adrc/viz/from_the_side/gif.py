@@ -18,7 +18,7 @@ from biped_adrc.types import Array
 from biped_adrc.viz.from_the_side import moving_parts as draw
 from biped_adrc.viz.from_the_side.side_by_side import LINES, frames_apart
 from biped_adrc.viz.from_the_side.side_view import SideView
-from biped_adrc.viz.placement import Recorded, Scene, ending
+from biped_adrc.viz.placement import Recorded, WalkScene, ending
 from biped_adrc.viz.style import REACTION, TORQUE, style
 
 GHOST = 0.35
@@ -52,7 +52,7 @@ def write_gif(
             images = frames_apart(walks, times, motion)
         else:
             order = [*(n for n in names if n != solid), solid]
-            scenes = {n: Scene.of(walks[n]) for n in order}
+            scenes = {n: WalkScene.of(walks[n]) for n in order}
             images = _frames(scenes, times, motion)
     badly = any(ending(w.trajectory) and w.trajectory.t_end <= times[-1] for w in walks.values())
     rest = REST if badly else 0.0
@@ -77,7 +77,7 @@ def _times(
     return np.append(times, stop) if badly else times
 
 
-def _frames(scenes: Mapping[str, Scene], times: Array, motion: draw.Motion) -> list[Array]:
+def _frames(scenes: Mapping[str, WalkScene], times: Array, motion: draw.Motion) -> list[Array]:
     views = [SideView(scene) for scene in scenes.values()]
     last = views[-1]
     width, pace = motion.width, motion.pace(", ")
@@ -113,7 +113,7 @@ def _frames(scenes: Mapping[str, Scene], times: Array, motion: draw.Motion) -> l
     return out
 
 
-def _is_over(scene: Scene, t: float) -> bool:
+def _is_over(scene: WalkScene, t: float) -> bool:
     return t >= scene.trajectory.t_end and ending(scene.trajectory) != ""
 
 

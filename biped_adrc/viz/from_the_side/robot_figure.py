@@ -6,7 +6,6 @@ A link of absolute angle a points along (-sin a, cos a); angles are counter-cloc
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -67,21 +66,17 @@ def _links(axes: Axes, biped: Biped, q: Array) -> None:
     placements = link_placements(biped.tree, joint_values(biped, q))
     for name, link in biped.tree.links.items():
         for visual in link.visuals:
-            axes.add_patch(_silhouette(visual, placements[name]))
+            outline = _silhouette(visual, placements[name])
+            outline.set(fc=(*visual.rgba[:3], 0.35), ec=visual.rgba[:3], lw=1.0, zorder=3)
+            axes.add_patch(outline)
 
 
 def _silhouette(visual: Visual, placement: Array) -> Polygon | Circle:
     """Outline of a primitive in the x-z plane; placement (4, 4) of its link."""
     R, p = placement[:3, :3], placement[:3, 3]
     centre = (R @ np.array(visual.origin) + p)[[0, 2]]
-    look: dict[str, Any] = {
-        "fc": (*visual.rgba[:3], 0.35),
-        "ec": visual.rgba[:3],
-        "lw": 1.0,
-        "zorder": 3,
-    }
     if visual.shape == "sphere":
-        return Circle((centre[0], centre[1]), visual.size[0], **look)
+        return Circle((centre[0], centre[1]), visual.size[0])
     if visual.shape == "cylinder":
         width, height = 2.0 * visual.size[0], visual.size[1]
     else:
@@ -89,7 +84,7 @@ def _silhouette(visual: Visual, placement: Array) -> Polygon | Circle:
     corners = 0.5 * np.array(
         [[-width, -height], [width, -height], [width, height], [-width, height]]
     )
-    return Polygon(centre + corners @ R[np.ix_([0, 2], [0, 2])].T, **look)
+    return Polygon(centre + corners @ R[np.ix_([0, 2], [0, 2])].T)
 
 
 def _arc(axes: Axes, centre: Array, radius: float, span: tuple[float, float], colour: str) -> None:

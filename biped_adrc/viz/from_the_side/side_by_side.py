@@ -18,7 +18,7 @@ from matplotlib.patches import Patch
 from biped_adrc.types import Array
 from biped_adrc.viz.from_the_side import moving_parts as draw
 from biped_adrc.viz.from_the_side.side_view import Deviation, SideView
-from biped_adrc.viz.placement import Recorded, Scene, ending, is_wheel
+from biped_adrc.viz.placement import Recorded, WalkScene, ending, is_wheel
 from biped_adrc.viz.plots.over_time import angle_unit
 from biped_adrc.viz.style import PUSH, REACTION, TORQUE
 
@@ -63,7 +63,7 @@ class _Panel:
     def __init__(
         self, name: str, walk: Recorded, factor: float | None, colour: str, start: float
     ) -> None:
-        scene = Scene.of(walk)
+        scene = WalkScene.of(walk)
         self.name, self.colour, self.magnified = name, colour, factor is not None
         self.tracked = Deviation.of(walk, 0.0)
         shown = None if factor is None else Deviation.of(walk, factor)

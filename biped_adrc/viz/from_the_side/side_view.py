@@ -18,7 +18,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.robots.urdf import Visual
 from biped_adrc.types import Array
-from biped_adrc.viz.placement import Recorded, Scene, exchanged, legs, link_placements, spokes
+from biped_adrc.viz.placement import Recorded, WalkScene, exchanged, legs, link_placements, spokes
 from biped_adrc.viz.style import WEIGHT_LENGTH
 
 
@@ -111,7 +111,7 @@ class SideView:
     deviation: changes the posture drawn; the walk's own without one.
     """
 
-    scene: Scene
+    scene: WalkScene
     deviation: Deviation | None = None
 
     @cached_property

@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection
 
 from biped_adrc.errors import InputError
 from biped_adrc.viz.from_the_side.side_view import SideView
-from biped_adrc.viz.placement import Recorded, Scene, ending
+from biped_adrc.viz.placement import Recorded, WalkScene, ending
 from biped_adrc.viz.style import STANCE, SWING, TRUNK, label, new_figure, style, write_figure
 
 LOOKS = {
@@ -35,7 +35,7 @@ def strip(
     Without times: the last two whole steps. Poses grow darker with time. The title says how a walk ended that
     did not do what it was asked for. Raises InputError.
     """
-    scene = Scene.of(walk)
+    scene = WalkScene.of(walk)
     start, stop = _interval(scene, start, stop)
     if poses < 2:
         raise InputError(f"a strip of {poses} poses was asked for, expected at least 2")
@@ -60,7 +60,7 @@ def strip(
     return axes
 
 
-def _interval(scene: Scene, start: float | None, stop: float | None) -> tuple[float, float]:
+def _interval(scene: WalkScene, start: float | None, stop: float | None) -> tuple[float, float]:
     trajectory = scene.trajectory
     arcs = trajectory.arcs[-2:]
     start = float(arcs[0].t[0]) if start is None else start

@@ -15,7 +15,7 @@ import numpy as np
 from biped_adrc.errors import check_positive
 from biped_adrc.hybrid.trajectory import Arc, hermite
 from biped_adrc.types import Array
-from biped_adrc.viz.placement import Scene, joint_values, loads
+from biped_adrc.viz.placement import WalkScene, joint_values, loads
 
 TOLERANCE = 1e-6
 """[rad], of an interpolated joint angle."""
@@ -51,7 +51,7 @@ class Frames:
     points: Array
 
     @classmethod
-    def of(cls, scene: Scene, fps: float) -> Frames:
+    def of(cls, scene: WalkScene, fps: float) -> Frames:
         """Sample a walk. Raises InputError for a number of frames per second that is not positive."""
         check_positive(fps, f"fps is {fps} frames per second")
         t, arcs, poses = [], [], []
@@ -64,7 +64,7 @@ class Frames:
         return cls(np.concatenate(t), np.concatenate(arcs), *columns)
 
 
-def pose(scene: Scene, i: int, t: float) -> Pose:
+def pose(scene: WalkScene, i: int, t: float) -> Pose:
     """The pose in arc i at t [s]."""
     arc, biped, foothold = scene.trajectory.arcs[i], scene.biped, scene.foothold(i)
     n, step = biped.n, arc.mode.step
@@ -85,7 +85,7 @@ def pose(scene: Scene, i: int, t: float) -> Pose:
     )
 
 
-def _nodes(scene: Scene, arc: Arc, fps: float) -> Array:
+def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
     """Times (K,) [s] of one single support."""
     start, end = float(arc.t[0]), float(arc.t[-1])
     first = scene.trajectory.t_start

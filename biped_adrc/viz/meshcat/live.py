@@ -14,7 +14,6 @@ import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Any
 
 from tornado.httpserver import HTTPServer
 from tornado.netutil import bind_sockets
@@ -25,7 +24,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.viz.meshcat.frames import pose
 from biped_adrc.viz.meshcat.view import Look, captions, scene_settings
 from biped_adrc.viz.pages import player
-from biped_adrc.viz.placement import Recorded, Scene
+from biped_adrc.viz.placement import Recorded, WalkScene
 
 ADDRESS = "127.0.0.1"
 GRACE = 2.0
@@ -58,7 +57,7 @@ class Session:
         if not self.stop.done():
             self.stop.set_result(reason)
 
-    def send(self, message: Mapping[str, Any]) -> None:
+    def send(self, message: Mapping[str, object]) -> None:
         """Send to every page that has taken the last message."""
         text = json.dumps(message)
         for client, sent in list(self.clients.items()):
@@ -137,14 +136,14 @@ def play(
             "live mode runs an event loop of its own and one is running already, as in a notebook; there "
             "a walk as the last line of a cell shows itself"
         )
-    scenes = {name: Scene.of(walks[name]) for name in look.order(walks)}
+    scenes = {name: WalkScene.of(walks[name]) for name in look.order(walks)}
     settings = {**scene_settings(scenes, look), "live": True}
     html = player(settings, " and ".join(walks), captions(scenes))
     return asyncio.run(_serve(scenes, html, look.fps, port, open_browser, wait, say))
 
 
 async def _serve(
-    scenes: Mapping[str, Scene],
+    scenes: Mapping[str, WalkScene],
     html: str,
     fps: float,
     port: int,
@@ -205,7 +204,7 @@ async def _launch(url: str) -> asyncio.subprocess.Process:
     )
 
 
-async def _stream(session: Session, scenes: Mapping[str, Scene], fps: float) -> None:
+async def _stream(session: Session, scenes: Mapping[str, WalkScene], fps: float) -> None:
     """A message per frame while a page is open; from the start again after the end."""
     start = min(scene.trajectory.t_start for scene in scenes.values())
     end = max(scene.trajectory.t_end for scene in scenes.values())
@@ -222,7 +221,7 @@ async def _stream(session: Session, scenes: Mapping[str, Scene], fps: float) -> 
         await asyncio.sleep(1.0 / fps)
 
 
-def _poses(scenes: Mapping[str, Scene], t: float) -> list[dict[str, Any]]:
+def _poses(scenes: Mapping[str, WalkScene], t: float) -> list[dict[str, object]]:
     found = []
     for scene in scenes.values():
         at = min(max(t, scene.trajectory.t_start), scene.trajectory.t_end)

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import base64
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.viz.from_the_side.side_view import SideView
-from biped_adrc.viz.meshcat import scene as draw
+from biped_adrc.viz.meshcat import objects as draw
 from biped_adrc.viz.meshcat.frames import Frames
 from biped_adrc.viz.pages import player
-from biped_adrc.viz.placement import Recorded, Scene, ending, exchanged, is_wheel
+from biped_adrc.viz.placement import Recorded, WalkScene, ending, exchanged, is_wheel
 from biped_adrc.viz.style import (
     METRES_PER_NEWTON_METRE,
     REACTION,
@@ -75,12 +74,9 @@ def animation_html(walks: Mapping[str, Recorded], look: Look | None = None) -> s
     Raises InputError.
     """
     look = Look() if look is None else look
-    scenes = {name: Scene.of(walks[name]) for name in look.order(walks)}
+    scenes = {name: WalkScene.of(walks[name]) for name in look.order(walks)}
     frames = {name: Frames.of(scene, look.fps) for name, scene in scenes.items()}
-    settings = scene_settings(scenes, look, {name: len(f.t) for name, f in frames.items()})
-    for walk, f in zip(settings["walks"], frames.values(), strict=True):
-        walk["data"] = _packed(f)
-    return player(settings, " and ".join(walks), captions(scenes))
+    return player(scene_settings(scenes, look, frames), " and ".join(walks), captions(scenes))
 
 
 def _packed(frames: Frames) -> dict[str, str]:
@@ -94,8 +90,8 @@ def _packed(frames: Frames) -> dict[str, str]:
 
 # -- scene -----------------------------------------------------------------------------------------
 def scene_settings(
-    scenes: Mapping[str, Scene], look: Look, points: Mapping[str, int] | None = None
-) -> dict[str, Any]:
+    scenes: Mapping[str, WalkScene], look: Look, frames: Mapping[str, Frames] | None = None
+) -> dict[str, object]:
     """What the player is told: Meshcat's commands and, by walk, the paths of what moves.
 
     scenes: the solid walk first. points: number of nodes of each trace.
@@ -105,12 +101,14 @@ def scene_settings(
     names = node_names(scenes)
     described = []
     for lane, (name, scene) in enumerate(scenes.items()):
-        opacity, room = (1.0 if lane == 0 else GHOST), (points or {}).get(name, TRACE_POINTS)
+        opacity, sampled = (1.0 if lane == 0 else GHOST), (frames or {}).get(name)
+        room = TRACE_POINTS if sampled is None else len(sampled.t)
         robot = viewer[f"robots/{names[name]}"]
         robot.set_transform(draw.shift((0.0, LANE * lane, 0.0)))
         path = f"meshcat/robots/{names[name]}"
         over = {"name": name, "end": scene.trajectory.t_end, "ending": ending(scene.trajectory)}
-        described.append(over | _add_walk(robot, path, scene, opacity, room))
+        data = {} if sampled is None else {"data": _packed(sampled)}
+        described.append(over | _add_walk(robot, path, scene, opacity, room) | data)
     solid = next(iter(scenes.values()))
     draw.add_ground(viewer["ground"], list(scenes.values()), draw.sole(solid.biped), LANE)
     draw.set_stage(viewer)
@@ -132,13 +130,15 @@ def scene_settings(
     }
 
 
-def _view(kind: str, scale: float) -> dict[str, Any]:
+def _view(kind: str, scale: float) -> dict[str, object]:
     window = draw.MemoryWindow(kind)
     position, target = draw.set_camera(window.viewer, kind, scale)
     return {"commands": window.packed, "position": position, "target": target}
 
 
-def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) -> dict[str, Any]:
+def _add_walk(
+    robot: draw.SceneNode, path: str, scene: WalkScene, opacity: float, room: int
+) -> dict[str, object]:
     """Draw one walk and say where its parts are."""
     biped, depth = scene.biped, draw.sole(scene.biped)
     tree = biped.tree
@@ -183,7 +183,7 @@ def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) ->
     }
 
 
-def _add_ring(robot: Any, biped: Biped, name: str, opacity: float) -> str:
+def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) -> str:
     """The ring of a joint; the torso's is at its COM, away from the hips."""
     joint = next(joint for joint in biped.tree.joints if joint.name == name)
     inertial = biped.tree.links[joint.child].inertial
@@ -194,7 +194,7 @@ def _add_ring(robot: Any, biped: Biped, name: str, opacity: float) -> str:
     return path
 
 
-def node_names(names: Mapping[str, Any]) -> dict[str, str]:
+def node_names(names: Iterable[str]) -> dict[str, str]:
     """Each name as it may stand in a path of the scene; no two alike."""
     found: dict[str, str] = {}
     for name in names:
@@ -205,7 +205,7 @@ def node_names(names: Mapping[str, Any]) -> dict[str, str]:
     return found
 
 
-def captions(scenes: Mapping[str, Scene]) -> list[tuple[str, str]]:
+def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
     """(colour, text) of the legend; the colour is empty for plain text."""
     solid, *ghosts = scenes
     biped = scenes[solid].biped

@@ -22,8 +22,8 @@ def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | Non
     shade(axes, push)
     for i, (name, s) in enumerate(walks.items()):
         largest = np.maximum(np.max(np.abs(s.error), axis=1), FLOOR)
-        look = {"color": PALETTE[i], "ls": DASHES[i % 4], "lw": 1.0}
-        axes.plot(broken(s, s.t), broken(s, largest), label=name, **look)
+        x, y = broken(s, s.t), broken(s, largest)
+        axes.plot(x, y, label=name, color=PALETTE[i], ls=DASHES[i % 4], lw=1.0)
     axes.set_yscale("log")
     label(axes, "time [s]", "largest tracking error [rad]")
     axes.legend(loc="upper left", frameon=False)

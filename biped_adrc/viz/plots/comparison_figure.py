@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import cycle
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from biped_adrc.errors import InputError
-from biped_adrc.types import Array
+from biped_adrc.types import Array, PlainRecord
 from biped_adrc.viz.style import PALETTE, label, named_cells, new_figure, style
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
@@ -24,7 +23,7 @@ KINDS = {"survived": "all steps", "legal": "legal"}
 """Of the largest pushes."""
 
 
-def legal_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
+def legal_figure(cells: Sequence[PlainRecord]) -> Figure:
     """Share of walks that are legal, as text and shade, with the share that makes all steps below it, smaller.
 
     cells: "controller", "condition", "legal" and "survived" [share, low, high], a row of the figure per
@@ -56,7 +55,7 @@ def legal_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
         return figure
 
 
-def measure_figure(cells: Sequence[Mapping[str, Any]], measure: str, title: str) -> Figure:
+def measure_figure(cells: Sequence[PlainRecord], measure: str, title: str) -> Figure:
     """Medians of one measure with their intervals, a row per condition, a mark per controller.
 
     cells: as in `legal_figure`, with `measure` [median, low, high] or None, over legal walks, and the same
@@ -88,7 +87,7 @@ def measure_figure(cells: Sequence[Mapping[str, Any]], measure: str, title: str)
         return figure
 
 
-def _shown(cell: Mapping[str, Any], measure: str, kind: str) -> Sequence[float] | None:
+def _shown(cell: PlainRecord, measure: str, kind: str) -> Sequence[float] | None:
     """Of the legal walks, or of those that make all steps where none is legal."""
     if kind == "legal":
         return cell[measure]
@@ -117,7 +116,7 @@ def _marks(
     )
 
 
-def push_figure(pushes: Sequence[Mapping[str, Any]]) -> Figure:
+def push_figure(pushes: Sequence[PlainRecord]) -> Figure:
     """The largest push walked legally (filled) and with all steps made (hollow), a panel per phase.
 
     pushes: "controller", "direction", "phase", and in "legal" and "survived" the "median" and the "seeds", each
@@ -147,7 +146,7 @@ def push_figure(pushes: Sequence[Mapping[str, Any]]) -> Figure:
         return figure
 
 
-def _farthest(pushes: Sequence[Mapping[str, Any]]) -> float:
+def _farthest(pushes: Sequence[PlainRecord]) -> float:
     """The largest push that is drawn [N m], with room for arrows."""
     ends = [
         x for p in pushes for k in ("legal", "survived") for x in p[k]["median"] + p[k]["seeds"]
@@ -155,7 +154,7 @@ def _farthest(pushes: Sequence[Mapping[str, Any]]) -> float:
     return max(1.0, *(float(x) for x in ends if x is not None))
 
 
-def _pushes(axes: Axes, pushes: Sequence[Mapping[str, Any]], heights: list[float], i: int) -> None:
+def _pushes(axes: Axes, pushes: Sequence[PlainRecord], heights: list[float], i: int) -> None:
     """Of controller i: marks at what is reached at least, with an arrow where that is all that is known."""
     colour, marker = PALETTE[i % len(PALETTE)], MARKERS[i % len(MARKERS)]
     for kind, face in (("survived", "white"), ("legal", colour)):
@@ -179,14 +178,14 @@ def _pushes(axes: Axes, pushes: Sequence[Mapping[str, Any]], heights: list[float
                 axes.annotate("", (x * 1.09, y), (x, y), arrowprops=arrow)
 
 
-def _over_seeds(pushes: Sequence[Mapping[str, Any]], least: Array) -> Array:
+def _over_seeds(pushes: Sequence[PlainRecord], least: Array) -> Array:
     """How far the seeds of legal walks go below and above the marks (2, N); open above: as far as is known."""
     low, high = zip(*(p["legal"]["seeds"] for p in pushes), strict=True)
     known = np.array([x if h is None else h for x, h in zip(least, high, strict=True)], dtype=float)
     return np.maximum([least - np.array(low, dtype=float), known - least], 0.0)
 
 
-def _names(rows: Sequence[Mapping[str, Any]], key: str) -> list[str]:
+def _names(rows: Sequence[PlainRecord], key: str) -> list[str]:
     if not rows:
         raise InputError("the comparison has no cells to draw; expected at least one")
     return list(dict.fromkeys(row[key] for row in rows))

@@ -34,11 +34,11 @@ def observer_figure(reports: Sequence[ObserverReport]) -> Figure:
                 loop.estimate(grid),
                 loop.noise(grid) * report.hardware.inertia,
             )
-            look = {"color": PALETTE[i % len(PALETTE)], "ls": DASHES[i % len(DASHES)]}
+            colour, dash = PALETTE[i % len(PALETTE)], DASHES[i % len(DASHES)]
             for axes, curve in zip(panels, curves, strict=True):
                 level = np.abs(curve)
                 if np.any(level > 0.0):  # m = 0 has no estimate
-                    axes.loglog(grid, level, label=report.name, **look)
+                    axes.loglog(grid, level, label=report.name, color=colour, ls=dash)
         titles = (
             ("|e / xi| [s$^2$]", "error from a disturbance"),
             ("|xi^ / xi|", "estimate of the disturbance"),

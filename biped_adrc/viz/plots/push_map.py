@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Polygon
 
 from biped_adrc.errors import InputError
+from biped_adrc.types import PlainRecord
 from biped_adrc.viz.style import label, named_cells, new_figure, style
 
 FATES: dict[str, tuple[str, str, str]] = {
@@ -23,7 +23,7 @@ FATES: dict[str, tuple[str, str, str]] = {
 """Word -> text, colour, hatch; the hatches show in a print in grey too."""
 
 
-def push_map_figure(rows: Sequence[Mapping[str, Any]]) -> Figure:
+def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
     """One panel per torque limit; a cell per onset and (pattern, amplitude): NPD upper left, ADRC lower right.
 
     rows: "onset_ms" [ms], "amplitude" [N m], "pattern", "torque_limit" [N m] or None for unlimited,
@@ -58,7 +58,7 @@ def push_map_figure(rows: Sequence[Mapping[str, Any]]) -> Figure:
 
 def _cells(
     axes: Axes,
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[PlainRecord],
     kinds: list[tuple[str, float]],
     onsets: list[float],
 ) -> None:
@@ -74,7 +74,7 @@ def _cells(
     named_cells(axes, names, [f"{onset:g}" for onset in onsets])
 
 
-def _count(rows: Sequence[Mapping[str, Any]]) -> str:
+def _count(rows: Sequence[PlainRecord]) -> str:
     """How many pushes each controller walks through legally."""
     npd, adrc = (sum(r[f"{c}_word"] == "legal" for r in rows) for c in ("npd", "adrc"))
     return f"legally: NPD {npd}, ADRC {adrc} of {len(rows)}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -22,7 +21,7 @@ def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
     axes.plot(np.cos(angle), np.sin(angle), color="black", lw=1.0, label="unit circle")
     for i, (name, values) in enumerate(found.items()):
         z = np.atleast_1d(np.asarray(values, dtype=complex))
-        axes.plot(z.real, z.imag, mfc="none", ms=7 + 2 * i, **_mark(i, name))
+        _plot(axes, i, name, z.real, z.imag, 7 + 2 * i)
     axes.set_aspect("equal")
     label(axes, r"Re $\lambda$ [-]", r"Im $\lambda$ [-]")
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.14), ncols=3, frameon=False)
@@ -42,7 +41,7 @@ def magnitudes(
         zeros = int(np.sum(size == 0.0))  # a logarithmic scale has no place for them
         size = size[size > 0.0]
         name = f"{name}, {zeros} more are 0" if zeros else name
-        axes.plot(1 + np.arange(len(size)), size, mfc="none", ms=6, **_mark(i, name))
+        _plot(axes, i, name, 1.0 + np.arange(len(size)), size, 6)
     if published is not None:
         size = np.sort(np.abs(np.asarray(published)))[::-1]
         name = "printed in the paper (regression)"
@@ -53,8 +52,9 @@ def magnitudes(
     return axes
 
 
-def _mark(i: int, name: str) -> dict[str, Any]:
-    return {"marker": MARKERS[i % 4], "ls": "", "mec": PALETTE[i], "label": name}
+def _plot(axes: Axes, i: int, name: str, x: ArrayLike, y: ArrayLike, size: int) -> None:
+    marker, colour = MARKERS[i % 4], PALETTE[i]
+    axes.plot(x, y, marker=marker, ls="", mec=colour, mfc="none", ms=size, label=name)
 
 
 def staircase(axes: Axes, before: Array, after: Array, steps: int = 12) -> Axes:

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -33,7 +34,9 @@ SHARES = {
 }
 """Columns of 0 and 1, and what their mean is called."""
 
-Columns = Mapping[str, NDArray[Any]]
+Column = NDArray[np.generic]
+Columns = Mapping[str, Column]
+Level = str | float | None
 
 
 @dataclass(frozen=True)
@@ -90,7 +93,7 @@ def sweep_map_figure(columns: Columns, maps: Maps) -> Figure:
     return _draw(maps, x, y, panels, means)
 
 
-def cut(column: NDArray[Any], log: bool) -> Cut:
+def cut(column: Column, log: bool) -> Cut:
     """The cells of an axis: one for each value, or of equal width (ratio if `log`) where there are many.
 
     What is no value has a cell of its own, the last.
@@ -112,7 +115,7 @@ def cut(column: NDArray[Any], log: bool) -> Cut:
     return Cut(cell.astype(np.intp), [f"{m:.3g}" for m in middles] + none)
 
 
-def _order(x: Any) -> tuple[int, Any]:
+def _order(x: Level) -> tuple[int, float | str]:
     if x is None:
         return 3, 0.0
     if isinstance(x, str):
@@ -120,7 +123,7 @@ def _order(x: Any) -> tuple[int, Any]:
     return (1, 0.0) if x != x else (0, x)
 
 
-def _texts(levels: list[Any]) -> list[str]:
+def _texts(levels: list[Level]) -> list[str]:
     """Each level with the fewest digits, from two, that tell all of them apart within 1 %."""
     numbers = [x for x in levels if not isinstance(x, str) and x is not None and x == x]
     for digits in range(2, 6):
@@ -131,7 +134,7 @@ def _texts(levels: list[Any]) -> list[str]:
     return [_text(x, digits) for x in levels]
 
 
-def _text(x: Any, digits: int = 4) -> str:
+def _text(x: Level, digits: int = 4) -> str:
     if isinstance(x, str):
         return x.replace("$", r"\$")  # no formula
     return "none" if x is None or x != x else f"{float(f'{x:.{digits}g}'):.6g}"
@@ -147,7 +150,7 @@ def cell_means(x: Cut, y: Cut, values: Array) -> Array:
     return np.where(count > 0, total / np.maximum(count, 1), np.nan).reshape(shape)
 
 
-def _numbers(column: NDArray[Any], name: str) -> Array:
+def _numbers(column: Column, name: str) -> Array:
     if column.dtype.kind not in "fib":
         raise InputError(f"the map cannot show '{name}', which is no number; choose another column")
     return column.astype(np.float64)
@@ -180,7 +183,7 @@ def _draw(maps: Maps, x: Cut, y: Cut, panels: Cut, means: list[Array]) -> Figure
         return figure
 
 
-def _panel(axes: Axes, means: Array, limits: tuple[float, float], share: bool) -> Any:
+def _panel(axes: Axes, means: Array, limits: tuple[float, float], share: bool) -> QuadMesh:
     """Grey where there is no number; the numbers themselves where they fit."""
     axes.set_facecolor("#DDDDDD")
     kind = "cividis" if share else "viridis"

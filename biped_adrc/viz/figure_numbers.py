@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import TypeGuard
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,7 +17,8 @@ from matplotlib.collections import QuadMesh
 from matplotlib.container import BarContainer, ErrorbarContainer
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, Rectangle
+from numpy.typing import ArrayLike
 
 from biped_adrc.types import Array
 
@@ -28,7 +29,7 @@ TOLERANCE = 0.01
 SMALL = 1e-3
 """Share of the largest number of a panel below which none is told apart."""
 
-Numbers = dict[str, Any]
+Numbers = dict[str, object]
 
 
 def numbers_of(figure: Figure) -> Numbers:
@@ -77,7 +78,7 @@ def _named(artist: Line2D) -> bool:
     return not str(artist.get_label()).startswith("_")
 
 
-def _size(bar: BarContainer, patch: Any) -> float:
+def _size(bar: BarContainer, patch: Rectangle) -> float:
     return float(patch.get_width() if bar.orientation == "horizontal" else patch.get_height())
 
 
@@ -86,7 +87,7 @@ def _marks(found: ErrorbarContainer) -> Numbers:
     points, _, bars = found.lines
     x, y = (np.asarray(values, dtype=float) for values in points.get_data())
     ends = np.array([s[:, 0] for bar in bars for s in bar.get_segments()]).reshape(-1, 2)
-    numbers = {"x": rounded(x), "y": rounded(y)}
+    numbers: Numbers = {"x": rounded(x), "y": rounded(y)}
     return numbers | {"from": rounded(ends[:, 0]), "to": rounded(ends[:, 1])} if bars else numbers
 
 
@@ -118,7 +119,7 @@ def _range(values: Array) -> list[float | None]:
     return rounded([values.min(), values.max()])
 
 
-def rounded(values: Any) -> list[float | None]:
+def rounded(values: ArrayLike) -> list[float | None]:
     """To five significant digits, None for what is not finite."""
     flat = np.ravel(np.asarray(values, dtype=float))
     return [float(f"{v:.5g}") if math.isfinite(v) else None for v in flat]
@@ -136,7 +137,7 @@ def as_text(numbers: Numbers) -> str:
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
-def differences(old: Any, new: Any, tolerance: float = TOLERANCE) -> list[str]:
+def differences(old: object, new: object, tolerance: float = TOLERANCE) -> list[str]:
     """Where two `Numbers` differ by more than the tolerance, with both values; empty where they agree.
 
     Numbers of one list are compared with the largest of it, samples of a line with the largest of the line;
@@ -146,7 +147,7 @@ def differences(old: Any, new: Any, tolerance: float = TOLERANCE) -> list[str]:
 
 
 def _compared(
-    where: str, old: Any, new: Any, tolerance: float, scale: float, floor: float
+    where: str, old: object, new: object, tolerance: float, scale: float, floor: float
 ) -> Iterator[str]:
     if isinstance(old, Mapping) and isinstance(new, Mapping):
         if "lines" in old:
@@ -171,11 +172,11 @@ def _compared(
         yield f"{where}: {old!r} in the file, {new!r} now"
 
 
-def _number(value: Any) -> bool:
+def _number(value: object) -> TypeGuard[float]:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def _largest(value: Any) -> float:
+def _largest(value: object) -> float:
     """The largest magnitude inside; 0 where there is no number."""
     if isinstance(value, Mapping):
         return max((_largest(v) for name, v in value.items() if name != "x"), default=0.0)

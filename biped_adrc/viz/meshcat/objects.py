@@ -14,7 +14,7 @@ import re
 import uuid
 import warnings
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Protocol
 
 import numpy as np
 import umsgpack  # type: ignore[import-untyped]
@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from biped_adrc.model.biped import Biped
 from biped_adrc.robots.urdf import Joint, Tree, Visual
 from biped_adrc.types import Array
-from biped_adrc.viz.placement import TILE, Scene, joint_transform, legs, spokes, turn
+from biped_adrc.viz.placement import TILE, WalkScene, joint_transform, legs, spokes, turn
 
 with warnings.catch_warnings():
     # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here
@@ -42,6 +42,17 @@ HEAD = 0.09
 """[m], length of the head of an arrow."""
 
 
+class SceneNode(Protocol):
+    def __getitem__(self, path: str) -> SceneNode: ...
+    def set_object(self, geometry: object, material: object = ...) -> None: ...
+    def set_transform(self, matrix: Array) -> None: ...
+    def set_property(self, key: str, value: object) -> None: ...
+
+
+class MeshcatCommand(Protocol):
+    def lower(self) -> dict[str, object]: ...
+
+
 def shift(origin: Sequence[float]) -> Array:
     """A translation (4, 4)."""
     M = np.eye(4)
@@ -56,7 +67,7 @@ def rotation(R: Array) -> Array:
     return M
 
 
-def paint(rgb: Colour, opacity: float = 1.0) -> Any:
+def paint(rgb: Colour, opacity: float = 1.0) -> object:
     """A material of one colour."""
     return shapes.MeshLambertMaterial(color=colour(rgb), opacity=opacity)
 
@@ -73,7 +84,7 @@ def joint_path(tree: Tree, joint: Joint) -> str:
     return "/".join([*reversed(above), joint.name])
 
 
-def add_robot(node: Any, biped: Biped, opacity: float) -> None:
+def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
     """A node per joint at its zero, the primitives of its child below it; of a wheel once a spoke."""
     tree = biped.tree
     for joint in tree.joints:
@@ -86,7 +97,7 @@ def add_robot(node: Any, biped: Biped, opacity: float) -> None:
                 part.set_transform(rotation(R) @ visual_transform(visual))
 
 
-def _shape(visual: Visual) -> Any:
+def _shape(visual: Visual) -> object:
     if visual.shape == "box":
         return shapes.Box(list(visual.size))
     if visual.shape == "sphere":
@@ -126,7 +137,7 @@ def sole(biped: Biped) -> float:
 
 
 # -- what surrounds it -----------------------------------------------------------------------------
-def add_footprints(node: Any, scene: Scene, depth: float, opacity: float) -> list[str]:
+def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: float) -> list[str]:
     """A flat plate under every stance foot; returns their names."""
     for k in range(len(scene.footholds)):
         plate = node[f"{k}"]
@@ -144,14 +155,14 @@ def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0)
     return shift((point[0], side, point[1])) @ rotation(R) @ shift((0.0, 0.0, -depth))
 
 
-def add_trace(node: Any, points: int, rgb: Colour, opacity: float) -> None:
+def add_trace(node: SceneNode, points: int, rgb: Colour, opacity: float) -> None:
     """Room for a line of `points` points, drawn by the player."""
     room = np.zeros((3, 2 * max(points - 1, 1)), dtype=np.float32)
     material = shapes.LineBasicMaterial(color=colour(rgb), opacity=opacity)
     node.set_object(shapes.LineSegments(shapes.PointsGeometry(room), material))
 
 
-def add_arrow(node: Any, rgb: Colour, opacity: float) -> None:
+def add_arrow(node: SceneNode, rgb: Colour, opacity: float) -> None:
     """An arrow along z: `shaft` of length 1 m and `head` of `HEAD`, to be scaled by the player."""
     shaft, head = node["shaft"]["body"], node["head"]["body"]
     shaft.set_object(shapes.Cylinder(1.0, 0.012), paint(rgb, opacity))
@@ -160,7 +171,7 @@ def add_arrow(node: Any, rgb: Colour, opacity: float) -> None:
     head.set_transform(shift((0.0, 0.0, 0.5 * HEAD)) @ UPRIGHT)
 
 
-def add_ring(node: Any, origin: Sequence[float], rgb: Colour, opacity: float) -> None:
+def add_ring(node: SceneNode, origin: Sequence[float], rgb: Colour, opacity: float) -> None:
     """A bent arrow of radius 1 m in the x-z plane, counter-clockwise as q; `turn` is scaled by the player."""
     node.set_transform(shift(origin))
     vertices, faces = ring_mesh()
@@ -190,7 +201,7 @@ def ring_mesh(width: float = 0.12, segments: int = 40) -> tuple[Array, NDArray[n
     return np.vstack((vertices, head)), faces
 
 
-def add_ground(node: Any, scenes: Sequence[Scene], depth: float, lane: float) -> None:
+def add_ground(node: SceneNode, scenes: Sequence[WalkScene], depth: float, lane: float) -> None:
     """Light and dark tiles, two before and three behind the walks, `depth` [m] below their footholds.
 
     Walks on the same ground share it; on different grounds each has its own, as wide as its lane [m].
@@ -207,9 +218,9 @@ def add_ground(node: Any, scenes: Sequence[Scene], depth: float, lane: float) ->
 
 
 def _add_strip(
-    node: Any,
+    node: SceneNode,
     names: Iterator[int],
-    scene: Scene,
+    scene: WalkScene,
     reach: tuple[int, int],
     depth: float,
     sides: tuple[float, float],
@@ -228,7 +239,7 @@ def _add_strip(
         )
 
 
-def set_stage(viewer: Any) -> None:
+def set_stage(viewer: SceneNode) -> None:
     """White background, no axes, no grid."""
     for name in ("/Axes", "/Grid"):
         viewer[name].set_property("visible", False)
@@ -236,7 +247,7 @@ def set_stage(viewer: Any) -> None:
         viewer["/Background"].set_property(name, [1.0, 1.0, 1.0])
 
 
-def set_camera(viewer: Any, kind: str, scale: float = 1.0) -> tuple[list[float], list[float]]:
+def set_camera(viewer: SceneNode, kind: str, scale: float = 1.0) -> tuple[list[float], list[float]]:
     """A camera at the robot's right side (x to the right, z up) or before it; its position and target [m].
 
     The camera's own frame has y up and z towards the robot's right. scale: how much larger than for RABBIT.
@@ -258,12 +269,12 @@ class MemoryWindow:
     def __init__(self, seed: str = "scene") -> None:
         self.packed: list[str] = []
         """The commands in base64."""
-        self.viewer: Any = meshcat.Visualizer(window=self)
+        self.viewer: SceneNode = meshcat.Visualizer(window=self)
         """Meshcat's tree of nodes."""
         self._names: dict[bytes, bytes] = {}
         self._source = random.Random(seed)
 
-    def send(self, command: Any) -> None:
+    def send(self, command: MeshcatCommand) -> None:
         """Pack a command of meshcat as its viewer expects it.
 
         Meshcat names objects by clock and host (uuid1); here names come from a seeded source, for the same
