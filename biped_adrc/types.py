@@ -1,4 +1,4 @@
-"""Array types shared by all modules."""
+"""Types that all modules share: arrays, and records of plain values."""
 
 from __future__ import annotations
 
@@ -15,10 +15,15 @@ ComplexArray = NDArray[np.complex128]
 """Complex array, for eigenvalues and transfer functions."""
 
 PlainRecord = Mapping[str, Any]
+"""Values by name as JSON and TOML have them: text, numbers, truth values, None, lists, records.
+
+For summaries, stored rows and TOML tables, whose keys are stated where they are written. Inside the
+package a dataclass or a NamedTuple is preferred.
+"""
 
 
 def read_only(values: ArrayLike) -> Array:
-    """A copy as numbers that cannot be changed, for frozen records."""
+    """A copy in float64 that cannot be written to, of the shape of `values`, for fields of frozen records."""
     array = np.array(values, dtype=float)
     array.setflags(write=False)
     return array

@@ -50,6 +50,7 @@ def command() -> str:
 
 
 def bar() -> Progress:
+    """A progress bar of this command: what is done, how far, and for how long."""
     return Progress(
         SpinnerColumn(),
         TextColumn("{task.description:<44.44}"),
@@ -61,7 +62,10 @@ def bar() -> Progress:
 
 
 def inputs(robot: str, *others: str) -> tuple[Path, ...]:
-    """The files that a robot and gaits are read from; none for names. Raises ModelError."""
+    """The files that a robot and gaits are read from, so that no output may take their place; none for names.
+
+    Raises ModelError for an unknown robot.
+    """
     from biped_adrc.robots.robot_toml import load_description
 
     files = tuple(path for path in map(Path, (robot, *others)) if path.is_file())
@@ -69,7 +73,11 @@ def inputs(robot: str, *others: str) -> tuple[Path, ...]:
 
 
 def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
-    """Where a run goes. Raises InputError for a name that is no run's or that is read, and OutputError."""
+    """The path that a run is written to, checked before the walk; None for none.
+
+    Raises InputError for a name that is no run's or that is read, and OutputError for what cannot
+    be written.
+    """
     from biped_adrc.hybrid.storage import check_beside, run_files
 
     if out is None:
@@ -85,11 +93,11 @@ def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
 
 
 def say(text: str) -> None:
-    """As it is, neither wrapped nor coloured."""
+    """Print a text as it is, neither wrapped nor coloured, so that it can be searched and copied."""
     console.print(text, markup=False, highlight=False, soft_wrap=True)
 
 
 def say_written(path: Path | None) -> None:
-    """The name of a file."""
+    """Say which file was written; nothing for None."""
     if path is not None:
         say(f"written to {path}")

@@ -1,4 +1,9 @@
-"""`biped-adrc compare`."""
+"""`biped-adrc compare`: the comparison of controllers over conditions and seeds.
+
+It checks the names, starts workers as `sweep` does, and leaves the walks, figures, page and summary
+to `bench.compare_study.run_comparison`. What is printed is made from the summary alone, so it can
+be had again from summary.json.
+"""
 
 from __future__ import annotations
 
@@ -62,11 +67,14 @@ def compare(
 
 
 def _names(text: str | None, every: tuple[str, ...]) -> tuple[str, ...]:
+    """The names in a text between commas; all of `every` where none is given."""
     return every if text is None else tuple(name.strip() for name in text.split(","))
 
 
 def _print(summary: PlainRecord) -> None:
-    """The share of walks that are legal, and of those that make all steps, in brackets."""
+    """The table of the share of walks that are legal, in brackets of those that make all steps, and
+    all sentences.
+    """
     from biped_adrc.viz.comparison_text import nominal_text
 
     controllers = list(summary["controllers"])

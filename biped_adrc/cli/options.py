@@ -1,4 +1,15 @@
-"""Options of commands: their texts from options.toml; those that are fields of a scenario from the record."""
+"""Options of commands, without writing each of them out in every command.
+
+Two decorators change the signature that typer reads:
+
+    texts          puts the help texts of options.toml on the parameters of a command
+    of_scenario    puts options in front for fields of `Scenario`, with the field's own type,
+    unit and text
+
+A new field of a scenario is an option of `simulate` by one name in a list. `values_of` joins what
+was on the command line, pushes and --set NAME=VALUE to the values of a scenario. --set reads values
+with units, as in the file of a study.
+"""
 
 from __future__ import annotations
 
@@ -28,12 +39,14 @@ Pushes = Annotated[
     ),
 ]
 TEXTS = packaged("biped_adrc.cli", "options.toml")
+"""The content of options.toml."""
 Command = Callable[..., None]
 
 
 def texts(name: str) -> Callable[[Command], Command]:
     """Options and arguments with the texts that options.toml has under this name, such as "gait.design"."""
-    said = {**TEXTS["every"], **reduce(dict.__getitem__, name.split("."), TEXTS)}
+    table: dict[str, str | PlainRecord] = reduce(dict.__getitem__, name.split("."), TEXTS)
+    said = {**TEXTS["every"], **table}
 
     def decorate(command: Command) -> Command:
         plain = signature(command, eval_str=True)
@@ -51,7 +64,7 @@ def texts(name: str) -> Callable[[Command], Command]:
 
 
 def _shown(text: str | PlainRecord) -> object:
-    """An option, or an argument, as options.toml has it."""
+    """An option, or an argument, for typer from its entry in options.toml: a text, or a table with flags."""
     entry = {"help": text} if isinstance(text, str) else text
     if "argument" in entry:
         return typer.Argument(help=entry["argument"])
@@ -61,9 +74,13 @@ def _shown(text: str | PlainRecord) -> object:
 def of_scenario(
     *names: str, controller: str = "ADRC", **flags: str
 ) -> Callable[[Command], Command]:
-    """Options for fields by name, or by a flag of another name, put in front of a command's own.
+    """Decorator: options for fields of a scenario, put in front of a command's own.
 
-    The command gets as `given` those that are on the command line. controller: what it takes by default.
+    names: fields whose option is called as they are. flags: field=flag for others. controller: what
+    the command takes by default, for the help.
+
+    The command gets as `given` the values that are on the command line, and no defaults: whether a
+    value was asked for decides, for instance, whether it may be given by --set too.
     """
     usual = {"controller": f"{controller}; passive for a robot without motors"}
     shown = {**{name: "--" + name.replace("_", "-") for name in names}, **flags}
@@ -92,6 +109,7 @@ def of_scenario(
 
 
 def _option(name: str, flag: str, usual: str | bool) -> Parameter:
+    """The parameter, for typer, of one field; usual: what the help shows as its default."""
     field, default = FIELDS[name], DEFAULTS[name]
     kinds = [
         kind
@@ -113,7 +131,11 @@ def _told(context: typer.Context, name: str) -> bool:
 
 
 def values_of(given: PlainRecord, push: list[str] | None, sets: list[str] | None) -> PlainRecord:
-    """The values of a scenario that options, pushes and --set name. Raises InputError."""
+    """The values of a scenario that options, pushes and --set name, as its constructor takes them.
+
+    A name that is no field goes to the controller's own parameters. Raises InputError for a text
+    that cannot be read, and for a value that is given twice.
+    """
     from biped_adrc.bench.parameters import TABLES, Refused, nested, read
 
     values = dict(given)
@@ -136,7 +158,11 @@ def values_of(given: PlainRecord, push: list[str] | None, sets: list[str] | None
 
 
 def _plain(name: str, text: str) -> object:
-    """A number, a truth value or a list where the text is one; lists of numbers without brackets too."""
+    """The text of --set as a value: a number, truth value or list where it is one, also a list without
+    brackets.
+
+    Texts of fields with units stay texts, as `bench.parameters.read` reads those.
+    """
     if not name.startswith("own.") and DEFAULTS.get(name) not in (True, False):
         return text
     for candidate in (text, f"[{text}]"):

@@ -1,4 +1,9 @@
-"""`biped-adrc reproduce`."""
+"""`biped-adrc reproduce`: the paper carried out again, with a word for each of its claims.
+
+It makes a `paper.plan.Plan` of the options, runs it (`paper.reproduction`), and prints the table of
+claims and the checks that do not hold; these decide the exit code. Joints of a push are checked
+first, before minutes of walking.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,10 @@
-"""`biped-adrc simulate` and `poincare`."""
+"""`biped-adrc simulate` and `poincare`: one walk, and the stability of one gait under a controller.
+
+Both make a `Scenario` of the options. `simulate` walks it with `scenario.run`, once more at half
+the step to say how far the numbers can be trusted, judges every step (`analysis.legality`) and
+stores the run. `poincare` finds the fixed point of the return map and its multipliers
+(`studies.cycle_stability`).
+"""
 
 from __future__ import annotations
 
@@ -26,9 +32,13 @@ WHY = {
     "compiled": "generated from Pinocchio's model and checked against it",
     "pinocchio": "as asked for",
 }
+"""Why the engine is the one it is, where the run itself gives no reason."""
 COMMON = ("controller", "gait", "robot", "preset", "impacts", "seed", "hardware", "period")
+"""Fields of a scenario that are options of `simulate`: what walks."""
 LAW = ("torque_limit", "K_p", "K_d", "observer", "poles", "bandwidth", "order", "reset")
+"""Those of the controller."""
 NUMERICS = ("friction", "slope", "method", "engine", "friction_limit", "force_window")
+"""Those of ground, method and limits."""
 
 
 @app.command()
@@ -54,7 +64,7 @@ def simulate(
 
 
 def usual(given: PlainRecord, motors: str = "ADRC") -> str:
-    """The controller where none is given; `motors` for a robot that has some."""
+    """The controller where none is given: `motors` for a robot that has some, else "passive"."""
     from biped_adrc.robots.robot_toml import load_description
     from biped_adrc.scenario.registry import is_own
 
@@ -63,7 +73,10 @@ def usual(given: PlainRecord, motors: str = "ADRC") -> str:
 
 
 def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> None:
-    """Carry out a scenario, print it, and write it where it is asked for."""
+    """Carry out a scenario, print it, and write it where it is asked for; raises the exit if the robot fell.
+
+    A walk with motors is carried out again at half the step; only the first one is stored.
+    """
     from biped_adrc.scenario.run import halved, walk_scenario
 
     with bar() as shown:
@@ -93,6 +106,7 @@ def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> N
 
 
 def _print_steps(o: Outcome, legality: Legality) -> None:
+    """Print what every step needed of ground and motors, a row each, and below how the walk ended."""
     from biped_adrc.analysis.certificate import Certificate, ratio_text
     from biped_adrc.paper.convergence import error_text
 
@@ -124,7 +138,7 @@ def _print_steps(o: Outcome, legality: Legality) -> None:
 
 
 def _print_passive(walk: Walk, limits: Limits) -> None:
-    """The steps of a robot without motors."""
+    """Print the steps of a robot without motors, with the energy that each impact loses."""
     from biped_adrc.analysis.certificate import ratio_text
     from biped_adrc.closed_loop.walker import FOOT_STRIKE
 
@@ -153,7 +167,7 @@ def _print_passive(walk: Walk, limits: Limits) -> None:
 
 
 def _instants(needed: Legality | Certificate) -> str:
-    """What no mean hides."""
+    """What no mean hides: the least normal force, and how long the force is outside the friction cone."""
     return (
         f"at an instant F_N is {needed.least_normal_force:.1f} N at least, and the force is outside the "
         f"friction cone for {100.0 * needed.share_outside:.2g} % of the time"
@@ -161,7 +175,7 @@ def _instants(needed: Legality | Certificate) -> str:
 
 
 def _nominal(c: Certificate) -> str:
-    """What the step of a cycle needs, in a line."""
+    """What the step of a cycle needs of ground and motors, and whether it is legal, in a sentence."""
     from biped_adrc.analysis.certificate import ratio_text
 
     missed = "; ".join(c.illegal().values())

@@ -1,6 +1,9 @@
 """The paper's figure 1: the robot drawn from its URDF, with q1..q5, Theta, p_2 and p_e.
 
-A link of absolute angle a points along (-sin a, cos a); angles are counter-clockwise positive.
+A link of absolute angle a [rad] points along (-sin a, cos a); angles are counter-clockwise
+positive. q5 is the absolute angle of the torso, q1 and q2 go from the torso to the thighs, q3 and
+q4 from the thighs to the shins, and Theta is the angle of the line from the hip to the stance foot
+p_e: the phase of the virtual constraints.
 """
 
 from __future__ import annotations
@@ -20,14 +23,14 @@ from biped_adrc.viz.placement import joint_values, link_placements
 from biped_adrc.viz.style import GREY, PALETTE, label, new_figure, style
 
 POSE = (3.5, 4.05, -0.5, -0.75, -0.32)
-"""q1..q5 [rad] of a pose in which no mark covers another."""
+"""q1..q5 [rad] of a posture in which no mark covers another."""
 
 _HIP_ARCS = (0.15, 0.22)  # [m], radii of q1 and q2
 _KNEE_ARC, _THETA_ARC, _PITCH_ARC = 0.15, 0.30, 0.50
 
 
 def robot_figure(biped: Biped, q: Array | None = None) -> Figure:
-    """The robot in single support at q (n,) [rad]; `POSE` when none is given.
+    """The robot in single support at q (5,) [rad], with all its angles; the posture `POSE` when none is given.
 
     Raises InputError for a robot that is not a five-link biped (torso, two thighs, two shins).
     """
@@ -49,11 +52,12 @@ def robot_figure(biped: Biped, q: Array | None = None) -> Figure:
 
 
 def direction(a: float) -> Array:
-    """(-sin a, cos a): where a link of absolute angle a [rad] points, (2,)."""
+    """Unit vector (2,) along which a link of absolute angle a [rad] points: (-sin a, cos a)."""
     return np.array([-math.sin(a), math.cos(a)])
 
 
 def _ground(axes: Axes, biped: Biped, q: Array) -> None:
+    """Hatched level ground below both feet."""
     ends = (0.0, float(biped.swing_foot(q)[0]))
     left, right = min(ends) - 0.35, max(ends) + 0.3
     axes.plot([left, right], [0.0, 0.0], color="black", lw=1.0, zorder=1)
@@ -62,7 +66,7 @@ def _ground(axes: Axes, biped: Biped, q: Array) -> None:
 
 
 def _links(axes: Axes, biped: Biped, q: Array) -> None:
-    """The primitives of every link, seen from the side."""
+    """The outlines of the primitives of every link, seen from the side."""
     placements = link_placements(biped.tree, joint_values(biped, q))
     for name, link in biped.tree.links.items():
         for visual in link.visuals:
@@ -96,6 +100,7 @@ def _arc(axes: Axes, centre: Array, radius: float, span: tuple[float, float], co
 
 
 def _text(axes: Axes, at: Array, text: str, colour: str) -> None:
+    """A sign at the point `at` (2,) [m] on a white ground."""
     box = {"fc": "white", "ec": "none", "pad": 0.8, "alpha": 0.9}
     axes.text(
         at[0], at[1], text, color=colour, ha="center", va="center", fontsize=11, bbox=box, zorder=7
@@ -103,6 +108,7 @@ def _text(axes: Axes, at: Array, text: str, colour: str) -> None:
 
 
 def _ray(axes: Axes, start: Array, end: Array, colour: str = GREY, width: float = 0.9) -> None:
+    """A dashed line between two points (2,) [m]."""
     axes.plot(*zip(start, end, strict=True), color=colour, ls=(0, (5, 3)), lw=width, zorder=4)
 
 

@@ -1,7 +1,16 @@
 """Walks in the browser while this process runs: a server on the loopback address that streams poses.
 
-The page is the one of `meshcat`, without the motion; a WebSocket brings a pose per frame. It ends when the page
-is closed, on SIGINT and on SIGTERM, and says why.
+    /         the page of `meshcat.view`, without the samples of the motion
+    /poses    a WebSocket that brings one JSON message for each frame: t [s], and the pose of
+    every walk
+
+`play` runs an event loop of its own with two tasks: `_stream` sends poses at the pace of the clock,
+`_watch` ends the session when the last page is closed. SIGINT and SIGTERM end it too; what ended it
+is returned in words.
+
+Only this computer can connect, and requests under another host name than that of the server are
+refused: a page elsewhere could have its name resolved to the loopback address and read the stream
+(DNS rebinding).
 """
 
 from __future__ import annotations
@@ -28,21 +37,29 @@ from biped_adrc.viz.placement import Recorded, WalkScene
 
 ADDRESS = "127.0.0.1"
 GRACE = 2.0
-"""[s] a closed page may take to come back, as when it is loaded again."""
+"""Time [s] a closed page may take to come back, as when it is loaded again."""
 REST = 1.0
-"""[s] between the end of the walks and their next start."""
+"""Time [s] between the end of the walks and their next start."""
 PING = 2.0
-"""[s] between signs of life asked of the page, and how long it may take to give one."""
+"""Time [s] between signs of life asked of the page, and how long it may take to give one."""
 
 FAREWELL = 0.5
-"""[s] the pages are given to be told of the end."""
+"""Time [s] the pages are given to be told of the end."""
 
 Say = Callable[[str], None]
+"""Takes a line of text for the user."""
 
 
 @dataclass
 class Session:
-    """What one server serves."""
+    """State that the request handlers and tasks of one server share.
+
+    html: text of the page. hosts: names under which it may be asked for. stop: set to the reason
+    when the session is to end. clients: open pages, each with its message on the way, or None
+    before the first.
+    arrived, left: set when a page comes, and when the last one goes. restart: the next message
+    starts from the beginning, as a new page has nothing yet.
+    """
 
     html: str
     hosts: tuple[str, ...]
@@ -53,12 +70,15 @@ class Session:
     restart: bool = True
 
     def end(self, reason: str) -> None:
-        """End the session; the first reason counts."""
+        """End the session for this reason; the first reason counts."""
         if not self.stop.done():
             self.stop.set_result(reason)
 
     def send(self, message: Mapping[str, object]) -> None:
-        """Send to every page that has taken the last message."""
+        """Send a message to every page that has taken the last one.
+
+        A slow page misses frames in place of falling behind the clock more and more.
+        """
         text = json.dumps(message)
         for client, sent in list(self.clients.items()):
             if sent is None or sent.done():
@@ -66,36 +86,41 @@ class Session:
 
 
 class Guarded(RequestHandler):
-    """Refuses requests made under another name, as by a page that had its own name resolved to loopback."""
+    """Base of the handlers: refuses requests under a host name that is not the server's."""
 
     session: Session
 
     def initialize(self, session: Session) -> None:
+        """Take the session; called by tornado for every request."""
         self.session = session
 
     def prepare(self) -> None:
+        """Raise HTTPError (403) for a foreign host name; called by tornado before the request is handled."""
         if self.request.host not in self.session.hosts:
             raise HTTPError(403, f"unknown host; open http://{self.session.hosts[0]}/")
 
 
 class Front(Guarded):
-    """The page."""
+    """The page itself."""
 
     def get(self) -> None:
+        """Answer with the page, never from the browser's cache."""
         self.set_header("Content-Type", "text/html; charset=utf-8")
         self.set_header("Cache-Control", "no-store")
         self.write(self.session.html)
 
 
 class Pages(Guarded, WebSocketHandler):
-    """The stream to one page."""
+    """The WebSocket of one open page."""
 
     def open(self, *args: str, **kwargs: str) -> None:
+        """A page has come: send from the start."""
         self.session.clients[self] = None
         self.session.restart = True
         self.session.arrived.set()
 
     def on_close(self) -> None:
+        """A page has gone; `_watch` is told when it was the last."""
         self.session.clients.pop(self, None)
         if not self.session.clients:
             self.session.left.set()
@@ -104,10 +129,11 @@ class Pages(Guarded, WebSocketHandler):
         """Pages have nothing to say yet."""
 
     def post(self, text: str) -> asyncio.Future[None]:
-        """Send; the future is done when the page has taken it."""
+        """Send a text; the future is done when the page has taken it."""
         return asyncio.ensure_future(self._write(text))
 
     async def _write(self, text: str) -> None:
+        """Send, and forget a page that has gone meanwhile."""
         try:
             await self.write_message(text)
         except WebSocketClosedError:
@@ -125,8 +151,11 @@ def play(
 ) -> str:
     """Show the walks in the browser until the page is closed or the process is told to stop; returns why.
 
-    look: as for a file. port: 0 for a free one. wait [s]: how long to wait for the first page. say: is given
-    the address. Raises InputError for a port that is in use and inside a running event loop.
+    walks: name -> walk. look: as for a page. port: 0 for a free one. open_browser: open the user's
+    browser there.
+    wait [s]: how long to wait for the first page. say: is given the address.
+    Raises InputError for a port that is in use, and inside a running event loop, as that of a
+    notebook.
     """
     if not 0 <= port <= 65535:
         raise InputError(f"port is {port}, expected 1 to 65535, or 0 for a free one")
@@ -151,6 +180,7 @@ async def _serve(
     wait: float,
     say: Say,
 ) -> str:
+    """Run the server until the session ends; returns why. An error of a task is raised here."""
     loop = asyncio.get_running_loop()
     try:
         sockets = bind_sockets(port, ADDRESS)
@@ -191,13 +221,13 @@ async def _serve(
 
 
 def _report(session: Session, task: asyncio.Task[None]) -> None:
-    """A task that failed ends the session."""
+    """End the session when a task has failed."""
     if not task.cancelled() and task.exception() is not None:
         session.end("failed")
 
 
 async def _launch(url: str) -> asyncio.subprocess.Process:
-    """The user's browser, from a process of its own: some browsers do not return."""
+    """Open the user's browser from a process of its own: some browsers do not return."""
     nowhere = asyncio.subprocess.DEVNULL
     return await asyncio.create_subprocess_exec(
         sys.executable, "-m", "webbrowser", url, stdin=nowhere, stdout=nowhere, stderr=nowhere
@@ -205,7 +235,10 @@ async def _launch(url: str) -> asyncio.subprocess.Process:
 
 
 async def _stream(session: Session, scenes: Mapping[str, WalkScene], fps: float) -> None:
-    """A message per frame while a page is open; from the start again after the end."""
+    """Send a message for each frame while a page is open, by the clock; from the start again after the end.
+
+    fps [1/s]: frames per second at most.
+    """
     start = min(scene.trajectory.t_start for scene in scenes.values())
     end = max(scene.trajectory.t_end for scene in scenes.values())
     began = time.monotonic()
@@ -222,6 +255,7 @@ async def _stream(session: Session, scenes: Mapping[str, WalkScene], fps: float)
 
 
 def _poses(scenes: Mapping[str, WalkScene], t: float) -> list[dict[str, object]]:
+    """The pose of every walk at t [s], as plain values; of a walk that has ended, its last one."""
     found = []
     for scene in scenes.values():
         at = min(max(t, scene.trajectory.t_start), scene.trajectory.t_end)
@@ -233,7 +267,7 @@ def _poses(scenes: Mapping[str, WalkScene], t: float) -> list[dict[str, object]]
 
 
 async def _watch(session: Session, wait: float) -> None:
-    """End when no page comes, and when the last one has gone for good."""
+    """End the session when no page comes within `wait` [s], and when the last one has gone for good."""
     try:
         await asyncio.wait_for(session.arrived.wait(), wait)
     except TimeoutError:
@@ -254,6 +288,7 @@ async def _close(
     tasks: list[asyncio.Task[None]],
     launcher: asyncio.subprocess.Process | None,
 ) -> None:
+    """Tell the pages of the end, close them and the server, and end the process that opened the browser."""
     for task in tasks:
         task.cancel()
     server.stop()

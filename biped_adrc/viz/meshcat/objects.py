@@ -1,7 +1,12 @@
 """Objects of the scene in Meshcat: robots from their URDF, ground, footprints, traces, arrows, cameras.
 
-The scene mirrors the tree of the URDF, a node per joint, so links stay together between frames. The feet are
-points in the model and balls in the URDF: the ground is drawn one radius below the footholds.
+Meshcat's scene is a tree of nodes with paths; an object hangs at a node and moves with it. The tree
+here mirrors that of the URDF, a node for each joint, so the player moves a link by one joint value
+and links stay together between frames. Every `add_` function draws below the node it is given;
+`MemoryWindow` collects the commands that come of it, and `view` writes them into the page.
+
+The feet are points in the model and balls in the URDF: the ground is drawn one radius below the
+footholds.
 """
 
 from __future__ import annotations
@@ -34,15 +39,18 @@ with warnings.catch_warnings():
 
 _UUID = re.compile(rb"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 DARK = (0.1, 0.1, 0.1)
+"""Red, green, blue of footprints and of the hip's trace."""
 Colour = str | tuple[float, float, float] | tuple[float, float, float, float]
-"""Red, green, blue in 0..1, or "#RRGGBB"."""
+"""Red, green, blue in 0..1, perhaps with opacity, or "#RRGGBB"."""
 VIEW = 2.0
-"""[m], height of the picture from the side."""
+"""Height [m] of the picture from the side."""
 HEAD = 0.09
-"""[m], length of the head of an arrow."""
+"""Length [m] of the head of an arrow."""
 
 
 class SceneNode(Protocol):
+    """A node of Meshcat's tree; `node[path]` is one below it. meshcat has no types of its own."""
+
     def __getitem__(self, path: str) -> SceneNode: ...
     def set_object(self, geometry: object, material: object = ...) -> None: ...
     def set_transform(self, matrix: Array) -> None: ...
@@ -50,42 +58,48 @@ class SceneNode(Protocol):
 
 
 class MeshcatCommand(Protocol):
+    """A command that meshcat sends to a viewer; `lower` gives it as plain values."""
+
     def lower(self) -> dict[str, object]: ...
 
 
 def shift(origin: Sequence[float]) -> Array:
-    """A translation (4, 4)."""
+    """Placement (4, 4) of a translation by `origin` (3,) [m]."""
     M = np.eye(4)
     M[:3, 3] = origin
     return M
 
 
 def rotation(R: Array) -> Array:
-    """A rotation (4, 4) by R (3, 3)."""
+    """Placement (4, 4) of a rotation by R (3, 3)."""
     M = np.eye(4)
     M[:3, :3] = R
     return M
 
 
 def paint(rgb: Colour, opacity: float = 1.0) -> object:
-    """A material of one colour."""
+    """A material of one colour, for Meshcat."""
     return shapes.MeshLambertMaterial(color=colour(rgb), opacity=opacity)
 
 
 def colour(rgb: Colour) -> int:
-    """0xRRGGBB."""
+    """The colour as Meshcat has it, 0xRRGGBB."""
     return int(to_hex(rgb)[1:], 16)
 
 
 # -- robot -----------------------------------------------------------------------------------------
 def joint_path(tree: Tree, joint: Joint) -> str:
-    """Path of a joint's node below its robot."""
+    """Path of a joint's node below that of its robot: the names of all joints from the base to it."""
     above = [j.name for j in tree.path_to_root(joint.parent)]
     return "/".join([*reversed(above), joint.name])
 
 
 def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
-    """A node per joint at its zero, the primitives of its child below it; of a wheel once a spoke."""
+    """Draw a robot: a node for each joint, at joint value 0, with the primitives of its child below it.
+
+    The player moves the joints. The primitives of a wheel are drawn once for every spoke; one at
+    the joint's own origin, the hub, once.
+    """
     tree = biped.tree
     for joint in tree.joints:
         here = node[joint_path(tree, joint)]
@@ -98,6 +112,7 @@ def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
 
 
 def _shape(visual: Visual) -> object:
+    """A primitive of the URDF as a shape of Meshcat's."""
     if visual.shape == "box":
         return shapes.Box(list(visual.size))
     if visual.shape == "sphere":
@@ -113,11 +128,14 @@ def visual_transform(visual: Visual) -> Array:
 UPRIGHT = np.array(
     [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
 )
-"""Turns y, the axis of Meshcat's cylinders, to z."""
+"""(4, 4): turns y, the axis of Meshcat's cylinders, to z."""
 
 
 def leg_visuals(biped: Biped) -> list[list[str]]:
-    """Paths below the robot of the parts of the leg that is stance leg in odd steps, and of the other."""
+    """Paths below the robot of the parts of the leg that is stance leg in odd steps, and of the other.
+
+    The player gives them their colours, which change over at impact.
+    """
     tree = biped.tree
     return [
         [
@@ -131,14 +149,14 @@ def leg_visuals(biped: Biped) -> list[list[str]]:
 
 
 def sole(biped: Biped) -> float:
-    """Radius of the ball of a foot [m]; 0 for a foot without one."""
+    """Radius [m] of the ball that the URDF draws as a foot; 0 for a foot without one."""
     foot = biped.tree.links[biped.description.stance_foot]
     return max((v.size[0] for v in foot.visuals if v.shape == "sphere"), default=0.0)
 
 
 # -- what surrounds it -----------------------------------------------------------------------------
 def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: float) -> list[str]:
-    """A flat plate under every stance foot; returns their names."""
+    """Draw a flat plate under every stance foot; returns the names of their nodes, in order."""
     for k in range(len(scene.footholds)):
         plate = node[f"{k}"]
         plate.set_object(shapes.Box([0.06, 0.1, 0.004]), paint(DARK, opacity))
@@ -156,14 +174,14 @@ def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0)
 
 
 def add_trace(node: SceneNode, points: int, rgb: Colour, opacity: float) -> None:
-    """Room for a line of `points` points, drawn by the player."""
+    """Make room for a line of `points` points; the player fills it."""
     room = np.zeros((3, 2 * max(points - 1, 1)), dtype=np.float32)
     material = shapes.LineBasicMaterial(color=colour(rgb), opacity=opacity)
     node.set_object(shapes.LineSegments(shapes.PointsGeometry(room), material))
 
 
 def add_arrow(node: SceneNode, rgb: Colour, opacity: float) -> None:
-    """An arrow along z: `shaft` of length 1 m and `head` of `HEAD`, to be scaled by the player."""
+    """Draw an arrow along z: a shaft of length 1 m and a head of length `HEAD`, to be scaled by the player."""
     shaft, head = node["shaft"]["body"], node["head"]["body"]
     shaft.set_object(shapes.Cylinder(1.0, 0.012), paint(rgb, opacity))
     shaft.set_transform(shift((0.0, 0.0, 0.5)) @ UPRIGHT)
@@ -172,7 +190,10 @@ def add_arrow(node: SceneNode, rgb: Colour, opacity: float) -> None:
 
 
 def add_ring(node: SceneNode, origin: Sequence[float], rgb: Colour, opacity: float) -> None:
-    """A bent arrow of radius 1 m in the x-z plane, counter-clockwise as q; `turn` is scaled by the player."""
+    """Draw a bent arrow of radius 1 m about `origin` (3,) [m] in the x-z plane, counter-clockwise as q.
+
+    The player scales its node `turn` by the torque; a negative one turns it round.
+    """
     node.set_transform(shift(origin))
     vertices, faces = ring_mesh()
     node["turn"]["body"].set_object(
@@ -202,9 +223,10 @@ def ring_mesh(width: float = 0.12, segments: int = 40) -> tuple[Array, NDArray[n
 
 
 def add_ground(node: SceneNode, scenes: Sequence[WalkScene], depth: float, lane: float) -> None:
-    """Light and dark tiles, two before and three behind the walks, `depth` [m] below their footholds.
+    """Draw light and dark tiles, from two before to three behind the walks, `depth` [m] below their footholds.
 
-    Walks on the same ground share it; on different grounds each has its own, as wide as its lane [m].
+    Walks on the same ground share it; on different grounds each has its own, as wide as its lane
+    [m].
     """
     x = np.concatenate([scene.footholds for scene in scenes])
     low, high = math.floor(x.min() / TILE) - 2, math.ceil(x.max() / TILE) + 3
@@ -225,7 +247,11 @@ def _add_strip(
     depth: float,
     sides: tuple[float, float],
 ) -> None:
-    """The tiles of one ground; below the highest step down they are thick enough to reach the lower ground."""
+    """Draw the tiles of one ground, thick enough to reach the lower ground below the highest step down.
+
+    names: numbers for the nodes. reach: first and last tile. sides [m]: near and far edge, from the
+    first walk's plane.
+    """
     near, far = sides
     thick = 0.03 + float(np.max(scene.surface.heights, initial=0.0))
     for tile in scene.surface.tiles(*reach):
@@ -248,9 +274,10 @@ def set_stage(viewer: SceneNode) -> None:
 
 
 def set_camera(viewer: SceneNode, kind: str, scale: float = 1.0) -> tuple[list[float], list[float]]:
-    """A camera at the robot's right side (x to the right, z up) or before it; its position and target [m].
+    """Place a camera at the robot's right side ("side", x to the right, z up) or before it ("perspective").
 
-    The camera's own frame has y up and z towards the robot's right. scale: how much larger than for RABBIT.
+    Returns its position and its target [m], in the camera's own frame, which has y up and z towards
+    the robot's right. scale: how much larger than for RABBIT.
     """
     node = viewer[f"/Cameras/{kind}/rotated"]
     node.set_transform(UPRIGHT)
@@ -264,7 +291,11 @@ def set_camera(viewer: SceneNode, kind: str, scale: float = 1.0) -> tuple[list[f
 
 
 class MemoryWindow:
-    """Takes the place of meshcat's window: keeps the commands, opens no port and starts no process."""
+    """Takes the place of meshcat's window: keeps the commands, opens no port and starts no process.
+
+    seed: of the names of objects, see `send`. packed: the commands in base64. viewer: the root of
+    the tree.
+    """
 
     def __init__(self, seed: str = "scene") -> None:
         self.packed: list[str] = []
@@ -275,15 +306,17 @@ class MemoryWindow:
         self._source = random.Random(seed)
 
     def send(self, command: MeshcatCommand) -> None:
-        """Pack a command of meshcat as its viewer expects it.
+        """Keep a command of meshcat, packed as its viewer expects it.
 
-        Meshcat names objects by clock and host (uuid1); here names come from a seeded source, for the same
-        bytes every time.
+        Meshcat names objects by clock and host (uuid1). Here names come from a seeded source in the
+        order of their first use, so that the same walk gives the same bytes on any machine at any
+        time.
         """
         packed = _UUID.sub(lambda found: self._named(found[0]), umsgpack.packb(command.lower()))
         self.packed.append(base64.b64encode(packed).decode("ascii"))
 
     def _named(self, name: bytes) -> bytes:
+        """The name that stands for this one of meshcat's."""
         if name not in self._names:
             number = uuid.UUID(int=self._source.getrandbits(128), version=4)
             self._names[name] = str(number).encode()

@@ -1,4 +1,10 @@
-"""Walks in Meshcat: one offline HTML file with the viewer, the robots, their motion and the controls."""
+"""Walks in Meshcat as one offline HTML file: the viewer, the robots, their motion and the controls.
+
+`animation_html` lays the walks out (`placement`), samples them (`frames`), draws the objects
+(`objects`), and writes all of it as JSON into the page (`pages.player`); player.js plays it. One
+walk is solid and followed by the camera, the others are ghosts: translucent, each a little farther
+from the camera.
+"""
 
 from __future__ import annotations
 
@@ -28,25 +34,30 @@ from biped_adrc.viz.style import (
 GHOST = 0.35
 """Opacity of a ghost."""
 LANE = 0.4
-"""[m], by which each ghost walks farther from the camera: faces in one plane flicker."""
+"""By how much [m] each ghost walks farther from the camera: faces in one plane would flicker."""
 LONGEST = 1.2
-"""[m], of the arrow of a ground reaction; that of a larger one is cut, and the page says so."""
+"""Longest arrow of a ground reaction [m]; that of a larger one is cut, and the page says so."""
 TRACE_POINTS = 20_000
-"""Room for the traces of a walk whose length is not known beforehand."""
+"""Room for the traces of a live walk, whose number of nodes is not known beforehand."""
 TALL = 1.6
-"""[m], the highest robot the cameras show from where they are for RABBIT; for higher ones they stand back."""
+"""Height [m] of the highest robot that the cameras show from where they are for RABBIT; for higher
+ones they stand back.
+"""
 VIEWS = ("side", "perspective")
+"""Cameras: "side" is orthographic, so lengths can be compared anywhere in the picture."""
 
 Marks = Sequence[tuple[float, float, str]]
+"""(start, stop, text) of what is shown beside the clock, times in [s]."""
 
 
 @dataclass(frozen=True)
 class Look:
     """How walks are shown.
 
-    solid: name of the walk drawn opaque and followed by the camera, the last one if None; the others are
-    translucent. marks: (start, stop, text) [s], shown beside the clock. fps [1/s]: frames sampled from the
-    trajectories. view: "side" (orthographic) or "perspective".
+    solid: name of the walk drawn opaque and followed by the camera, the last one if None; the
+    others are translucent.
+    marks: (start, stop, text) [s], shown beside the clock.
+    fps [1/s]: frames sampled from the trajectories. view: camera at the start, one of `VIEWS`.
     """
 
     solid: str | None = None
@@ -55,7 +66,7 @@ class Look:
     view: str = "side"
 
     def order(self, walks: Mapping[str, Recorded]) -> list[str]:
-        """The solid walk first, then the ghosts. Raises InputError for what does not fit."""
+        """The names with the solid walk first, then the ghosts. Raises InputError for what does not fit."""
         if not walks:
             raise InputError("there is no walk to animate; expected at least one")
         if self.view not in VIEWS:
@@ -71,7 +82,8 @@ class Look:
 def animation_html(walks: Mapping[str, Recorded], look: Look | None = None) -> str:
     """The walks, overlaid, as one page that needs no server and no network; the same walks give the same text.
 
-    Raises InputError.
+    walks: name -> walk. Raises InputError for no walk, an unknown view or solid walk, or an fps
+    that is not positive.
     """
     look = Look() if look is None else look
     scenes = {name: WalkScene.of(walks[name]) for name in look.order(walks)}
@@ -80,7 +92,7 @@ def animation_html(walks: Mapping[str, Recorded], look: Look | None = None) -> s
 
 
 def _packed(frames: Frames) -> dict[str, str]:
-    """Times as float64, the rest as float32, in base64."""
+    """The samples in base64: times as float64, the rest as float32, which is finer than a pixel."""
     kinds = {"t": np.float64} | dict.fromkeys(
         ("arc", "joints", "rates", "loads", "points"), np.float32
     )
@@ -92,9 +104,17 @@ def _packed(frames: Frames) -> dict[str, str]:
 def scene_settings(
     scenes: Mapping[str, WalkScene], look: Look, frames: Mapping[str, Frames] | None = None
 ) -> dict[str, object]:
-    """What the player is told: Meshcat's commands and, by walk, the paths of what moves.
+    """What player.js is told: Meshcat's commands and, by walk, the paths of what moves.
 
-    scenes: the solid walk first. points: number of nodes of each trace.
+    scenes: the solid walk first. frames: the samples of each walk, for a page; a live walk has
+    none.
+
+        walks       for each walk what `_add_walk` says, its name, its end [s] and how it ended
+        leader      index of the walk the camera follows; follow: the node it follows
+        marks       as in `Look`; fps [1/s]; start, end [s] of the slider
+        view        the camera at the start; views: commands, position and target [m] of each
+        commands    Meshcat's commands that build the scene
+        live        whether poses come from a server
     """
     window = draw.MemoryWindow()
     viewer = window.viewer
@@ -131,6 +151,7 @@ def scene_settings(
 
 
 def _view(kind: str, scale: float) -> dict[str, object]:
+    """A camera: its commands, position and target [m]."""
     window = draw.MemoryWindow(kind)
     position, target = draw.set_camera(window.viewer, kind, scale)
     return {"commands": window.packed, "position": position, "target": target}
@@ -139,7 +160,12 @@ def _view(kind: str, scale: float) -> dict[str, object]:
 def _add_walk(
     robot: draw.SceneNode, path: str, scene: WalkScene, opacity: float, room: int
 ) -> dict[str, object]:
-    """Draw one walk and say where its parts are."""
+    """Draw one walk below the node `robot`, and say where its parts are.
+
+    path: of that node. opacity: 0 to 1. room: points of a trace. The result has the paths of joints
+    (with type, axis and origin), legs, rings, arrow, traces and footprints; for each single support
+    its number, stance leg and foothold; and the scales of arrows and rings.
+    """
     biped, depth = scene.biped, draw.sole(scene.biped)
     tree = biped.tree
     draw.add_robot(robot, biped, opacity)
@@ -184,7 +210,7 @@ def _add_walk(
 
 
 def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) -> str:
-    """The ring of a joint; the torso's is at its COM, away from the hips."""
+    """Draw the ring of a joint and give its path; that of the torso is at its COM, away from the hips."""
     joint = next(joint for joint in biped.tree.joints if joint.name == name)
     inertial = biped.tree.links[joint.child].inertial
     torso = name not in biped.description.actuated and inertial is not None
@@ -195,7 +221,7 @@ def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) ->
 
 
 def node_names(names: Iterable[str]) -> dict[str, str]:
-    """Each name as it may stand in a path of the scene; no two alike."""
+    """Each name as it may stand in a path of the scene (letters, digits, underscores); no two alike."""
     found: dict[str, str] = {}
     for name in names:
         plain = "".join(c if c.isalnum() else "_" for c in name) or "walk"
@@ -206,7 +232,7 @@ def node_names(names: Iterable[str]) -> dict[str, str]:
 
 
 def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
-    """(colour, text) of the legend; the colour is empty for plain text."""
+    """The legend as pairs (colour, text); the colour is empty for plain text."""
     solid, *ghosts = scenes
     biped = scenes[solid].biped
     newtons = 0.1 * biped.weight / WEIGHT_LENGTH

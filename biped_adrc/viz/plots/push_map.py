@@ -1,4 +1,8 @@
-"""The map of pushes: how each controller walks on after a push, over onset, amplitude and joints."""
+"""The map of pushes: how each controller walks on after a push, over onset, amplitude and joints.
+
+Drawn from the rows of `paper.push_map.PushCell`, of the reproduction with `--full` and of the
+documentation. Each cell is cut by its diagonal and shows two controllers under the same push.
+"""
 
 from __future__ import annotations
 
@@ -20,11 +24,12 @@ FATES: dict[str, tuple[str, str, str]] = {
     "ended": ("ends otherwise: singular, diverged, stalled", "#CC79A7", "\\\\\\"),
     "marginal": ("the step of the method decides", "#56B4E9", "++"),
 }
-"""Word -> text, colour, hatch; the hatches show in a print in grey too."""
+"""Word -> text of the legend, colour, hatch; the hatches tell them apart in a print in grey too."""
 
 
 def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
-    """One panel per torque limit; a cell per onset and (pattern, amplitude): NPD upper left, ADRC lower right.
+    """One panel for each torque limit; a cell for each onset and (pattern, amplitude), NPD upper left,
+    ADRC lower right.
 
     rows: "onset_ms" [ms], "amplitude" [N m], "pattern", "torque_limit" [N m] or None for unlimited,
     "npd_word" and "adrc_word" of `FATES`. Raises InputError when there are no rows.
@@ -62,6 +67,7 @@ def _cells(
     kinds: list[tuple[str, float]],
     onsets: list[float],
 ) -> None:
+    """Draw the cells of one panel, columns by onset [ms], rows by (pattern, amplitude [N m])."""
     for r in rows:
         x = onsets.index(r["onset_ms"]) - 0.5
         y = kinds.index((r["pattern"], r["amplitude"])) - 0.5
@@ -75,6 +81,6 @@ def _cells(
 
 
 def _count(rows: Sequence[PlainRecord]) -> str:
-    """How many pushes each controller walks through legally."""
+    """How many pushes each controller walks through legally, in words."""
     npd, adrc = (sum(r[f"{c}_word"] == "legal" for r in rows) for c in ("npd", "adrc"))
     return f"legally: NPD {npd}, ADRC {adrc} of {len(rows)}"
