@@ -6,7 +6,6 @@ import shlex
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated
 
 import typer
 from rich.console import Console
@@ -38,9 +37,6 @@ gait_app = typer.Typer(
 app.add_typer(gait_app, name="gait")
 console = Console()
 
-Preset = Annotated[
-    str, typer.Option(help="Parameters of RABBIT: identified, identified-bare or tac2003.")
-]
 FIGURES, GAITS = (".png", ".svg"), (".json",)
 
 

@@ -8,49 +8,27 @@ be had again from summary.json.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
-import typer
 from rich.table import Table
 
 from biped_adrc.cli.app import app, command, console, say
-from biped_adrc.cli.sweep import (
-    InThreads,
-    Number,
-    OtherVersions,
-    Scheduler,
-    carried_out,
-    study_workers,
-)
+from biped_adrc.cli.options import texts
+from biped_adrc.cli.sweep import carried_out, study_workers
 from biped_adrc.types import PlainRecord
 
 
 @app.command()
+@texts("compare")
 def compare(
-    out: Annotated[
-        Path,
-        typer.Option("--out", "-o", help="Folder of results, figures and page; goes on there."),
-    ] = Path("comparison"),
-    controllers: Annotated[
-        str | None,
-        typer.Option(
-            help="Comma separated, your own as package.module:Class; those of the tables if not given."
-        ),
-    ] = None,
-    conditions: Annotated[
-        str | None, typer.Option(help="Comma separated; all of them if not given.")
-    ] = None,
-    seeds: Annotated[int, typer.Option(help="Walks in each cell of the table.")] = 20,
-    pushes: Annotated[
-        bool,
-        typer.Option(
-            help="Look by bisection for the largest push walked legally, and with all steps made."
-        ),
-    ] = True,
-    workers: Number = None,
-    threads: InThreads = False,
-    scheduler: Scheduler = None,
-    other_versions: OtherVersions = False,
+    out: Path = Path("comparison"),
+    controllers: str | None = None,
+    conditions: str | None = None,
+    seeds: int = 20,
+    pushes: bool = True,
+    workers: int | None = None,
+    threads: bool = False,
+    scheduler: str | None = None,
+    other_versions: bool = False,
 ) -> None:
     """Which controller walks legally under what: controllers x conditions x seeds, with intervals and tests."""
     from biped_adrc.bench.compare_study import RESULTS, run_comparison

@@ -27,17 +27,6 @@ from biped_adrc.scenario.push import parse_push
 from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, UNITS
 from biped_adrc.types import PlainRecord
 
-Pushes = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--push",
-        help="Torque [N m] on joints in one single support, JOINTS=TORQUE@STEP:START-STOP [s]; e.g. "
-        "'q1,q2=30@19:0.1-0.3'. End with ':sine=5' for a sine of 5 Hz, ':rise=0.01' for edges of 10 ms, or "
-        "give 'START-' for one that stays. "
-        "Joints are q1..q5 or names of the URDF; q5 is the unactuated torso. May be repeated; "
-        "several joints with different torques: 'q1=30,q3=-20@19:0.1-0.3'.",
-    ),
-]
 TEXTS = packaged("biped_adrc.cli", "options.toml")
 """The content of options.toml."""
 Command = Callable[..., None]

@@ -11,12 +11,13 @@ import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console, say
+from biped_adrc.cli.options import texts
 from biped_adrc.errors import InputError
 
 if TYPE_CHECKING:
@@ -27,42 +28,19 @@ if TYPE_CHECKING:
     from biped_adrc.viz.plots.sweep_maps import Maps
 
 
-Number = Annotated[int | None, typer.Option(help="Processes or threads; by default one per core.")]
-InThreads = Annotated[bool, typer.Option("--threads", help="Threads in place of processes.")]
-Scheduler = Annotated[
-    str | None, typer.Option(help="Address of a Dask scheduler, such as tcp://host:8786.")
-]
-OtherVersions = Annotated[
-    bool, typer.Option("--other-versions", help="Go on with results of other versions.")
-]
-
-
 @app.command()
+@texts("sweep")
 def sweep(
-    study: Annotated[Path, typer.Argument(help="The study, a TOML file.")],
-    out: Annotated[
-        Path, typer.Option("--out", "-o", help="Folder of the results; a study goes on there.")
-    ],
-    workers: Number = None,
-    threads: InThreads = False,
-    scheduler: Scheduler = None,
-    export: Annotated[
-        list[str] | None, typer.Option(help="Write the results as csv or parquet too.")
-    ] = None,
-    plot: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="Draw a map, X,Y or X,Y,PANEL of what is varied, such as 'bandwidth,period'; end with "
-            "':COLUMN' for another result than the share of walks that make all steps. May be repeated."
-        ),
-    ] = None,
-    dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Check the study and count its walks, no more.")
-    ] = False,
-    no_run: Annotated[
-        bool, typer.Option("--no-run", help="Export and draw what is finished, walk nothing.")
-    ] = False,
-    other_versions: OtherVersions = False,
+    study: Path,
+    out: Path,
+    workers: int | None = None,
+    threads: bool = False,
+    scheduler: str | None = None,
+    export: list[str] | None = None,
+    plot: list[str] | None = None,
+    dry_run: bool = False,
+    no_run: bool = False,
+    other_versions: bool = False,
 ) -> None:
     """Walk every point of a study, on all cores or a cluster; what is finished is never lost."""
     from biped_adrc.bench.export import check_kind, write_map

@@ -17,7 +17,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
-from biped_adrc.cli.options import Pushes, of_scenario, texts, values_of
+from biped_adrc.cli.options import of_scenario, texts, values_of
 from biped_adrc.types import PlainRecord
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ NUMERICS = ("friction", "slope", "method", "engine", "friction_limit", "force_wi
 @texts("simulate")
 def simulate(
     given: PlainRecord,
-    push: Pushes = None,
+    push: list[str] | None = None,
     sets: list[str] | None = None,
     as_printed: bool = False,
     end_illegal: bool = False,
