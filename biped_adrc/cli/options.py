@@ -34,8 +34,8 @@ Command = Callable[..., None]
 
 def texts(name: str) -> Callable[[Command], Command]:
     """Options and arguments with the texts that options.toml has under this name, such as "gait.design"."""
-    table: dict[str, str | PlainRecord] = reduce(dict.__getitem__, name.split("."), TEXTS)
-    said = {**TEXTS["every"], **table}
+    said = dict(TEXTS["every"])
+    said |= reduce(lambda table, part: table[part], name.split("."), TEXTS)
 
     def decorate(command: Command) -> Command:
         plain = signature(command, eval_str=True)

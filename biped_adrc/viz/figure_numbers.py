@@ -137,7 +137,9 @@ def _range(values: Array) -> list[float | None]:
 
 
 def rounded(values: ArrayLike) -> list[float | None]:
-    """The values as a flat list to five significant digits, None for what is not finite."""
+    """The values, of any shape (...,), as a flat list to five significant digits, None for what is not
+    finite.
+    """
     flat = np.ravel(np.asarray(values, dtype=float))
     return [float(f"{v:.5g}") if math.isfinite(v) else None for v in flat]
 

@@ -11,9 +11,9 @@ the robot's record calls so (RABBIT: left), in even ones the other. The joints d
 steps and R q in even ones, so no drawn angle jumps at impact. A rimless wheel has spokes in place
 of legs: it is drawn at q in every step, on the next of its equal spokes.
 
-The ground is a slope that steps down fall off from,
+The ground is a slope with steps down and up,
 
-    z(x) = -tan(slope) x - sum of the heights of the steps down behind x
+    z(x) = -tan(slope) x - sum of the drops of the steps behind x, negative for a step up
 
 A step's edge is drawn half way between the footholds on either side of it; where it is has no part
 in the walk.
@@ -54,20 +54,22 @@ class Tile(NamedTuple):
 
 @dataclass(frozen=True)
 class Surface:
-    """The ground of a walk: a slope with steps down.
+    """The ground of a walk: a slope with steps down and up.
 
-    slope [rad]: positive downhill. edges (E,) [m]: x of the steps, in order. heights (E,) [m]: by
-    how much the ground is lower behind each of them.
+    slope [rad]: positive downhill. edges (E,) [m]: x of the steps, in order. drops (E,) [m]: by how
+    much the ground is lower behind each of them, negative for a step up.
     """
 
     slope: float
     edges: Array
-    heights: Array
+    drops: Array
 
     def height(self, x: float, before: bool = False) -> float:
-        """z [m] of the ground at x [m]; exactly at an edge the lower level, or the upper one if `before`."""
+        """z [m] of the ground at x [m]; exactly at an edge the level behind it, or the level before it
+        if `before`.
+        """
         passed = self.edges < x if before else self.edges <= x
-        return -math.tan(self.slope) * x - float(np.sum(self.heights[passed]))
+        return -math.tan(self.slope) * x - float(np.sum(self.drops[passed]))
 
     def line(self, low: float, high: float) -> Array:
         """Corners (K, 2), x and z [m], of the ground from x = low to high [m]; each edge gives two."""
@@ -238,13 +240,11 @@ class WalkScene:
 
     @cached_property
     def surface(self) -> Surface:
-        """The ground under the footholds: the walker's slope and its steps down so far. Steps up are
-        not drawn.
-        """
+        """The ground under the footholds: the walker's slope, and its steps down and up so far."""
         arcs = self.trajectory.arcs[: len(self.footholds) - 1]
         drops = np.array([self.walker.drop(arc.mode.step) for arc in arcs])
         middles = 0.5 * (self.footholds[:-1] + self.footholds[1:])
-        return Surface(self.walker.slope, middles[drops > 0.0], drops[drops > 0.0])
+        return Surface(self.walker.slope, middles[drops != 0.0], drops[drops != 0.0])
 
     def level(self, x: float) -> float:
         """z [m] of a smooth line through the footholds at x [m]: a camera that follows it does not

@@ -144,6 +144,18 @@ def test_the_ground_passes_through_all_footholds(walks: dict[str, Walk], name: s
     assert (ends[0, 0, 0], ends[-1, 1, 0]) == (-1.0, 5.0)
 
 
+def test_the_ground_is_drawn_over_a_step_up() -> None:
+    """5 mm up in the second single support, 15 mm down in the third."""
+    biped = ba.Biped.load("rabbit", "identified-bare")
+    gait = ba.load_gait("published", biped)
+    law = ReferenceReset(ba.NPDController(continued(gait.constraint)))
+    walker = ba.Walker(biped, law, ground_steps=(ba.StepUp(2, 0.005), StepDown(3, 0.015)))
+    scene = WalkScene.of(ba.walk(walker, gait, 4, METHOD))
+    drawn = [scene.surface.height(float(x)) for x in scene.footholds]
+    np.testing.assert_allclose(drawn, scene.heights, atol=1e-9)
+    np.testing.assert_allclose(scene.heights[:4], [0.0, 0.0, 0.005, -0.01], atol=1e-9)
+
+
 def test_a_torque_is_drawn_with_the_power_it_has() -> None:
     """zeta' q' in drawn coordinates, in a step in which the hip counts from the other leg."""
     walk = passive_walk("compass", 2)

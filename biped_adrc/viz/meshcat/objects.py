@@ -247,13 +247,13 @@ def _add_strip(
     depth: float,
     sides: tuple[float, float],
 ) -> None:
-    """Draw the tiles of one ground, thick enough to reach the lower ground below the highest step down.
+    """Draw the tiles of one ground, thick enough to reach the lower ground beside the highest step.
 
     names: numbers for the nodes. reach: first and last tile. sides [m]: near and far edge, from the
     first walk's plane.
     """
     near, far = sides
-    thick = 0.03 + float(np.max(scene.surface.heights, initial=0.0))
+    thick = 0.03 + float(np.max(np.abs(scene.surface.drops), initial=0.0))
     for tile in scene.surface.tiles(*reach):
         grey = 0.78 if tile.even else 0.62
         size = [float(np.hypot(*(tile.ends[1] - tile.ends[0]))), far - near, thick]
