@@ -23,7 +23,9 @@ package a dataclass or a NamedTuple is preferred.
 
 
 def read_only(values: ArrayLike) -> Array:
-    """A copy in float64 that cannot be written to, of the shape of `values`, for fields of frozen records."""
+    """A copy in float64 that cannot be written to, of the shape of `values`, (K,) or (K, n); for
+    frozen records.
+    """
     array = np.array(values, dtype=float)
     array.setflags(write=False)
     return array

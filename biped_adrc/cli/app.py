@@ -1,4 +1,10 @@
-"""What the commands share: the app, the progress bar, and names of files, looked at before any computing."""
+"""What the commands share: the typer app, the console, the progress bar, and checks of file names.
+
+Names of inputs and outputs are looked at before anything is computed, so that a mistake costs no
+time. Modules of the package that take long to load (Pinocchio, CasADi, numba, matplotlib) are
+imported inside the functions that use them, in all of `cli`: `biped-adrc --help` is printed at
+once.
+"""
 
 from __future__ import annotations
 
@@ -21,6 +27,7 @@ from rich.progress import (
 from biped_adrc.files import keep_inputs, output_path
 
 EXIT_CHECK_FAILED, EXIT_FELL, EXIT_INTERRUPTED = 1, 4, 130
+"""Exit codes beside those of the errors: a check does not hold, the robot fell, Ctrl-C."""
 
 app = typer.Typer(
     add_completion=False,
@@ -36,12 +43,14 @@ gait_app = typer.Typer(
 )
 app.add_typer(gait_app, name="gait")
 console = Console()
+"""Where all commands print; rich fits tables to the terminal."""
 
 FIGURES, GAITS = (".png", ".svg"), (".json",)
+"""Suffixes of figures and of gaits."""
 
 
 def command() -> str:
-    """The command as a shell takes it."""
+    """The command line as a shell takes it, for reports and summaries: the reader can repeat it."""
     return shlex.join(["biped-adrc", *sys.argv[1:]])
 
 

@@ -122,8 +122,8 @@ def _confirm(
     with bar() as progress:
         task = progress.add_task("walks with a late torque, then with encoders", total=4)
         checks = []
-        for told in (False, True):
-            checks.append(check_delay(DelayCase(biped, gait, observer, gains, told)))
+        for aware in (False, True):
+            checks.append(check_delay(DelayCase(biped, gait, observer, gains, aware)))
             progress.advance(task)
         walks = []
         for seen in (None, counts):

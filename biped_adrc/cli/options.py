@@ -38,6 +38,7 @@ def texts(name: str) -> Callable[[Command], Command]:
     said |= reduce(lambda table, part: table[part], name.split("."), TEXTS)
 
     def decorate(command: Command) -> Command:
+        """Give typer a signature in which the parameters that have a text are annotated with it."""
         plain = signature(command, eval_str=True)
         told = [
             p.replace(annotation=Annotated[p.annotation, _shown(said[p.name])])
@@ -75,8 +76,11 @@ def of_scenario(
     shown = {**{name: "--" + name.replace("_", "-") for name in names}, **flags}
 
     def decorate(command: Command) -> Command:
+        """Give typer a signature with the fields of the scenario in front of the command's own parameters."""
+
         @wraps(command)
         def with_given(context: typer.Context, **values: object) -> None:
+            """What typer calls: gathers the options that were on the command line, and calls the command."""
             given = {name: values.pop(name) for name in shown}
             command({name: x for name, x in given.items() if _told(context, name)}, **values)
 
@@ -114,7 +118,7 @@ def _option(name: str, flag: str, usual: str | bool) -> Parameter:
 
 
 def _told(context: typer.Context, name: str) -> bool:
-    """Whether an option was on the command line."""
+    """Whether an option was on the command line, and not taken from its default."""
     source = context.get_parameter_source(name)
     return source is not None and source.name == "COMMANDLINE"
 

@@ -90,7 +90,9 @@ def _times(
 def _frames(scenes: Mapping[str, WalkScene], times: Array, motion: draw.Motion) -> list[Array]:
     """The frames (height, width, 3) at `times` (K,) [s], walks laid over one another.
 
-    scenes: the solid walk is the last. The picture keeps the solid walk's hip at a fixed place.
+    scenes: the solid walk is the last; its hip keeps its place in the picture, the ground moves.
+    Every walk has a trail, a robot and its forces in layers of its own; a caption gives time, step,
+    and how walks have ended.
     """
     views = [SideView(scene) for scene in scenes.values()]
     last = views[-1]

@@ -66,7 +66,9 @@ class Motion:
             raise InputError("a magnified deviation is drawn of walks side by side; add 'apart'")
 
     def pace(self, before: str = "") -> str:
-        """By how much slower it is, in words; empty for the pace of the walk."""
+        """By how much slower the picture is than the walk, in words behind `before`; empty for the
+        pace of the walk.
+        """
         return "" if self.slower == 1.0 else f"{before}{self.slower:g} times slower"
 
 
@@ -132,7 +134,11 @@ class DrawnRobot:
 
 
 class Trail:
-    """The paths of hip and swing foot so far, and footprints. times (K,) [s]: those of the frames."""
+    """The paths of hip and swing foot so far, and footprints.
+
+    times (K,) [s]: those of the frames. All points are computed at the beginning; a frame shows the
+    first of them.
+    """
 
     def __init__(
         self, axes: Axes, view: SideView, times: Array, opacity: float, order: int
@@ -166,7 +172,11 @@ class Footprints:
 
 
 class Forces:
-    """The arrow of the ground reaction at the stance foot, and a ring around every joint that is pushed."""
+    """The arrow of the ground reaction at the stance foot, and a ring around every joint that is pushed.
+
+    Scales: the robot's weight gives an arrow of `WEIGHT_LENGTH` [m], and rings are the same for all
+    robots. order: number of the layer; arrows are in front of the links of the same walk.
+    """
 
     def __init__(self, axes: Axes, view: SideView, opacity: float, order: int) -> None:
         self.axes, self.view = axes, view

@@ -66,7 +66,7 @@ def _ground(axes: Axes, biped: Biped, q: Array) -> None:
 
 
 def _links(axes: Axes, biped: Biped, q: Array) -> None:
-    """The outlines of the primitives of every link, seen from the side."""
+    """The outlines of the primitives of every link, seen from the side, in the colours of the URDF."""
     placements = link_placements(biped.tree, joint_values(biped, q))
     for name, link in biped.tree.links.items():
         for visual in link.visuals:
@@ -76,7 +76,10 @@ def _links(axes: Axes, biped: Biped, q: Array) -> None:
 
 
 def _silhouette(visual: Visual, placement: Array) -> Polygon | Circle:
-    """Outline of a primitive in the x-z plane; placement (4, 4) of its link."""
+    """Outline of a primitive in the x-z plane: a circle for a ball, a rectangle for a box or a cylinder.
+
+    placement (4, 4): of its link in the world.
+    """
     R, p = placement[:3, :3], placement[:3, 3]
     centre = (R @ np.array(visual.origin) + p)[[0, 2]]
     if visual.shape == "sphere":
@@ -92,7 +95,7 @@ def _silhouette(visual: Visual, placement: Array) -> Polygon | Circle:
 
 
 def _arc(axes: Axes, centre: Array, radius: float, span: tuple[float, float], colour: str) -> None:
-    """An arc from absolute angle span[0] to span[1] [rad] with an arrow at its end."""
+    """An arc about `centre` (2,) from absolute angle span[0] to span[1] [rad], with an arrow at its end."""
     points = np.array([centre + radius * direction(a) for a in np.linspace(*span, 60)])
     axes.plot(points[:-2, 0], points[:-2, 1], color=colour, lw=1.3, zorder=5)
     arrow = {"arrowstyle": "-|>", "color": colour, "lw": 1.3, "shrinkA": 0, "shrinkB": 0}
@@ -113,7 +116,12 @@ def _ray(axes: Axes, start: Array, end: Array, colour: str = GREY, width: float 
 
 
 def _hip_angles(axes: Axes, biped: Biped, q: Array) -> None:
-    """q5 from the vertical to the torso, q1 and q2 from the torso to the thighs, Theta to p_e."""
+    """q5 from the vertical to the torso, q1 and q2 from the torso to the thighs, Theta from the
+    vertical to p_e.
+
+    The vertical and the line to p_e are dashed; each angle has a radius of its own, so that no two
+    arcs meet.
+    """
     hip = biped.hip(q)
     _ray(axes, hip, hip + 0.72 * direction(0.0))
     for i, radius in enumerate(_HIP_ARCS):
@@ -131,7 +139,7 @@ def _hip_angles(axes: Axes, biped: Biped, q: Array) -> None:
 
 
 def _knee_angles(axes: Axes, biped: Biped, q: Array) -> None:
-    """q3 and q4 from the line of the thigh to the shin."""
+    """q3 and q4, each from the prolonged line of its thigh to the shin."""
     placements = link_placements(biped.tree, joint_values(biped, q))
     joints = {joint.name: joint for joint in biped.tree.joints}
     for i in (2, 3):

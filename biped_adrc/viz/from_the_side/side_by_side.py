@@ -33,7 +33,11 @@ HEAD, STRIP = 78, 150
 
 
 def frames_apart(walks: Mapping[str, Recorded], times: Array, motion: draw.Motion) -> list[Array]:
-    """Frames (height, width, 3) at `times` (K,) [s]. Raises InputError for walks without a reference."""
+    """Frames (height, width, 3) at `times` (K,) [s], a panel for each walk and the errors of all below.
+
+    All panels have the height of the tallest robot. Raises InputError for walks without a
+    reference, and for a factor of deviations that is negative.
+    """
     start, width, k = float(times[0]), motion.width, motion.magnify
     panels = [
         _Panel(n, walk, k, LINES[i % len(LINES)], start)
@@ -112,7 +116,10 @@ class _Panel:
         self.text.set_text(f"largest error so far {size}")
 
     def largest(self, start: float, t: float) -> float:
-        """max_i |q_i - q_di| [rad] from start to t [s], at the nodes of the walk."""
+        """max_i |q_i - q_di| [rad] from start to t [s], at the nodes of the walk.
+
+        Of the walk itself, also where its deviation is drawn larger.
+        """
         s = self.tracked.signals
         return float(np.max(np.abs(s.error[(s.t >= start) & (s.t <= t)]), initial=0.0))
 
@@ -120,8 +127,8 @@ class _Panel:
 class _Errors:
     """The largest error over the joints of every walk up to now, on one scale, with the push shaded.
 
-    The push is that of the first walk. times (K,) [s]: those of the frames; the unit is the one in
-    which the largest error among them reads well.
+    The push is that of the first walk, as all walks are under the same one. times (K,) [s]: those
+    of the frames; the unit is the one in which the largest error among them reads well.
     """
 
     def __init__(self, axes: Axes, panels: list[_Panel], times: Array) -> None:

@@ -36,9 +36,12 @@ def strip(
 ) -> Axes:
     """Draw the robot at `poses` times, equally spaced from `start` to `stop` [s]; returns the axes.
 
-    Without times: the last two steps. The title says how far apart the poses are, and how a walk
-    ended that did not do what it was asked for. Raises InputError for times outside the walk or
-    fewer than 2 poses.
+    Without times: the last two steps. The first pose is at `start`. A pose at an impact shows the
+    end of the step before it, as the first pose of the next step has the same posture with the legs
+    exchanged. The title says how far apart the poses are, and how a walk ended that did not do what
+    it was asked for.
+
+    Raises InputError for times outside the walk or fewer than 2 poses.
     """
     scene = WalkScene.of(walk)
     start, stop = _interval(scene, start, stop)
@@ -80,7 +83,10 @@ def _interval(scene: WalkScene, start: float | None, stop: float | None) -> tupl
 
 
 def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) -> None:
-    """One posture at t [s]; darkness from 0 to 1. Only the last one is `named` in the legend."""
+    """One posture at t [s]: a collection of lines for each role, so that each has one entry in the legend.
+
+    darkness: 0 to 1, sets the opacity. Only the last pose is `named`.
+    """
     segments, roles = view.segments(t), view.roles(t)
     for role, (colour, width, dash, name) in LOOKS.items():
         mine = [s for s, r in zip(segments, roles, strict=True) if r == role]
@@ -98,7 +104,10 @@ def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) ->
 
 
 def _ground(axes: Axes, view: SideView, start: float, stop: float) -> None:
-    """The ground between the footholds of the strip, footprints, and the limits of the axes."""
+    """The ground between the footholds of the strip, footprints, and the limits of the axes.
+
+    A robot that leans far, such as one that falls, makes the ground longer on both sides.
+    """
     scene = view.scene
     first, last = scene.arc_at(start), scene.arc_at(float(np.nextafter(stop, start)))
     x, z = scene.footholds[first : last + 1], scene.heights[first : last + 1]

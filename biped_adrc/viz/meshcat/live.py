@@ -70,7 +70,7 @@ class Session:
     restart: bool = True
 
     def end(self, reason: str) -> None:
-        """End the session for this reason; the first reason counts."""
+        """End the session for this reason, such as a signal; the first reason counts."""
         if not self.stop.done():
             self.stop.set_result(reason)
 
@@ -180,7 +180,11 @@ async def _serve(
     wait: float,
     say: Say,
 ) -> str:
-    """Run the server until the session ends; returns why. An error of a task is raised here."""
+    """Run the server until the session ends; returns why. Arguments as for `play`, with the text of the page.
+
+    The session ends by a signal, when `_watch` returns, or when a task fails, whose error is raised
+    here. Pages, server, tasks and the process of the browser are closed in each case.
+    """
     loop = asyncio.get_running_loop()
     try:
         sockets = bind_sockets(port, ADDRESS)
@@ -208,22 +212,12 @@ async def _serve(
         asyncio.create_task(_stream(session, scenes, fps)),
         asyncio.create_task(_watch(session, wait)),
     ]
-    for task in tasks:
-        task.add_done_callback(lambda done: _report(session, done))
     try:
-        reason = await session.stop
+        ends = [session.stop, *tasks]
+        done, _ = await asyncio.wait(ends, return_when=asyncio.FIRST_COMPLETED)
+        return done.pop().result()
     finally:
         await _close(session, server, tasks, launcher)
-    for task in tasks:
-        if task.done() and not task.cancelled() and task.exception() is not None:
-            raise task.exception()  # type: ignore[misc]
-    return reason
-
-
-def _report(session: Session, task: asyncio.Task[None]) -> None:
-    """End the session when a task has failed."""
-    if not task.cancelled() and task.exception() is not None:
-        session.end("failed")
 
 
 async def _launch(url: str) -> asyncio.subprocess.Process:
@@ -234,10 +228,10 @@ async def _launch(url: str) -> asyncio.subprocess.Process:
     )
 
 
-async def _stream(session: Session, scenes: Mapping[str, WalkScene], fps: float) -> None:
+async def _stream(session: Session, scenes: Mapping[str, WalkScene], fps: float) -> str:
     """Send a message for each frame while a page is open, by the clock; from the start again after the end.
 
-    fps [1/s]: frames per second at most.
+    fps [1/s]: frames per second at most. It ends only by being cancelled or by an error.
     """
     start = min(scene.trajectory.t_start for scene in scenes.values())
     end = max(scene.trajectory.t_end for scene in scenes.values())
@@ -266,29 +260,32 @@ def _poses(scenes: Mapping[str, WalkScene], t: float) -> list[dict[str, object]]
     return found
 
 
-async def _watch(session: Session, wait: float) -> None:
-    """End the session when no page comes within `wait` [s], and when the last one has gone for good."""
+async def _watch(session: Session, wait: float) -> str:
+    """Wait for what ends a session by itself, and return it in words: no page comes within `wait` [s],
+    or the last one has gone for good.
+    """
     try:
         await asyncio.wait_for(session.arrived.wait(), wait)
     except TimeoutError:
-        session.end(f"no browser has opened the page within {wait:g} s")
-        return
+        return f"no browser has opened the page within {wait:g} s"
     while True:
         await session.left.wait()
         session.left.clear()
         await asyncio.sleep(GRACE)
         if not session.clients:
-            session.end("the browser has closed the page")
-            return
+            return "the browser has closed the page"
 
 
 async def _close(
     session: Session,
     server: HTTPServer,
-    tasks: list[asyncio.Task[None]],
+    tasks: list[asyncio.Task[str]],
     launcher: asyncio.subprocess.Process | None,
 ) -> None:
-    """Tell the pages of the end, close them and the server, and end the process that opened the browser."""
+    """Tell the pages of the end, close them and the server, and end the process that opened the browser.
+
+    A page that does not take the message within `FAREWELL` is closed without it.
+    """
     for task in tasks:
         task.cancel()
     server.stop()

@@ -160,11 +160,19 @@ def _view(kind: str, scale: float) -> dict[str, object]:
 def _add_walk(
     robot: draw.SceneNode, path: str, scene: WalkScene, opacity: float, room: int
 ) -> dict[str, object]:
-    """Draw one walk below the node `robot`, and say where its parts are.
+    """Draw one walk below the node `robot`, and say where its parts are: the entry of this walk for player.js.
 
-    path: of that node. opacity: 0 to 1. room: points of a trace. The result has the paths of joints
-    (with type, axis and origin), legs, rings, arrow, traces and footprints; for each single support
-    its number, stance leg and foothold; and the scales of arrows and rings.
+    path: of the node `robot`. opacity: 0 to 1. room: points of a trace.
+
+        joints        path, type, axis and origin [m] of each moving joint, in the order of the
+        samples
+        legs          paths of the parts of either leg; colours: of stance and swing leg,
+        0xRRGGBB
+        rings, arrow, traces, footprints    paths of these
+        supports      number, stance leg (0 or 1) and foothold x, z [m] of each single support
+        fall          tan(slope); ground: its level below the footholds [m]; head: length of an
+        arrow's head [m]
+        metres_per_newton, longest, metres_per_newton_metre    scales of arrow and rings
     """
     biped, depth = scene.biped, draw.sole(scene.biped)
     tree = biped.tree
@@ -210,7 +218,10 @@ def _add_walk(
 
 
 def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) -> str:
-    """Draw the ring of a joint and give its path; that of the torso is at its COM, away from the hips."""
+    """Draw the ring of a joint and give its path.
+
+    The ring of the unactuated torso is at its COM: at its joint it would cover those of the hips.
+    """
     joint = next(joint for joint in biped.tree.joints if joint.name == name)
     inertial = biped.tree.links[joint.child].inertial
     torso = name not in biped.description.actuated and inertial is not None

@@ -34,8 +34,9 @@ def legal_figure(cells: Sequence[PlainRecord]) -> Figure:
     all steps made.
 
     cells: for each controller and condition "controller", "condition", "legal" and "survived"
-    [share, low, high]. The figure has a row for each condition and a column for each controller.
-    Raises InputError without cells.
+    [share, low, high]. The figure has a row for each condition and a column for each controller;
+    white is legal, grey is not. A pair that is not among the cells stays empty. Raises InputError
+    without cells.
     """
     rows, columns = _names(cells, "condition"), _names(cells, "controller")
     with style():
@@ -67,8 +68,11 @@ def measure_figure(cells: Sequence[PlainRecord], measure: str, title: str) -> Fi
     """Medians of one measure with their intervals: a row for each condition, a mark for each controller.
 
     cells: as in `legal_figure`, with `measure` [median, low, high] over legal walks or None, and
-    the same in "made" over walks that make all steps, drawn hollow where no walk is legal. title:
-    label of the axis, with its unit. Errors and costs of transport have a logarithmic scale.
+    the same in "made" over walks that make all steps, drawn hollow where no walk is legal. A
+    controller that never makes all steps has no mark. measure: one of `comparison_text.MEASURES`.
+    title: label of the axis, with its unit. Errors and costs of transport have a logarithmic scale.
+
+    Raises InputError without cells.
     """
     rows, columns = _names(cells, "condition"), _names(cells, "controller")
     with style():
@@ -132,7 +136,8 @@ def push_figure(pushes: Sequence[PlainRecord]) -> Figure:
 
     pushes: "controller", "direction" (joints), "phase", and in "legal" and "survived" the "median"
     and the "seeds", each [low, high] [N m] with None for "at least". Thin lines span the seeds of
-    legal walks.
+    legal walks, an arrow means that even the largest push tried was passed. Raises InputError
+    without pushes.
     """
     directions, columns = _names(pushes, "direction"), _names(pushes, "controller")
     phases = list(dict.fromkeys(p["phase"] for p in pushes))

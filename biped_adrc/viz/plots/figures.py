@@ -35,9 +35,10 @@ def tracking_figure(
 ) -> Figure:
     """The paper's figures 4 and 5: references and joint angles [rad], torques [N m], and the tracking error.
 
-    push: (start, stop) [s]; its window is shaded, a row shows its torque, a second column the time
-    around it, and two more the milliseconds after either edge. torque_limit [N m]: drawn as a
-    dotted line.
+    signals: of a walk with motors. title: above all panels. push: (start, stop) [s]; its window is
+    shaded, a row shows its torque, a second column the time around it, and two more the
+    milliseconds after either edge, without angles, as these do not move within milliseconds.
+    torque_limit [N m]: drawn as a dotted line.
     """
     heights = (3.0, 3.0, 1.6, 3.0, 3.0) if push else (1.0,) * 4
     shares = (1.5, 1.5, 1.0, 1.0) if push else (1.0,)
@@ -118,7 +119,7 @@ def _one_legend_a_row(without: Sequence[Axes], beside_empty: Sequence[Axes]) -> 
 
 
 def passive_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
-    """A walk without motors: its angles and energies over time, and Theta against its rate.
+    """A walk without motors: its angles [rad] and energies [J] over time [s], and Theta against its rate.
 
     push: (start, stop) [s], shaded.
     """
@@ -174,8 +175,9 @@ def phase_figure(walks: Mapping[str, Signals]) -> Figure:
 def disturbance_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
     """Every actuated joint's total disturbance, and the torque from outside, against their estimates.
 
-    A row for each joint. push: (start, stop) [s]; the time around it is shown, and in two more
-    columns the torque at either edge.
+    A row for each joint: xi of (13) [rad/s^2] at the left, the torque zeta and what the estimate
+    amounts to [N m] at the right. push: (start, stop) [s]; the time around it is shown, and in two
+    more columns the torque at either edge.
     """
     p = signals.q_d.shape[1]
     with style():
@@ -240,7 +242,10 @@ def multiplier_figure(
 
 
 def return_map_figure(before: Array, after: Array) -> Figure:
-    """Theta' before one impact against Theta' before the next, both (k,) [rad/s], as a staircase."""
+    """The return map of Theta' as a staircase; see `plots.staircase`.
+
+    before, after (k,): Theta' before one impact and before the next [rad/s].
+    """
     with style():
         figure = new_figure(5.2, 4.8)
         plots.staircase(figure.subplots(), before, after)

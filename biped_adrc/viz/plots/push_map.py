@@ -32,7 +32,9 @@ def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
     ADRC lower right.
 
     rows: "onset_ms" [ms], "amplitude" [N m], "pattern", "torque_limit" [N m] or None for unlimited,
-    "npd_word" and "adrc_word" of `FATES`. Raises InputError when there are no rows.
+    "npd_word" and "adrc_word" of `FATES`. Panels go from unlimited torque to the highest limit,
+    rows of cells are in the order of the data. The title of a panel counts the pushes that are
+    walked through legally. Raises InputError when there are no rows.
     """
     if not rows:
         raise InputError("the map of pushes has no cells; expected at least one row")

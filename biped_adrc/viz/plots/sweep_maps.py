@@ -141,7 +141,10 @@ def _order(x: Level) -> tuple[int, float | str]:
 
 
 def _texts(levels: list[Level]) -> list[str]:
-    """Each level with the fewest digits, from two, that tell all of them apart within 1 %."""
+    """Each level with the fewest digits, from two, that tell all of them apart within 1 %.
+
+    So 0.0015 and 0.00152 do not both become "0.0015".
+    """
     numbers = [x for x in levels if not isinstance(x, str) and x is not None and x == x]
     for digits in range(2, 6):
         shown = [float(f"{x:.{digits}g}") for x in numbers]
@@ -176,8 +179,10 @@ def _numbers(column: Column, name: str) -> Array:
 
 
 def _draw(maps: Maps, x: Cut, y: Cut, panels: Cut, means: list[Array]) -> Figure:
-    """The figure of these means, one array (cells of y, cells of x) for each panel, with one scale of
-    colour.
+    """The figure of these means, one array (cells of y, cells of x) for each panel, with one scale of colour.
+
+    Shares are drawn from 0 to 1, other results from the least to the largest mean. At most four
+    panels in a row.
     """
     share = maps.value in SHARES
     shown = np.concatenate([m[np.isfinite(m)] for m in means])

@@ -63,6 +63,9 @@ def zero_potential(axes: Axes, report: ZeroDynamicsReport) -> Axes:
 def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
     """(Theta [rad], sigma [kg m^2/s]) with level curves, the domain shaded, and the orbit with its
     impact dotted.
+
+    Level curves are those of sigma^2 / 2 + V_zero(Theta). Limits follow the fastest step of the
+    domain.
     """
     o, theta = report.orbits, grid(report.orbits.zero)
     low, high = _shown(report)
@@ -82,8 +85,10 @@ def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
 
 
 def restricted_map(axes: Axes, report: ZeroDynamicsReport, steps: int = STAIRS) -> Axes:
-    """rho(zeta), the diagonal, zeta*, the domain shaded, and the stairs of `steps` steps from either
-    end of it.
+    """rho(zeta), the diagonal, zeta*, the domain shaded, and the stairs of `steps` steps from either end of it.
+
+    zeta [kg^2 m^4/s^2] is sigma^2 / 2 before an impact. The stairs begin just inside the domain, as
+    its ends are left out of it, and run towards zeta* where the gait is stable.
     """
     o = report.orbits
     low, high = _shown(report)
