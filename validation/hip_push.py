@@ -279,8 +279,8 @@ def hip_push(
     alone = [x for x in limits if not x.case.stride]
     forces = [(x.case, x.stops.force + more) for x in alone for more in (0.0, above)]
     kept = [(replace(case, stride=True), force) for case, force in forces]
-    tasks = [Task(f"{c.preset}, {c.name}, {F:g} N", PushedWalk.of, (c, F)) for c, F in kept]
-    walks = [found.value for found in run_tasks(tasks, workers, progress)]
+    pushed = [Task(f"{c.preset}, {c.name}, {F:g} N", PushedWalk.of, (c, F)) for c, F in kept]
+    walks = [found.value for found in run_tasks(pushed, workers, progress)]
     pairs = tuple((c, w) for (c, _), w in zip(kept, walks, strict=True))
     parts = {preset: replace(base, preset=preset).parts() for preset in presets}
     merits = {preset: direction_merits(one.gait, one.biped) for preset, one in parts.items()}

@@ -6,22 +6,27 @@ import hashlib
 import json
 import time
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
+
+Record = Mapping[str, object]
+"""Values of one run by name, plain as JSON has them: what a worker is handed."""
+Row = Mapping[str, object]
+"""Results of one run by name, numbers, text or None: what a worker hands back."""
 
 
 class Point(NamedTuple):
     """A record in plain values, and the values by which the study tells the point from others."""
 
-    record: Mapping[str, Any]
-    at: Mapping[str, Any]
+    record: Record
+    at: Record
 
 
-def point(of: Mapping[str, Any] | Point) -> Point:
+def point(of: Record | Point) -> Point:
     """A point as it is; a plain record lies at its own values."""
     return of if isinstance(of, Point) else Point(of, of)
 
 
-def text_of(values: Mapping[str, Any]) -> str:
+def text_of(values: Record) -> str:
     """As JSON, from which floats come back to the last bit; the same values give the same text."""
     return json.dumps(values, sort_keys=True)
 
@@ -37,7 +42,7 @@ tried again when the study goes on."""
 NO_WALK = (REFUSED, RAISED, CRASHED)
 """What neither makes all steps nor falls."""
 
-Function = Callable[[Sequence[Mapping[str, Any]]], Sequence[Mapping[str, Any]]]
+Function = Callable[[Sequence[Record]], Sequence[Row]]
 """A row of plain values for each record, in their order."""
 
 
@@ -50,7 +55,7 @@ class Made(NamedTuple):
     seconds: float
 
 
-def run_chunk(function: Function, records: Sequence[Mapping[str, Any]]) -> list[Made]:
+def run_chunk(function: Function, records: Sequence[Record]) -> list[Made]:
     """A row of each record. Where the function raises, record by record, so that one spoils no other."""
     begin = time.perf_counter()
     try:
@@ -64,14 +69,14 @@ def run_chunk(function: Function, records: Sequence[Mapping[str, Any]]) -> list[
         return [made({"status": RAISED, "detail": detail}, time.perf_counter() - begin)]
 
 
-def _rows(function: Function, records: Sequence[Mapping[str, Any]]) -> Sequence[Mapping[str, Any]]:
+def _rows(function: Function, records: Sequence[Record]) -> Sequence[Row]:
     rows = function(records)
     if len(rows) != len(records):
         raise ValueError(f"the function gave {len(rows)} rows for {len(records)} records")
     return rows
 
 
-def made(row: Mapping[str, Any], seconds: float) -> Made:
+def made(row: Row, seconds: float) -> Made:
     """Ready to be stored. Raises TypeError for a value that is not plain."""
     for name, x in row.items():
         if x is not None and not isinstance(x, (float, int, str)):
@@ -82,5 +87,5 @@ def made(row: Mapping[str, Any], seconds: float) -> Made:
     return Made(json.dumps(dict(row)), _text(status), _text(engine), seconds)
 
 
-def _text(x: Any) -> str | None:
+def _text(x: object) -> str | None:
     return None if x is None else str(x)

@@ -10,7 +10,8 @@ import re
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from functools import partial
+from typing import ClassVar, ParamSpec, Protocol, TypeVar, cast
 
 from biped_adrc.campaign.workers import Workers, WorkersError
 from biped_adrc.errors import InputError
@@ -19,8 +20,37 @@ from biped_adrc.versions import differences, numerical_versions
 TIMEOUT = 10.0
 """[s] for a scheduler to answer, and for its first worker."""
 
+P = ParamSpec("P")
+T = TypeVar("T")
+Versions = Mapping[str, str]
+
 PRINTED = "tcp://host:8786, which 'dask scheduler' prints when it starts"
 ADDRESS = re.compile(r"(?:(?:tcp|tls)://)?(?:\[[0-9a-fA-F:.]+\]|[\w.-]+):([0-9]{1,5})")
+
+
+class _Stream(Protocol):
+    def closed(self) -> bool: ...
+
+
+class _Scheduler(Protocol):
+    comm: _Stream
+
+
+class _Client(Protocol):
+    """What is used of Dask's untyped client."""
+
+    status: str
+    scheduler_comm: _Scheduler | None
+
+    def nthreads(self) -> Mapping[str, int]: ...
+
+    def run(self, function: Callable[[], T]) -> Mapping[str, T]: ...
+
+    def wait_for_workers(self, n_workers: int, timeout: float) -> object: ...
+
+    def get_executor(self, *, pure: bool) -> Executor: ...
+
+    def close(self, timeout: float) -> object: ...
 
 
 @dataclass(frozen=True)
@@ -45,12 +75,12 @@ class Cluster(Workers):
             raise
         return _Checked(client, client.get_executor(pure=False), numerical_versions())
 
-    def count(self, executor: Any) -> int:
-        return max(1, sum(executor.client.nthreads().values()))
+    def count(self, executor: Executor) -> int:
+        return max(1, sum(_client_of(executor).nthreads().values()))
 
-    def stop(self, executor: Any, now: bool) -> None:
+    def stop(self, executor: Executor, now: bool) -> None:
         executor.shutdown(wait=not now)
-        executor.client.close(timeout=2)
+        _client_of(executor).close(timeout=2)
 
     def restart(self, executor: Executor) -> Executor:
         """The scheduler has put others in the place of workers that died."""
@@ -61,8 +91,8 @@ class Cluster(Workers):
 
         return super().broken(error) or isinstance(error, KilledWorker)
 
-    def check(self, executor: Any) -> None:
-        client = executor.client
+    def check(self, executor: Executor) -> None:
+        client = _client_of(executor)
         comm = client.scheduler_comm
         if client.status != "running" or comm is None or comm.comm.closed():
             raise WorkersError(
@@ -71,7 +101,11 @@ class Cluster(Workers):
             )
 
 
-def _check_workers(client: Any, address: str, timeout: float) -> None:
+def _client_of(executor: Executor) -> _Client:
+    return cast("_Checked", executor).client
+
+
+def _check_workers(client: _Client, address: str, timeout: float) -> None:
     """Raises InputError."""
     try:
         client.wait_for_workers(1, timeout=timeout)
@@ -86,7 +120,7 @@ def _check_workers(client: Any, address: str, timeout: float) -> None:
             raise InputError(_refusal(f"worker {worker} of the scheduler at {address}", text))
 
 
-def difference(found: Mapping[str, str] | str, expected: Mapping[str, str]) -> str:
+def difference(found: Versions | str, expected: Versions) -> str:
     """Which versions differ; empty when none does. Text in their place is what went wrong there."""
     return found if isinstance(found, str) else differences(found, expected)
 
@@ -98,7 +132,7 @@ def _refusal(who: str, text: str) -> str:
     )
 
 
-def _client(address: str, timeout: float) -> Any:
+def _client(address: str, timeout: float) -> _Client:
     try:
         from distributed import Client as connect
     except ImportError as error:
@@ -119,10 +153,10 @@ def _client(address: str, timeout: float) -> Any:
         ) from error
 
 
-def _asked() -> Callable[[], Any]:
+def _asked() -> Callable[[], Versions | str]:
     """A function that workers can run which do not have this package."""
 
-    def versions() -> Any:
+    def versions() -> Versions | str:
         try:
             from biped_adrc.versions import numerical_versions
         except ImportError as error:
@@ -132,23 +166,24 @@ def _asked() -> Callable[[], Any]:
     return versions
 
 
-def _run(expected: Mapping[str, str], function: Callable[..., Any], *arguments: Any) -> Any:
+def _run(expected: Versions, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
     text = difference(numerical_versions(), expected)
     if text:
         raise InputError(_refusal("a worker of the cluster", text))
-    return function(*arguments)
+    return function(*args, **kwargs)
 
 
 @dataclass(frozen=True)
 class _Checked(Executor):
     """Dask's executor and its client; workers look at their versions first."""
 
-    client: Any
-    inner: Any
-    versions: Mapping[str, str]
+    client: _Client
+    inner: Executor
+    versions: Versions
 
-    def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        return self.inner.submit(_run, dict(self.versions), function, *args, **kwargs)
+    def submit(self, function: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
+        checked: Callable[..., T] = partial(_run, dict(self.versions), function)
+        return self.inner.submit(checked, *args, **kwargs)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         self.inner.shutdown(wait=wait and not cancel_futures)

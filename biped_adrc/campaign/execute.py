@@ -9,17 +9,18 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from biped_adrc.campaign.chunk import (
     CRASHED,
     Function,
     Made,
     Point,
+    Record,
     key_of,
     made,
     point,
@@ -74,7 +75,7 @@ class Job(NamedTuple):
 
     key: str
     text: str
-    record: Mapping[str, Any]
+    record: Record
     seed: int | None
 
 
@@ -83,7 +84,7 @@ Chunk = tuple[Job, ...]
 
 def run_study(
     function: Function,
-    records: Iterable[Mapping[str, Any] | Point],
+    records: Iterable[Record | Point],
     store: Store,
     workers: Workers | Executor | int | None = None,
     *,

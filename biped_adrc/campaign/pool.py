@@ -6,31 +6,34 @@ import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import as_completed
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
 from biped_adrc.campaign.workers import Processes, cores, held_back, undisturbed
+
+T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
 
 TaskProgress = Callable[[int, int, str], None]
 """Called with tasks done, tasks in all, and the name of the one that has just finished."""
 
 
 @dataclass(frozen=True)
-class Task:
+class Task(Generic[T_co]):
     """function(*arguments), both picklable; `name` is shown while it runs."""
 
     name: str
-    function: Callable[..., Any]
-    arguments: tuple[Any, ...] = ()
+    function: Callable[..., T_co]
+    arguments: tuple[object, ...] = ()
 
 
-class Timed(NamedTuple):
+class Timed(NamedTuple, Generic[T]):
     """A result and the time it took [s]."""
 
-    value: Any
+    value: T
     seconds: float
 
 
-def _timed(task: Task) -> Timed:
+def _timed(task: Task[T]) -> Timed[T]:
     begin = time.perf_counter()
     value = task.function(*task.arguments)
     return Timed(value, time.perf_counter() - begin)
@@ -41,8 +44,8 @@ PRELOADED = ("biped_adrc.paper.plan", "biped_adrc.paper.pictures", "biped_adrc.e
 
 
 def run_tasks(
-    tasks: Sequence[Task], workers: int | None = None, progress: TaskProgress | None = None
-) -> list[Timed]:
+    tasks: Sequence[Task[T]], workers: int | None = None, progress: TaskProgress | None = None
+) -> list[Timed[T]]:
     """Results in the order of `tasks`. An error in one, or Ctrl-C, ends all workers and is raised."""
     told = progress or (lambda *_: None)
     if (workers or cores()) == 1:

@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from json import JSONDecodeError, loads
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from filelock import FileLock
 
@@ -31,7 +31,7 @@ class About(NamedTuple):
 
     name: str
     hash: str
-    configuration: Mapping[str, Any]
+    configuration: Mapping[str, object]
     versions: Mapping[str, str]
     points: int | None = None
 
@@ -61,8 +61,8 @@ class Result(NamedTuple):
 
     position: int
     key: str
-    at: dict[str, Any]
-    row: dict[str, Any]
+    at: dict[str, object]
+    row: dict[str, object]
 
 
 @dataclass(frozen=True)
@@ -94,13 +94,13 @@ class Store:
 
     def crashed(self, keys: Sequence[str]) -> dict[str, bool]:
         """Those of the keys that there are; true where the process died, the last time it was tried."""
-        return {key: status == CRASHED for key, status in self._of("status", keys)}
+        return {key: status == CRASHED for key, status in self._of("coalesce(status, '')", keys)}
 
-    def rows(self, keys: Sequence[str]) -> dict[str, dict[str, Any]]:
+    def rows(self, keys: Sequence[str]) -> dict[str, dict[str, object]]:
         """Rows of results by key, of those of the keys that are finished."""
         return {key: self._plain(key, row) for key, row in self._of("row", keys)}
 
-    def _of(self, column: str, keys: Sequence[str]) -> Iterator[tuple[str, Any]]:
+    def _of(self, column: str, keys: Sequence[str]) -> Iterator[tuple[str, str]]:
         for begin in range(0, len(keys), 500):
             part = keys[begin : begin + 500]
             marks = ",".join("?" * len(part))
@@ -127,7 +127,7 @@ class Store:
             found = self.connection.execute(text, NO_WALK).fetchall()
         return {s: str(self._plain(key, row).get("detail") or "") for s, row, key in found}
 
-    def _plain(self, key: str, text: str) -> dict[str, Any]:
+    def _plain(self, key: str, text: str) -> dict[str, object]:
         try:
             found = loads(text)
             if isinstance(found, dict):

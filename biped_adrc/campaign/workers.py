@@ -9,13 +9,15 @@ import multiprocessing
 import os
 import signal
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing import forkserver, resource_tracker
+from multiprocessing.process import BaseProcess
 from threading import Thread, current_thread, main_thread
-from typing import Any, ClassVar
+from types import FrameType
+from typing import ClassVar
 
 from biped_adrc.errors import InputError, SimulationError
 
@@ -119,10 +121,11 @@ class Processes(Threads):
         return executor
 
     def stop(self, executor: Executor, now: bool) -> None:
-        processes: list[Any] = list((getattr(executor, "_processes", None) or {}).values())
+        processes: dict[int, BaseProcess] = getattr(executor, "_processes", None) or {}
+        running = list(processes.values())
         if now:
             executor.shutdown(wait=False, cancel_futures=True)
-            for process in processes:
+            for process in running:
                 process.terminate()
         super().stop(executor, now)
 
@@ -137,8 +140,12 @@ def _start_forkserver() -> None:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+Handler = signal.Handlers | Callable[[int, FrameType | None], object]
+"""What answers a signal."""
+
+
 @contextmanager
-def undisturbed(handler: Any = signal.SIG_IGN) -> Iterator[None]:
+def undisturbed(handler: Handler = signal.SIG_IGN) -> Iterator[None]:
     """Without Ctrl-C, where it would be heard; `handler` hears it instead."""
     if current_thread() is not main_thread():
         yield

@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -96,7 +95,7 @@ class Halved:
         """Whether the step does not decide."""
         return self.gap <= AGREE
 
-    def record(self) -> dict[str, Any]:
+    def record(self) -> dict[str, object]:
         """As plain values."""
         return {**vars(self), "gap": self.gap, "agrees": self.agrees}
 
@@ -150,7 +149,7 @@ def observed_order(o: Outcome, of: Callable[[Outcome], float]) -> float:
     return math.log2(abs(first - second) / abs(second - third))
 
 
-def records(named: dict[str, Outcome]) -> Iterator[dict[str, Any]]:
+def records(named: dict[str, Outcome]) -> Iterator[dict[str, object]]:
     """A row for every quantity of every run that was run twice, for the summary."""
     for name, o in named.items():
         for found in halved(o):

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from biped_adrc.campaign.pool import Task, run_tasks
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.figures import push_window
-from biped_adrc.paper.plan import BOTH, Plan
+from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.paper.plan import Plan
 from biped_adrc.paper.results import Results
 from biped_adrc.viz.figure_numbers import as_text, numbers_of
 from biped_adrc.viz.from_the_side.robot_figure import robot_figure
@@ -37,11 +38,11 @@ def draw_all(plan: Plan, r: Results, out: Path, workers: int | None = None) -> d
     return found
 
 
-def pictures(plan: Plan, r: Results) -> dict[str, Task]:
+def pictures(plan: Plan, r: Results) -> dict[str, Task[tuple[bytes, bytes, str]]]:
     """What is drawn, by name."""
     signals, cells = {c: head.signals for c, head in r.heads.items()}, r.cells
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
-    magnitudes = {c: r.multipliers[c].orbit.multipliers for c in BOTH if c in r.multipliers}
+    magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
     mu = Biped.load("rabbit", plan.preset).description.friction_coefficient
     maps = {
         f"push_map_{preset}": (
@@ -50,7 +51,7 @@ def pictures(plan: Plan, r: Results) -> dict[str, Task]:
         )
         for preset in sorted({cell.preset for cell in cells})
     }
-    made: dict[str, tuple[Any, ...]] = {
+    made: dict[str, tuple[object, ...]] = {
         "figure1": (draw_robot, plan.preset),
         "figure4": (figures.tracking_figure, npd, "NPD under the push", window),
         "figure5": (figures.tracking_figure, adrc, "ADRC under the push", window),
@@ -71,7 +72,7 @@ def draw_robot(preset: str) -> Figure:
     return robot_figure(Biped.load("rabbit", preset))
 
 
-def rendered(draw: Callable[..., Figure], *arguments: Any) -> tuple[bytes, bytes, str]:
+def rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes, str]:
     """A figure as PNG and as SVG, laid out once, and the numbers it shows as JSON."""
     figure = draw(*arguments)
     figure.draw_without_rendering()

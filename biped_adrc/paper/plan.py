@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TypedDict
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.campaign.pool import Task
+from biped_adrc.checks import Check
 from biped_adrc.engine.run import COMPILED, PINOCCHIO
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.gait.gait import load_gait
@@ -25,7 +26,6 @@ from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenari
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import poincare_twice, return_map_samples
 
-BOTH = CONTROLLERS
 MOTORS = ("q1", "q2", "q3", "q4")
 PAPER_PUSH = joints_push(30.0, MOTORS, step=19, start=0.1, stop=0.3)
 SINE = joints_push(40.0, MOTORS, step=19, start=0.05, stop=0.3, kind="sine", frequency=5.0)
@@ -95,7 +95,7 @@ class Headline:
     signals: Signals
 
 
-def headline(run: Scenario) -> tuple[Headline, list[Any]]:
+def headline(run: Scenario) -> tuple[Headline, list[Check]]:
     """A run that is kept whole, and its laws.
 
     Its figures are there at half of its steps too, and at a quarter for the single supports from the push on.
@@ -118,7 +118,7 @@ def engines(run: Scenario) -> Outcome:
 def base_runs(plan: Plan) -> dict[str, Scenario]:
     """Runs by name; each returns an Outcome. Names end in the controller."""
     runs: dict[str, Scenario] = {}
-    for c in BOTH:
+    for c in CONTROLLERS:
         run = stepped(Scenario(c, preset=plan.preset))
         for preset in plan.presets:
             runs[f"nominal {preset} {c}"] = replace(run, preset=preset)
@@ -153,7 +153,7 @@ def pushed_run(plan: Plan, controller: str) -> Scenario:
 def literal_runs(plan: Plan) -> dict[str, Scenario]:
     """(20) as printed, and every reset policy with and without RABBIT's torque limit."""
     runs = {}
-    for c in BOTH:
+    for c in CONTROLLERS:
         printed = stepped(Scenario(c, preset=plan.preset, solve_theta=False, impacts=8))
         runs[f"as printed {c}"] = printed
     for policy in POLICIES:
@@ -166,6 +166,22 @@ def literal_runs(plan: Plan) -> dict[str, Scenario]:
     return runs
 
 
+class RecipeRecord(TypedDict, total=False):
+    """x"""
+
+    status: str
+    impacts: int
+    peak_error: float
+    peak_torque: float
+    impact_rate_jump: list[float]
+    certificate: dict[str, float]
+    violations: list[str]
+    distance_to_x_star: list[float]
+    multipliers: list[float]
+    multipliers_change: float
+    stable: bool
+
+
 @dataclass(frozen=True)
 class RecipeResult:
     """What became of gait (b) in one preset under one controller."""
@@ -174,7 +190,7 @@ class RecipeResult:
     controller: str
     closes: bool
     reason: str
-    record: dict[str, Any]
+    record: RecipeRecord
     outcome: Outcome | None = None
     """Of the walk, at two steps."""
 
@@ -184,22 +200,25 @@ def recipe_result(preset: str, controller: str) -> RecipeResult:
     run = replace(stepped(Scenario(controller, preset=preset, gait="recipe", impacts=8)), fine=None)
     run = replace(run, engine=COMPILED)
     biped = Scene.of(run).biped
-    record: dict[str, Any] = {}
+    record: RecipeRecord = {}
     found = None
     try:
         gait = load_gait("recipe", biped)
         found = execute_twice(run)
-        names = ("status", "impacts", "peak_error", "peak_torque")
-        record = {name: getattr(found, name) for name in names}
-        record["impact_rate_jump"] = impact_smoothness(gait, biped).tolist()
+        record = {
+            "status": found.status,
+            "impacts": found.impacts,
+            "peak_error": found.peak_error,
+            "peak_torque": found.peak_torque,
+            "impact_rate_jump": impact_smoothness(gait, biped).tolist(),
+        }
         if found.certificates:
             last = found.certificates[-1]
             record |= {"certificate": last.record(), "violations": list(last.violations())}
         cycle = poincare_twice(replace(run, h=1e-3))
-        orbit, x_minus = cycle.orbit, cycle.orbit.x_minus[: 2 * biped.n]
+        orbit, n = cycle.orbit, biped.n
         record |= {
-            "x_minus": x_minus.tolist(),
-            "distance_to_x_star": (x_minus - X_STAR).tolist(),
+            "distance_to_x_star": (orbit.x_minus[: 2 * n] - X_STAR).tolist(),
             "multipliers": abs(orbit.multipliers).tolist(),
             "multipliers_change": cycle.gap,
             "stable": orbit.stable,
@@ -209,12 +228,12 @@ def recipe_result(preset: str, controller: str) -> RecipeResult:
     return RecipeResult(preset, controller, True, "", record, found)
 
 
-def tasks(plan: Plan) -> dict[str, Task]:
+def tasks(plan: Plan) -> dict[str, Task[object]]:
     """Everything to compute, by name, the longest first; each in its own process."""
     adrc, npd = Scenario("ADRC", preset=plan.preset), Scenario("NPD", preset=plan.preset)
-    pushed = {c: pushed_run(plan, c) for c in BOTH}
-    out: dict[str, Task] = {}
-    for c in reversed(BOTH):
+    pushed = {c: pushed_run(plan, c) for c in CONTROLLERS}
+    out: dict[str, Task[object]] = {}
+    for c in reversed(CONTROLLERS):
         out[f"headline {c}"] = Task(f"{c} under the push", headline, (pushed[c],))
         out[f"engines {c}"] = Task(f"{c}: the two engines", engines, (pushed[c],))
     if not plan.quick:
@@ -231,7 +250,7 @@ def tasks(plan: Plan) -> dict[str, Task]:
     out |= claim_tasks(plan.presets)
     for preset in plan.presets:
         out[f"model {preset}"] = Task(f"laws of the model, {preset}", model_laws, (preset,))
-        for c in BOTH:
+        for c in CONTROLLERS:
             name = f"recipe {preset} {c}"
             out[name] = Task(f"gait (b), {preset}, {c}", recipe_result, (preset, c))
     for name, run in base_runs(plan).items():
@@ -241,7 +260,7 @@ def tasks(plan: Plan) -> dict[str, Task]:
     return out
 
 
-def map_tasks(plan: Plan) -> dict[str, Task]:
+def map_tasks(plan: Plan) -> dict[str, Task[object]]:
     """The map of pushes: a task for every preset, torque limit [N m] and joint pattern."""
     return {
         f"map {preset}, {limit}, {pattern}": Task(

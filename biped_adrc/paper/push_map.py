@@ -13,7 +13,6 @@ import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
-from typing import Any
 
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.paper.pair import CONTROLLERS
@@ -105,7 +104,7 @@ class PushCell:
     npd: Fate
     adrc: Fate
 
-    def row(self) -> dict[str, Any]:
+    def row(self) -> dict[str, object]:
         """As plain values, for the figure and the summary."""
         return {
             **asdict(self),

@@ -26,9 +26,10 @@ from biped_adrc.paper.claims.table import claims
 from biped_adrc.paper.claims.words import MEANINGS, PREFACE, Claim, claim_checks
 from biped_adrc.paper.convergence import observed_order, records
 from biped_adrc.paper.figures import push_window
+from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.paper.physical_laws import work_identity
 from biped_adrc.paper.pictures import draw_all
-from biped_adrc.paper.plan import BOTH, Headline, Plan
+from biped_adrc.paper.plan import Headline, Plan
 from biped_adrc.paper.plan import tasks as planned_tasks
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.tables import findings, notes, tables
@@ -82,15 +83,15 @@ def reproduce(
 
 def _laws(plan: Plan, r: Results) -> list[Check]:
     """The laws that the runs were held against."""
-    parts = [laws for laws, _ in r.numerics.values()] + [r.headline[c][1] for c in BOTH]
+    parts = [laws for laws, _ in r.numerics.values()] + [r.headline[c][1] for c in CONTROLLERS]
     nominal = dict(r.nominal(plan))
     for preset in plan.presets:
-        works = [work_identity(nominal[f"{preset} {c}"]) for c in BOTH]
+        works = [work_identity(nominal[f"{preset} {c}"]) for c in CONTROLLERS]
         parts += [r.model[preset], works]
     return [law for part in parts for law in part]
 
 
-def _said(plan: Plan, r: Results, found: list[Claim]) -> dict[str, Any]:
+def _said(plan: Plan, r: Results, found: list[Claim]) -> dict[str, object]:
     """What the summary says in words: settings, findings, claims, notes."""
     return {
         "preset": plan.preset,
@@ -105,12 +106,12 @@ def _said(plan: Plan, r: Results, found: list[Claim]) -> dict[str, Any]:
     }
 
 
-def _numbers(plan: Plan, r: Results) -> dict[str, Any]:
+def _numbers(plan: Plan, r: Results) -> dict[str, object]:
     """The numbers of the runs, at the steps at which they were made."""
     return {
-        "claims_evidence": gathered(plan.presets, r.claims),
+        "claims_evidence": gathered(r.claims.values()),
         "nominal": {name: [s.record() for s in o.certificates] for name, o in r.nominal(plan)},
-        "multipliers": {c: r.multipliers[c].record() for c in BOTH if c in r.multipliers},
+        "multipliers": {c: r.multipliers[c].record() for c in CONTROLLERS if c in r.multipliers},
         "headline": {c: _three_steps(head) for c, head in r.heads.items()},
         "convergence": list(records(r.run_twice)),
         "regression": {c: _regression(c, found) for c, found in r.regressions.items()},
@@ -139,7 +140,7 @@ def probe(out: Path) -> None:
         raise OutputError(f"'{out}' is not a folder; choose another with --out")
 
 
-def _settings(plan: Plan) -> dict[str, Any]:
+def _settings(plan: Plan) -> dict[str, object]:
     fields = [name for name in Plan.__dataclass_fields__ if name != "pushes"]
     return {
         **{name: getattr(plan, name) for name in fields},
@@ -150,7 +151,7 @@ def _settings(plan: Plan) -> dict[str, Any]:
     }
 
 
-def _three_steps(head: Headline) -> dict[str, Any]:
+def _three_steps(head: Headline) -> dict[str, object]:
     """The largest error under the push at the step used, at half and at a quarter of it, and the order."""
     o = head.outcome
     assert o.half is not None
@@ -178,7 +179,7 @@ def _stored(head: Headline) -> Trajectory:
     return replace(head.trajectory, arcs=tuple(arcs))
 
 
-def _regression(controller: str, found: Regression) -> dict[str, Any]:
+def _regression(controller: str, found: Regression) -> dict[str, object]:
     names = ("magnitudes", "rank", "condition", "samples", "warning")
     return {"controller": controller, **{name: getattr(found, name) for name in names}}
 
@@ -189,7 +190,7 @@ def _animate(r: Results) -> str:
     return animation_html(walks, Look("ADRC", [] if window is None else [(*window, "push")]))
 
 
-def failed(checks: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def failed(checks: list[dict[str, object]]) -> list[dict[str, object]]:
     """The checks that do not hold."""
     return [check for check in checks if not check["holds"]]
 

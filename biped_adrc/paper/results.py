@@ -8,7 +8,9 @@ from typing import Any
 
 from biped_adrc.analysis.regression import Regression
 from biped_adrc.checks import Check
-from biped_adrc.paper.plan import BOTH, Headline, Plan, RecipeResult
+from biped_adrc.paper.claims.evidence import Evidence
+from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.paper.plan import Headline, Plan, RecipeResult
 from biped_adrc.paper.push_map import PushCell
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.studies.cycle_stability import PoincareResult, regression_of
@@ -32,7 +34,7 @@ class Results:
     """Laws and figures of the methods."""
     returns: Mapping[str, tuple[Array, Array]]
     """By "map": Theta' before an impact and before the next."""
-    claims: Mapping[str, Any]
+    claims: Mapping[str, Evidence]
     runs: Mapping[str, Outcome] = field(default_factory=dict)
     """All other walks, by their whole names."""
 
@@ -53,7 +55,7 @@ class Results:
     @property
     def heads(self) -> dict[str, Headline]:
         """The pushed walks by controller."""
-        return {c: self.headline[c][0] for c in BOTH if c in self.headline}
+        return {c: self.headline[c][0] for c in CONTROLLERS if c in self.headline}
 
     @property
     def regressions(self) -> dict[str, Regression]:
@@ -72,22 +74,22 @@ class Results:
 
     def pair(self, name: str) -> tuple[Outcome, Outcome]:
         """A run under NPD and under ADRC."""
-        npd, adrc = (self.runs[f"{name} {c}"] for c in BOTH)
+        npd, adrc = (self.runs[f"{name} {c}"] for c in CONTROLLERS)
         return npd, adrc
 
     def nominal(self, plan: Plan) -> Iterator[tuple[str, Outcome]]:
         """The undisturbed walks on gait (a), by preset and controller."""
-        for name in (f"{preset} {c}" for preset in plan.presets for c in BOTH):
+        for name in (f"{preset} {c}" for preset in plan.presets for c in CONTROLLERS):
             yield name, self.runs[f"nominal {name}"]
 
     def recipes(self, plan: Plan) -> Iterator[RecipeResult]:
         """What became of gait (b), by preset and controller."""
-        return (self.recipe[f"{preset} {c}"] for preset in plan.presets for c in BOTH)
+        return (self.recipe[f"{preset} {c}"] for preset in plan.presets for c in CONTROLLERS)
 
     @property
     def run_twice(self) -> dict[str, Outcome]:
         """Every outcome that was computed at two steps, by name."""
-        found = {f"push {c}": self.heads[c].outcome for c in BOTH} | dict(self.runs)
+        found = {f"push {c}": self.heads[c].outcome for c in CONTROLLERS} | dict(self.runs)
         for r in self.recipe.values():
             if r.outcome is not None:
                 found[f"gait (b) {r.preset} {r.controller}"] = r.outcome

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,8 @@ from biped_adrc.analysis.legality import OUTCOMES
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.paper.plan import BOTH, POLICIES, RISE, Plan
+from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.paper.plan import POLICIES, RISE, Plan
 from biped_adrc.paper.push_map import WORDS, PushCell, certain, counts
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.verdicts import distance
@@ -21,7 +22,7 @@ from biped_adrc.scenario.outcome import Outcome
 PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)
 """As the paper prints them, with its thousands separators ("-11.020", "-19.836") read as such."""
 
-Table = dict[str, list[Any]]
+Table = dict[str, Sequence[object]]
 """Columns, and rows of as many cells."""
 
 
@@ -48,7 +49,7 @@ def tables(plan: Plan, r: Results) -> dict[str, Table]:
     return found
 
 
-def table(rows: Iterable[dict[str, Any]]) -> Table:
+def table(rows: Iterable[dict[str, object]]) -> Table:
     """Rows by column, each with the same columns; at least one."""
     rows = list(rows)
     return {"columns": list(rows[0]), "rows": [list(row.values()) for row in rows]}
@@ -56,11 +57,11 @@ def table(rows: Iterable[dict[str, Any]]) -> Table:
 
 def _runs(r: Results) -> Table:
     named = {k: o for k, o in r.runs.items() if not k.startswith("reset")}
-    heads = {f"push {c}": r.heads[c].outcome for c in BOTH}
+    heads = {f"push {c}": r.heads[c].outcome for c in CONTROLLERS}
     return table(_run(name, o) for name, o in {**heads, **named}.items())
 
 
-def _run(name: str, o: Outcome) -> dict[str, Any]:
+def _run(name: str, o: Outcome) -> dict[str, object]:
     steps = o.certificates
     return {
         "run": name,
@@ -125,7 +126,7 @@ def _recipe(plan: Plan, r: Results) -> Table:
 
 
 def _literal(r: Results) -> Table:
-    names = [f"as printed {c}" for c in BOTH]
+    names = [f"as printed {c}" for c in CONTROLLERS]
     names += [f"reset {p}, {limit}" for p in POLICIES for limit in ("unlimited", "150 N m")]
     return table(
         {
@@ -144,7 +145,9 @@ def _literal(r: Results) -> Table:
 
 def _map(cells: list[PushCell]) -> Table:
     found = counts(cells)
-    rows = [[name, c, *(found[name][c][word] for word in WORDS)] for name in found for c in BOTH]
+    rows = [
+        [name, c, *(found[name][c][word] for word in WORDS)] for name in found for c in CONTROLLERS
+    ]
     return {"columns": ["preset, torque limit", "controller", *WORDS], "rows": rows}
 
 
@@ -165,13 +168,13 @@ def _texts() -> dict[str, Any]:
     return packaged("biped_adrc.paper", "findings.toml")
 
 
-def _said(of: str, /, **values: Any) -> str:
+def _said(of: str, /, **values: object) -> str:
     return str(" ".join(_texts()[of].split()).format(**values))
 
 
 def _push(plan: Plan, r: Results) -> str:
-    npd, adrc = (r.heads[c].outcome for c in BOTH)
-    words = {c: OUTCOMES[r.heads[c].outcome.legality.outcome] for c in BOTH}
+    npd, adrc = (r.heads[c].outcome for c in CONTROLLERS)
+    words = {c: OUTCOMES[r.heads[c].outcome.legality.outcome] for c in CONTROLLERS}
     kind = "carried_alike" if words["NPD"] == words["ADRC"] else "carried_apart"
     return _said(
         "push",

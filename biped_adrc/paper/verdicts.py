@@ -7,7 +7,8 @@ import numpy as np
 from biped_adrc.checks import Check, at_least, at_most, below
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.paper.convergence import MULTIPLIER_ROUND_OFF, convergence_check, observed_order
-from biped_adrc.paper.plan import BOTH, Plan
+from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.paper.plan import Plan
 from biped_adrc.paper.results import Results
 from biped_adrc.scenario.build import Scene
 from biped_adrc.scenario.outcome import Outcome
@@ -73,7 +74,7 @@ def multiplier_checks(r: Results) -> list[Check]:
 
 def push_checks(r: Results) -> list[Check]:
     """Figures 4 and 5: both walk on, and ADRC tracks a hundred times better."""
-    npd, adrc = (r.heads[c].outcome for c in BOTH)
+    npd, adrc = (r.heads[c].outcome for c in CONTROLLERS)
     found = []
     for name, pair in (("the push", (npd, adrc)), ("the 5 Hz sine", r.pair("sine"))):
         found += [*_made(name, pair), at_most(*_ratio(name, pair), 0.01)]
@@ -113,7 +114,7 @@ def period_gap(one: Array, other: Array) -> float:
 def engine_checks(r: Results) -> list[Check]:
     """The two engines over the pushed step, at equal method and step: the state before the next impact."""
     checks = []
-    for c in BOTH:
+    for c in CONTROLLERS:
         one = r.engines[c]
         other = one.half
         assert other is not None

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from collections.abc import Iterable
+from dataclasses import replace
+from itertools import chain
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,17 +17,15 @@ from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import BipedError
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.paper.claims import evidence
 from biped_adrc.paper.claims.admissible import Member, declared, members, method
 from biped_adrc.paper.claims.orders import Order, orders
-from biped_adrc.paper.claims.tally import Figure
+from biped_adrc.paper.claims.tally import AtTwoSteps
 from biped_adrc.paper.claims.walks import (
     MemberOutcome,
     nominal,
     prepared,
     tracks,
     tried,
-    tried_all,
 )
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.scenario.push import Push
@@ -48,9 +47,9 @@ class GaitCycle(NamedTuple):
     gait: str
     controller: str
     theta: str
-    multiplier: Figure
+    multiplier: AtTwoSteps
     """Largest |lambda| by central differences of the return map."""
-    rate: Figure
+    rate: AtTwoSteps
     """Theta' before the impact [rad/s]."""
     period: float
     """Of a step of the stored gait [s]."""
@@ -79,7 +78,7 @@ def _cycle(preset: str, gait: str, controller: str, theta: str) -> GaitCycle:
     made, rates = zip(at(h), at(0.5 * h), strict=True)
     name = f"gait ({'a' if gait == 'published' else 'b'}), {preset}, {controller}, Theta'' {theta}"
     return GaitCycle(
-        name, preset, gait, controller, theta, Figure(*made), Figure(*rates), of.period
+        name, preset, gait, controller, theta, AtTwoSteps(*made), AtTwoSteps(*rates), of.period
     )
 
 
@@ -89,20 +88,20 @@ class Needs(NamedTuple):
     name: str
     preset: str
     gait: str
-    friction: Figure
+    friction: AtTwoSteps
     """Largest |F_T| / F_N of the force in the mean over the window of `Limits`."""
-    friction_at_an_instant: Figure
-    impulse_ratio: Figure
-    torque: Figure
+    friction_at_an_instant: AtTwoSteps
+    impulse_ratio: AtTwoSteps
+    torque: AtTwoSteps
     """[N m]."""
-    cost: Figure
+    cost: AtTwoSteps
     """Cost of transport."""
-    work: Figure
+    work: AtTwoSteps
     """Net joint work per step length [J/m]."""
     rate_jump: float
     """Largest jump of a joint's rate against its reference at impact [rad/s]."""
     illegal: tuple[str, ...]
-    normal: Figure
+    normal: AtTwoSteps
     """Least F_N in the mean over the window [N]."""
     same: bool = True
     """Whether it is legal or not alike at half of the step."""
@@ -122,8 +121,8 @@ def _needs(preset: str, gait: str) -> Needs:
     why, at_half = (tuple(one.illegal().values()) for one in steps)
     biped = nominal(preset, gait)[0]
 
-    def figure(name: str) -> Figure:
-        return Figure(*(float(getattr(one, name)) for one in steps))
+    def figure(name: str) -> AtTwoSteps:
+        return AtTwoSteps(*(float(getattr(one, name)) for one in steps))
 
     return Needs(
         f"gait ({'a' if gait == 'published' else 'b'}), {preset}",
@@ -134,7 +133,7 @@ def _needs(preset: str, gait: str) -> Needs:
         figure("impulse_ratio"),
         figure("peak_torque"),
         figure("cost_of_transport"),
-        Figure(*(one.joint_work / one.step_length for one in steps)),
+        AtTwoSteps(*(one.joint_work / one.step_length for one in steps)),
         float(np.max(np.abs(impact_smoothness(made.gait, biped)))),
         at_half,
         figure("mean_normal_force"),
@@ -146,9 +145,9 @@ class Pair(NamedTuple):
     """Two walks that differ in the controller alone."""
 
     name: str
-    peak: dict[str, Figure]
+    peak: dict[str, AtTwoSteps]
     """max |q_b - q_d| over all steps, between the nodes too [rad], by controller."""
-    delay: dict[str, Figure]
+    delay: dict[str, AtTwoSteps]
     """Largest change of a step's time against that of the gait [s], by controller; NaN where one never ends."""
     made: dict[str, bool]
     """Whether all impacts were made at both steps, by controller."""
@@ -166,16 +165,16 @@ def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
         walks = [ready.simulate(step, run.impacts) for step in (h, 0.5 * h)]
         found = [tracks(ready, walk) for walk in walks]
         # NumPy's, since max passes over the NaN of a step that never ends
-        peak[c] = Figure(*(float(np.max([t.peak for t in at])) for at in found))
+        peak[c] = AtTwoSteps(*(float(np.max([t.peak for t in at])) for at in found))
         late = ([abs(t.period - ready.gait.period) for t in at] for at in found)
-        delay[c] = Figure(*(float(np.max(at)) for at in late))
+        delay[c] = AtTwoSteps(*(float(np.max(at)) for at in late))
         impacts = [len(walk.events(FOOT_STRIKE)) for walk in walks]
         made[c], same = min(impacts) == run.impacts, same and impacts[0] == impacts[1]
     return Pair(name, peak, delay, made, same)
 
 
-def _both(**settings: Any) -> dict[str, Scenario]:
-    return {c: Scenario(c, method=method(c), engine=COMPILED, **settings) for c in CONTROLLERS}
+def _both(run: Scenario) -> dict[str, Scenario]:
+    return {c: replace(run, controller=c, method=method(c), engine=COMPILED) for c in CONTROLLERS}
 
 
 def torso_push(torque: float) -> Push:
@@ -190,7 +189,7 @@ def unmatched(preset: str) -> tuple[Pair, ...]:
     found = []
     for torque in (*k["amplitudes"], k["fatal"]):
         push = torso_push(torque)
-        runs = _both(preset=preset, pushes=(push,), first_step=push.step, impacts=4)
+        runs = _both(Scenario(preset=preset, pushes=(push,), first_step=push.step, impacts=4))
         found.append(_pair(f"{preset}, {torque:g} N m on the torso", runs))
     return tuple(found)
 
@@ -200,7 +199,9 @@ def uncertainty(preset: str) -> tuple[Pair, ...]:
     k = dict(declared()["uncertainty"])
     impacts = k.pop("impacts")
     return tuple(
-        _pair(f"{preset}, heavier {kind}", _both(preset=preset, impacts=impacts, **factors))
+        _pair(
+            f"{preset}, heavier {kind}", _both(Scenario(preset=preset, impacts=impacts, **factors))
+        )
         for kind, factors in k.items()
     )
 
@@ -230,7 +231,7 @@ class Start(NamedTuple):
 def basin(preset: str) -> tuple[Start, ...]:
     """Starts on the constraint just below and above the least speed."""
     k, h = declared()["basin"], declared()["steps"]["plain"]
-    runs = _both(preset=preset)
+    runs = _both(Scenario(preset=preset))
     least = least_speed(runs["NPD"])
     found = []
     for factor in k["factors"]:
@@ -304,48 +305,59 @@ def noise_spectrum() -> Array:
     return np.median(found, axis=0)
 
 
-PRESET_PARTS = ("cycles", "needs", "unmatched", "uncertainty", "pushed_recipe", "basin", "jumps")
-
-
-@dataclass(frozen=True)
-class Evidence:
+class Evidence(NamedTuple):
     """Outcomes of all runs for the claims, over the presets that were asked for."""
 
-    members: tuple[MemberOutcome, ...]
-    cycles: tuple[GaitCycle, ...]
-    needs: tuple[Needs, ...]
-    unmatched: tuple[Pair, ...]
-    uncertainty: tuple[Pair, ...]
-    pushed_recipe: tuple[MemberOutcome, ...]
-    basin: tuple[Start, ...]
-    jumps: tuple[Jumps, ...]
-    orders: tuple[Order, ...]
+    members: tuple[MemberOutcome, ...] = ()
+    cycles: tuple[GaitCycle, ...] = ()
+    needs: tuple[Needs, ...] = ()
+    unmatched: tuple[Pair, ...] = ()
+    uncertainty: tuple[Pair, ...] = ()
+    pushed_recipe: tuple[MemberOutcome, ...] = ()
+    basin: tuple[Start, ...] = ()
+    jumps: tuple[Jumps, ...] = ()
+    orders: tuple[Order, ...] = ()
 
 
-def preset_evidence(preset: str) -> dict[str, tuple[Any, ...]]:
+def member_evidence(preset: str) -> Evidence:
+    """The members of the set in one preset."""
+    return Evidence(members=tuple(tried(m) for m in members() if m.preset == preset))
+
+
+def preset_evidence(preset: str) -> Evidence:
     """What is computed once for a preset, beside the members of the set."""
-    return {part: getattr(evidence, part)(preset) for part in PRESET_PARTS}
+    return Evidence(
+        cycles=cycles(preset),
+        needs=needs(preset),
+        unmatched=unmatched(preset),
+        uncertainty=uncertainty(preset),
+        pushed_recipe=pushed_recipe(preset),
+        basin=basin(preset),
+        jumps=jumps(preset),
+    )
 
 
-def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task]:
+def order_evidence(preset: str) -> Evidence:
+    """The observers of the claims about its order."""
+    return Evidence(orders=orders(preset))
+
+
+def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task[Evidence]]:
     """By name, the longest first."""
     out = {}
     for preset in presets:
-        of_preset = tuple(member for member in members() if member.preset == preset)
+        count = sum(member.preset == preset for member in members())
         out[f"claims members {preset}"] = Task(
-            f"claims, {len(of_preset)} pushes, {preset}", tried_all, (of_preset,)
+            f"claims, {count} pushes, {preset}", member_evidence, (preset,)
         )
     for preset in presets:
         out[f"claims rest {preset}"] = Task(
             f"claims, cycles and needs, {preset}", preset_evidence, (preset,)
         )
-    out["claims orders"] = Task("claims, order of the observer", orders, (presets[0],))
+    out["claims orders"] = Task("claims, order of the observer", order_evidence, (presets[0],))
     return out
 
 
-def gathered(presets: tuple[str, ...], found: Mapping[str, Any]) -> Evidence:
-    """The evidence in the results of `claim_tasks`, by their names behind "claims"."""
-    rest = [found[f"rest {preset}"] for preset in presets]
-    parts = {part: tuple(x for one in rest for x in one[part]) for part in PRESET_PARTS}
-    tried = tuple(o for preset in presets for o in found[f"members {preset}"])
-    return Evidence(members=tried, orders=found["orders"], **parts)
+def gathered(parts: Iterable[Evidence]) -> Evidence:
+    """One record of several, each of its fields in their order."""
+    return Evidence._make(tuple(chain(*field)) for field in zip(*parts, strict=True))

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper.claims.admissible import Member, declared
-from biped_adrc.paper.claims.tally import Figure
+from biped_adrc.paper.claims.tally import AtTwoSteps
 from biped_adrc.paper.claims.walks import walked
 
 SLOW = 2.0 * np.pi * 5.0
@@ -35,7 +35,7 @@ class Order(NamedTuple):
     """Tracking error at 5 Hz per unit of disturbance [s^2]."""
     worst: float
     """The same at the frequency where it is largest [s^2]."""
-    pushed: Figure
+    pushed: AtTwoSteps
     """Peak error under the push [rad]."""
 
 
@@ -80,7 +80,7 @@ def _order(preset: str, name: str, observer: GPIObserver) -> Order:
     )
 
 
-def _pushed(preset: str, observer: GPIObserver) -> Figure:
+def _pushed(preset: str, observer: GPIObserver) -> AtTwoSteps:
     joints = ("q1", "q2", "q3", "q4")
     member = Member(preset, 30.0, 0.12, joints, 0.0, "model", "solved")
     run = member.run("ADRC", declared()["steps"]["ADRC"])

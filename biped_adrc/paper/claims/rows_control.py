@@ -13,8 +13,8 @@ from biped_adrc.paper.claims.orders import Order
 from biped_adrc.paper.claims.tally import (
     CONTRADICTED,
     NOT_TESTABLE,
-    Case,
-    Figure,
+    AtTwoSteps,
+    ClaimCase,
     Tally,
     against,
     below_limit,
@@ -22,7 +22,7 @@ from biped_adrc.paper.claims.tally import (
     fewer,
 )
 from biped_adrc.paper.claims.walks import MemberOutcome, quotient
-from biped_adrc.paper.claims.words import Claim, Span, limited, row, told
+from biped_adrc.paper.claims.words import Claim, Extremes, limited, row, told
 from biped_adrc.paper.physical_laws import HELD
 
 
@@ -49,16 +49,16 @@ def control_claims(
     ]
 
 
-def _ratios(pairs: Sequence[Pair], what: str) -> list[Figure]:
+def _ratios(pairs: Sequence[Pair], what: str) -> list[AtTwoSteps]:
     return [quotient(getattr(p, what)["ADRC"], getattr(p, what)["NPD"]) for p in pairs]
 
 
-def _tally(pairs: Sequence[Pair], over: Sequence[Figure], limit: float, declared: int) -> Tally:
+def _tally(pairs: Sequence[Pair], over: Sequence[AtTwoSteps], limit: float, declared: int) -> Tally:
     """A case holds where both controllers make all impacts and the ratio is at most `limit`."""
     cases = (
         below_limit(p.name, f, limit)
         if all(p.made.values())
-        else Case(p.name, f, False, not p.same)
+        else ClaimCase(p.name, f, False, not p.same)
         for p, f in zip(pairs, over, strict=True)
     )
     return Tally(tuple(cases), in_all(declared))
@@ -70,9 +70,9 @@ def unmatched_rejection(pairs: Sequence[Pair]) -> Claim:
     return row(
         "unmatched_rejection",
         _tally(pairs, over, limit, len(declared()["unmatched"]["amplitudes"])),
-        slow=Span(1e3 * p.delay["ADRC"].at_half for p in pairs),
-        ratios=Span.of(over),
-        peaks=Span.of(_ratios(pairs, "peak")),
+        slow=Extremes(1e3 * p.delay["ADRC"].at_half for p in pairs),
+        ratios=Extremes.of(over),
+        peaks=Extremes.of(_ratios(pairs, "peak")),
     )
 
 
@@ -97,7 +97,7 @@ def model_uncertainty(pairs: Sequence[Pair]) -> list[Claim]:
     count = len(declared()["uncertainty"]) - 1  # all but its number of impacts
     limits = {"model_uncertainty": declared()["limits"]["ratio"], "less_error": 1.0}
     return [
-        row(name, _tally(pairs, over, limit, count), ratios=Span.of(over))
+        row(name, _tally(pairs, over, limit, count), ratios=Extremes.of(over))
         for name, limit in limits.items()
     ]
 
@@ -110,8 +110,8 @@ def independent_of_the_gait(outcomes: Sequence[MemberOutcome]) -> Claim:
         ((o.member.name, o.rejection) for o in outcomes),
         limit,
         in_all(1),
-        deviations=Span.of(o.rejection for o in outcomes),
-        peaks=Span.of(o.tracking for o in outcomes),
+        deviations=Extremes.of(o.rejection for o in outcomes),
+        peaks=Extremes.of(o.tracking for o in outcomes),
     )
 
 
@@ -126,7 +126,7 @@ def high_gains(orders: Sequence[Order]) -> Claim:
             ("largest gain of (17)", table.largest_gain, one.largest_gain),
             ("gain from measurement to acceleration", table.noise_gain, one.noise_gain),
         ):
-            cases.append(Case(f"{what}, {name}", Figure(a, a), a < b))
+            cases.append(ClaimCase(f"{what}, {name}", AtTwoSteps(a, a), a < b))
             shown.append(f"{what} {a:.1e} against {b:.1e} ({name})")
     tally = Tally(tuple(cases))
     values = {
@@ -146,8 +146,8 @@ def smooth_disturbance(jumps: Sequence[Jumps]) -> Claim:
     """Section I on the total disturbances."""
     rough = sum(j.at_impact > declared()["limits"]["jump"] for j in jumps)
     values = {
-        "impacts": Span(j.at_impact for j in jumps),
-        "edges": Span(j.at_edge for j in jumps),
+        "impacts": Extremes(j.at_impact for j in jumps),
+        "edges": Extremes(j.at_edge for j in jumps),
     }
     share = f"{rough} of {len(jumps)} presets jump{fewer(len(jumps), in_all(1))}"
     return told("smooth_disturbance", against(rough, len(jumps)), values, share=share)
@@ -163,7 +163,7 @@ def hurwitz() -> Claim:
 def tends_to_zero(numerics: Mapping[str, float]) -> Claim:
     """(23) under a disturbance that goes on."""
     simulated, half, corrected, printed = (numerics.get(name, math.nan) for name in HELD)
-    amplitude, share = Figure(simulated, half), convergence()[0]
+    amplitude, share = AtTwoSteps(simulated, half), convergence()[0]
     seen = simulated > 0.0 and abs(simulated - corrected) <= 0.01 * corrected
     firm = amplitude.converged(share, 0.0)
     return told(

@@ -22,14 +22,14 @@ from biped_adrc.paper.claims.tally import (
     CONTRADICTED,
     DEPENDS,
     NOT_TESTABLE,
-    Case,
-    Figure,
+    AtTwoSteps,
+    ClaimCase,
     Tally,
     above_limit,
     below_limit,
     fewer,
 )
-from biped_adrc.paper.claims.words import Claim, Span, limited, row, told
+from biped_adrc.paper.claims.words import Claim, Extremes, limited, row, told
 
 PRINTED_SPEED = float(X_STAR[5] + 0.5 * X_STAR[7] + X_STAR[9])
 """Theta' of x* [rad/s], Theta = q5 + q1 + q3 / 2."""
@@ -62,7 +62,7 @@ def stable(cycles: Sequence[GaitCycle], name: str = "stable", of_preset: int = 4
         math.nextafter(1.0, 0.0),
         in_all(of_preset),
         bound,
-        multipliers=Span.of(c.multiplier for c in cycles),
+        multipliers=Extremes.of(c.multiplier for c in cycles),
     )
 
 
@@ -87,7 +87,7 @@ def recipe_speed(cycles: Sequence[GaitCycle]) -> Claim:
 
 
 def _speeds(cycles: Sequence[GaitCycle], limit: float) -> Tally:
-    off = [Figure(*(abs(v / PRINTED_SPEED - 1.0) for v in c.rate)) for c in cycles]
+    off = [AtTwoSteps(*(abs(v / PRINTED_SPEED - 1.0) for v in c.rate)) for c in cycles]
     cases = [below_limit(c.name, f, limit) for c, f in zip(cycles, off, strict=True)]
     return Tally(tuple(cases), in_all(1))
 
@@ -105,7 +105,7 @@ def _hangs_on(cycles: Sequence[GaitCycle]) -> str:
 
 def recipe_needs(needs: Sequence[Needs]) -> Claim:
     """Whether a robot could walk gait (b)."""
-    cases = [Case(n.name, n.friction, not n.illegal, _doubtful(n)) for n in needs]
+    cases = [ClaimCase(n.name, n.friction, not n.illegal, _doubtful(n)) for n in needs]
     shown = (
         f"{n.preset}: friction {_two(n.friction)} in the mean over 5 ms and "
         f"{_two(n.friction_at_an_instant)} at an instant, {n.torque.at_half:.0f} N m"
@@ -120,7 +120,7 @@ def _doubtful(n: Needs) -> bool:
     return not (n.same and all(f.converged(*convergence()) for f in figures))
 
 
-def _two(f: Figure) -> str:
+def _two(f: AtTwoSteps) -> str:
     """A number, at both steps where they differ."""
     if f.converged(*convergence()):
         return f"{f.at_half:.2f}"
@@ -131,7 +131,7 @@ def pinned_at_impact(needs: Sequence[Needs]) -> Claim:
     """The hypothesis of (6)."""
     limit = declared()["limits"]["friction"]
     found = [(n.name, n.impulse_ratio) for n in needs]
-    ratios = Span.of(n.impulse_ratio for n in needs)
+    ratios = Extremes.of(n.impulse_ratio for n in needs)
     return limited("pinned_at_impact", found, limit, in_all(2), ratios=ratios)
 
 
@@ -139,11 +139,14 @@ def not_smooth(needs: Sequence[Needs]) -> Claim:
     """Section VII on the impact of the generated trajectory."""
     limit = declared()["limits"]["smooth"]
     recipes = [n for n in needs if n.gait == "recipe"]
-    cases = [Case(n.name, Figure(n.rate_jump, n.rate_jump), n.rate_jump > limit) for n in recipes]
+    cases = [
+        ClaimCase(n.name, AtTwoSteps(n.rate_jump, n.rate_jump), n.rate_jump > limit)
+        for n in recipes
+    ]
     return row(
         "not_smooth",
         Tally(tuple(cases), in_all(1)),
-        jumps=Span(n.rate_jump for n in recipes),
+        jumps=Extremes(n.rate_jump for n in recipes),
         invariant=max((n.rate_jump for n in needs if n.gait == "published"), default=math.nan),
     )
 
@@ -157,7 +160,9 @@ def not_optimal(needs: Sequence[Needs]) -> Claim:
         if b.preset == a.preset and (b.gait, a.gait) == ("recipe", "published")
     ]
     cases = [
-        above_limit(b.preset, Figure(*(x / y for x, y in zip(b.cost, a.cost, strict=True))), 1.0)
+        above_limit(
+            b.preset, AtTwoSteps(*(x / y for x, y in zip(b.cost, a.cost, strict=True))), 1.0
+        )
         for b, a in pairs
     ]
     costs = (f"{b.preset} {b.cost.at_half:.3f} against {a.cost.at_half:.3f}" for b, a in pairs)
@@ -175,9 +180,9 @@ def global_stability(starts: Sequence[Start]) -> Claim:
         every = len(fails) == len(below) and len(passed) == len(above)
         word = CONTRADICTED if every else DEPENDS
     values = {
-        "failing": Span(s.least * s.factor for s in fails),
-        "passing": Span(s.least * s.factor for s in passed),
-        "least": Span(s.least for s in starts),
+        "failing": Extremes(s.least * s.factor for s in fails),
+        "passing": Extremes(s.least * s.factor for s in passed),
+        "least": Extremes(s.least for s in starts),
         "fails": len(fails),
         "below": len(below),
         "passed": len(passed),

@@ -9,9 +9,9 @@ import numpy as np
 
 from biped_adrc.paper.claims import admissible
 from biped_adrc.paper.claims.admissible import convergence, declared
-from biped_adrc.paper.claims.tally import NOT_TESTABLE, Case, Figure, Tally, above_limit
-from biped_adrc.paper.claims.walks import MemberOutcome, Walked
-from biped_adrc.paper.claims.words import Claim, Span, limited, row, told
+from biped_adrc.paper.claims.tally import NOT_TESTABLE, AtTwoSteps, ClaimCase, Tally, above_limit
+from biped_adrc.paper.claims.walks import MemberOutcome, MemberWalk
+from biped_adrc.paper.claims.words import Claim, Extremes, limited, row, told
 from biped_adrc.paper.push_map import PushCell, certain
 
 Members = Sequence[MemberOutcome]
@@ -25,12 +25,12 @@ def push_claims(members: Members, cells: Sequence[PushCell] = ()) -> list[Claim]
 
 def long_walk(made: Mapping[str, tuple[int, int]]) -> Claim:
     """The headline runs: impacts made and asked for, by controller."""
-    cases = [Case(c, Figure(m, m), m >= asked) for c, (m, asked) in made.items()]
+    cases = [ClaimCase(c, AtTwoSteps(m, m), m >= asked) for c, (m, asked) in made.items()]
     counted = ", ".join(f"{c} {m} of {asked}" for c, (m, asked) in made.items())
     return row("long_walk", Tally(tuple(cases)), made=counted)
 
 
-def _tally(cases: Sequence[Case]) -> Tally:
+def _tally(cases: Sequence[ClaimCase]) -> Tally:
     return Tally(tuple(cases), len(admissible.members()))
 
 
@@ -42,9 +42,9 @@ def rejection(members: Members) -> Claim:
         ((o.member.name, o.rejection) for o in members),
         limit,
         len(admissible.members()),
-        npd=Span.of(o.walked["NPD"].deviation for o in members),
-        adrc=Span.of(o.walked["ADRC"].deviation for o in members),
-        ratios=Span.of(o.rejection for o in members),
+        npd=Extremes.of(o.walked["NPD"].deviation for o in members),
+        adrc=Extremes.of(o.walked["ADRC"].deviation for o in members),
+        ratios=Extremes.of(o.rejection for o in members),
     )
 
 
@@ -52,7 +52,7 @@ def tracking(members: Members) -> Claim:
     """The peak of the error itself, whatever makes it."""
     limit = declared()["limits"]["ratio"]
     by_theta = {
-        theta: Span.of(o.walked["ADRC"].peak for o in members if o.member.theta == theta)
+        theta: Extremes.of(o.walked["ADRC"].peak for o in members if o.member.theta == theta)
         for theta in declared()["factors"]["theta"]
     }
     return limited(
@@ -60,7 +60,7 @@ def tracking(members: Members) -> Claim:
         ((o.member.name, o.tracking) for o in members),
         limit,
         len(admissible.members()),
-        ratios=Span.of(o.tracking for o in members),
+        ratios=Extremes.of(o.tracking for o in members),
         **by_theta,
     )
 
@@ -69,7 +69,7 @@ def deviates(members: Members) -> Claim:
     """NPD under the push."""
     limit, found = declared()["limits"]["deviation"], [o.walked["NPD"].deviation for o in members]
     cases = [above_limit(o.member.name, f, limit) for o, f in zip(members, found, strict=True)]
-    return row("deviates", _tally(cases), deviations=Span.of(found))
+    return row("deviates", _tally(cases), deviations=Extremes.of(found))
 
 
 def walks_on(members: Members) -> Claim:
@@ -78,23 +78,23 @@ def walks_on(members: Members) -> Claim:
     for o in members:
         each, period = o.walked.values(), o.walked["ADRC"].period
         made, doubtful = all(w.made for w in each), any(map(_doubtful, each))
-        cases.append(Case(o.member.name, period, made, doubtful))
+        cases.append(ClaimCase(o.member.name, period, made, doubtful))
     npd, adrc = (sum(o.walked[c].made for o in members) for c in ("NPD", "ADRC"))
     steps = declared()["steps"]["impacts"]
     return row("walks_on", _tally(cases), steps=steps, npd=npd, adrc=adrc, count=len(members))
 
 
-def _doubtful(w: Walked) -> bool:
+def _doubtful(w: MemberWalk) -> bool:
     """Whether the step decides how a walk ends, or how long its pushed step takes; a fall has no such time."""
     return not w.same or (w.made and not w.period.converged(*convergence()))
 
 
 def unaffected(members: Members) -> Claim:
-    """Figure 6: the cycle in (Theta, Theta') under ADRC."""
+    """AtTwoSteps 6: the cycle in (Theta, Theta') under ADRC."""
     steps, limit = declared()["steps"], declared()["limits"]["cycle"]
     # infinite where there is no impact: that cycle is lost
     rates = [np.abs(o.walked["ADRC"].rate) for o in members]
-    size = [Figure(*np.where(np.isnan(rate), np.inf, rate).tolist()) for rate in rates]
+    size = [AtTwoSteps(*np.where(np.isnan(rate), np.inf, rate).tolist()) for rate in rates]
     bound = (steps["convergence"], steps["round_off_rate"])
     return limited(
         "unaffected",
@@ -103,14 +103,14 @@ def unaffected(members: Members) -> Claim:
         len(admissible.members()),
         bound,
         adrc=max((f.at_half for f in size), default=math.nan),
-        npd=Span(abs(o.walked["NPD"].rate.at_half) for o in members),
+        npd=Extremes(abs(o.walked["NPD"].rate.at_half) for o in members),
     )
 
 
 def legal(members: Members) -> Claim:
     """Whether ground and motors could have given it."""
     walked = [(o.member.name, o.walked["ADRC"]) for o in members]
-    cases = [Case(name, w.period, w.made and not w.illegal, not w.same) for name, w in walked]
+    cases = [ClaimCase(name, w.period, w.made and not w.illegal, not w.same) for name, w in walked]
     why = sorted({reason for _, w in walked for reason in w.illegal})
     return row("legal", _tally(cases), why="; ".join(why) or "nothing")
 
@@ -123,7 +123,7 @@ def critical_phase(members: Members, cells: Sequence[PushCell] = ()) -> Claim:
     cases = []
     for o in lost:
         npd, adrc = o.walked["NPD"], o.walked["ADRC"]
-        cases.append(Case(o.member.name, npd.peak, adrc.made, not (npd.same and adrc.same)))
+        cases.append(ClaimCase(o.member.name, npd.peak, adrc.made, not (npd.same and adrc.same)))
     tally = Tally(tuple(cases))
     counted = {"lost": len(lost), "count": len(members), "held": tally.held}
     if not cases:
@@ -136,7 +136,8 @@ def _critical_phase_of_the_map(cells: Sequence[PushCell]) -> Claim:
     known = certain(cells)
     lost = [c for c in known if c.npd.outcome in LOST]
     cases = [
-        Case(_name(c), Figure(c.amplitude, c.amplitude), c.adrc.outcome == "legal") for c in lost
+        ClaimCase(_name(c), AtTwoSteps(c.amplitude, c.amplitude), c.adrc.outcome == "legal")
+        for c in lost
     ]
     return row(
         "critical_phase_of_the_map",

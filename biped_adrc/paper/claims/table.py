@@ -24,7 +24,7 @@ def claims(plan: Plan, r: Results) -> list[Claim]:
     """All rows, from the results of the reproduction."""
     made = {c: (head.outcome.impacts, head.outcome.run.impacts) for c, head in r.heads.items()}
     farthest = float(np.max([distance(o) for _, o in r.nominal(plan)]))
-    return rows(gathered(plan.presets, r.claims), r.figures, made, farthest, r.cells)
+    return rows(gathered(r.claims.values()), r.figures, made, farthest, r.cells)
 
 
 def rows(

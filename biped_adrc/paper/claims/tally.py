@@ -15,7 +15,7 @@ CONTRADICTED = "contradicted"
 NOT_TESTABLE = "not testable"
 
 
-class Figure(NamedTuple):
+class AtTwoSteps(NamedTuple):
     """A number at the step used and at half of it."""
 
     value: float
@@ -39,11 +39,11 @@ class Figure(NamedTuple):
         return self.change <= convergence or abs(self.value - self.at_half) <= round_off
 
 
-class Case(NamedTuple):
+class ClaimCase(NamedTuple):
     """One of the choices under which a claim was tried."""
 
     name: str
-    figure: Figure
+    figure: AtTwoSteps
     """What the verdict rests on."""
     holds: bool
     marginal: bool = False
@@ -51,35 +51,38 @@ class Case(NamedTuple):
 
 
 def below_limit(
-    name: str, figure: Figure, limit: float, bound: Sequence[float] | None = None
-) -> Case:
-    """A case that holds for a number <= limit; NaN does not hold. bound: as of `Figure.converged`."""
+    name: str, figure: AtTwoSteps, limit: float, bound: Sequence[float] | None = None
+) -> ClaimCase:
+    """A case that holds for a number <= limit; NaN does not hold. bound: as of `AtTwoSteps.converged`."""
     return _limited(name, figure, lambda x: x <= limit, bound)
 
 
-def above_limit(name: str, figure: Figure, limit: float) -> Case:
+def above_limit(name: str, figure: AtTwoSteps, limit: float) -> ClaimCase:
     """A case that holds for a number >= limit; NaN does not hold."""
     return _limited(name, figure, lambda x: x >= limit)
 
 
 def _limited(
-    name: str, figure: Figure, test: Callable[[float], bool], bound: Sequence[float] | None = None
-) -> Case:
+    name: str,
+    figure: AtTwoSteps,
+    test: Callable[[float], bool],
+    bound: Sequence[float] | None = None,
+) -> ClaimCase:
     used, half = (bool(test(x)) for x in figure)
     doubtful = not figure.converged(*(bound or convergence())) or used != half
-    return Case(name, figure, half, doubtful)
+    return ClaimCase(name, figure, half, doubtful)
 
 
 @dataclass(frozen=True)
 class Tally:
     """What a set of cases comes to. No claim rests on the marginal ones."""
 
-    cases: tuple[Case, ...]
+    cases: tuple[ClaimCase, ...]
     declared: int = 0
     """How many cases the set has, all presets included; a quick run has fewer."""
 
     @property
-    def firm(self) -> tuple[Case, ...]:
+    def firm(self) -> tuple[ClaimCase, ...]:
         """Those that are not marginal."""
         return tuple(case for case in self.cases if not case.marginal)
 
@@ -128,7 +131,7 @@ def fewer(count: int, declared: int) -> str:
     return f"; {count} of the {declared} cases declared were run" if count < declared else ""
 
 
-def changes(figures: Sequence[Figure], relevant: float = 0.01) -> str:
+def changes(figures: Sequence[AtTwoSteps], relevant: float = 0.01) -> str:
     """The largest change of numbers when the step is halved, in words; nothing for counts.
 
     Numbers that change by more than the share `relevant` and were taken as converged are round-off: of them

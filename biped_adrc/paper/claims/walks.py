@@ -17,7 +17,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.claims.admissible import Member, declared
-from biped_adrc.paper.claims.tally import Figure
+from biped_adrc.paper.claims.tally import AtTwoSteps
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.scenario.build import Scene, build
 from biped_adrc.scenario.recording import watched
@@ -26,19 +26,19 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array
 
 
-class Walked(NamedTuple):
+class MemberWalk(NamedTuple):
     """What is left of a walk from the pushed step on."""
 
     status: str
     impacts: int
     asked: int
-    peak: Figure
+    peak: AtTwoSteps
     """max |q_b - q_d| in the pushed step, between the nodes too [rad]."""
-    deviation: Figure
+    deviation: AtTwoSteps
     """The same of the error less that of the walk without a push, from the onset on [rad]."""
-    rate: Figure
+    rate: AtTwoSteps
     """Theta' at the end of the pushed step less that of the walk without a push [rad/s]."""
-    period: Figure
+    period: AtTwoSteps
     """Of the pushed step [s]."""
     illegal: tuple[str, ...]
     """What the ground or the motors could not have given, by step."""
@@ -56,22 +56,22 @@ class MemberOutcome:
     """A member of the set under both controllers."""
 
     member: Member
-    walked: dict[str, Walked]
+    walked: dict[str, MemberWalk]
 
     @property
-    def tracking(self) -> Figure:
+    def tracking(self) -> AtTwoSteps:
         """Peak error of ADRC over NPD's."""
         return quotient(self.walked["ADRC"].peak, self.walked["NPD"].peak)
 
     @property
-    def rejection(self) -> Figure:
+    def rejection(self) -> AtTwoSteps:
         """Deviation that the push makes under ADRC over that under NPD."""
         return quotient(self.walked["ADRC"].deviation, self.walked["NPD"].deviation)
 
 
-def quotient(one: Figure, other: Figure) -> Figure:
+def quotient(one: AtTwoSteps, other: AtTwoSteps) -> AtTwoSteps:
     """One over the other at either step; infinite over zero."""
-    return Figure(*(a / b if b else float("inf") for a, b in zip(one, other, strict=True)))
+    return AtTwoSteps(*(a / b if b else float("inf") for a, b in zip(one, other, strict=True)))
 
 
 class Prepared(NamedTuple):
@@ -178,7 +178,7 @@ def _undisturbed(
     return found
 
 
-def walked(run: Scenario, start: str = "model") -> Walked:
+def walked(run: Scenario, start: str = "model") -> MemberWalk:
     """The pushed step with run.h and half of it, and all impacts with the step for what comes later."""
     steps = declared()["steps"]
     made = prepared(run, start == "zero")
@@ -190,13 +190,13 @@ def walked(run: Scenario, start: str = "model") -> Walked:
     usual = [_undisturbed(*of, share * run.h) for share in (1.0, 0.5)]
     both = list(zip(pushed, usual, strict=True))
     first, second = (_ending(made, share * steps["later"]) for share in (1.0, 0.5))
-    return Walked(
+    return MemberWalk(
         *first[:2],
         run.impacts,
-        Figure(*(one.peak for one in pushed)),
-        Figure(*(one.away_from(other, onset) for one, other in both)),
-        Figure(*(one.rate - other.rate for one, other in both)),
-        Figure(*(one.period for one in pushed)),
+        AtTwoSteps(*(one.peak for one in pushed)),
+        AtTwoSteps(*(one.away_from(other, onset) for one, other in both)),
+        AtTwoSteps(*(one.rate - other.rate for one, other in both)),
+        AtTwoSteps(*(one.period for one in pushed)),
         first.illegal,
         first[:2] == second[:2] and bool(first.illegal) == bool(second.illegal),
     )
@@ -224,8 +224,3 @@ def tried(member: Member) -> MemberOutcome:
     steps = declared()["steps"]
     runs = {c: member.run(c, steps[c], steps["impacts"]) for c in CONTROLLERS}
     return MemberOutcome(member, {c: walked(run, member.start) for c, run in runs.items()})
-
-
-def tried_all(members: tuple[Member, ...]) -> tuple[MemberOutcome, ...]:
-    """Carry out a part of the set."""
-    return tuple(tried(member) for member in members)

@@ -10,7 +10,7 @@ from typing import Any
 
 from biped_adrc.checks import Check, at_least, at_most
 from biped_adrc.paper.claims.admissible import declared
-from biped_adrc.paper.claims.tally import Figure, Tally, below_limit
+from biped_adrc.paper.claims.tally import AtTwoSteps, Tally, below_limit
 from biped_adrc.resources import packaged
 from biped_adrc.viz.pages import CLAIM_COLUMNS
 
@@ -18,10 +18,11 @@ from biped_adrc.viz.pages import CLAIM_COLUMNS
 @cache
 def texts() -> dict[str, Any]:
     """The file claims.toml: the rows of the table in words, by name."""
-    return dict(_joined(packaged("biped_adrc.paper.claims", "claims.toml")))
+    said = packaged("biped_adrc.paper.claims", "claims.toml")
+    return {name: _joined(x) for name, x in said.items()}
 
 
-def _joined(value: Any) -> Any:
+def _joined(value: object) -> object:
     """Texts of several lines as one."""
     if isinstance(value, dict):
         return {name: _joined(x) for name, x in value.items()}
@@ -56,18 +57,18 @@ class Claim:
         if self.word not in MEANINGS:
             raise ValueError(f"word '{self.word}' is none of {list(MEANINGS)}")
 
-    def record(self) -> dict[str, Any]:
+    def record(self) -> dict[str, object]:
         """As plain values, the columns of the table."""
         return {key: getattr(self, key) for key in CLAIM_COLUMNS}
 
 
 def limited(
     name: str,
-    figures: Iterable[tuple[str, Figure]],
+    figures: Iterable[tuple[str, AtTwoSteps]],
     limit: float,
     declared: int,
     bound: Sequence[float] | None = None,
-    **values: Any,
+    **values: object,
 ) -> Claim:
     """The row of a claim whose cases, (name, figure) each, hold for a number <= limit; further as of `row`."""
     cases = tuple(below_limit(case, figure, limit, bound) for case, figure in figures)
@@ -83,24 +84,36 @@ def judged(
     return Claim(claim, where, *said, value if asserted else None, len(tally.marginal))
 
 
-def row(name: str, tally: Tally, **values: Any) -> Claim:
+def row(name: str, tally: Tally, **values: object) -> Claim:
     """The row of claims.toml for a claim that was tried on cases, with these values in its texts."""
     x = _said(name, values)
     asserted = bool(x.get("asserted"))
     return judged(x["claim"], x["where"], tally, x["number"], x["reason"], asserted=asserted)
 
 
-def told(name: str, word: str = "", values: Mapping[str, Any] | None = None, **rest: Any) -> Claim:
+def told(
+    name: str,
+    word: str = "",
+    values: Mapping[str, object] | None = None,
+    *,
+    share: str = "",
+    convergence: str = "",
+    marginal: int = 0,
+) -> Claim:
     """The row of claims.toml with these values in its texts, and a word that no tally gives.
 
     word: that of the file by default. rest: of `Claim`.
     """
-    said = _said(name, values or {})
-    word = word or said["word"]
-    return Claim(said["claim"], said["where"], word, said["number"], said["reason"], **rest)
+    x = _said(name, values or {})
+    word = word or x["word"]
+    return Claim(
+        *(x["claim"], x["where"], word, x["number"], x["reason"]),
+        *(share, convergence),
+        marginal=marginal,
+    )
 
 
-def _said(name: str, values: Mapping[str, Any]) -> dict[str, Any]:
+def _said(name: str, values: Mapping[str, object]) -> dict[str, Any]:
     found = texts()[name]
     found = {**texts().get(found.get("like"), {}), **found}
     of = {"limit": declared()["limits"], **values}
@@ -122,11 +135,11 @@ def claim_checks(claims: Sequence[Claim]) -> list[Check]:
     return [at_most(doubtful, "law", sum(c.marginal for c in claims), 0), *shares]
 
 
-class Span(tuple[float, ...]):
+class Extremes(tuple[float, ...]):
     """Numbers of which a text names the smallest and the largest."""
 
     @classmethod
-    def of(cls, figures: Iterable[Figure]) -> Span:
+    def of(cls, figures: Iterable[AtTwoSteps]) -> Extremes:
         """At half of the step."""
         return cls(f.at_half for f in figures)
 
