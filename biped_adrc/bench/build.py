@@ -48,7 +48,9 @@ def own_of_study(study: Study) -> dict[str, str]:
 
 
 def files_of(name: str, value: object) -> tuple[Path, ...]:
-    """The files that a parameter's value names: of a robot its TOML and its URDF; empty for a registered name."""
+    """The files that a parameter's value names: of a robot its TOML and its URDF; empty for a
+    registered name.
+    """
     if not isinstance(value, str) or Path(value).suffix != SUFFIXES.get(name):
         return ()
     path = Path(value)

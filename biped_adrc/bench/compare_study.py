@@ -53,7 +53,9 @@ TITLES = {
 
 @dataclass
 class Stored:
-    """A function from trials to rows, which walks what the store does not have yet and takes the rest from it."""
+    """A function from trials to rows, which walks what the store does not have yet and takes the
+    rest from it.
+    """
 
     store: Store
     """The open file of results."""

@@ -104,7 +104,9 @@ def _kind(types: set[type]) -> type:
 
 
 def sweep_map(results: Sweep, maps: Maps) -> Figure:
-    """A figure of the finished points over one or two axes. Raises InputError for a column that there is not."""
+    """A figure of the finished points over one or two axes. Raises InputError for a column that
+    there is not.
+    """
     from biped_adrc.viz.plots.sweep_maps import sweep_map_figure
 
     known = results.names()

@@ -30,7 +30,9 @@ LADDER = (0.0, 20.0, 40.0, 80.0, 160.0, 320.0)
 RESOLUTION = 2.5
 """Width of the intervals returned [N m] or [N]."""
 DIRECTIONS: Mapping[str, str] = SAID["directions"]
-"""Joint patterns by name, as the scenario's `on`; the last two act on the torso, where no motor is (unmatched)."""
+"""Joint patterns by name, as the scenario's `on`; the last two act on the torso, where no motor is
+(unmatched).
+"""
 MATCHED = tuple(DIRECTIONS)[:4]
 """Names of the patterns on actuated joints."""
 PHASES: Mapping[str, float] = SAID["phases"]
@@ -193,7 +195,9 @@ class Largest(NamedTuple):
 
 
 def gathered(done: Sequence[Search]) -> list[Largest]:
-    """The searches grouped by controller, direction, phase and bandwidth, in the order of their first search."""
+    """The searches grouped by controller, direction, phase and bandwidth, in the order of their
+    first search.
+    """
     found: dict[tuple[str, str, str, float | None], list[Search]] = {}
     for s in done:
         key = (s.controller, s.direction, s.phase, s.setting.get("bandwidth"))

@@ -35,7 +35,9 @@ BLOCK = 1024
 Scale = Literal["linear", "log"]
 """How w in [0, 1) is mapped to a range: proportionally, or so that equal steps of w are equal ratios."""
 Kind = Literal["random", "sobol"]
-"""How samples are drawn: independent uniform numbers, or a scrambled Sobol sequence, which fills space evenly."""
+"""How samples are drawn: independent uniform numbers, or a scrambled Sobol sequence, which fills
+space evenly.
+"""
 
 
 class Range(BaseModel):
@@ -132,7 +134,9 @@ class Named(BaseModel):
 
 
 class Study(BaseModel):
-    """What is varied and what is not, in SI units, checked: `read_study` makes it of a file or of plain tables."""
+    """What is varied and what is not, in SI units, checked: `read_study` makes it of a file or of
+    plain tables.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 

@@ -147,7 +147,9 @@ class _Reader:
             self.wrong(f"{where}{key}", f"unknown key; {hint}")
 
     def table(self, tables: Mapping[str, object], name: str) -> dict[str, object]:
-        """The table `name`, empty if absent, as parameters by name: start.v5 = .. is one parameter "start.v5"."""
+        """The table `name`, empty if absent, as parameters by name: start.v5 = .. is one parameter
+        "start.v5".
+        """
         found = tables.get(name, {})
         if not isinstance(found, Mapping):
             self.wrong(name, f"found {found!r}, expected a table [{name}]")
@@ -195,7 +197,9 @@ def _levels(name: str, given: object) -> tuple[Value, ...]:
 
 
 def _range(name: str, given: object, keys: tuple[str, ...]) -> Range:
-    """The range {from, to, scale} of a number, read with its unit; keys: what may stand in it. Raises Refused."""
+    """The range {from, to, scale} of a number, read with its unit; keys: what may stand in it.
+    Raises Refused.
+    """
     check_name(name)
     if not isinstance(given, Mapping) or not {"from", "to"} <= set(given) <= set(keys):
         raise Refused(f"found {given!r}, expected {{{', '.join(keys)}}}")
@@ -213,7 +217,9 @@ def _range(name: str, given: object, keys: tuple[str, ...]) -> Range:
 
 
 def _draw(r: _Reader, tables: Mapping[str, object]) -> Draw | None:
-    """The samples of [random] or [sobol], of which a study has one at most; None without, or after a problem."""
+    """The samples of [random] or [sobol], of which a study has one at most; None without, or after
+    a problem.
+    """
     kinds: list[Kind] = [kind for kind in get_args(Kind) if kind in tables]
     if not kinds:
         return None
@@ -232,7 +238,9 @@ def _draw(r: _Reader, tables: Mapping[str, object]) -> Draw | None:
 
 
 def _seeds(r: _Reader, given: object) -> tuple[int, ...]:
-    """The seeds 0 .. n-1 of a number n, or those of a list, each between 0 and `MOST_SEED` and all different."""
+    """The seeds 0 .. n-1 of a number n, or those of a list, each between 0 and `MOST_SEED` and all
+    different.
+    """
     if given is None:
         return ()
     if type(given) is int and 1 <= given <= MOST:

@@ -83,7 +83,9 @@ class Sweep:
     study: Study
     """The study that it holds."""
     summary: Summary | None = None
-    """What the call that made this did: points, fresh runs, workers that died; None where it was only loaded."""
+    """What the call that made this did: points, fresh runs, workers that died; None where it was
+    only loaded.
+    """
 
     def results(self) -> Iterator[Result]:
         """Finished points in the order of the study, with their rows; a few at a time in memory."""
@@ -91,7 +93,9 @@ class Sweep:
             yield from store.results()
 
     def rows(self) -> Iterator[dict[str, object]]:
-        """For each finished point its varied values and its results in one mapping, with the keys of `names`."""
+        """For each finished point its varied values and its results in one mapping, with the keys
+        of `names`.
+        """
         taken = set(self._of_rows())
         for result in self.results():
             at = {f"{PARAMETER}{k}" if k in taken else k: x for k, x in result.at.items()}
