@@ -1,4 +1,12 @@
-"""A record of a study and where it lies, its key, and what a worker makes of it: a row ready to be stored."""
+"""The unit of work of a campaign: records in, rows out, and how both are written as text.
+
+A campaign carries out many independent runs and knows nothing of robots. A run is given by its *record*, plain
+values by name; its *row* is what came out of it, plain values again. The JSON text of a record, with sorted
+keys, identifies the run: its hash is the key under which the store keeps the row, so that a run which two
+studies or two calls have in common is made once. JSON writes a float such that it reads back to the same bits.
+
+`run_chunk` is what a worker executes. `campaign.execute` hands out chunks and `campaign.store` keeps the rows.
+"""
 
 from __future__ import annotations
 
@@ -15,48 +23,59 @@ Row = Mapping[str, object]
 
 
 class Point(NamedTuple):
-    """A record in plain values, and the values by which the study tells the point from others."""
+    """A run of a study and where it lies in it."""
 
     record: Record
+    """All values that make the run."""
     at: Record
+    """The values by which the study tells the point from its others: what is varied."""
 
 
 def point(of: Record | Point) -> Point:
-    """A point as it is; a plain record lies at its own values."""
+    """A `Point` as it is; for a plain record all of its values tell it from others."""
     return of if isinstance(of, Point) else Point(of, of)
 
 
 def text_of(values: Record) -> str:
-    """As JSON, from which floats come back to the last bit; the same values give the same text."""
+    """The values as JSON with sorted keys: equal values give equal texts, floats read back to the same bits."""
     return json.dumps(values, sort_keys=True)
 
 
 def key_of(record: str) -> str:
-    """A name for a run, from the text of its record."""
+    """The key of a run: 32 hexadecimal digits of the SHA-256 of its record's text."""
     return hashlib.sha256(record.encode()).hexdigest()[:32]
 
 
 REFUSED, RAISED, CRASHED = "REFUSED", "RAISED", "CRASHED"
-"""Status of a record whose values do not fit, of a run that raised, and of one whose process died, which is
-tried again when the study goes on."""
+"""Statuses that are no result of a run. REFUSED: the values do not fit together. RAISED: the function raised.
+CRASHED: the worker process died; such a run is tried again when the study goes on.
+"""
 NO_WALK = (REFUSED, RAISED, CRASHED)
-"""What neither makes all steps nor falls."""
+"""Statuses of rows that count neither as a success nor as a fall."""
 
 Function = Callable[[Sequence[Record]], Sequence[Row]]
-"""A row of plain values for each record, in their order."""
+"""What workers run: a row of plain values for each record, in their order."""
 
 
 class Made(NamedTuple):
-    """The text of a row, and the time it took [s]: in a chunk as a whole its share."""
+    """A row ready to be stored."""
 
     row: str
+    """Its text, JSON."""
     status: str | None
+    """Its status, if it has one: a column of its own in the store."""
     engine: str | None
+    """What ran, if the row says so."""
     seconds: float
+    """Wall time of the run [s]; of a chunk that was run as a whole, its share."""
 
 
 def run_chunk(function: Function, records: Sequence[Record]) -> list[Made]:
-    """A row of each record. Where the function raises, record by record, so that one spoils no other."""
+    """A row of each record, in their order. Runs in a worker process.
+
+    Where the function raises on the chunk, it is called again with one record at a time, so that one bad record
+    spoils no other; that record's row has the status RAISED and the error's text.
+    """
     begin = time.perf_counter()
     try:
         rows = _rows(function, records)
@@ -70,6 +89,7 @@ def run_chunk(function: Function, records: Sequence[Record]) -> list[Made]:
 
 
 def _rows(function: Function, records: Sequence[Record]) -> Sequence[Row]:
+    """What the function gives. Raises ValueError for another number of rows than records."""
     rows = function(records)
     if len(rows) != len(records):
         raise ValueError(f"the function gave {len(rows)} rows for {len(records)} records")
@@ -77,7 +97,7 @@ def _rows(function: Function, records: Sequence[Record]) -> Sequence[Row]:
 
 
 def made(row: Row, seconds: float) -> Made:
-    """Ready to be stored. Raises TypeError for a value that is not plain."""
+    """The row, checked and as text. Raises TypeError for a value that is not a number, text or None."""
     for name, x in row.items():
         if x is not None and not isinstance(x, (float, int, str)):
             raise TypeError(
