@@ -1,4 +1,9 @@
-"""The figures of the reproduction, drawn side by side in several processes."""
+"""The figures of the reproduction, drawn in several processes and written as PNG, SVG and numbers.
+
+Drawing takes longer than some of the runs, so each figure is a task of `campaign.pool`. Each figure is written
+with the numbers that it shows as JSON, by which tests and readers can check it without reading pixels. What is
+drawn comes from `viz`; this module only chooses the data. Called by `paper.reproduction`.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +30,7 @@ if TYPE_CHECKING:
 
 
 def draw_all(plan: Plan, r: Results, out: Path, workers: int | None = None) -> dict[str, str]:
-    """Write every figure as .png and .svg to `out`, and its numbers as .json; returns name -> SVG text."""
+    """Write every figure to `out` as .png, .svg and .json; returns the SVG text by name, for the report."""
     named = pictures(plan, r)
     drawn = run_tasks(list(named.values()), workers)
     found = {}
@@ -39,7 +44,7 @@ def draw_all(plan: Plan, r: Results, out: Path, workers: int | None = None) -> d
 
 
 def pictures(plan: Plan, r: Results) -> dict[str, Task[tuple[bytes, bytes, str]]]:
-    """What is drawn, by name."""
+    """The figures of the paper and beyond, by file name, each as a task that draws it."""
     signals, cells = {c: head.signals for c, head in r.heads.items()}, r.cells
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
     magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
@@ -68,12 +73,12 @@ def pictures(plan: Plan, r: Results) -> dict[str, Task[tuple[bytes, bytes, str]]
 
 
 def draw_robot(preset: str) -> Figure:
-    """Figure 1."""
+    """Figure 1: the robot of this preset with its coordinates."""
     return robot_figure(Biped.load("rabbit", preset))
 
 
 def rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes, str]:
-    """A figure as PNG and as SVG, laid out once, and the numbers it shows as JSON."""
+    """A figure as PNG and as SVG, laid out once so that both are alike, and the numbers it shows as JSON."""
     figure = draw(*arguments)
     figure.draw_without_rendering()
     figure.set_layout_engine("none")

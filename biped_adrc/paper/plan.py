@@ -1,4 +1,10 @@
-"""The runs of the reproduction, by name: what each of the paper's claims is tested on."""
+"""The runs of the reproduction: every simulation on which a claim, check, table or figure of it rests.
+
+A `Plan` says what was asked for (preset, pushes, quick or full); `tasks` turns it into independent tasks for
+`campaign.pool`, each of a function here or in a neighbouring module. The first word of a task's name is its
+kind, by which `paper.results` sorts what comes back. Integration steps are chosen so that halving them changes
+no figure of merit by more than 1 % (`paper.convergence`); stiffer situations have shorter ones.
+"""
 
 from __future__ import annotations
 
@@ -27,39 +33,47 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import poincare_twice, return_map_samples
 
 MOTORS = ("q1", "q2", "q3", "q4")
+"""The actuated joints."""
 PAPER_PUSH = joints_push(30.0, MOTORS, step=19, start=0.1, stop=0.3)
+"""The push of figures 4 to 6: 30 N m on all joints for 0.2 s in step 19. The paper prints no amplitude."""
 SINE = joints_push(40.0, MOTORS, step=19, start=0.05, stop=0.3, kind="sine", frequency=5.0)
+"""A disturbance of 5 Hz on all joints [N m]."""
 TORSO = Push({"q5": 20.0}, step=19, start=0.1, stop=0.3)
+"""A push on the torso, which no motor drives [N m]."""
 HEAVIER = {"torso": 1.2, "thigh": 1.15}
+"""Factors on the links' masses (and inertias) of the plant alone, not of the controller's model."""
 POLICIES = ("none", "relabel", "measured", "model")
+"""What the observer's states become at an impact."""
 MAP_ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
-"""[s]; a single support takes about 0.4 s."""
+"""Onsets of the map of pushes [s] after an impact; a single support takes about 0.4 s."""
 MAP_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
-"""[N m], up to what RABBIT's motors give."""
+"""Amplitudes of the map of pushes [N m], up to what RABBIT's motors give."""
 STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (1.25e-4, 5e-5)}
-"""[s], of every run, and where a push switches and in the single support after; halved, no figure of merit
-changes by more than 1 % or its resolution (`studies.convergence`)."""
+"""Integration steps [s]: of the whole walk, and of the single supports where a push switches and
+the one after.
+"""
 RESET_STEP = 2.5e-5
-"""[s], for what follows an impact that the observer does not expect; the mean forces ask for it."""
+"""Step [s] for what follows an impact that the observer does not expect; the averaged forces need it."""
 DIVERGING_STEP = 5e-5
-"""[s], the same for the walk that diverges 1.2 ms after the impact, of which only the ending is compared."""
+"""The same for the walk that diverges 1.2 ms after the impact, of which only the ending is compared [s]."""
 ENGINES_STEP = 1e-3
-"""[s], at which the two engines are compared over the pushed step."""
+"""Step at which the two engines are compared over the pushed step [s]."""
 RISE = 0.01
-"""[s] in which the paper's push rises and falls, beside its vertical edges."""
+"""Time in which the headline push rises and falls [s], in the runs beside those with vertical edges."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What to reproduce. `pushes` replace the paper's push.
-
-    full: the map of pushes too, which takes minutes. quick: a first look, without what `left_out` names.
-    """
+    """What to reproduce. Raises InputError for `full` and `quick` together."""
 
     preset: str = "identified"
+    """Of RABBIT, for the headline runs."""
     pushes: tuple[Push, ...] = (PAPER_PUSH,)
+    """In place of the paper's push."""
     full: bool = False
+    """The map of pushes too, which takes minutes."""
     quick: bool = False
+    """A first look, without what `left_out` names."""
 
     def __post_init__(self) -> None:
         if self.full and self.quick:
@@ -72,7 +86,7 @@ class Plan:
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """What a quick run does without."""
+        """What this plan does not compute, in words."""
         if self.full:
             return ()
         if not self.quick:
@@ -88,17 +102,21 @@ class Plan:
 
 @dataclass(frozen=True)
 class Headline:
-    """A headline run with all that is drawn."""
+    """A pushed run with all that is drawn of it."""
 
     outcome: Outcome
+    """Its figures of merit, with those at half of the step in `half`."""
     trajectory: Trajectory
+    """All its nodes."""
     signals: Signals
+    """Errors, torques, forces and energies at the nodes."""
 
 
 def headline(run: Scenario) -> tuple[Headline, list[Check]]:
-    """A run that is kept whole, and its laws.
+    """A run that is kept whole, and the checks of its physical laws.
 
-    Its figures are there at half of its steps too, and at a quarter for the single supports from the push on.
+    Its figures of merit are computed at half of its steps too, and at a quarter for the single supports from
+    the push on, from which the order of convergence follows.
     """
     full = walk_scenario(run)
     laws = walk_laws(f"{run.controller}, {run.preset}", full)
@@ -109,14 +127,16 @@ def headline(run: Scenario) -> tuple[Headline, list[Check]]:
 
 
 def engines(run: Scenario) -> Outcome:
-    """The pushed step of a run with Pinocchio's dynamics at `ENGINES_STEP`, and compiled in `half`."""
+    """The pushed step on Pinocchio's dynamics at `ENGINES_STEP`, with the same on the compiled engine in
+    `half`.
+    """
     pushed = run.pushes[0].step
     one = replace(run, first_step=pushed, impacts=1, h=ENGINES_STEP, fine=None, engine=PINOCCHIO)
     return replace(execute(one), half=execute(replace(one, engine=COMPILED)))
 
 
 def base_runs(plan: Plan) -> dict[str, Scenario]:
-    """Runs by name; each returns an Outcome. Names end in the controller."""
+    """The walks that need no function of their own, by name; names end in the controller."""
     runs: dict[str, Scenario] = {}
     for c in CONTROLLERS:
         run = stepped(Scenario(c, preset=plan.preset))
@@ -139,13 +159,13 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
 
 
 def stepped(run: Scenario) -> Scenario:
-    """With the steps of the reproduction; ADRC with its feedback in the linear part of the method."""
+    """The run with the steps of the reproduction; for ADRC the feedback is in the linear part of the method."""
     h, fine = STEPS[run.controller]
     return replace(run, method=method(run.controller), h=h, fine=fine)
 
 
 def pushed_run(plan: Plan, controller: str) -> Scenario:
-    """A headline run: the paper's, with its push."""
+    """The headline run of a controller: the paper's gait under the plan's pushes."""
     run = Scenario(controller, preset=plan.preset, pushes=plan.pushes, engine=COMPILED)
     return stepped(run)
 
@@ -167,19 +187,30 @@ def literal_runs(plan: Plan) -> dict[str, Scenario]:
 
 
 class RecipeRecord(TypedDict, total=False):
-    """x"""
+    """Numbers of gait (b); what a walk that fails early does not have is absent."""
 
     status: str
+    """How eight steps ended."""
     impacts: int
+    """Steps made."""
     peak_error: float
+    """Largest tracking error [rad]."""
     peak_torque: float
+    """[N m]."""
     impact_rate_jump: list[float]
+    """By joint: rate after the impact less that of the reference [rad/s]; zero for an invariant gait."""
     certificate: dict[str, float]
+    """Of the last step, by name."""
     violations: list[str]
+    """Limits of ground and motors that the last step breaks."""
     distance_to_x_star: list[float]
+    """x- of the cycle less x*, by component [rad, rad/s]."""
     multipliers: list[float]
+    """|lambda|, the largest first."""
     multipliers_change: float
+    """Their largest change at half of the step."""
     stable: bool
+    """Whether all are below 1."""
 
 
 @dataclass(frozen=True)
@@ -189,14 +220,17 @@ class RecipeResult:
     preset: str
     controller: str
     closes: bool
+    """Whether a walking cycle was found."""
     reason: str
+    """Why not, in words."""
     record: RecipeRecord
+    """The numbers found until then."""
     outcome: Outcome | None = None
-    """Of the walk, at two steps."""
+    """Of the walk, at two steps; None where it could not be walked."""
 
 
 def recipe_result(preset: str, controller: str) -> RecipeResult:
-    """Walk gait (b) and look for its fixed point, at two steps; whatever comes out is reported."""
+    """Walk gait (b) and search its cycle, at two steps; a failure is a result too and raises nothing."""
     run = replace(stepped(Scenario(controller, preset=preset, gait="recipe", impacts=8)), fine=None)
     run = replace(run, engine=COMPILED)
     biped = Scene.of(run).biped
@@ -229,7 +263,7 @@ def recipe_result(preset: str, controller: str) -> RecipeResult:
 
 
 def tasks(plan: Plan) -> dict[str, Task[object]]:
-    """Everything to compute, by name, the longest first; each in its own process."""
+    """Everything to compute, by name, the longest first so that no core waits at the end."""
     adrc, npd = Scenario("ADRC", preset=plan.preset), Scenario("NPD", preset=plan.preset)
     pushed = {c: pushed_run(plan, c) for c in CONTROLLERS}
     out: dict[str, Task[object]] = {}

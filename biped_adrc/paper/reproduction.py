@@ -1,7 +1,10 @@
-"""The paper, end to end: run everything, judge it, and write what it came to.
+"""The paper reproduced end to end: run everything, check it, and write what it came to.
 
-Written to the output folder: figures (PNG, SVG), the two headline runs (npz + JSON), walk.html,
-summary.json and report.html; each whole or not at all, so that an interrupted run leaves readable files.
+    plan -> tasks (campaign.pool) -> Results -> claims, checks, tables, findings -> summary, figures, report
+
+Written to the output folder: figures (PNG, SVG, JSON), the two headline runs (npz and JSON), walk.html,
+summary.json and report.html. Each file is written whole or not at all, so that an interrupted run leaves
+readable files. Called by the command `reproduce` and by `docs/write_results.py`.
 """
 
 from __future__ import annotations
@@ -46,9 +49,9 @@ def reproduce(
     workers: int | None = None,
     progress: TaskProgress | None = None,
 ) -> dict[str, Any]:
-    """Run the plan and write everything to `out`; returns the summary.
+    """Run the plan and write everything to `out`; returns what summary.json holds.
 
-    Raises OutputError before the first run when `out` cannot be written.
+    command: as typed, for the report. Raises OutputError before the first run when `out` cannot be written.
     """
     started = time.perf_counter()
     probe(out)
@@ -82,7 +85,7 @@ def reproduce(
 
 
 def _laws(plan: Plan, r: Results) -> list[Check]:
-    """The laws that the runs were held against."""
+    """The checks of physical laws that the runs were held against."""
     parts = [laws for laws, _ in r.numerics.values()] + [r.headline[c][1] for c in CONTROLLERS]
     nominal = dict(r.nominal(plan))
     for preset in plan.presets:
@@ -119,7 +122,7 @@ def _numbers(plan: Plan, r: Results) -> dict[str, object]:
 
 
 def _checks(plan: Plan, r: Results) -> list[Check]:
-    """What the runs have to show, besides the laws each of them was held against."""
+    """What the runs have to show, besides physical laws and claims."""
     return (
         verdicts.consistency_checks(plan, r)
         + verdicts.push_checks(r)
@@ -132,7 +135,7 @@ def _checks(plan: Plan, r: Results) -> list[Check]:
 
 
 def probe(out: Path) -> None:
-    """Make the folder and try to write in it. Raises OutputError."""
+    """Make the folder and try to write in it, since the runs take minutes. Raises OutputError."""
     marker = out / ".writable"
     write_text(marker, "")
     marker.unlink()
@@ -141,6 +144,7 @@ def probe(out: Path) -> None:
 
 
 def _settings(plan: Plan) -> dict[str, object]:
+    """What was asked for, and the constants of the paper that all runs use."""
     fields = [name for name in Plan.__dataclass_fields__ if name != "pushes"]
     return {
         **{name: getattr(plan, name) for name in fields},
@@ -152,7 +156,9 @@ def _settings(plan: Plan) -> dict[str, object]:
 
 
 def _three_steps(head: Headline) -> dict[str, object]:
-    """The largest error under the push at the step used, at half and at a quarter of it, and the order."""
+    """The largest error under the push [rad] at the step used, its half and its quarter, and the order from
+    them.
+    """
     o = head.outcome
     assert o.half is not None
     assert o.half.half is not None
@@ -162,10 +168,11 @@ def _three_steps(head: Headline) -> dict[str, object]:
 
 
 STORED_APART = 1e-3
-"""[s] between the stored nodes of a headline run, but for the single supports with fine steps."""
+"""Distance of the stored nodes of a headline run [s], except in the single supports with fine steps."""
 
 
 def _save(head: Headline, path: Path) -> None:
+    """Store a headline run as npz and JSON, from which the command `show` draws it again."""
     replay(head.outcome.run, _stored(head)).save(path)
 
 
@@ -180,21 +187,25 @@ def _stored(head: Headline) -> Trajectory:
 
 
 def _regression(controller: str, found: Regression) -> dict[str, object]:
+    """The regression (27) on a pushed walk in plain values, with the warning that its data do not
+    determine it.
+    """
     names = ("magnitudes", "rank", "condition", "samples", "warning")
     return {"controller": controller, **{name: getattr(found, name) for name in names}}
 
 
 def _animate(r: Results) -> str:
+    """The animation of both headline runs as one HTML page."""
     walks = {c: replay(head.outcome.run, head.trajectory) for c, head in r.heads.items()}
     window = push_window(r.heads["NPD"].signals)
     return animation_html(walks, Look("ADRC", [] if window is None else [(*window, "push")]))
 
 
 def failed(checks: list[dict[str, object]]) -> list[dict[str, object]]:
-    """The checks that do not hold."""
+    """The checks that do not hold, of those of a summary."""
     return [check for check in checks if not check["holds"]]
 
 
 def main_table(summary: dict[str, Any]) -> list[tuple[str, str, str, str]]:
-    """Claim, place, word, share of the cases: what the command prints."""
+    """Claim, place in the paper, word, share of the cases: what the command prints."""
     return [(row["claim"], row["where"], row["word"], row["share"]) for row in summary["claims"]]

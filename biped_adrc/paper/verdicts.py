@@ -1,4 +1,12 @@
-"""From the outcomes of the reproduction to its checks and tables; nothing here is typed in."""
+"""From the results of the reproduction to its checks: what has to hold, with the value and the limit.
+
+Each function takes the `Results` of all runs and returns `checks.Check`s of one kind: physical law, consistency
+with what the gait was designed for, or a result of the paper that could have failed to reproduce. Values are
+computed from the runs, none is typed in. Where NaN may occur NumPy's max and min are used, since Python's pass
+over it and a check would hold without a number.
+
+Called by `paper.reproduction`, which writes the checks to the summary and sets the exit code.
+"""
 
 from __future__ import annotations
 
@@ -16,14 +24,16 @@ from biped_adrc.types import Array
 
 
 def distance(outcome: Outcome) -> float:
-    """max |x- - x*| at the last impact; infinite when the robot fell before."""
+    """max |x- - x*| [rad, rad/s] at the last impact, over angles and rates; infinite when the robot fell
+    before.
+    """
     if not outcome.walked:
         return float("inf")
     return float(np.max(np.abs(outcome.x_minus[-1][: len(X_STAR)] - X_STAR)))
 
 
 def consistency_checks(plan: Plan, r: Results) -> list[Check]:
-    """Gait (a) closes on the published x* under both controllers in every preset."""
+    """Gait (a) returns to the published x* under both controllers in every preset, as it was designed to do."""
     walks = {f"{_gait(name, 'a')}: distance to x*": o for name, o in r.nominal(plan)}
     return [
         at_most(f"{name} after {o.impacts} impacts", "consistency", distance(o), 5e-4)
@@ -32,12 +42,12 @@ def consistency_checks(plan: Plan, r: Results) -> list[Check]:
 
 
 def _gait(name: str, gait: str) -> str:
-    """A preset and a controller, as checks name them."""
+    """ "gait (a), preset, controller", from "preset controller", as checks name a walk."""
     return f"gait ({gait}), {', '.join(name.split())}"
 
 
 def certificate_checks(plan: Plan, r: Results) -> list[Check]:
-    """Nominal walking within dry friction and RABBIT's torque."""
+    """Undisturbed walking needs at most a friction of 0.6 and RABBIT's 150 N m, and the ground never pulls."""
     found = []
     for of, o in r.nominal(plan):
         # NumPy's, since max and min pass over a NaN; without a step nothing holds
@@ -54,7 +64,10 @@ def certificate_checks(plan: Plan, r: Results) -> list[Check]:
 
 
 def multiplier_checks(r: Results) -> list[Check]:
-    """The multiplier of the walking cycle is delta^2; everything is inside the unit circle."""
+    """The largest multiplier of the walking cycle under NPD is delta^2 of the zero dynamics; all are below 1.
+
+    Under ADRC the coordinates include the observer's states.
+    """
     npd = r.multipliers["NPD"]
     sizes = np.abs(npd.orbit.multipliers)
     closed = "NPD: largest multiplier against delta^2 of the zero dynamics"
@@ -73,7 +86,10 @@ def multiplier_checks(r: Results) -> list[Check]:
 
 
 def push_checks(r: Results) -> list[Check]:
-    """Figures 4 and 5: both walk on, and ADRC tracks a hundred times better."""
+    """Figures 4 and 5: both controllers walk on, and ADRC's largest error is at most a hundredth of NPD's.
+
+    Also for a sine, a heavier plant, sampling at 1 kHz, and a push on the torso, where no controller can help.
+    """
     npd, adrc = (r.heads[c].outcome for c in CONTROLLERS)
     found = []
     for name, pair in (("the push", (npd, adrc)), ("the 5 Hz sine", r.pair("sine"))):
@@ -90,29 +106,36 @@ def push_checks(r: Results) -> list[Check]:
 
 
 def _ratio(name: str, pair: tuple[Outcome, Outcome]) -> tuple[str, str, float]:
+    """Name, kind and value of a check on the peak error of ADRC over that of NPD."""
     ratio = pair[1].peak_error / pair[0].peak_error
     return f"{name}: peak error of ADRC over NPD's", "reproduced", ratio
 
 
 def _made(name: str, pair: tuple[Outcome, Outcome]) -> list[Check]:
+    """The checks that both walks make all their impacts."""
     return [made_check(name, o) for o in pair]
 
 
 def made_check(name: str, o: Outcome) -> Check:
-    """Every impact asked for is made."""
+    """The check that a walk makes all impacts asked for."""
     label = f"{name}, {o.run.controller}: impacts made of {o.run.impacts}"
     return at_least(label, "reproduced", o.impacts, o.run.impacts)
 
 
 def period_gap(one: Array, other: Array) -> float:
-    """Largest difference of the times of steps, over a usual one of `one`; infinite without as many steps."""
+    """Largest difference of step times between two walks, relative to a usual step of the first.
+
+    one, other: (K,) step times [s]. Infinite where the numbers of steps differ.
+    """
     if len(one) != len(other) or len(one) == 0:
         return float("inf")
     return float(np.max(np.abs(one - other))) / float(np.median(one[:2]))
 
 
 def engine_checks(r: Results) -> list[Check]:
-    """The two engines over the pushed step, at equal method and step: the state before the next impact."""
+    """Both engines integrate the pushed step alike: (q, q') before the next impact, at equal method
+    and step.
+    """
     checks = []
     for c in CONTROLLERS:
         one = r.engines[c]
@@ -127,7 +150,7 @@ def engine_checks(r: Results) -> list[Check]:
 
 
 def convergence_checks(r: Results) -> list[Check]:
-    """No figure of merit moves when every step is halved; the headline's peak at a third step has an order."""
+    """No figure of merit moves when every step is halved; the headline's peak error has a positive order."""
     order = observed_order(r.heads["ADRC"].outcome, lambda o: o.peak_error)
     name = "order in the step of ADRC's largest error under the push, from three steps"
     gaps = {f"multipliers {c}": r.multipliers[c].gap for c in sorted(r.multipliers)}
@@ -148,7 +171,7 @@ CHANGE = (
 
 
 def recipe_checks(plan: Plan, r: Results) -> list[Check]:
-    """Gait (b) closes in a stable cycle; its certificates are reported, not asserted."""
+    """Gait (b), designed by the recipe of section IV, has a stable walking cycle."""
     return [
         below(
             f"gait (b), {x.preset}, {x.controller}: largest multiplier of its cycle",
@@ -161,7 +184,7 @@ def recipe_checks(plan: Plan, r: Results) -> list[Check]:
 
 
 def recipe_notes(r: Results, plan: Plan) -> list[str]:
-    """Plain sentences on gait (b)."""
+    """A sentence on gait (b) for each preset and controller: whether it closes, and how far from x*."""
     notes = []
     for x in r.recipes(plan):
         said = f"no cycle found: {x.reason}"
