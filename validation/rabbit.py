@@ -40,10 +40,11 @@ from validation.hip_push import HipCase, PushedWalk
 from validation.row import PRESETS, Row, at_most, nothing
 
 PAPER = "the paper, section VI"
+"""Source of what the paper prints."""
 
 
 def poles_row() -> tuple[Row, ...]:
-    """Table I is printed in whole rad/s."""
+    """Table I, printed in whole rad/s, follows 180 x 1.8^k."""
     gap = np.abs(np.array(PRINTED_TABLE_I, dtype=float) - np.array(TABLE_I))
     quantity = "180 x 1.8^k, k = 0..8: largest gap to Table I [rad/s]"
     return (nothing("observer", quantity, np.max(gap), 0.5, "the paper, Table I"),)
@@ -76,12 +77,15 @@ def fixed_point_rows(preset: str) -> tuple[Row, ...]:
 
 
 TAC = "Westervelt, Grizzle, Koditschek 2003, example at 1.05 m/s"
+"""Source of the printed digits of the example."""
 ZETA, DELTA2, V_END, K = 979.0, 0.638, -354.4, 260.4
+"""zeta*, delta^2, V_zero(Theta-) and K as printed, zeta, V and K in [kg^2 m^4/s^2]."""
 UNIT = "[kg^2 m^4/s^2]"
+"""Of zeta."""
 
 
 def printed_rows() -> tuple[Row, ...]:
-    """The printed digits among themselves: the formulae of the zero dynamics are theirs."""
+    """The printed digits among themselves: do they satisfy the formulae of the zero dynamics?"""
     existence = DELTA2 / (1.0 - DELTA2) * V_END + K
     name = "RABBIT tac2003, 1.05 m/s, as printed"
     return (
@@ -91,7 +95,7 @@ def printed_rows() -> tuple[Row, ...]:
 
 
 def designed_rows(step: float | None = None) -> tuple[Row, ...]:
-    """The gait found at 1.05 m/s beside the example; step [m], None leaves it free."""
+    """The gait found at 1.05 m/s beside the example; step length [m], None leaves it free."""
     found = design_gait("rabbit", 1.05, step, preset="tac2003")
     biped = Biped.load("rabbit", "tac2003")
     orbits = ZeroOrbits.of(ZeroDynamics.of(biped, found.gait.constraint))
@@ -126,13 +130,17 @@ def _own_rows(name: str, found: DesignedGait, orbits: ZeroOrbits) -> tuple[Row, 
 
 
 ANOTHER = "Westervelt, Grizzle, Canudas de Wit 2003, another gait"
+"""Source of the published force."""
 PREDICTED = "quadrature on the zero dynamics"
+"""Source of the predicted force."""
 BESIDE = 0.05
-"""How far below and above the predicted force the walks are, share of it."""
+"""How far below and above the predicted force the walks are, relative to it."""
 
 
 def published_force_rows() -> tuple[Row, ...]:
-    """The force that stops the gait, beside the published 3 N, in every preset."""
+    """The force that stops the gait [N], beside the published 3 N, in every preset; of another gait, so no
+    target.
+    """
     forces = {p: HipCase("NPD", stride=False, preset=p).predicted() for p in PRESETS}
     said = "rearward force that stops it, by quadrature [N]"
     return tuple(Row(f"RABBIT {p}, v0.5", said, 3.0, F, None, ANOTHER) for p, F in forces.items())
@@ -156,9 +164,11 @@ def hip_rows(tracking: str, steps: int = 25) -> tuple[Row, ...]:
 
 
 SPEEDS = tuple(round(0.4 + 0.1 * k, 1) for k in range(8))
-"""[m/s]."""
+"""For which gaits are designed [m/s]."""
 SECONDS = 10.0
+"""Limit of the processor time of a design [s]."""
 ASKED, CERTIFICATE = "as asked", "certificate of the walk"
+"""Sources of the rows of designed gaits."""
 OWN = "this package's own limit"
 
 
@@ -174,7 +184,7 @@ def design_rows(preset: str, speed: float) -> tuple[Row, ...]:
 def through_rows(preset: str) -> tuple[Row, ...]:
     """The gait through x* of the paper, beside the stored one, which another optimiser found.
 
-    Its impulse is what x* makes it, so that it has no limit.
+    x* determines its impulse, so that the impulse has no limit here.
     """
     biped = Biped.load("rabbit", preset)
     q, v = onto_section(biped, X_STAR[: biped.n]), np.array(X_STAR[biped.n :])
@@ -194,7 +204,7 @@ def through_rows(preset: str) -> tuple[Row, ...]:
 
 
 def torque_squared(biped: Biped, gait: Gait) -> float:
-    """int u'u dt / step [N^2 m s] on the zero dynamics."""
+    """int u'u dt / step length [N^2 m s] on the zero dynamics."""
     zero = ZeroDynamics.of(biped, gait.constraint)
     orbit = zero.orbit(zero.sigma_minus * zero.delta)
     length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
@@ -202,6 +212,7 @@ def torque_squared(biped: Biped, gait: Gait) -> float:
 
 
 def _common(name: str, found: DesignedGait, spent: float) -> tuple[Row, ...]:
+    """What every designed gait has to show: its certificate, periodicity of the walk, processor time [s]."""
     broken = float(len(found.certificate.violations()))
     return (
         at_most(name, "broken limits of its certificate", 0.0, broken, CERTIFICATE),

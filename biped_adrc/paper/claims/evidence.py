@@ -1,4 +1,16 @@
-"""Runs and closed forms on which the claims beside the push on the joints rest, and the tasks for them."""
+"""Runs and closed forms for all claims beside the push on the joints, and the tasks that compute them.
+
+    cycles          multipliers and speed of the walking cycle of both gaits under both controllers
+    needs           friction, torque and cost of both gaits, undisturbed
+    unmatched       pushes on the torso, which no motor drives
+    uncertainty     a plant heavier than the model
+    pushed_recipe   a push on gait (b)
+    basin           starts just below and above the least speed that reaches the next impact
+    jumps           how far the total disturbance is from smooth
+
+Each function takes a preset and returns records whose numbers are at the step used and at half of it. The runs
+are declared in admissible.toml. `paper.plan` runs `claim_tasks`; `claims.table` reads the `Evidence`.
+"""
 
 from __future__ import annotations
 
@@ -35,18 +47,24 @@ from biped_adrc.studies.cycle_stability import poincare
 from biped_adrc.types import Array
 
 GAITS = ("published", "recipe")
+"""Gait (a), through x*, and gait (b), by the recipe of section IV."""
 TEN = 10
-"""Numbers in the state of the paper's robot."""
+"""Numbers in the state of the paper's robot: five angles, five rates."""
 
 
 class GaitCycle(NamedTuple):
     """The walking cycle of a gait under a controller; NaN where none was found."""
 
     name: str
+    """For a reader."""
     preset: str
+    """Of RABBIT."""
     gait: str
+    """One of `GAITS`."""
     controller: str
+    """NPD or ADRC."""
     theta: str
+    """Theta'' in (20): "solved" or "printed"."""
     multiplier: AtTwoSteps
     """Largest |lambda| by central differences of the return map."""
     rate: AtTwoSteps
@@ -56,12 +74,13 @@ class GaitCycle(NamedTuple):
 
 
 def cycles(preset: str) -> tuple[GaitCycle, ...]:
-    """Of both gaits under both controllers, and of gait (a) with Theta'' as printed."""
+    """Both gaits under both controllers, and gait (a) with Theta'' as printed."""
     found = [_cycle(preset, gait, c, "solved") for gait in GAITS for c in CONTROLLERS]
     return (*found, *(_cycle(preset, "published", c, "printed") for c in CONTROLLERS))
 
 
 def _cycle(preset: str, gait: str, controller: str, theta: str) -> GaitCycle:
+    """One cycle at both steps; a search that fails gives NaN, so that the case does not hold."""
     h = declared()["steps"]["plain"]
     run = Scenario(controller, preset=preset, gait=gait, solve_theta=theta == "solved")
     run = replace(run, method=method(controller), engine=COMPILED)
@@ -83,28 +102,36 @@ def _cycle(preset: str, gait: str, controller: str, theta: str) -> GaitCycle:
 
 
 class Needs(NamedTuple):
-    """What a gait asks of the ground and the motors over its cycle, undisturbed."""
+    """What a gait needs from ground and motors over its cycle, undisturbed."""
 
     name: str
+    """For a reader."""
     preset: str
+    """Of RABBIT."""
     gait: str
+    """One of `GAITS`."""
     friction: AtTwoSteps
-    """Largest |F_T| / F_N of the force in the mean over the window of `Limits`."""
+    """Largest |F_T| / F_N of the force averaged over the window of `Limits`."""
     friction_at_an_instant: AtTwoSteps
+    """Largest |F_T| / F_N of the force itself."""
     impulse_ratio: AtTwoSteps
+    """|F_T| / F_N of the impulse at impact."""
     torque: AtTwoSteps
-    """[N m]."""
+    """Largest torque [N m]."""
     cost: AtTwoSteps
-    """Cost of transport."""
+    """Cost of transport, without unit."""
     work: AtTwoSteps
     """Net joint work per step length [J/m]."""
     rate_jump: float
-    """Largest jump of a joint's rate against its reference at impact [rad/s]."""
+    """Largest difference of a joint's rate from its reference after the impact [rad/s]; 0 for an invariant
+    gait.
+    """
     illegal: tuple[str, ...]
+    """Which limits of ground and motors it breaks, in words."""
     normal: AtTwoSteps
-    """Least F_N in the mean over the window [N]."""
+    """Least F_N averaged over the window [N]."""
     same: bool = True
-    """Whether it is legal or not alike at half of the step."""
+    """Whether it is legal at both steps, or at neither."""
 
 
 def needs(preset: str) -> tuple[Needs, ...]:
@@ -113,6 +140,7 @@ def needs(preset: str) -> tuple[Needs, ...]:
 
 
 def _needs(preset: str, gait: str) -> Needs:
+    """Of the second step of a walk, at both integration steps."""
     h = declared()["steps"]["needs"]
     run = Scenario("NPD", preset=preset, gait=gait, engine=COMPILED)
     made = prepared(run)
@@ -145,17 +173,21 @@ class Pair(NamedTuple):
     """Two walks that differ in the controller alone."""
 
     name: str
+    """For a reader."""
     peak: dict[str, AtTwoSteps]
-    """max |q_b - q_d| over all steps, between the nodes too [rad], by controller."""
+    """By controller: max |q_b - q_d| over all steps [rad], between the nodes too."""
     delay: dict[str, AtTwoSteps]
-    """Largest change of a step's time against that of the gait [s], by controller; NaN where one never ends."""
+    """By controller: largest change of a step's time against that of the gait [s]; NaN where a step
+    never ends.
+    """
     made: dict[str, bool]
-    """Whether all impacts were made at both steps, by controller."""
+    """By controller: whether all impacts were made at both integration steps."""
     same: bool = True
-    """Whether both walks make as many at half of the step."""
+    """Whether both walks make as many impacts at half of the step."""
 
 
 def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
+    """Both walks at both integration steps; runs: by controller."""
     peak, delay = {}, {}
     made: dict[str, bool] = {}
     same = True
@@ -174,17 +206,18 @@ def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
 
 
 def _both(run: Scenario) -> dict[str, Scenario]:
+    """The run under NPD and under ADRC, each with its method, on the compiled engine."""
     return {c: replace(run, controller=c, method=method(c), engine=COMPILED) for c in CONTROLLERS}
 
 
 def torso_push(torque: float) -> Push:
-    """On the coordinate that no motor drives [N m]."""
+    """A push of `torque` [N m] on q5, which no motor drives, for 0.2 s."""
     step = declared()["push"]["step"]
     return Push({"q5": torque}, step=step, start=0.1, stop=0.3)
 
 
 def unmatched(preset: str) -> tuple[Pair, ...]:
-    """Pushes on the torso; the last one is the fatal one."""
+    """Pushes on the torso; the last one is large enough to stop a walk."""
     k = declared()["unmatched"]
     found = []
     for torque in (*k["amplitudes"], k["fatal"]):
@@ -195,7 +228,7 @@ def unmatched(preset: str) -> tuple[Pair, ...]:
 
 
 def uncertainty(preset: str) -> tuple[Pair, ...]:
-    """A plant heavier than the model."""
+    """A plant heavier than the model: in its masses, and in masses and inertias."""
     k = dict(declared()["uncertainty"])
     impacts = k.pop("impacts")
     return tuple(
@@ -214,22 +247,26 @@ def pushed_recipe(preset: str) -> tuple[MemberOutcome, ...]:
 
 
 class Start(NamedTuple):
-    """A walk from a speed of one's choice after the impact."""
+    """A walk that starts with a chosen speed after the impact."""
 
     name: str
+    """For a reader."""
     least: float
-    """Speed that reaches the next impact, of the gait's own, by one quadrature of the zero dynamics."""
+    """The speed that just reaches the next impact, relative to the gait's, from one quadrature of the zero
+    dynamics.
+    """
     factor: float
-    """Speed of this start over the least."""
+    """Speed of this start relative to the least."""
     impacts: dict[str, int]
-    """Made, by controller."""
+    """By controller: impacts made."""
     asked: int
+    """Impacts asked for."""
     same: bool = True
-    """Whether as many are made at half of the step."""
+    """Whether as many impacts are made at half of the step."""
 
 
 def basin(preset: str) -> tuple[Start, ...]:
-    """Starts on the constraint just below and above the least speed."""
+    """Starts on the constraint just below and just above the least speed."""
     k, h = declared()["basin"], declared()["steps"]["plain"]
     runs = _both(Scenario(preset=preset))
     least = least_speed(runs["NPD"])
@@ -245,11 +282,17 @@ def basin(preset: str) -> tuple[Start, ...]:
 
 
 def _strikes(run: Scenario, speed: float, h: float, impacts: int) -> int:
+    """Impacts made from a start with `speed` times the gait's rates; h [s]."""
     return len(prepared(run, speed=speed).simulate(h, impacts).events(FOOT_STRIKE))
 
 
 def least_speed(run: Scenario) -> float:
-    """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact."""
+    """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact.
+
+    sigma is the angular momentum about the stance foot. On the zero dynamics sigma^2(Theta) is its initial
+    value plus a function of Theta, whose minimum (of a parabola through three nodes) decides whether the robot
+    passes mid-stance.
+    """
     biped, gait = nominal(run.preset, run.gait)
     zero = ZeroDynamics.of(biped, gait.constraint, nodes=120)
     sigma = biped.angular_momentum(*gait.start(biped))
@@ -261,15 +304,17 @@ def least_speed(run: Scenario) -> float:
 
 
 class Jumps(NamedTuple):
-    """How far the total disturbance xi of (13) is from smooth, largest over the joints [rad/s^2].
+    """Jumps of the total disturbance xi of (13), largest over the joints [rad/s^2].
 
-    Both are differences of closed forms at one state: there is no step to halve.
+    Both are differences of closed forms at one state, so that there is no step to halve.
     """
 
     name: str
+    """The preset."""
     at_impact: float
+    """Between the states before and after the impact of gait (a)."""
     at_edge: float
-    """Of a push of 30 N m on all joints."""
+    """At the edge of a push of 30 N m on all joints."""
 
 
 def jumps(preset: str) -> tuple[Jumps, ...]:
@@ -285,17 +330,21 @@ def jumps(preset: str) -> tuple[Jumps, ...]:
 
 
 def fastest_decay(period: float) -> float:
-    """What is left of a tracking error after a step under Table II: exp(-K_d T / 2)."""
+    """What is left of a tracking error after a step under Table II: exp(-K_d T / 2). period T [s]."""
     return float(np.exp(-0.5 * float(np.max(TABLE_II.K_d)) * period))
 
 
 def longest_step(multiplier: float) -> float:
-    """Step after which a tracking error under Table II has decayed to no less than this share [s]."""
+    """Period [s] in which a tracking error under Table II decays to `multiplier`; the inverse of
+    `fastest_decay`.
+    """
     return float(-2.0 * np.log(multiplier) / float(np.max(TABLE_II.K_d)))
 
 
 def noise_spectrum() -> Array:
-    """Medians of the ten sorted |lambda| that (26), (27) give for independent normal numbers."""
+    """What the regression (26), (27) makes of noise: medians of the sorted |lambda|, (10,), of
+    random numbers.
+    """
     k = declared()["noise"]
     random = np.random.default_rng(k["seed"])
     found = [
@@ -306,21 +355,32 @@ def noise_spectrum() -> Array:
 
 
 class Evidence(NamedTuple):
-    """Outcomes of all runs for the claims, over the presets that were asked for."""
+    """All that the claims rest on, for the presets asked for; also a part of it, with the other
+    fields empty.
+    """
 
     members: tuple[MemberOutcome, ...] = ()
+    """The push on the joints at all admissible choices."""
     cycles: tuple[GaitCycle, ...] = ()
+    """As of `cycles`."""
     needs: tuple[Needs, ...] = ()
+    """As of `needs`."""
     unmatched: tuple[Pair, ...] = ()
+    """As of `unmatched`."""
     uncertainty: tuple[Pair, ...] = ()
+    """As of `uncertainty`."""
     pushed_recipe: tuple[MemberOutcome, ...] = ()
+    """As of `pushed_recipe`."""
     basin: tuple[Start, ...] = ()
+    """As of `basin`."""
     jumps: tuple[Jumps, ...] = ()
+    """As of `jumps`."""
     orders: tuple[Order, ...] = ()
+    """Observers of different order, as of `claims.orders`."""
 
 
 def member_evidence(preset: str) -> Evidence:
-    """The members of the set in one preset."""
+    """The push on the joints at the choices with this preset."""
     return Evidence(members=tuple(tried(m) for m in members() if m.preset == preset))
 
 
@@ -338,12 +398,12 @@ def preset_evidence(preset: str) -> Evidence:
 
 
 def order_evidence(preset: str) -> Evidence:
-    """The observers of the claims about its order."""
+    """Observers of different order in this preset."""
     return Evidence(orders=orders(preset))
 
 
 def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task[Evidence]]:
-    """By name, the longest first."""
+    """The tasks by name, the longest first; each returns a part of the evidence."""
     out = {}
     for preset in presets:
         count = sum(member.preset == preset for member in members())
@@ -359,5 +419,5 @@ def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task[Evidence]]:
 
 
 def gathered(parts: Iterable[Evidence]) -> Evidence:
-    """One record of several, each of its fields in their order."""
+    """The whole evidence of its parts, field by field in the order of the parts."""
     return Evidence._make(tuple(chain(*field)) for field in zip(*parts, strict=True))

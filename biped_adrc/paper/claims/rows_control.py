@@ -1,4 +1,8 @@
-"""Claims about the controller and its observer: section III, model uncertainty, what is not matched."""
+"""Claims about the controller and its observer: section III, uncertainty of the model, unmatched disturbances.
+
+One function per claim: it makes cases of the evidence, and the values of the claim's text. Called by
+`claims.table`; cases are judged in `claims.tally`, texts are in claims.toml.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +38,7 @@ def control_claims(
     orders: Sequence[Order],
     numerics: Mapping[str, float],
 ) -> list[Claim]:
-    """All rows of this module; numerics: the figures of the laws, of a held joint."""
+    """All rows of this module; numerics: figures of the held joint by name."""
     fatal = f"{declared()['unmatched']['fatal']:g} N m"
     return [
         unmatched_rejection([p for p in unmatched if fatal not in p.name]),
@@ -50,11 +54,12 @@ def control_claims(
 
 
 def _ratios(pairs: Sequence[Pair], what: str) -> list[AtTwoSteps]:
+    """Of each pair, ADRC's value of `what` over NPD's."""
     return [quotient(getattr(p, what)["ADRC"], getattr(p, what)["NPD"]) for p in pairs]
 
 
 def _tally(pairs: Sequence[Pair], over: Sequence[AtTwoSteps], limit: float, declared: int) -> Tally:
-    """A case holds where both controllers make all impacts and the ratio is at most `limit`."""
+    """Cases that hold where both controllers make all impacts and the ratio is at most `limit`."""
     cases = (
         below_limit(p.name, f, limit)
         if all(p.made.values())
@@ -65,7 +70,7 @@ def _tally(pairs: Sequence[Pair], over: Sequence[AtTwoSteps], limit: float, decl
 
 
 def unmatched_rejection(pairs: Sequence[Pair]) -> Claim:
-    """A torque on the torso: what it does to the time of a step."""
+    """A torque on the torso: how much longer a step becomes under ADRC than under NPD."""
     limit, over = declared()["limits"]["ratio"], _ratios(pairs, "delay")
     return row(
         "unmatched_rejection",
@@ -77,7 +82,7 @@ def unmatched_rejection(pairs: Sequence[Pair]) -> Claim:
 
 
 def not_at_risk(pairs: Sequence[Pair]) -> Claim:
-    """A disturbance that stops ADRC in every preset."""
+    """ "Stability is never at risk": a disturbance that stops ADRC speaks against it."""
     firm = [p for p in pairs if p.same]
     stopped = [p.name for p in firm if not p.made["ADRC"]]
     values = {
@@ -92,7 +97,7 @@ def not_at_risk(pairs: Sequence[Pair]) -> Claim:
 
 
 def model_uncertainty(pairs: Sequence[Pair]) -> list[Claim]:
-    """A heavier plant: what ADRC removes of NPD's error, and whether it helps at all."""
+    """A heavier plant, twice: does ADRC remove 99 % of NPD's error, and is its error smaller at all?"""
     over = _ratios(pairs, "peak")
     count = len(declared()["uncertainty"]) - 1  # all but its number of impacts
     limits = {"model_uncertainty": declared()["limits"]["ratio"], "less_error": 1.0}
@@ -116,7 +121,9 @@ def independent_of_the_gait(outcomes: Sequence[MemberOutcome]) -> Claim:
 
 
 def high_gains(orders: Sequence[Order]) -> Claim:
-    """Section III.A: more extended states avoid high gains."""
+    """Section III.A: more extended states avoid high gains. Compared at equal bandwidth and equal
+    delay margin.
+    """
     by_name = {o.name: o for o in orders}
     table, equal = by_name["Table I"], by_name["m = 1, equal delay margin"]
     cases, shown = [], []
@@ -143,7 +150,7 @@ def high_gains(orders: Sequence[Order]) -> Claim:
 
 
 def smooth_disturbance(jumps: Sequence[Jumps]) -> Claim:
-    """Section I on the total disturbances."""
+    """Section I: the total disturbance is smooth. It jumps at impacts and at the edges of a push."""
     rough = sum(j.at_impact > declared()["limits"]["jump"] for j in jumps)
     values = {
         "impacts": Extremes(j.at_impact for j in jumps),
@@ -154,14 +161,16 @@ def smooth_disturbance(jumps: Sequence[Jumps]) -> Claim:
 
 
 def hurwitz() -> Claim:
-    """Section III.A on (19)."""
+    """Section III.A: the characteristic polynomial (19) is Hurwitz."""
     slow, fast = max(TABLE_I), min(TABLE_I)
     poles = f"poles from {-slow:.0f} to {-fast:.0f} rad/s" if slow < 0 else "unstable poles"
     return told("hurwitz", values={"poles": poles})
 
 
 def tends_to_zero(numerics: Mapping[str, float]) -> Claim:
-    """(23) under a disturbance that goes on."""
+    """(23): the error tends to zero. Under a disturbance that goes on its amplitude is finite, on one held
+    joint.
+    """
     simulated, half, corrected, printed = (numerics.get(name, math.nan) for name in HELD)
     amplitude, share = AtTwoSteps(simulated, half), convergence()[0]
     seen = simulated > 0.0 and abs(simulated - corrected) <= 0.01 * corrected

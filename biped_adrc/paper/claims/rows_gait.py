@@ -1,4 +1,8 @@
-"""Claims about the gait and its stability: sections I, II, IV, V and VII."""
+"""Claims about the gait and its stability: sections I, II, IV, V and VII.
+
+One function per claim: it makes cases of the evidence, and the values of the claim's text. Called by
+`claims.table`; cases are judged in `claims.tally`, texts are in claims.toml.
+"""
 
 from __future__ import annotations
 
@@ -32,13 +36,13 @@ from biped_adrc.paper.claims.tally import (
 from biped_adrc.paper.claims.words import Claim, Extremes, limited, row, told
 
 PRINTED_SPEED = float(X_STAR[5] + 0.5 * X_STAR[7] + X_STAR[9])
-"""Theta' of x* [rad/s], Theta = q5 + q1 + q3 / 2."""
+"""Theta' of x* [rad/s], with Theta = q5 + q1 + q3 / 2."""
 
 
 def gait_claims(
     cycles: Sequence[GaitCycle], needs: Sequence[Needs], starts: Sequence[Start], distance: float
 ) -> list[Claim]:
-    """All rows of this module; distance: of the undisturbed walks on gait (a) from x*."""
+    """All rows of this module; distance: of the undisturbed walks on gait (a) from x* [rad, rad/s]."""
     return [
         told("fixed_point", values={"distance": distance}),
         stable([c for c in cycles if c.gait == "published"]),
@@ -54,7 +58,7 @@ def gait_claims(
 
 
 def stable(cycles: Sequence[GaitCycle], name: str = "stable", of_preset: int = 4) -> Claim:
-    """Gait (a), or gait (b) by its name in claims.toml, by central differences."""
+    """Gait (a) is stable: the largest multiplier is below 1; under another name the same of gait (b)."""
     bound = (convergence()[0], declared()["limits"]["multiplier"])
     return limited(
         name,
@@ -67,10 +71,11 @@ def stable(cycles: Sequence[GaitCycle], name: str = "stable", of_preset: int = 4
 
 
 recipe_stable = partial(stable, name="recipe_stable", of_preset=2)
+"""Gait (b) is stable."""
 
 
 def recipe_speed(cycles: Sequence[GaitCycle]) -> Claim:
-    """The one number of x* that the recipe predicts."""
+    """The recipe gives Theta' of x*, the one number of it that can be compared."""
     limit = declared()["limits"]["speed"]
     shown = ", ".join(
         f"{c.rate.at_half:.4f} ({100.0 * (c.rate.at_half / PRINTED_SPEED - 1.0):+.1f} %) {c.preset}"
@@ -87,13 +92,14 @@ def recipe_speed(cycles: Sequence[GaitCycle]) -> Claim:
 
 
 def _speeds(cycles: Sequence[GaitCycle], limit: float) -> Tally:
+    """Cases that hold where Theta' is within the share `limit` of the printed one."""
     off = [AtTwoSteps(*(abs(v / PRINTED_SPEED - 1.0) for v in c.rate)) for c in cycles]
     cases = [below_limit(c.name, f, limit) for c, f in zip(cycles, off, strict=True)]
     return Tally(tuple(cases), in_all(1))
 
 
 def _hangs_on(cycles: Sequence[GaitCycle]) -> str:
-    """What another limit, the whole percentage below the largest deviation, would have made of it."""
+    """What a limit at the whole percentage below the largest deviation would have changed, in words."""
     apart = [abs(c.rate.at_half / PRINTED_SPEED - 1.0) for c in cycles]
     worst = float(np.max(apart or [math.nan]))
     if math.isnan(worst):
@@ -104,7 +110,7 @@ def _hangs_on(cycles: Sequence[GaitCycle]) -> str:
 
 
 def recipe_needs(needs: Sequence[Needs]) -> Claim:
-    """Whether a robot could walk gait (b)."""
+    """Gait (b) can be walked by a robot: its friction, normal force and torque are within the limits."""
     cases = [ClaimCase(n.name, n.friction, not n.illegal, _doubtful(n)) for n in needs]
     shown = (
         f"{n.preset}: friction {_two(n.friction)} in the mean over 5 ms and "
@@ -115,20 +121,20 @@ def recipe_needs(needs: Sequence[Needs]) -> Claim:
 
 
 def _doubtful(n: Needs) -> bool:
-    """Whether the step decides what makes it legal or not."""
+    """Whether the integration step decides what makes the gait legal or not."""
     figures = (n.friction, n.normal, n.torque)
     return not (n.same and all(f.converged(*convergence()) for f in figures))
 
 
 def _two(f: AtTwoSteps) -> str:
-    """A number, at both steps where they differ."""
+    """A number, at both integration steps where they differ."""
     if f.converged(*convergence()):
         return f"{f.at_half:.2f}"
     return f"{f.value:.2f} (not converged, {f.at_half:.2f} at half the step)"
 
 
 def pinned_at_impact(needs: Sequence[Needs]) -> Claim:
-    """The hypothesis of (6)."""
+    """The hypothesis of (6): the new foot does not slip at impact, as far as friction of the ground allows."""
     limit = declared()["limits"]["friction"]
     found = [(n.name, n.impulse_ratio) for n in needs]
     ratios = Extremes.of(n.impulse_ratio for n in needs)
@@ -136,7 +142,7 @@ def pinned_at_impact(needs: Sequence[Needs]) -> Claim:
 
 
 def not_smooth(needs: Sequence[Needs]) -> Claim:
-    """Section VII on the impact of the generated trajectory."""
+    """Section VII: the generated trajectory is not smooth at the impact."""
     limit = declared()["limits"]["smooth"]
     recipes = [n for n in needs if n.gait == "recipe"]
     cases = [
@@ -152,7 +158,7 @@ def not_smooth(needs: Sequence[Needs]) -> Claim:
 
 
 def not_optimal(needs: Sequence[Needs]) -> Claim:
-    """Section VII on energy."""
+    """Section VII: the generated gait is not optimal in energy: another one has a lower cost of transport."""
     pairs = [
         (b, a)
         for b in needs
@@ -170,7 +176,9 @@ def not_optimal(needs: Sequence[Needs]) -> Claim:
 
 
 def global_stability(starts: Sequence[Start]) -> Claim:
-    """Section I promises a test of it."""
+    """Section I promises a test of global stability: starts below the least speed cannot reach the
+    next impact.
+    """
     below = [s for s in starts if s.factor < 1.0]
     fails = [s for s in below if s.same and not any(s.impacts.values())]
     above = [s for s in starts if s.factor > 1.0]
@@ -200,7 +208,9 @@ def global_stability(starts: Sequence[Start]) -> Claim:
 
 
 def printed_multipliers(periods: Sequence[float]) -> Claim:
-    """The ten numbers of section VI."""
+    """The ten numbers of section VI: could the tracking gains of Table II give the least of them in
+    one step?
+    """
     period, least = min(periods, default=math.nan), min(PUBLISHED_MULTIPLIERS)
     values = {
         "published": ", ".join(f"{v:g}" for v in PUBLISHED_MULTIPLIERS),

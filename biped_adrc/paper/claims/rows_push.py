@@ -1,4 +1,8 @@
-"""Claims about the push on the joints: figures 4, 5 and 6, rejection, and what it asks of the ground."""
+"""Claims about the push on the joints: figures 4, 5 and 6, rejection, and what it asks of the ground.
+
+One function per claim: it makes a case of each admissible choice (`claims.admissible`), and the values of the
+claim's text. Called by `claims.table`; cases are judged in `claims.tally`, texts are in claims.toml.
+"""
 
 from __future__ import annotations
 
@@ -15,27 +19,29 @@ from biped_adrc.paper.claims.words import Claim, Extremes, limited, row, told
 from biped_adrc.paper.push_map import PushCell, certain
 
 Members = Sequence[MemberOutcome]
+"""The push at all admissible choices."""
 
 
 def push_claims(members: Members, cells: Sequence[PushCell] = ()) -> list[Claim]:
-    """All rows of this module; cells: of the map of pushes, where it was made."""
+    """All rows of this module but `long_walk`; cells: of the map of pushes, where it was made."""
     rules = (rejection, tracking, deviates, walks_on, unaffected, legal)
     return [*(rule(members) for rule in rules), critical_phase(members, cells)]
 
 
 def long_walk(made: Mapping[str, tuple[int, int]]) -> Claim:
-    """The headline runs: impacts made and asked for, by controller."""
+    """The headline runs make all impacts; made: impacts made and asked for, by controller."""
     cases = [ClaimCase(c, AtTwoSteps(m, m), m >= asked) for c, (m, asked) in made.items()]
     counted = ", ".join(f"{c} {m} of {asked}" for c, (m, asked) in made.items())
     return row("long_walk", Tally(tuple(cases)), made=counted)
 
 
 def _tally(cases: Sequence[ClaimCase]) -> Tally:
+    """The tally of one case per admissible choice."""
     return Tally(tuple(cases), len(admissible.members()))
 
 
 def rejection(members: Members) -> Claim:
-    """What the push adds to the error under ADRC, over what it adds under NPD."""
+    """What the push adds to the error under ADRC is at most a hundredth of what it adds under NPD."""
     limit = declared()["limits"]["ratio"]
     return limited(
         "rejection",
@@ -49,7 +55,7 @@ def rejection(members: Members) -> Claim:
 
 
 def tracking(members: Members) -> Claim:
-    """The peak of the error itself, whatever makes it."""
+    """The same ratio of the peak error itself, whatever causes it."""
     limit = declared()["limits"]["ratio"]
     by_theta = {
         theta: Extremes.of(o.walked["ADRC"].peak for o in members if o.member.theta == theta)
@@ -66,14 +72,14 @@ def tracking(members: Members) -> Claim:
 
 
 def deviates(members: Members) -> Claim:
-    """NPD under the push."""
+    """Under NPD the push makes a deviation that can be seen."""
     limit, found = declared()["limits"]["deviation"], [o.walked["NPD"].deviation for o in members]
     cases = [above_limit(o.member.name, f, limit) for o, f in zip(members, found, strict=True)]
     return row("deviates", _tally(cases), deviations=Extremes.of(found))
 
 
 def walks_on(members: Members) -> Claim:
-    """Both controllers make the steps."""
+    """Both controllers make all steps under the push."""
     cases = []
     for o in members:
         each, period = o.walked.values(), o.walked["ADRC"].period
@@ -85,12 +91,12 @@ def walks_on(members: Members) -> Claim:
 
 
 def _doubtful(w: MemberWalk) -> bool:
-    """Whether the step decides how a walk ends, or how long its pushed step takes; a fall has no such time."""
+    """Whether the integration step decides how a walk ends, or how long its pushed step takes."""
     return not w.same or (w.made and not w.period.converged(*convergence()))
 
 
 def unaffected(members: Members) -> Claim:
-    """AtTwoSteps 6: the cycle in (Theta, Theta') under ADRC."""
+    """Figure 6: the cycle in (Theta, Theta') under ADRC is where it was; infinite where there is no impact."""
     steps, limit = declared()["steps"], declared()["limits"]["cycle"]
     # infinite where there is no impact: that cycle is lost
     rates = [np.abs(o.walked["ADRC"].rate) for o in members]
@@ -108,7 +114,7 @@ def unaffected(members: Members) -> Claim:
 
 
 def legal(members: Members) -> Claim:
-    """Whether ground and motors could have given it."""
+    """Ground and motors could have given what ADRC's walks need."""
     walked = [(o.member.name, o.walked["ADRC"]) for o in members]
     cases = [ClaimCase(name, w.period, w.made and not w.illegal, not w.same) for name, w in walked]
     why = sorted({reason for _, w in walked for reason in w.illegal})
@@ -116,7 +122,10 @@ def legal(members: Members) -> Claim:
 
 
 def critical_phase(members: Members, cells: Sequence[PushCell] = ()) -> Claim:
-    """Pushes in which NPD is lost, of the map where there is one; without any nothing is said about it."""
+    """A push in a critical phase makes NPD fall and not ADRC: over the map of pushes, where there is one.
+
+    Without the map over the admissible choices; if NPD falls in none of them, nothing is said.
+    """
     if cells:
         return _critical_phase_of_the_map(cells)
     lost = [o for o in members if not o.walked["NPD"].made]
@@ -132,7 +141,7 @@ def critical_phase(members: Members, cells: Sequence[PushCell] = ()) -> Claim:
 
 
 def _critical_phase_of_the_map(cells: Sequence[PushCell]) -> Claim:
-    """Where NPD makes no further steps ADRC has to, with what ground and motors give."""
+    """Where NPD makes no further steps ADRC has to, legally; marginal cells are left out."""
     known = certain(cells)
     lost = [c for c in known if c.npd.outcome in LOST]
     cases = [
@@ -152,8 +161,10 @@ def _critical_phase_of_the_map(cells: Sequence[PushCell]) -> Claim:
 
 
 LOST = ("fell", "ended")
+"""Outcomes of a walk that did not make its steps."""
 
 
 def _name(c: PushCell) -> str:
+    """A cell of the map, for a reader."""
     limit = "unlimited" if c.torque_limit is None else f"{c.torque_limit:g} N m"
     return f"{c.preset}, {c.amplitude:g} N m, {c.pattern}, from {c.onset:g} s, motors {limit}"

@@ -1,4 +1,11 @@
-"""Walks for the claims: what is kept of them is a handful of numbers, at a step and at half of it."""
+"""Walks of the claims, reduced to a few numbers, each at the integration step used and at half of it.
+
+What a push does is separated from what the controller does anyway: the error of the pushed step is compared
+with that of the same step without a push. Peaks are taken of an interpolant, since the largest error lies
+between two nodes. Walks start on the orbit of their gait at the pushed step.
+
+Runs the members of `claims.admissible`; also the parts that `claims.evidence` and `claims.orders` use.
+"""
 
 from __future__ import annotations
 
@@ -27,11 +34,14 @@ from biped_adrc.types import Array
 
 
 class MemberWalk(NamedTuple):
-    """What is left of a walk from the pushed step on."""
+    """What is kept of a walk from the pushed step on."""
 
     status: str
+    """How it ended."""
     impacts: int
+    """Impacts made."""
     asked: int
+    """Impacts asked for."""
     peak: AtTwoSteps
     """max |q_b - q_d| in the pushed step, between the nodes too [rad]."""
     deviation: AtTwoSteps
@@ -41,9 +51,9 @@ class MemberWalk(NamedTuple):
     period: AtTwoSteps
     """Of the pushed step [s]."""
     illegal: tuple[str, ...]
-    """What the ground or the motors could not have given, by step."""
+    """What ground or motors could not have given, by step."""
     same: bool = True
-    """Whether the walk ends alike, and is legal or not alike, at half of the step."""
+    """Whether the walk ends alike at half of the step, legality included."""
 
     @property
     def made(self) -> bool:
@@ -56,11 +66,13 @@ class MemberOutcome:
     """A member of the set under both controllers."""
 
     member: Member
+    """The choices."""
     walked: dict[str, MemberWalk]
+    """By controller."""
 
     @property
     def tracking(self) -> AtTwoSteps:
-        """Peak error of ADRC over NPD's."""
+        """Peak error of ADRC over that of NPD."""
         return quotient(self.walked["ADRC"].peak, self.walked["NPD"].peak)
 
     @property
@@ -75,15 +87,19 @@ def quotient(one: AtTwoSteps, other: AtTwoSteps) -> AtTwoSteps:
 
 
 class Prepared(NamedTuple):
-    """A run, ready to be integrated with one step or another."""
+    """A run whose walker is built, to be simulated with different integration steps."""
 
     run: Scenario
+    """Its values."""
     gait: Gait
+    """On which it starts."""
     walker: Walker
+    """Robot, controller, pushes."""
     x0: Array
+    """State after the impact before the first step."""
 
     def simulate(self, h: float, impacts: int) -> Trajectory:
-        """From the gait's orbit on."""
+        """The trajectory with this integration step h [s] and number of impacts."""
         mode = Mode(self.run.first_step)
         return simulate_by(
             self.run.engine,
@@ -98,7 +114,7 @@ class Prepared(NamedTuple):
 
 @lru_cache(maxsize=16)
 def nominal(preset: str | None, gait: str) -> tuple[Biped, Gait]:
-    """RABBIT in a preset and one of its gaits."""
+    """RABBIT in a preset and one of its gaits, shared and read-only."""
     scene = Scene.of(Scenario(preset=preset, gait=gait))
     biped, found = scene.biped, scene.walked
     for shared in (found.q_minus, found.v_minus):
@@ -107,9 +123,9 @@ def nominal(preset: str | None, gait: str) -> tuple[Biped, Gait]:
 
 
 def prepared(run: Scenario, zero: bool = False, speed: float = 1.0) -> Prepared:
-    """At the impact of the gait's orbit; with `zero` the observer starts at xi^ = 0.
+    """The run at the impact of its gait's orbit; with `zero` the observer starts at xi^ = 0.
 
-    speed: factor on the rates after impact, which leaves the gait's orbit along its constraint.
+    speed: factor on the rates after impact, which stays on the constraint and leaves the orbit.
     """
     biped, gait = nominal(run.preset, run.gait)
     walker = build(run, Scene(biped, gait))
@@ -121,27 +137,29 @@ def prepared(run: Scenario, zero: bool = False, speed: float = 1.0) -> Prepared:
 
 
 class Track(NamedTuple):
-    """The error over time in a single support, and Theta' before the impact that ends it."""
+    """One single support: the tracking error over time, and Theta' before the impact that ends it."""
 
     t: Array
+    """(K,) from the start of the step [s]."""
     error: Array
     """(K, p) [rad]."""
     derror: Array
-    """(K, p) its derivative in time [rad/s]."""
+    """(K, p), its derivative in time [rad/s]."""
     rate: float
-    """[rad/s], NaN when there is no impact."""
+    """Theta' before the impact [rad/s], NaN when there is no impact."""
     period: float
-    """[s], NaN when there is no impact."""
+    """Of the step [s], NaN when there is no impact."""
 
     @property
     def peak(self) -> float:
-        """Between the nodes too [rad]."""
+        """Largest |error|, between the nodes too [rad]."""
         return largest(self.t, self.error, self.derror)
 
     def away_from(self, usual: Track, onset: float) -> float:
-        """max |error - that of `usual`| from the onset on, while both last [rad].
+        """max |error - that of `usual`| [rad] from the onset [s] on, while both steps last.
 
-        `usual` is smooth: cubics between its nodes. NaN when there is nothing to compare.
+        `usual` has no push and is smooth: cubic Hermite interpolants between its nodes. NaN without a common
+        time.
         """
         seen = (self.t >= onset) & (self.t <= usual.t[-1])
         t, first = np.unique(usual.t, return_index=True)
@@ -159,6 +177,7 @@ def tracks(made: Prepared, walk: Trajectory) -> tuple[Track, ...]:
 
 
 def _track(s: Signals, arc: Arc) -> Track:
+    """One single support, from its signals."""
     struck = arc.event is not None and arc.event.guard == FOOT_STRIKE
     rate, period = (s.dtheta[-1], s.t[-1] - s.t[0]) if struck else (np.nan, np.nan)
     p = s.error.shape[1]
@@ -169,7 +188,7 @@ def _track(s: Signals, arc: Arc) -> Track:
 def _undisturbed(
     preset: str, controller: str, gait: str, start: str, theta: str, h: float
 ) -> Track:
-    """The same walk without a push, its error at nodes for cubics between them."""
+    """The same walk without a push, computed once for all pushes."""
     plain = Member(preset, 0.0, 0.0, ("q1",), 0.0, start, theta).run(controller, h)
     made = prepared(replace(plain, pushes=(), gait=gait), start == "zero")
     found = tracks(made, made.simulate(h, 1))[0]
@@ -179,7 +198,9 @@ def _undisturbed(
 
 
 def walked(run: Scenario, start: str = "model") -> MemberWalk:
-    """The pushed step with run.h and half of it, and all impacts with the step for what comes later."""
+    """The pushed step with run.h and half of it, and all impacts with the longer step declared for what comes
+    later.
+    """
     steps = declared()["steps"]
     made = prepared(run, start == "zero")
     assert run.h is not None
@@ -203,7 +224,7 @@ def walked(run: Scenario, start: str = "model") -> MemberWalk:
 
 
 class Ending(NamedTuple):
-    """How a walk ends."""
+    """How a walk ends: status, impacts made, and what makes it illegal."""
 
     status: str
     impacts: int
@@ -211,7 +232,7 @@ class Ending(NamedTuple):
 
 
 def _ending(made: Prepared, h: float) -> Ending:
-    """Of all impacts of a run, with steps of h."""
+    """Of all impacts of a run, with integration steps of h [s]."""
     walk = made.simulate(h, made.run.impacts)
     why: tuple[str, ...] = ("not finite",)
     if all(bool(np.all(np.isfinite(arc.x))) for arc in walk.arcs):

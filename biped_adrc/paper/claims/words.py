@@ -1,4 +1,9 @@
-"""The rows of the table of claims: texts of claims.toml with the values of the runs in them."""
+"""The rows of the table of claims: the texts of claims.toml with the values of the runs in them.
+
+Wording is kept apart from computing: claims.toml has for each claim where the paper says it, what the number
+means and why the word is what it is, with braces for values; "like" takes the texts of another claim. The rows
+(`rows_*`) compute values and call `limited`, `row` or `told`.
+"""
 
 from __future__ import annotations
 
@@ -17,13 +22,13 @@ from biped_adrc.viz.pages import CLAIM_COLUMNS
 
 @cache
 def texts() -> dict[str, Any]:
-    """The file claims.toml: the rows of the table in words, by name."""
+    """The tables of claims.toml by name of the claim, each text on one line."""
     said = packaged("biped_adrc.paper.claims", "claims.toml")
     return {name: _joined(x) for name, x in said.items()}
 
 
 def _joined(value: object) -> object:
-    """Texts of several lines as one."""
+    """The value with the lines of each text joined to one."""
     if isinstance(value, dict):
         return {name: _joined(x) for name, x in value.items()}
     return " ".join(value.split()) if isinstance(value, str) else value
@@ -32,33 +37,40 @@ def _joined(value: object) -> object:
 PREFACE: str = texts()["preface"]
 """What the report says before the table."""
 MEANINGS: dict[str, str] = texts()["words"]
-"""Every word, and what it says of a claim."""
+"""Every word of a verdict, and what it says of a claim."""
 
 
 @dataclass(frozen=True)
 class Claim:
-    """One row of the table.
-
-    asserted: share of the cases that hold, of a claim that a check of the reproduction asks to hold in all.
-    marginal: number of its cases that are not converged.
-    """
+    """One row of the table. Raises ValueError for a word that is not defined."""
 
     claim: str
+    """What the paper says."""
     where: str
+    """Its section."""
     word: str
+    """The verdict, one of `MEANINGS`."""
     number: str
+    """The numbers found."""
     reason: str
+    """Why the word is what it is."""
     share: str = ""
+    """How many cases hold, in words."""
     convergence: str = ""
+    """How far the numbers change at half of the step."""
     asserted: float | None = None
+    """Share of the cases that hold, of a claim that a check of the reproduction asks to hold in
+    all; else None.
+    """
     marginal: int = 0
+    """Number of its cases that are not converged."""
 
     def __post_init__(self) -> None:
         if self.word not in MEANINGS:
             raise ValueError(f"word '{self.word}' is none of {list(MEANINGS)}")
 
     def record(self) -> dict[str, object]:
-        """As plain values, the columns of the table."""
+        """In plain values, the columns of the table."""
         return {key: getattr(self, key) for key in CLAIM_COLUMNS}
 
 
@@ -70,7 +82,10 @@ def limited(
     bound: Sequence[float] | None = None,
     **values: object,
 ) -> Claim:
-    """The row of a claim whose cases, (name, figure) each, hold for a number <= limit; further as of `row`."""
+    """The row of a claim whose cases (name, number) hold for a number <= limit.
+
+    bound: as of `AtTwoSteps.converged`; values: in the texts.
+    """
     cases = tuple(below_limit(case, figure, limit, bound) for case, figure in figures)
     return row(name, Tally(cases, declared), **values)
 
@@ -85,7 +100,7 @@ def judged(
 
 
 def row(name: str, tally: Tally, **values: object) -> Claim:
-    """The row of claims.toml for a claim that was tried on cases, with these values in its texts."""
+    """The row of claims.toml by name, with the verdict of a tally and these values in its texts."""
     x = _said(name, values)
     asserted = bool(x.get("asserted"))
     return judged(x["claim"], x["where"], tally, x["number"], x["reason"], asserted=asserted)
@@ -100,10 +115,7 @@ def told(
     convergence: str = "",
     marginal: int = 0,
 ) -> Claim:
-    """The row of claims.toml with these values in its texts, and a word that no tally gives.
-
-    word: that of the file by default. rest: of `Claim`.
-    """
+    """The row of claims.toml by name, with a word that no tally gives; that of the file if it is empty."""
     x = _said(name, values or {})
     word = word or x["word"]
     return Claim(
@@ -114,6 +126,7 @@ def told(
 
 
 def _said(name: str, values: Mapping[str, object]) -> dict[str, Any]:
+    """The texts of a claim with the values in them, and what it takes from another one by "like"."""
     found = texts()[name]
     found = {**texts().get(found.get("like"), {}), **found}
     of = {"limit": declared()["limits"], **values}
@@ -121,9 +134,8 @@ def _said(name: str, values: Mapping[str, object]) -> dict[str, Any]:
 
 
 def claim_checks(claims: Sequence[Claim]) -> list[Check]:
-    """Every claim that is said to be replicated has to stay so: all of its cases hold, none is marginal.
-
-    And no case of any claim may be marginal.
+    """The checks of the claims: those said to be replicated hold in all cases, and no case of any
+    is marginal.
     """
     kind = "reproduced"
     doubtful = "claims: cases whose number or verdict is another at half the step"
@@ -136,11 +148,11 @@ def claim_checks(claims: Sequence[Claim]) -> list[Check]:
 
 
 class Extremes(tuple[float, ...]):
-    """Numbers of which a text names the smallest and the largest."""
+    """Numbers of which a text names the smallest and the largest: "{peaks:.2g}" becomes "0.011 to 0.034"."""
 
     @classmethod
     def of(cls, figures: Iterable[AtTwoSteps]) -> Extremes:
-        """At half of the step."""
+        """The numbers at half of the step."""
         return cls(f.at_half for f in figures)
 
     def __format__(self, form: str) -> str:
@@ -148,7 +160,7 @@ class Extremes(tuple[float, ...]):
 
 
 def span(values: Sequence[float], form: str = ".3g") -> str:
-    """From the smallest to the largest; NaN is said."""
+    """From the smallest to the largest number, in words; NaN is counted and said."""
     known = [v for v in values if not math.isnan(v)]
     if not known:
         return "none"
