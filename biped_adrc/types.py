@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +20,9 @@ PlainRecord = Mapping[str, Any]
 For summaries, stored rows and TOML tables, whose keys are stated where they are written. Inside the
 package a dataclass or a NamedTuple is preferred.
 """
+
+DaskClient: TypeAlias = Any
+"""`distributed.Client`, the connection to a Dask scheduler: Dask is optional and has no types of its own."""
 
 
 def read_only(values: ArrayLike) -> Array:

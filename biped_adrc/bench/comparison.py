@@ -55,8 +55,8 @@ class Comparison(NamedTuple):
 
     def at_equal(self, controller: str, condition: str) -> Cell | None:
         """The cell at equal bandwidth; None for a controller without an observer."""
-        found = [c for c in self.equal if (c.controller, c.condition) == (controller, condition)]
-        return found[0] if found else None
+        at = controller, condition
+        return next((c for c in self.equal if (c.controller, c.condition) == at), None)
 
 
 def check(controllers: Sequence[str], conditions: Sequence[str], seeds: int) -> None:

@@ -40,13 +40,19 @@ space evenly.
 """
 
 
-class Range(BaseModel):
+class Part(BaseModel):
+    """A part of a study, checked by pydantic: it cannot be changed, and takes no other keys."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class Range(Part):
     """An interval of one parameter, in the parameter's SI unit.
 
     low, high: its ends; with scale "log" both are positive. whole: integers only, both ends included.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(allow_inf_nan=False)
 
     low: float
     high: float
@@ -83,13 +89,11 @@ class Range(BaseModel):
         return [self.low, *inner, self.high]
 
 
-class Draw(BaseModel):
+class Draw(Part):
     """`count` samples of all ranges together: each sample gives one value to every parameter of `ranges`.
 
     kind: "random" or "sobol". seed: of NumPy's generator; the same seed gives the same samples on any machine.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     kind: Kind
     count: int = Field(ge=1)
@@ -121,24 +125,20 @@ MOST_POINTS = 10**9
 """Largest number of points that a study may have; more is taken for a mistake in the file."""
 
 
-class Named(BaseModel):
+class Named(Part):
     """A case: values by parameter under a name, such as {"counts": 8192} as "encoders".
 
     They take precedence over the fixed values of the study.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
     name: str
     values: dict[str, Value] = {}
 
 
-class Study(BaseModel):
+class Study(Part):
     """What is varied and what is not, in SI units, checked: `read_study` makes it of a file or of
     plain tables.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     name: str
     """How results, tables and errors call it."""

@@ -15,10 +15,11 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from functools import partial
-from typing import ClassVar, ParamSpec, Protocol, TypeVar, cast
+from typing import ClassVar, ParamSpec, TypeVar, cast
 
 from biped_adrc.campaign.workers import Workers, WorkersError
 from biped_adrc.errors import InputError
+from biped_adrc.types import DaskClient
 from biped_adrc.versions import differences, numerical_versions
 
 TIMEOUT = 10.0
@@ -35,31 +36,6 @@ PRINTED = "tcp://host:8786, which 'dask scheduler' prints when it starts"
 """An example of an address, for errors."""
 ADDRESS = re.compile(r"(?:(?:tcp|tls)://)?(?:\[[0-9a-fA-F:.]+\]|[\w.-]+):([0-9]{1,5})")
 """An address: protocol (optional), host or bracketed IPv6 address, and port."""
-
-
-class _Stream(Protocol):
-    def closed(self) -> bool: ...
-
-
-class _Scheduler(Protocol):
-    comm: _Stream
-
-
-class _Client(Protocol):
-    """What is used of Dask's client, which has no types of its own."""
-
-    status: str
-    scheduler_comm: _Scheduler | None
-
-    def nthreads(self) -> Mapping[str, int]: ...
-
-    def run(self, function: Callable[[], T]) -> Mapping[str, T]: ...
-
-    def wait_for_workers(self, n_workers: int, timeout: float) -> object: ...
-
-    def get_executor(self, *, pure: bool) -> Executor: ...
-
-    def close(self, timeout: float) -> object: ...
 
 
 @dataclass(frozen=True)
@@ -118,12 +94,12 @@ class Cluster(Workers):
             )
 
 
-def _client_of(executor: Executor) -> _Client:
+def _client_of(executor: Executor) -> DaskClient:
     """The client of an executor that `Cluster.start` made."""
     return cast("_Checked", executor).client
 
 
-def _check_workers(client: _Client, address: str, timeout: float) -> None:
+def _check_workers(client: DaskClient, address: str, timeout: float) -> None:
     """Raises InputError where there is no worker after `timeout` [s], or one has other versions."""
     try:
         client.wait_for_workers(1, timeout=timeout)
@@ -153,7 +129,7 @@ def _refusal(who: str, text: str) -> str:
     )
 
 
-def _client(address: str, timeout: float) -> _Client:
+def _client(address: str, timeout: float) -> DaskClient:
     """A connection to the scheduler. Raises InputError without Dask, for no address, or without an answer."""
     try:
         from distributed import Client as connect
@@ -200,7 +176,7 @@ def _run(expected: Versions, function: Callable[P, T], *args: P.args, **kwargs: 
 class _Checked(Executor):
     """Dask's executor, which lets each worker look at its versions before it runs anything."""
 
-    client: _Client
+    client: DaskClient
     inner: Executor
     versions: Versions
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 import os
 import sqlite3
 import time
+from contextlib import ExitStack, closing
 from json import loads
 from pathlib import Path
 
@@ -45,24 +46,21 @@ def open_store(path: Path, about: About, other_versions: bool = False) -> Store:
     names its own. Raises InputError for a file that is not one of this study, or that another process writes,
     and OutputError.
     """
-    lock = _locked(path)
-    connection = None
     try:
-        connection = _connected(path, "rwc")
-        if _is_new(path, connection):
-            _create(connection, about)
-        else:
-            _check_study(path, _about(path, connection), about, other_versions)
-        connection.execute("PRAGMA journal_mode = WAL")
-        connection.execute("PRAGMA synchronous = FULL")
-        return Store(path, connection, about, lock)
-    except BaseException as error:
-        if connection is not None:
-            connection.close()
-        lock.release()
-        if isinstance(error, sqlite3.Error):
-            raise cannot_write(path, error) from error
-        raise
+        with ExitStack() as undo:
+            lock = _locked(path)
+            undo.callback(lock.release)
+            connection = undo.enter_context(closing(_connected(path, "rwc")))
+            if _is_new(path, connection):
+                _create(connection, about)
+            else:
+                _check_study(path, _about(path, connection), about, other_versions)
+            connection.execute("PRAGMA journal_mode = WAL")
+            connection.execute("PRAGMA synchronous = FULL")
+            undo.pop_all()  # it stays open
+            return Store(path, connection, about, lock)
+    except sqlite3.Error as error:
+        raise cannot_write(path, error) from error
 
 
 def read_store(path: Path) -> Store:
@@ -72,19 +70,18 @@ def read_store(path: Path) -> Store:
     """
     if not path.is_file():
         raise InputError(f"there is no results file '{path}'; expected one of a sweep")
-    connection = None
     try:
-        connection = _connected(path, "rw" if os.access(path, os.W_OK) else "ro")
-        connection.execute("PRAGMA query_only = ON")
-        if _is_new(path, connection):
-            raise InputError(f"the results file '{path}' is empty; nothing was begun in it")
-        return Store(path, connection, _about(path, connection))
-    except BaseException as error:
-        if connection is not None:
-            connection.close()
-        if isinstance(error, sqlite3.Error):
-            raise InputError(f"the results file '{path}' cannot be read: {error}") from error
-        raise
+        with ExitStack() as undo:
+            mode = "rw" if os.access(path, os.W_OK) else "ro"
+            connection = undo.enter_context(closing(_connected(path, mode)))
+            connection.execute("PRAGMA query_only = ON")
+            if _is_new(path, connection):
+                raise InputError(f"the results file '{path}' is empty; nothing was begun in it")
+            about = _about(path, connection)
+            undo.pop_all()  # it stays open
+            return Store(path, connection, about)
+    except sqlite3.Error as error:
+        raise InputError(f"the results file '{path}' cannot be read: {error}") from error
 
 
 def _connected(path: Path, mode: str) -> sqlite3.Connection:

@@ -8,8 +8,8 @@ step, three steps h, h/2, h/4 show
 
     k = log2 (|y(h) - y(h/2)| / |y(h/2) - y(h/4)|)
 
-Takes `scenario.outcome.Outcome`s that hold the run at half the step in `half`; called by `paper.verdicts`
-(checks), `paper.reproduction` (table) and the command `walk` (the text of the error).
+Takes `scenario.outcome.Outcome`s that hold the run at half the step in `half`. Called by `paper.verdicts`
+(checks), by `paper.reproduction` (table of all quantities) and by the command `walk`, which prints the error.
 """
 
 from __future__ import annotations

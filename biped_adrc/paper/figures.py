@@ -1,7 +1,7 @@
-"""The figures that are drawn of any walk, by name: the common entry of the command `walk` and of `ba.draw`.
+"""The figures that are drawn of any stored walk, by name: what the command `plot` draws.
 
 Decides which signals a figure gets and where the window of the push is; the drawing is in `viz.plots.figures`.
-matplotlib is imported when something is drawn, since it takes longer than a walk.
+matplotlib is imported when something is drawn, since importing it takes longer than a walk.
 """
 
 from __future__ import annotations

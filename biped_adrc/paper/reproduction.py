@@ -4,7 +4,7 @@
 
 Written to the output folder: figures (PNG, SVG, JSON), the two headline runs (npz and JSON), walk.html,
 summary.json and report.html. Each file is written whole or not at all, so that an interrupted run leaves
-readable files. Called by the command `reproduce` and by `docs/write_results.py`.
+readable files. The command `reproduce` calls this; its exit code says whether all checks hold.
 """
 
 from __future__ import annotations
@@ -172,7 +172,7 @@ STORED_APART = 1e-3
 
 
 def _save(head: Headline, path: Path) -> None:
-    """Store a headline run as npz and JSON, from which the command `show` draws it again."""
+    """Store a headline run as npz and JSON, from which it can be drawn and animated again."""
     replay(head.outcome.run, _stored(head)).save(path)
 
 

@@ -1,9 +1,14 @@
 """The admissible choices: what the paper leaves open, chosen in a file that was written before the runs.
 
-The paper does not print push amplitudes, masses or observer starts. A claim tested at one choice could be an
-accident of it; tested at choices picked afterwards it would prove nothing. admissible.toml therefore declares
-factors with two or three levels each, a fraction of their full product (36 of the combinations, balanced, as in
-an experimental design), the integration steps, and the limits from which a claim holds.
+The paper prints no push amplitude, no masses and no start of the observer. A claim tested at one choice could
+be an accident of it; tested at choices picked afterwards it would prove nothing. admissible.toml therefore
+declares
+
+    factors      preset, amplitude, onset, joints (three levels each), rise, start, Theta'' (two levels each)
+    fraction     36 of the 3^4 2^3 = 648 combinations, an orthogonal array of strength 2: any two factors meet
+                 in all pairs of levels equally often, so that no effect hides behind another one
+    steps        the integration steps, and by how much a number may change when they are halved
+    limits       the numbers from which a claim holds
 
 Read by `claims.walks` and `claims.evidence`, which run the choices, and by the rows, for their limits.
 """

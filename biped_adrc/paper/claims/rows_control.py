@@ -82,7 +82,9 @@ def unmatched_rejection(pairs: Sequence[Pair]) -> Claim:
 
 
 def not_at_risk(pairs: Sequence[Pair]) -> Claim:
-    """ "Stability is never at risk": a disturbance that stops ADRC speaks against it."""
+    """ "The stability of the limit cycle is not at risk": every disturbance that stops ADRC speaks
+    against it.
+    """
     firm = [p for p in pairs if p.same]
     stopped = [p.name for p in firm if not p.made["ADRC"]]
     values = {

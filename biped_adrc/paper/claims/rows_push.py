@@ -72,7 +72,7 @@ def tracking(members: Members) -> Claim:
 
 
 def deviates(members: Members) -> Claim:
-    """Under NPD the push makes a deviation that can be seen."""
+    """Figure 4: the push affects NPD, by a deviation that is at least the declared limit [rad]."""
     limit, found = declared()["limits"]["deviation"], [o.walked["NPD"].deviation for o in members]
     cases = [above_limit(o.member.name, f, limit) for o, f in zip(members, found, strict=True)]
     return row("deviates", _tally(cases), deviations=Extremes.of(found))
