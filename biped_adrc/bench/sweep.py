@@ -5,8 +5,8 @@ file is opened (and locked), and only then the first walk starts. Whatever can f
 before it. Results stay in the SQLite file; `Sweep` reads them when it is asked, a few rows at a time, so that a
 study may be larger than memory. `Sweep.table` alone loads columns as arrays.
 
-Calls `campaign.execute.run_study` with `bench.run.run_trials`; called by the command `sweep`, by
-`bench.export`, and by users as `ba.sweep` and `ba.load_sweep`.
+Calls `campaign.execute.run_study` with `bench.run.run_trials`; called by the command `sweep` and by scripts of
+the user, and read by `bench.export`.
 """
 
 from __future__ import annotations

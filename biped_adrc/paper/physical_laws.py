@@ -49,8 +49,9 @@ MOMENTA = 4
 def model_laws(preset: str, samples: int = 500, seed: int = 1) -> list[Check]:
     """Laws of the model at `samples` random states, as the largest violation found of each.
 
-    Pinned against floating D and Omega; angular momentum about the new foot and of the old leg about its
-    joints; linear momentum; kinetic energy. Momenta are relative to m |q'| times 1 m.
+    Angles are uniform in (-pi, pi) [rad], rates normal with 3 rad/s. Checked are D and Omega, pinned against
+    floating base; the angular momentum about the new foot and that of the old leg about its joints; the linear
+    momentum; and the kinetic energy. Momenta are relative to m |q'| times 1 m. All limits are 1e-12: round-off.
     """
     b = Biped.load("rabbit", preset)
     random = np.random.default_rng(seed)
@@ -103,8 +104,10 @@ def impact_momenta(b: Biped, q: Array, v: Array, hit: Impact) -> Array:
 
 
 def walk_laws(name: str, full: Walk) -> list[Check]:
-    """Foot on the ground at located impacts [m], and power balance [J] over the pushed step, or the
-    first one.
+    """Laws of a simulated walk: foot on the ground at located impacts [m], and power balance over one step [J].
+
+    The balance is taken over the pushed step, or the first one: kinetic and potential energy gained against the
+    integral of u' q_b' + zeta' q', the power of motors and of the disturbance.
     """
     b, o = full.walker.plant, full.outcome
     heights = [abs(float(b.swing_foot(x[: b.n])[1])) for x in o.x_minus]
@@ -146,7 +149,7 @@ class HeldJoint(HybridSystem):
     """Inertia [kg m^2]."""
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
-        """x' for x = (q, q', states of the observer)."""
+        """x' (2 + observer states,) for x = (q [rad], q' [rad/s], states of the observer)."""
         q, v, s = x[:1], x[1:2], x[2:]
         D = np.array([[self.J]])
         m = Measurement(t, 1, t, q, v, reduce(D, np.zeros(1), 1))
@@ -193,7 +196,8 @@ def held_joint(
 def sampling_order(run: Scenario, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4)) -> float:
     """Order in the period T with which sampled control approaches continuous control.
 
-    From the gaps of (q, q') at the first impact for each of the periods [s].
+    The gaps of (q, q') at the first impact, for each of the periods [s], are fitted by C T^k; k near 1 is that
+    of a zero-order hold.
     """
 
     def end(r: Scenario) -> Array:

@@ -44,7 +44,12 @@ def draw_all(plan: Plan, r: Results, out: Path, workers: int | None = None) -> d
 
 
 def pictures(plan: Plan, r: Results) -> dict[str, Task[tuple[bytes, bytes, str]]]:
-    """The figures of the paper and beyond, by file name, each as a task that draws it."""
+    """The figures of the paper and beyond, by file name, each as a task that draws it.
+
+    figure1 (the robot), figure4 to figure6 (the pushed walks) are those of the paper; the others show what it
+    does not: the disturbance estimate, the ground's force, energies, multipliers, the return map, and the map
+    of pushes.
+    """
     signals, cells = {c: head.signals for c, head in r.heads.items()}, r.cells
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
     magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}

@@ -129,6 +129,8 @@ def headline(run: Scenario) -> tuple[Headline, list[Check]]:
 def engines(run: Scenario) -> Outcome:
     """The pushed step on Pinocchio's dynamics at `ENGINES_STEP`, with the same on the compiled engine in
     `half`.
+
+    `half` is used as the place for the second run, though its step is the same.
     """
     pushed = run.pushes[0].step
     one = replace(run, first_step=pushed, impacts=1, h=ENGINES_STEP, fine=None, engine=PINOCCHIO)
@@ -136,7 +138,12 @@ def engines(run: Scenario) -> Outcome:
 
 
 def base_runs(plan: Plan) -> dict[str, Scenario]:
-    """The walks that need no function of their own, by name; names end in the controller."""
+    """The walks that need no function of their own, by name; names end in the controller.
+
+    Undisturbed in every preset; the push with slow edges; a sine; a push on the torso; sampled control at 1
+    kHz; a plant that is heavier than the controller's model. Pushed walks start on the orbit two steps before
+    the push.
+    """
     runs: dict[str, Scenario] = {}
     for c in CONTROLLERS:
         run = stepped(Scenario(c, preset=plan.preset))
@@ -171,7 +178,12 @@ def pushed_run(plan: Plan, controller: str) -> Scenario:
 
 
 def literal_runs(plan: Plan) -> dict[str, Scenario]:
-    """(20) as printed, and every reset policy with and without RABBIT's torque limit."""
+    """(20) as printed, where Theta'' is not solved for; and every policy for the observer's states at an
+    impact.
+
+    The policies are run with and without RABBIT's torque limit: an observer that does not expect the impact
+    asks for torques that no motor gives.
+    """
     runs = {}
     for c in CONTROLLERS:
         printed = stepped(Scenario(c, preset=plan.preset, solve_theta=False, impacts=8))
@@ -230,7 +242,11 @@ class RecipeResult:
 
 
 def recipe_result(preset: str, controller: str) -> RecipeResult:
-    """Walk gait (b) and search its cycle, at two steps; a failure is a result too and raises nothing."""
+    """Walk gait (b) and search its cycle, at two integration steps; whatever comes out is reported.
+
+    A gait that falls, or for which no cycle is found, is a result too: it gives `closes` False, the reason, and
+    the numbers found until then, and raises nothing.
+    """
     run = replace(stepped(Scenario(controller, preset=preset, gait="recipe", impacts=8)), fine=None)
     run = replace(run, engine=COMPILED)
     biped = Scene.of(run).biped
@@ -263,7 +279,10 @@ def recipe_result(preset: str, controller: str) -> RecipeResult:
 
 
 def tasks(plan: Plan) -> dict[str, Task[object]]:
-    """Everything to compute, by name, the longest first so that no core waits at the end."""
+    """Everything to compute, by name, the longest first so that no core waits at the end.
+
+    A quick plan leaves out the multipliers of ADRC, which take one walk per coordinate, and the reset policies.
+    """
     adrc, npd = Scenario("ADRC", preset=plan.preset), Scenario("NPD", preset=plan.preset)
     pushed = {c: pushed_run(plan, c) for c in CONTROLLERS}
     out: dict[str, Task[object]] = {}

@@ -70,7 +70,7 @@ class Fate:
 
     @classmethod
     def of(cls, o: Outcome) -> Fate:
-        """Of a run computed at two steps."""
+        """Of a run computed at two steps; marginal where word or status differ between them."""
         assert o.half is not None
         used, half = cls._at(o), cls._at(o.half)
         same = (used.word, used.status) == (half.word, half.status)
@@ -192,7 +192,7 @@ WORDS = ("legal", "made", "pulled", "fell", "ended", "marginal")
 
 
 def counts(cells: Sequence[PushCell]) -> dict[str, dict[str, dict[str, int]]]:
-    """How many walks are what, by setting, controller and word."""
+    """How many walks are what, by setting, controller and word: the table of the map."""
     return {
         name: {
             c: {word: sum(getattr(cell, c.lower()).word == word for cell in here) for word in WORDS}

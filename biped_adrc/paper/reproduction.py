@@ -51,7 +51,9 @@ def reproduce(
 ) -> dict[str, Any]:
     """Run the plan and write everything to `out`; returns what summary.json holds.
 
-    command: as typed, for the report. Raises OutputError before the first run when `out` cannot be written.
+    command: as typed, for the report. workers: processes, one per core if None. progress: called after each
+    task. Checks are judged before anything is drawn, and the summary is written last, when all other files are
+    there. Raises OutputError before the first run when `out` cannot be written.
     """
     started = time.perf_counter()
     probe(out)
@@ -195,7 +197,7 @@ def _regression(controller: str, found: Regression) -> dict[str, object]:
 
 
 def _animate(r: Results) -> str:
-    """The animation of both headline runs as one HTML page."""
+    """The animation of both headline runs as one HTML page, with the window of the push marked."""
     walks = {c: replay(head.outcome.run, head.trajectory) for c, head in r.heads.items()}
     window = push_window(r.heads["NPD"].signals)
     return animation_html(walks, Look("ADRC", [] if window is None else [(*window, "push")]))

@@ -49,7 +49,11 @@ class Results:
 
     @classmethod
     def of(cls, values: Mapping[str, Any]) -> Results:
-        """Sort what the tasks of a plan returned, by their names."""
+        """Sort what the tasks of a plan returned, by their names.
+
+        The first word is looked up among the fields; "return map" is the only kind of two words; what is left
+        is a walk.
+        """
         kinds: dict[str, dict[str, Any]] = {kind: {} for kind in cls.__dataclass_fields__}
         for name, value in values.items():
             kind, _, rest = name.partition(" ")

@@ -115,6 +115,8 @@ def _multipliers(r: Results) -> Table:
 def _recipe(plan: Plan, r: Results) -> Table:
     """Gait (b) by preset and controller: whether it closes, its multipliers, and what it asks of ground and
     motors.
+
+    Numbers that a gait which fails does not have are empty.
     """
     return table(
         {
@@ -138,7 +140,10 @@ def _recipe(plan: Plan, r: Results) -> Table:
 
 
 def _literal(r: Results) -> Table:
-    """Walks with (20) as printed, and the observer's reset policies with and without a torque limit."""
+    """Walks with (20) as printed, and the observer's reset policies with and without a torque limit.
+
+    A walk that ended early has no peak error or torque in the table: they would be those of a fall.
+    """
     names = [f"as printed {c}" for c in CONTROLLERS]
     names += [f"reset {p}, {limit}" for p in POLICIES for limit in ("unlimited", "150 N m")]
     return table(
@@ -189,7 +194,10 @@ def _said(of: str, /, **values: object) -> str:
 
 
 def _push(plan: Plan, r: Results) -> str:
-    """How both controllers walk under the headline push, with vertical and with slow edges."""
+    """How both controllers walk under the headline push, with vertical and with slow edges.
+
+    The legality of both walks is said once where it is the same.
+    """
     npd, adrc = (r.heads[c].outcome for c in CONTROLLERS)
     words = {c: OUTCOMES[r.heads[c].outcome.legality.outcome] for c in CONTROLLERS}
     kind = "carried_alike" if words["NPD"] == words["ADRC"] else "carried_apart"
@@ -252,7 +260,11 @@ def _pushes(cells: list[PushCell]) -> str:
 
 
 def _torso(r: Results) -> str:
-    """How the step time changes when the unactuated torso is pushed."""
+    """How the step time changes when the unactuated torso is pushed.
+
+    Of each walk the step that differs most from the first one is named; where a walk makes no step, that is
+    said.
+    """
     walks = r.pair("torso")
     short = [f"{o.run.controller} makes no step" for o in walks if len(o.durations) == 0]
     if short:

@@ -47,7 +47,11 @@ def _gait(name: str, gait: str) -> str:
 
 
 def certificate_checks(plan: Plan, r: Results) -> list[Check]:
-    """Undisturbed walking needs at most a friction of 0.6 and RABBIT's 150 N m, and the ground never pulls."""
+    """Undisturbed walking on gait (a) stays within dry friction and RABBIT's motors, in every preset.
+
+    Friction |F_T| / F_N at most 0.6, torque at most 150 N m, normal force F_N never negative, each the worst
+    over all steps. Without a finished step the values are infinite, so that nothing holds.
+    """
     found = []
     for of, o in r.nominal(plan):
         # NumPy's, since max and min pass over a NaN; without a step nothing holds
@@ -64,9 +68,11 @@ def certificate_checks(plan: Plan, r: Results) -> list[Check]:
 
 
 def multiplier_checks(r: Results) -> list[Check]:
-    """The largest multiplier of the walking cycle under NPD is delta^2 of the zero dynamics; all are below 1.
+    """The multipliers of the walking cycle, against the closed form and the unit circle.
 
-    Under ADRC the coordinates include the observer's states.
+    NPD: the largest equals delta^2 of the zero dynamics (within the accuracy of finite differences), all others
+    are practically zero, since the tracking error has decayed. ADRC: all are below 1, the observer's states
+    being coordinates of the return map too.
     """
     npd = r.multipliers["NPD"]
     sizes = np.abs(npd.orbit.multipliers)
@@ -86,9 +92,11 @@ def multiplier_checks(r: Results) -> list[Check]:
 
 
 def push_checks(r: Results) -> list[Check]:
-    """Figures 4 and 5: both controllers walk on, and ADRC's largest error is at most a hundredth of NPD's.
+    """What figures 4 and 5 show: both controllers walk on, and ADRC's largest error is at most 1 % of NPD's.
 
-    Also for a sine, a heavier plant, sampling at 1 kHz, and a push on the torso, where no controller can help.
+    The same for a sine of 5 Hz; a heavier plant has to be tracked better; sampled at 1 kHz both walk on. A push
+    on the torso enters the unactuated row, which neither controller can cancel: both change their step times
+    alike.
     """
     npd, adrc = (r.heads[c].outcome for c in CONTROLLERS)
     found = []
@@ -133,8 +141,10 @@ def period_gap(one: Array, other: Array) -> float:
 
 
 def engine_checks(r: Results) -> list[Check]:
-    """Both engines integrate the pushed step alike: (q, q') before the next impact, at equal method
-    and step.
+    """Both engines integrate the pushed step alike: (q, q') before the next impact [rad, rad/s].
+
+    At equal method and step. The right-hand sides come from different sources (Pinocchio, and generated code),
+    so that an error in one of them shows here.
     """
     checks = []
     for c in CONTROLLERS:
@@ -150,7 +160,11 @@ def engine_checks(r: Results) -> list[Check]:
 
 
 def convergence_checks(r: Results) -> list[Check]:
-    """No figure of merit moves when every step is halved; the headline's peak error has a positive order."""
+    """No figure of merit and no multiplier depends on the integration step.
+
+    Every run that was made at two steps; the order of the headline's peak error from three steps; every
+    multiplier against the round-off of finite differences.
+    """
     order = observed_order(r.heads["ADRC"].outcome, lambda o: o.peak_error)
     name = "order in the step of ADRC's largest error under the push, from three steps"
     gaps = {f"multipliers {c}": r.multipliers[c].gap for c in sorted(r.multipliers)}

@@ -74,13 +74,19 @@ class GaitCycle(NamedTuple):
 
 
 def cycles(preset: str) -> tuple[GaitCycle, ...]:
-    """Both gaits under both controllers, and gait (a) with Theta'' as printed."""
+    """Walking cycles of a preset: both gaits under both controllers, and gait (a) with Theta'' as printed.
+
+    The claims on stability rest on their largest multiplier, that on the recipe's speed on Theta'.
+    """
     found = [_cycle(preset, gait, c, "solved") for gait in GAITS for c in CONTROLLERS]
     return (*found, *(_cycle(preset, "published", c, "printed") for c in CONTROLLERS))
 
 
 def _cycle(preset: str, gait: str, controller: str, theta: str) -> GaitCycle:
-    """One cycle at both steps; a search that fails gives NaN, so that the case does not hold."""
+    """One cycle at both integration steps; a search that fails gives NaN, so that the case does not hold.
+
+    The return map is that of (q, q') alone; ADRC's observer is started anew at each impact.
+    """
     h = declared()["steps"]["plain"]
     run = Scenario(controller, preset=preset, gait=gait, solve_theta=theta == "solved")
     run = replace(run, method=method(controller), engine=COMPILED)
@@ -140,7 +146,10 @@ def needs(preset: str) -> tuple[Needs, ...]:
 
 
 def _needs(preset: str, gait: str) -> Needs:
-    """Of the second step of a walk, at both integration steps."""
+    """What the second step of an undisturbed walk needs, at both integration steps.
+
+    The second, since the first starts exactly on the orbit while the second has an impact behind it.
+    """
     h = declared()["steps"]["needs"]
     run = Scenario("NPD", preset=preset, gait=gait, engine=COMPILED)
     made = prepared(run)
@@ -187,7 +196,7 @@ class Pair(NamedTuple):
 
 
 def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
-    """Both walks at both integration steps; runs: by controller."""
+    """Two walks under both controllers at both integration steps, reduced to errors, delays and impacts."""
     peak, delay = {}, {}
     made: dict[str, bool] = {}
     same = True
@@ -217,7 +226,10 @@ def torso_push(torque: float) -> Push:
 
 
 def unmatched(preset: str) -> tuple[Pair, ...]:
-    """Pushes on the torso; the last one is large enough to stop a walk."""
+    """Pushes on the torso by amplitude; the last one is chosen large enough to stop a walk.
+
+    No controller of the joints can cancel them: they change Theta'' itself, and with it the time of the step.
+    """
     k = declared()["unmatched"]
     found = []
     for torque in (*k["amplitudes"], k["fatal"]):
@@ -228,7 +240,7 @@ def unmatched(preset: str) -> tuple[Pair, ...]:
 
 
 def uncertainty(preset: str) -> tuple[Pair, ...]:
-    """A plant heavier than the model: in its masses, and in masses and inertias."""
+    """A plant heavier than the controller's model: in its masses, and in masses and inertias."""
     k = dict(declared()["uncertainty"])
     impacts = k.pop("impacts")
     return tuple(
@@ -266,7 +278,11 @@ class Start(NamedTuple):
 
 
 def basin(preset: str) -> tuple[Start, ...]:
-    """Starts on the constraint just below and just above the least speed."""
+    """Starts on the constraint just below and just above the least speed that reaches the next impact.
+
+    The least speed comes from the zero dynamics in closed form; the walks show whether it is the boundary. It
+    matters for the paper's promise of global stability: no controller of the joints helps a start below it.
+    """
     k, h = declared()["basin"], declared()["steps"]["plain"]
     runs = _both(Scenario(preset=preset))
     least = least_speed(runs["NPD"])
@@ -318,7 +334,10 @@ class Jumps(NamedTuple):
 
 
 def jumps(preset: str) -> tuple[Jumps, ...]:
-    """Of xi on gait (a)."""
+    """How far xi, the total disturbance of (13), is from smooth on gait (a).
+
+    The observer models xi as a polynomial in time; at an impact and at the edge of a push it is none.
+    """
     run = Scenario("NPD", preset=preset)
     biped, gait = nominal(run.preset, run.gait)
     before = biped.reduction(gait.q_minus, gait.v_minus)
@@ -342,8 +361,10 @@ def longest_step(multiplier: float) -> float:
 
 
 def noise_spectrum() -> Array:
-    """What the regression (26), (27) makes of noise: medians of the sorted |lambda|, (10,), of
-    random numbers.
+    """What the regression (26), (27) makes of noise: medians of the sorted |lambda|, (10,), of random numbers.
+
+    Impacts are replaced by independent normal numbers. That these spectra look like the printed one shows how
+    little such a regression says of the walk.
     """
     k = declared()["noise"]
     random = np.random.default_rng(k["seed"])
@@ -403,7 +424,11 @@ def order_evidence(preset: str) -> Evidence:
 
 
 def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task[Evidence]]:
-    """The tasks by name, the longest first; each returns a part of the evidence."""
+    """The tasks by name, the longest first; each returns a part of the evidence.
+
+    Per preset one task for the members of the set and one for all else; one for the observers of different
+    order.
+    """
     out = {}
     for preset in presets:
         count = sum(member.preset == preset for member in members())

@@ -58,7 +58,11 @@ def gait_claims(
 
 
 def stable(cycles: Sequence[GaitCycle], name: str = "stable", of_preset: int = 4) -> Claim:
-    """Gait (a) is stable: the largest multiplier is below 1; under another name the same of gait (b)."""
+    """The largest multiplier of a cycle is below 1, for gait (a); under another name the same row for gait (b).
+
+    of_preset: cycles declared per preset. Near 1 the bound of convergence is the declared accuracy of
+    multipliers.
+    """
     bound = (convergence()[0], declared()["limits"]["multiplier"])
     return limited(
         name,
@@ -75,7 +79,7 @@ recipe_stable = partial(stable, name="recipe_stable", of_preset=2)
 
 
 def recipe_speed(cycles: Sequence[GaitCycle]) -> Claim:
-    """The recipe gives Theta' of x*, the one number of it that can be compared."""
+    """The recipe predicts Theta' of x*, the one number of x* that does not enter it."""
     limit = declared()["limits"]["speed"]
     shown = ", ".join(
         f"{c.rate.at_half:.4f} ({100.0 * (c.rate.at_half / PRINTED_SPEED - 1.0):+.1f} %) {c.preset}"
@@ -99,7 +103,7 @@ def _speeds(cycles: Sequence[GaitCycle], limit: float) -> Tally:
 
 
 def _hangs_on(cycles: Sequence[GaitCycle]) -> str:
-    """What a limit at the whole percentage below the largest deviation would have changed, in words."""
+    """What a stricter limit would have changed, in words: the whole percentage below the largest deviation."""
     apart = [abs(c.rate.at_half / PRINTED_SPEED - 1.0) for c in cycles]
     worst = float(np.max(apart or [math.nan]))
     if math.isnan(worst):
@@ -110,7 +114,9 @@ def _hangs_on(cycles: Sequence[GaitCycle]) -> str:
 
 
 def recipe_needs(needs: Sequence[Needs]) -> Claim:
-    """Gait (b) can be walked by a robot: its friction, normal force and torque are within the limits."""
+    """Could a robot walk gait (b)? Its friction, normal force and torque against the limits of ground and
+    motors.
+    """
     cases = [ClaimCase(n.name, n.friction, not n.illegal, _doubtful(n)) for n in needs]
     shown = (
         f"{n.preset}: friction {_two(n.friction)} in the mean over 5 ms and "
@@ -158,7 +164,9 @@ def not_smooth(needs: Sequence[Needs]) -> Claim:
 
 
 def not_optimal(needs: Sequence[Needs]) -> Claim:
-    """Section VII: the generated gait is not optimal in energy: another one has a lower cost of transport."""
+    """Section VII: the generated gait is not optimal in energy. Gait (a) with a lower cost of transport shows
+    it.
+    """
     pairs = [
         (b, a)
         for b in needs
@@ -176,8 +184,10 @@ def not_optimal(needs: Sequence[Needs]) -> Claim:
 
 
 def global_stability(starts: Sequence[Start]) -> Claim:
-    """Section I promises a test of global stability: starts below the least speed cannot reach the
-    next impact.
+    """Section I promises a test of global stability. Starts below the least speed do not reach the next impact.
+
+    That is a counterexample under any controller of the joints; a start just above it has to walk on, or the
+    least speed would not be the boundary.
     """
     below = [s for s in starts if s.factor < 1.0]
     fails = [s for s in below if s.same and not any(s.impacts.values())]
@@ -208,8 +218,10 @@ def global_stability(starts: Sequence[Start]) -> Claim:
 
 
 def printed_multipliers(periods: Sequence[float]) -> Claim:
-    """The ten numbers of section VI: could the tracking gains of Table II give the least of them in
-    one step?
+    """The ten multipliers of section VI: can they be those of the walk?
+
+    A tracking error decays by exp(-K_d T / 2) in a step. The least printed multiplier would need a shorter step
+    than the gait has; and a regression of noise gives a similar spectrum.
     """
     period, least = min(periods, default=math.nan), min(PUBLISHED_MULTIPLIERS)
     values = {

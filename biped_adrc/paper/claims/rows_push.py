@@ -41,7 +41,10 @@ def _tally(cases: Sequence[ClaimCase]) -> Tally:
 
 
 def rejection(members: Members) -> Claim:
-    """What the push adds to the error under ADRC is at most a hundredth of what it adds under NPD."""
+    """What the push adds to the error under ADRC over what it adds under NPD, at most the declared ratio.
+
+    The error of the walk without a push is subtracted first, so that errors of other origin do not count.
+    """
     limit = declared()["limits"]["ratio"]
     return limited(
         "rejection",
@@ -55,7 +58,7 @@ def rejection(members: Members) -> Claim:
 
 
 def tracking(members: Members) -> Claim:
-    """The same ratio of the peak error itself, whatever causes it."""
+    """The same ratio of the peak error itself, whatever causes it; also apart by the choice of Theta''."""
     limit = declared()["limits"]["ratio"]
     by_theta = {
         theta: Extremes.of(o.walked["ADRC"].peak for o in members if o.member.theta == theta)
@@ -79,7 +82,7 @@ def deviates(members: Members) -> Claim:
 
 
 def walks_on(members: Members) -> Claim:
-    """Both controllers make all steps under the push."""
+    """Both controllers make all steps under the push; the period of the pushed step shows convergence."""
     cases = []
     for o in members:
         each, period = o.walked.values(), o.walked["ADRC"].period
@@ -96,7 +99,11 @@ def _doubtful(w: MemberWalk) -> bool:
 
 
 def unaffected(members: Members) -> Claim:
-    """Figure 6: the cycle in (Theta, Theta') under ADRC is where it was; infinite where there is no impact."""
+    """Figure 6: the cycle in (Theta, Theta') under ADRC is not affected by the push.
+
+    By the change of Theta' at the end of the pushed step [rad/s]; infinite where there is no impact, since that
+    cycle is lost.
+    """
     steps, limit = declared()["steps"], declared()["limits"]["cycle"]
     # infinite where there is no impact: that cycle is lost
     rates = [np.abs(o.walked["ADRC"].rate) for o in members]
@@ -114,7 +121,7 @@ def unaffected(members: Members) -> Claim:
 
 
 def legal(members: Members) -> Claim:
-    """Ground and motors could have given what ADRC's walks need."""
+    """Ground and motors can give what ADRC's walks need: the support leg stays where it is without glue."""
     walked = [(o.member.name, o.walked["ADRC"]) for o in members]
     cases = [ClaimCase(name, w.period, w.made and not w.illegal, not w.same) for name, w in walked]
     why = sorted({reason for _, w in walked for reason in w.illegal})

@@ -63,7 +63,10 @@ class ClaimCase(NamedTuple):
 def below_limit(
     name: str, figure: AtTwoSteps, limit: float, bound: Sequence[float] | None = None
 ) -> ClaimCase:
-    """A case that holds for a number <= limit; NaN does not hold. bound: as of `AtTwoSteps.converged`."""
+    """A case that holds for a number <= limit; NaN does not hold.
+
+    bound: (share, round-off) as of `AtTwoSteps.converged`, those of admissible.toml by default.
+    """
     return _limited(name, figure, lambda x: x <= limit, bound)
 
 
@@ -78,7 +81,10 @@ def _limited(
     test: Callable[[float], bool],
     bound: Sequence[float] | None = None,
 ) -> ClaimCase:
-    """A case that holds where `test` is true of its number."""
+    """A case that holds where `test` is true of its number at half of the step.
+
+    It is marginal where the number is not converged, or the test has another result at the step used.
+    """
     used, half = (bool(test(x)) for x in figure)
     doubtful = not figure.converged(*(bound or convergence())) or used != half
     return ClaimCase(name, figure, half, doubtful)
@@ -110,7 +116,9 @@ class Tally:
 
     @property
     def word(self) -> str:
-        """The verdict; "replicated" only when every case is firm and holds."""
+        """The verdict. A marginal case is none, so that "replicated" needs every case to be firm
+        and to hold.
+        """
         if not self.firm:
             return NOT_TESTABLE
         if self.held == len(self.cases):

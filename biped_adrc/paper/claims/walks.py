@@ -123,9 +123,10 @@ def nominal(preset: str | None, gait: str) -> tuple[Biped, Gait]:
 
 
 def prepared(run: Scenario, zero: bool = False, speed: float = 1.0) -> Prepared:
-    """The run at the impact of its gait's orbit; with `zero` the observer starts at xi^ = 0.
+    """The run at the impact of its gait's orbit, ready to be simulated.
 
-    speed: factor on the rates after impact, which stays on the constraint and leaves the orbit.
+    zero: the observer starts at xi^ = 0 instead of the model's xi. speed: factor on the rates after impact,
+    which keeps the state on the constraint and takes it off the orbit.
     """
     biped, gait = nominal(run.preset, run.gait)
     walker = build(run, Scene(biped, gait))
@@ -188,7 +189,7 @@ def _track(s: Signals, arc: Arc) -> Track:
 def _undisturbed(
     preset: str, controller: str, gait: str, start: str, theta: str, h: float
 ) -> Track:
-    """The same walk without a push, computed once for all pushes."""
+    """The same walk without a push, computed once for all pushes on it; h [s]."""
     plain = Member(preset, 0.0, 0.0, ("q1",), 0.0, start, theta).run(controller, h)
     made = prepared(replace(plain, pushes=(), gait=gait), start == "zero")
     found = tracks(made, made.simulate(h, 1))[0]
@@ -198,8 +199,10 @@ def _undisturbed(
 
 
 def walked(run: Scenario, start: str = "model") -> MemberWalk:
-    """The pushed step with run.h and half of it, and all impacts with the longer step declared for what comes
-    later.
+    """A run under the push, reduced to numbers.
+
+    The pushed step with run.h and half of it, since its error is a spike of milliseconds; then all impacts with
+    the longer step declared for what comes later, of which only ending and legality are kept.
     """
     steps = declared()["steps"]
     made = prepared(run, start == "zero")
@@ -241,7 +244,7 @@ def _ending(made: Prepared, h: float) -> Ending:
 
 
 def tried(member: Member) -> MemberOutcome:
-    """Carry a member out under both controllers."""
+    """Carry a member out under both controllers, each with the integration step declared for it."""
     steps = declared()["steps"]
     runs = {c: member.run(c, steps[c], steps["impacts"]) for c in CONTROLLERS}
     return MemberOutcome(member, {c: walked(run, member.start) for c, run in runs.items()})

@@ -115,7 +115,10 @@ def told(
     convergence: str = "",
     marginal: int = 0,
 ) -> Claim:
-    """The row of claims.toml by name, with a word that no tally gives; that of the file if it is empty."""
+    """The row of claims.toml by name, with a word that no tally gives.
+
+    word: that of the file if empty. values: in its texts. share, convergence, marginal: as of `Claim`.
+    """
     x = _said(name, values or {})
     word = word or x["word"]
     return Claim(
@@ -126,7 +129,10 @@ def told(
 
 
 def _said(name: str, values: Mapping[str, object]) -> dict[str, Any]:
-    """The texts of a claim with the values in them, and what it takes from another one by "like"."""
+    """The texts of a claim with the values in them, and what it takes from another claim by "like".
+
+    Limits of admissible.toml are known to every text as {limit[name]}.
+    """
     found = texts()[name]
     found = {**texts().get(found.get("like"), {}), **found}
     of = {"limit": declared()["limits"], **values}
@@ -134,8 +140,10 @@ def _said(name: str, values: Mapping[str, object]) -> dict[str, Any]:
 
 
 def claim_checks(claims: Sequence[Claim]) -> list[Check]:
-    """The checks of the claims: those said to be replicated hold in all cases, and no case of any
-    is marginal.
+    """The checks of the claims, for the exit code of the reproduction.
+
+    Claims that are said to be replicated have to stay so: all of their cases hold. And no case of any claim may
+    change its number or verdict at half of the step.
     """
     kind = "reproduced"
     doubtful = "claims: cases whose number or verdict is another at half the step"
