@@ -107,7 +107,10 @@ def rabbit_urdf(
 
 # -- rows ------------------------------------------------------------------------------------------
 def sense_rows(states: int = 20) -> tuple[Row, ...]:
-    """D, Omega and the impact of three writings at random states, as shares of their largest entries."""
+    """D, Omega and the impact of three writings at random states, as shares of their largest entries.
+
+    Each writing is imported, and its coordinates r are mapped to q by a known A and b.
+    """
     writings = {
         "links along +z, clockwise": (rabbit_urdf(), TURNED),
         "hips turned by pi about y": (rabbit_urdf(rpy=f"0 {math.pi!r} 0"), HUNG),

@@ -73,7 +73,10 @@ def _work_row(biped: Biped, gait: Gait) -> Row:
 
 
 def multiplier_rows(preset: str, gait: str) -> tuple[Row, ...]:
-    """delta^2 against the simulated walk, by the variational equation and by two walks."""
+    """delta^2 of the zero dynamics against the largest multiplier of the simulated walk.
+
+    Twice: by the variational equation along the walk, and by two walks whose starts differ by 2 % of the speed.
+    """
     cycle = gait_cycle(Scenario("NPD", preset=preset, gait=gait))
     biped = cycle.P.walker.plant
     delta2 = ZeroDynamics.of(biped, load_gait(gait, biped).constraint).delta ** 2
@@ -87,7 +90,11 @@ def multiplier_rows(preset: str, gait: str) -> tuple[Row, ...]:
 
 
 def slope_of_zeta(cycle: Cycle) -> float:
-    """d zeta+ / d zeta of the simulated walk, from two walks that start `FASTER` and slower by as much."""
+    """d zeta+ / d zeta of the simulated walk, from two walks that start faster and slower by the share
+    `FASTER`.
+
+    The map is affine, so that the secant over a finite difference is exact.
+    """
     biped, (q, v) = cycle.P.walker.plant, np.split(cycle.guess, 2)
 
     def zeta(x: Array) -> float:
@@ -109,7 +116,11 @@ def designed_three_link() -> Cycle:
 
 
 def cycle_of(robot: str) -> Cycle:
-    """A cycle of a registered robot; the simplest walker with feet heavy enough for finite differences."""
+    """A walking cycle of a registered robot.
+
+    The simplest walker has heavier feet here: with nearly massless ones finite differences of its map are
+    noise.
+    """
     if robot == "simplest":
         cycle = simplest(1e-4)
         return replace(cycle, P=replace(cycle.P, difference=2e-4))
@@ -117,8 +128,9 @@ def cycle_of(robot: str) -> Cycle:
 
 
 def robot_rows(robot: str) -> tuple[Row, ...]:
-    """All multipliers by the variational equation against extrapolated central differences, as the
-    largest gap.
+    """All multipliers of a robot's cycle by the variational equation, against extrapolated central differences.
+
+    The second row is the largest gap in units of the tolerance that the stability table itself uses.
     """
     cycle = cycle_of(robot)
     _, step = periodic_orbit(cycle.P, cycle.guess, 1e-9)

@@ -116,7 +116,9 @@ class HipCase:
         return walk_scenario(self.scenario(force))
 
     def predicted(self) -> float:
-        """The force [N] that stops it according to the quadratures."""
+        """The force [N] that stops it according to the quadratures on the zero dynamics, without a
+        simulation.
+        """
         biped, gait, law = self.parts()
         stride = law if isinstance(law, StridePI) else None
         return stopping_force(gait, biped, self.steps, stride)
@@ -139,7 +141,10 @@ class PushedWalk:
 
     @classmethod
     def of(cls, case: HipCase, force: float) -> PushedWalk:
-        """Simulate the case under this force [N]; the step that was not finished is left out."""
+        """Simulate the case under this force [N].
+
+        The last step, in which the robot fell, is left out of speeds and legality: it says nothing of walking.
+        """
         made = case.walk(force)
         count = len(made.trajectory.events(FOOT_STRIKE))
         arcs = tuple(arc for arc in made.trajectory.arcs if arc.mode.step <= count)
@@ -212,7 +217,11 @@ def first_failure(walks: Callable[[int], bool], guess: int) -> int:
 
 
 def hip_limit(case: HipCase) -> HipLimit:
-    """The smallest force that stops a case; each force is simulated once. Raises as `first_failure`."""
+    """The smallest force that stops a case, as a multiple of its resolution.
+
+    The search starts at the prediction, so that two or three walks are enough where that is right; each force
+    is simulated once. Raises SimulationError as `first_failure`.
+    """
     known: dict[int, PushedWalk] = {}
 
     def walks(k: int) -> bool:
@@ -227,7 +236,7 @@ def hip_limit(case: HipCase) -> HipLimit:
 
 @dataclass(frozen=True)
 class HipPush:
-    """The study's results."""
+    """The limits of all cases, what the PI makes of the forces that stop tracking alone, and its directions."""
 
     limits: tuple[HipLimit, ...]
     """Of all cases."""

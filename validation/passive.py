@@ -57,7 +57,10 @@ class Ball(HybridSystem):
 
 
 def ball_rows() -> tuple[Row, ...]:
-    """Time of the sixth bounce [s] and speed before it [m/s], by a fixed-step and an adaptive method."""
+    """Time of the sixth bounce [s] and speed before it [m/s], by a fixed-step and an adaptive method.
+
+    Events are located in time, and their errors add up from bounce to bounce.
+    """
     ball, count = Ball(), 6
     first = math.sqrt(2.0 / ball.g)
     time = first * (1.0 + 2.0 * sum(ball.e**j for j in range(1, count)))
@@ -86,7 +89,7 @@ def solved(cycle: Cycle) -> tuple[StepDerivative, Array, Array]:
 
 
 def wheel_rows() -> tuple[Row, ...]:
-    """Rate after impact [rad/s] and multiplier on two slopes."""
+    """Rate after impact [rad/s] and multiplier on two slopes, by the closed forms above."""
     wheel, alpha, rows = Biped.load("rimless_wheel"), math.pi / 8, []
     for slope in (0.12, 0.2):
         step, _, v = solved(known_cycle(wheel, slope))
@@ -126,7 +129,10 @@ def garcia_angles(cycle: Cycle, q: Array, v: Array) -> tuple[float, float]:
 
 
 def simplest_rows() -> tuple[Row, ...]:
-    """The longer of the two steps: fixed point, period and multiplier, extrapolated to massless feet."""
+    """The longer of the two steps: fixed point, period and multiplier.
+
+    The published multiplier is that of massless feet; here it is extrapolated from two small masses.
+    """
     cycle = simplest()
     step, q, v = solved(cycle)
     theta, rate = garcia_angles(cycle, q, v)
@@ -146,7 +152,7 @@ def simplest_rows() -> tuple[Row, ...]:
 
 
 def short_step_rows() -> tuple[Row, ...]:
-    """The shorter, unstable step."""
+    """The shorter, unstable step: fixed point and multipliers, one of them outside of the unit circle."""
     cycle = started_at(simplest(), 0.19393736960624, -0.20386692731962)
     step, q, v = solved(cycle)
     multipliers = (float(m.real) for m in step.multipliers[:2])
@@ -155,7 +161,7 @@ def short_step_rows() -> tuple[Row, ...]:
 
 
 def heavy_feet_rows() -> tuple[Row, ...]:
-    """Feet of a thousandth of the hip's mass: their inertia counts."""
+    """Feet of a thousandth of the hip's mass: their inertia changes the fixed point in the printed digits."""
     cycle = simplest(1e-3)
     _, q, v = solved(cycle)
     spread = -float(v[0]) / math.sqrt(cycle.P.walker.plant.description.gravity)

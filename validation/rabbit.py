@@ -51,7 +51,11 @@ def poles_row() -> tuple[Row, ...]:
 
 
 def fixed_point_rows(preset: str) -> tuple[Row, ...]:
-    """The published gait under NPD: x* within half a unit of its last printed digits, and its multiplier."""
+    """The published gait under NPD: x* within half a unit of its last printed digits, and its multiplier.
+
+    The multiplier is compared with (sigma+ / sigma-)^2 at the printed x*, for which no simulation is needed.
+    The height of the swing foot at x* shows how exact the printed angles are.
+    """
     biped, (q, v) = Biped.load("rabbit", preset), np.split(X_STAR, 2)
     cycle = gait_cycle(Scenario("NPD", preset=preset))
     _, step = periodic_orbit(cycle.P, cycle.guess, 1e-8)
@@ -95,7 +99,10 @@ def printed_rows() -> tuple[Row, ...]:
 
 
 def designed_rows(step: float | None = None) -> tuple[Row, ...]:
-    """The gait found at 1.05 m/s beside the example; step length [m], None leaves it free."""
+    """The gait found at 1.05 m/s beside the example of the literature; step length [m], None leaves it free.
+
+    zeta*, delta^2 and V_zero of another gait of the same speed have no target: the rows show them side by side.
+    """
     found = design_gait("rabbit", 1.05, step, preset="tac2003")
     biped = Biped.load("rabbit", "tac2003")
     orbits = ZeroOrbits.of(ZeroDynamics.of(biped, found.gait.constraint))
@@ -112,7 +119,10 @@ def designed_rows(step: float | None = None) -> tuple[Row, ...]:
 
 
 def _own_rows(name: str, found: DesignedGait, orbits: ZeroOrbits) -> tuple[Row, ...]:
-    """Of the designed gait alone: its speed, and zeta* against the walk; the torques in the note."""
+    """Of the designed gait alone: its speed, and zeta* of its zero dynamics against a simulated step.
+
+    Its torques are in the note: the example's are not printed in the same terms.
+    """
     gait, biped = found.gait, orbits.zero.biped
     P = ReturnMap(Walker(biped, NPDController(gait.constraint)), Adaptive(1e-10, 1e-10))
     s = P.project(np.concatenate((gait.q_minus, gait.v_minus)))
@@ -147,7 +157,11 @@ def published_force_rows() -> tuple[Row, ...]:
 
 
 def hip_rows(tracking: str, steps: int = 25) -> tuple[Row, ...]:
-    """Just below the predicted force the walk goes on, just above it stops; with the PI it keeps its speed."""
+    """The predicted force against walks 5 % below and above it.
+
+    Below all steps are made, above they are not; with the PI from step to step the walk keeps its speed above
+    too.
+    """
     case = HipCase(tracking, stride=False, steps=steps)
     force, name = case.predicted(), f"RABBIT identified-bare, v0.5, {tracking}"
     below, above = (1.0 - BESIDE) * force, (1.0 + BESIDE) * force
@@ -173,7 +187,9 @@ OWN = "this package's own limit"
 
 
 def design_rows(preset: str, speed: float) -> tuple[Row, ...]:
-    """The gait of least torque at this speed [m/s]."""
+    """The gait of least torque at this speed [m/s], as any user gets it: speed, certificate,
+    periodicity, time.
+    """
     begin = process_time()
     found = design_gait("rabbit", speed, preset=preset)
     spent, name = process_time() - begin, f"RABBIT {preset}, {speed:g} m/s"

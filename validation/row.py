@@ -124,12 +124,15 @@ def at_most(system: str, quantity: str, limit: float, found: float, source: str)
 def nothing(
     system: str, quantity: str, found: float, tolerance: float, source: str, note: str = ""
 ) -> Row:
-    """A row that expects 0, and holds where |found| <= tolerance."""
+    """A row that expects 0, and holds where |found| <= tolerance: for gaps that have no other scale."""
     return Row(system, quantity, 0.0, float(found), tolerance, source, Measure.ABSOLUTE, note)
 
 
 def published(name: str, *found: float, note: str = "") -> tuple[Row, ...]:
-    """Rows of published.toml by name, one for each number found, in its order."""
+    """Rows of published.toml by name, one for each number found, in its order.
+
+    Expected values, tolerance, source and note come from the file; a note given here replaces that of the file.
+    """
     said = packaged("validation", "published.toml")[name]
     note = note or said.get("note", "")
     return tuple(

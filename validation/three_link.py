@@ -63,7 +63,10 @@ def robot() -> Biped:
 
 
 def outputs() -> LinearOutputs:
-    """y = H0 q - h_d(Theta), Theta = pi - th1, s = (th1 + th1d) / (2 th1d)."""
+    """y = H0 q - h_d(Theta), with Theta = pi - th1 and s = (th1 + th1d) / (2 th1d).
+
+    The published polynomials in th1 are expanded in s, of which a `VirtualConstraint` takes the coefficients.
+    """
     th1 = Polynomial([-END, 2.0 * END])
     torso, swing = P3(th1), P2(th1) - 2.0 * math.pi
     a = np.zeros((2, 6))
@@ -126,7 +129,11 @@ def cycle(controller: Controller, method: OneStepMethod) -> tuple[float, float, 
 
 
 def three_link_rows() -> tuple[Row, ...]:
-    """The cycle under proportional-derivative feedback; that of the finite-time feedback in the note."""
+    """The cycle under proportional-derivative feedback of the outputs: stance rate, period, slope of the return
+    map.
+
+    The cycle under the finite-time feedback of the source is in the note.
+    """
     y, gains = outputs(), Gains(400.0, 40.0)
     omega, period, slope = cycle(OutputNPDController(y, gains), Adaptive())
     other = cycle(FiniteTimeController(y, alpha=0.9, eps=0.1), Adaptive(1e-6, 1e-8))[0]

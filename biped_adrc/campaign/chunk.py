@@ -74,7 +74,8 @@ def run_chunk(function: Function, records: Sequence[Record]) -> list[Made]:
     """A row of each record, in their order. Runs in a worker process.
 
     Where the function raises on the chunk, it is called again with one record at a time, so that one bad record
-    spoils no other; that record's row has the status RAISED and the error's text.
+    spoils no other; that record's row has the status RAISED and the error's text. A SystemExit counts as an
+    error too: a library that calls exit() must not end the worker.
     """
     begin = time.perf_counter()
     try:

@@ -165,7 +165,7 @@ def _asked() -> Callable[[], Versions | str]:
 
 
 def _run(expected: Versions, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
-    """Runs on the worker: function(*args) if its versions are the expected ones. Raises InputError."""
+    """Runs on the worker: function(*args) if the versions there are the expected ones. Raises InputError."""
     text = difference(numerical_versions(), expected)
     if text:
         raise InputError(_refusal("a worker of the cluster", text))

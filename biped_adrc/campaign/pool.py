@@ -42,7 +42,7 @@ class Timed(NamedTuple, Generic[T]):
 
 
 def _timed(task: Task[T]) -> Timed[T]:
-    """Carry a task out, in the worker."""
+    """Carry a task out in the worker, and measure it there: waiting for a core does not count."""
     begin = time.perf_counter()
     value = task.function(*task.arguments)
     return Timed(value, time.perf_counter() - begin)
@@ -55,9 +55,10 @@ PRELOADED = ("biped_adrc.paper.plan", "biped_adrc.paper.pictures", "biped_adrc.e
 def run_tasks(
     tasks: Sequence[Task[T]], workers: int | None = None, progress: TaskProgress | None = None
 ) -> list[Timed[T]]:
-    """Results in the order of `tasks`; workers: processes (one per core if None), with 1 none is started.
+    """Results in the order of `tasks`, with the wall time of each [s].
 
-    An error in one task, or Ctrl-C, terminates all workers and is raised.
+    workers: processes (one per core if None); with 1 the tasks run in this process, which helps a debugger. An
+    error in one task, or Ctrl-C, terminates all workers and is raised.
     """
     told = progress or (lambda *_: None)
     if (workers or cores()) == 1:

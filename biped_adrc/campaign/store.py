@@ -99,8 +99,10 @@ class Store:
             db.executemany("INSERT OR IGNORE INTO points VALUES (?, ?, ?)", points)
 
     def add(self, runs: Iterable[Ran]) -> None:
-        """Keep finished runs, all of them or none; a run that crashed before is replaced. Raises
-        OutputError.
+        """Keep finished runs in one transaction, all of them or none. Raises OutputError.
+
+        A run that crashed before is replaced; the versions of this process are kept once and referred to by
+        number.
         """
         with self._writing() as db:
             versions = text_of(self.about.versions)
@@ -144,7 +146,10 @@ class Store:
             return dict(self.connection.execute(text).fetchall())
 
     def no_walks(self) -> dict[str, str]:
-        """For each status that is no walk, the explanation of one such run; the one with the smallest key."""
+        """For each status that is no walk, the explanation of one such run; the one with the smallest key.
+
+        One is shown to the user: a thousand refused points of a study mostly have the same reason.
+        """
         marks = ",".join("?" * len(NO_WALK))
         text = f"SELECT status, row, min(key) FROM runs WHERE status IN ({marks}) GROUP BY 1"
         with self._reading():

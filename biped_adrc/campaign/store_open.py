@@ -145,8 +145,10 @@ def _about(path: Path, db: sqlite3.Connection) -> About:
 
 
 def _check_study(path: Path, found: About, asked: About, other_versions: bool) -> None:
-    """Raises InputError where the file is of another study, or made with other versions that are
-    not allowed.
+    """Raises InputError where the file is of another study, or made with other versions.
+
+    Another version of NumPy may change the last digit, which a chaotic walk amplifies; `other_versions` allows
+    it.
     """
     if found.hash != asked.hash:
         raise InputError(
@@ -170,9 +172,9 @@ def _difference(found: About, asked: About) -> str:
 
 
 def _locked(path: Path) -> FileLock:
-    """The lock beside the file, which holds the number of this process for the error of a second one.
+    """The lock beside the file. Raises InputError where another process has it, OutputError.
 
-    Raises InputError where another process has it, OutputError.
+    The number of this process is written into it, so that the error of a second process can name the first.
     """
     beside = path.with_name(f"{path.name}.lock")
     lock = FileLock(beside, blocking=False, thread_local=False)

@@ -103,7 +103,11 @@ class Threads(Workers):
 
 @dataclass(frozen=True)
 class Processes(Threads):
-    """Processes of this machine, forked from a server process that has imported `preload`."""
+    """Processes of this machine, forked from a server process that has imported `preload`.
+
+    A fork server has no threads and no locks of this process, which a fork of it would copy in any state; and
+    what it has imported is shared by all workers.
+    """
 
     preload: tuple[str, ...] = PRELOADED
 
@@ -136,7 +140,9 @@ class Processes(Threads):
         return executor
 
     def stop(self, executor: Executor, now: bool) -> None:
-        """Now: also terminate processes in the middle of a run; a pool alone would wait for them."""
+        """End the processes; now: also terminate those in the middle of a run, for which a pool alone would
+        wait.
+        """
         processes: dict[int, BaseProcess] = getattr(executor, "_processes", None) or {}
         running = list(processes.values())
         if now:

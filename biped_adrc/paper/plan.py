@@ -141,8 +141,8 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
     """The walks that need no function of their own, by name; names end in the controller.
 
     Undisturbed in every preset; the push with slow edges; a sine; a push on the torso; sampled control at 1
-    kHz; a plant that is heavier than the controller's model. Pushed walks start on the orbit two steps before
-    the push.
+    kHz; a plant that is heavier than the controller's model. Where a run starts later than in step 1, it starts
+    on the orbit.
     """
     runs: dict[str, Scenario] = {}
     for c in CONTROLLERS:

@@ -15,8 +15,7 @@ are declared in admissible.toml. `paper.plan` runs `claim_tasks`; `claims.table`
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
-from itertools import chain
+from dataclasses import dataclass, fields, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -85,7 +84,7 @@ def cycles(preset: str) -> tuple[GaitCycle, ...]:
 def _cycle(preset: str, gait: str, controller: str, theta: str) -> GaitCycle:
     """One cycle at both integration steps; a search that fails gives NaN, so that the case does not hold.
 
-    The return map is that of (q, q') alone; ADRC's observer is started anew at each impact.
+    The return map is that of (q, q') alone: the observer's states are no coordinates of it.
     """
     h = declared()["steps"]["plain"]
     run = Scenario(controller, preset=preset, gait=gait, solve_theta=theta == "solved")
@@ -146,10 +145,7 @@ def needs(preset: str) -> tuple[Needs, ...]:
 
 
 def _needs(preset: str, gait: str) -> Needs:
-    """What the second step of an undisturbed walk needs, at both integration steps.
-
-    The second, since the first starts exactly on the orbit while the second has an impact behind it.
-    """
+    """What the second step of an undisturbed walk needs, at both integration steps."""
     h = declared()["steps"]["needs"]
     run = Scenario("NPD", preset=preset, gait=gait, engine=COMPILED)
     made = prepared(run)
@@ -363,8 +359,8 @@ def longest_step(multiplier: float) -> float:
 def noise_spectrum() -> Array:
     """What the regression (26), (27) makes of noise: medians of the sorted |lambda|, (10,), of random numbers.
 
-    Impacts are replaced by independent normal numbers. That these spectra look like the printed one shows how
-    little such a regression says of the walk.
+    The states at impacts are replaced by independent normal numbers, which have no dynamics at all: a spectrum
+    that the regression gives for them says nothing of a walk.
     """
     k = declared()["noise"]
     random = np.random.default_rng(k["seed"])
@@ -375,7 +371,8 @@ def noise_spectrum() -> Array:
     return np.median(found, axis=0)
 
 
-class Evidence(NamedTuple):
+@dataclass(frozen=True)
+class Evidence:
     """All that the claims rest on, for the presets asked for; also a part of it, with the other
     fields empty.
     """
@@ -445,4 +442,6 @@ def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task[Evidence]]:
 
 def gathered(parts: Iterable[Evidence]) -> Evidence:
     """The whole evidence of its parts, field by field in the order of the parts."""
-    return Evidence._make(tuple(chain(*field)) for field in zip(*parts, strict=True))
+    found = tuple(parts)
+    names = (field.name for field in fields(Evidence))
+    return Evidence(**{x: tuple(y for part in found for y in getattr(part, x)) for x in names})

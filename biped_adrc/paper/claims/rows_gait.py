@@ -220,8 +220,8 @@ def global_stability(starts: Sequence[Start]) -> Claim:
 def printed_multipliers(periods: Sequence[float]) -> Claim:
     """The ten multipliers of section VI: can they be those of the walk?
 
-    A tracking error decays by exp(-K_d T / 2) in a step. The least printed multiplier would need a shorter step
-    than the gait has; and a regression of noise gives a similar spectrum.
+    A tracking error decays like exp(-K_d T / 2) in a step of T seconds. The least printed multiplier would need
+    a shorter step than the gait has; what the same regression makes of noise is told beside it.
     """
     period, least = min(periods, default=math.nan), min(PUBLISHED_MULTIPLIERS)
     values = {
