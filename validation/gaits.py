@@ -8,6 +8,8 @@ The closed forms come from the zero dynamics and are compared with the simulated
 wrong only together. Work by quadrature over the zero dynamics; multipliers of the walk under NPD, once by the
 variational equation and once by two walks that start 1 % faster and slower. Westervelt, Grizzle, Koditschek
 2003. Called by `validation.groups`.
+
+A stored gait whose impact leaves the constraint, such as gait (b), has no closed form and is left out.
 """
 
 from __future__ import annotations

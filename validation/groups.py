@@ -2,6 +2,9 @@
 
 Texts are in groups.toml, in the order of the page. Each maker takes seconds to minutes and is independent of
 the others, so that tests and `docs/write_verification.py` can distribute them.
+
+Groups: passive walkers, the three-link walker, the example of 2003, the paper, laws of work and of multipliers
+on stored gaits, all robots, gait design, the force on the hip, and RABBIT in other coordinates ("senses").
 """
 
 from __future__ import annotations

@@ -10,6 +10,8 @@ pole. Beside it stands the force that quadratures of `analysis.forced_steps` pre
 The search starts from the prediction, and both sides of what it returns were simulated; that more force is
 never better is assumed. Walks start on the orbit of their gait; the force (-force, 0) acts from the first
 instant on. Run by `docs/write_hip_force.py`; `validation.rabbit` takes single cases of it.
+
+The prediction follows the zero dynamics from step to step under the force, up to the number of steps asked for.
 """
 
 from __future__ import annotations

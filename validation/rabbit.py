@@ -11,6 +11,9 @@ Westervelt, Grizzle, Koditschek, IEEE TAC 48(1), 2003, walk at 1.05 m/s, with
 
 The force at the hip that stops the gait of 0.50 m/s is predicted by a quadrature on the zero dynamics; walks
 are simulated. Every designed gait is walked two steps under NPD, and its certificate is taken from that walk.
+
+Rows beside numbers of another gait or robot have no tolerance: they show the order of magnitude and assert
+nothing.
 """
 
 from __future__ import annotations
@@ -121,7 +124,7 @@ def designed_rows(step: float | None = None) -> tuple[Row, ...]:
 def _own_rows(name: str, found: DesignedGait, orbits: ZeroOrbits) -> tuple[Row, ...]:
     """Of the designed gait alone: its speed, and zeta* of its zero dynamics against a simulated step.
 
-    Its torques are in the note: the example's are not printed in the same terms.
+    Torques, step length and friction of the gait are in the note.
     """
     gait, biped = found.gait, orbits.zero.biped
     P = ReturnMap(Walker(biped, NPDController(gait.constraint)), Adaptive(1e-10, 1e-10))

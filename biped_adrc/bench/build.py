@@ -98,8 +98,9 @@ def _scene(
 def case(s: Scenario) -> Case:
     """The walk of a scenario, metered, with its start and method.
 
-    Raises InputError for values that do not fit together, or that a study cannot use: continuous time, steps of
-    two lengths, another engine.
+    The meter counts at sample instants and takes one integration step per period, which is why a study asks for
+    a period. Raises InputError for values that do not fit together, or that a study cannot use: continuous
+    time, fine steps besides, another engine.
     """
     if s.period is None or s.fine is not None:
         what = "has no period" if s.period is None else f"has fine = {s.fine:g} s"

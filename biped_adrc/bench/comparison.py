@@ -9,6 +9,9 @@ have the same bandwidth.
 `compare` is given a function `carry` that turns trials into rows and knows nothing of files or processes:
 `bench.compare_study` hands in one with a store, tests hand in one without walks. `bench.findings` draws
 conclusions from what is returned.
+
+Walks of the table: (controllers + those with an observer once more) x conditions x seeds, here
+(7 + 4) x 12 x 20 = 2640. The rest of some 17000 walks are those of the searches for the largest pushes.
 """
 
 from __future__ import annotations

@@ -53,7 +53,7 @@ OWN = {
 With the poles of Table I it is their geometric mean. LESO's is what walks with encoders at 1 kHz allow.
 """
 ORDER = dict.fromkeys(("ADRC", "ADRC output"), len(TABLE_I) - 2)
-"""m, the number of extended states less one, of the GPI observers; a bandwidth alone would not say it."""
+"""m, the number of extended states, of the GPI observers: a bandwidth alone would not say it."""
 NOT_ALIKE: str = SAID["texts"]["settings"].format(**OWN)
 """The warning of the page that settings are not tuned alike, with the bandwidths in it."""
 

@@ -10,6 +10,13 @@ frequency [Hz] cannot be taken for an angular rate [rad/s], a factor of 2 pi tha
 
 `bench.study_file` reads values with `read`; `bench.study`, `bench.run` and the comparison make scenarios of
 them with `trial`.
+
+What `read` makes of what is given, by name of the parameter:
+
+    period         "1.5 ms"    0.0015    [s]
+    amplitude      "30 N m"    30.0      [N m]
+    torque_limit   "none"      None      no limit
+    start.v5       0.1         0.1       [rad/s]
 """
 
 from __future__ import annotations

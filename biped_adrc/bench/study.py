@@ -12,6 +12,11 @@ with the first level of all others (at most about `MOST_LEVELS` of each axis, ev
 of values that are text, and points spread evenly over the whole study.
 
 `bench.study_file` makes a `Study` from TOML; `bench.sweep` rehearses it and runs it with `campaign.execute`.
+
+The first point of the example in `bench.study_file`:
+
+    record   {"amplitude": 60.0, "hardware": "ideal", "push": "pulse"}     what is run, defaults left out
+    at       {"case": "ideal", "delay": 0.0, "seed": 0}                    where it lies in the study
 """
 
 from __future__ import annotations

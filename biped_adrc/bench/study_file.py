@@ -15,6 +15,23 @@ to mend five mistakes gets them at once. pydantic alone would report the fields 
 places of the user's file are named, which is why the tables are walked by hand.
 
 `bench.sweep` and the command `sweep` call `load_study`; what a parameter is, is known to `bench.parameters`.
+
+An example of 50 points, 2 cases x 5 delays x 5 seeds:
+
+    [study]
+    name = "delay and encoders"
+    seeds = 5
+    [fixed]
+    push = "pulse"
+    amplitude = "60 N m"
+    [grid]
+    delay = {from = 0, to = "4 ms", count = 5}
+    [[cases]]
+    name = "ideal"
+    [[cases]]
+    name = "encoders"
+    counts = 8192
+    velocity = "differences"
 """
 
 from __future__ import annotations

@@ -7,6 +7,13 @@ study may be larger than memory. `Sweep.table` alone loads columns as arrays.
 
 Calls `campaign.execute.run_study` with `bench.run.run_trials`; called by the command `sweep` and by scripts of
 the user, and read by `bench.export`.
+
+In a script, which worker processes import, so that it needs the main guard:
+
+    if __name__ == "__main__":
+        found = sweep("study.toml", "out/study", workers=4)
+        rows = found.table("delay", "survived", "peak_error").where({"survived": 1})
+        print(rows["peak_error"].max())
 """
 
 from __future__ import annotations

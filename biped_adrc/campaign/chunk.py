@@ -6,6 +6,11 @@ keys, identifies the run: its hash is the key under which the store keeps the ro
 studies or two calls have in common is made once. JSON writes a float such that it reads back to the same bits.
 
 `run_chunk` is what a worker executes. `campaign.execute` hands out chunks and `campaign.store` keeps the rows.
+
+An example, with the function `run_trials` of `bench.run`:
+
+    record   {"controller": "NPD", "hardware": "ideal", "seed": 3}
+    row      {"status": "COMPLETED", "survived": 1, "peak_error": 0.0113, ...}
 """
 
 from __future__ import annotations

@@ -11,6 +11,13 @@ row with the status CRASHED. Two limits end a study in which everything dies.
 
 Rows depend on their records alone, not on the workers, their number, or the size of chunks. Knows no robots.
 Called by `bench.sweep` and `bench.compare_study`.
+
+What becomes of a chunk:
+
+    finished              rows stored in one transaction
+    the function raised   the worker has split it already (`campaign.chunk`): rows with the status RAISED
+    the worker died       a new executor; all lost chunks again, one at a time; then record by record
+    Ctrl-C, an error      chunks that are finished are stored, the others are dropped; the same call goes on
 """
 
 from __future__ import annotations

@@ -10,6 +10,9 @@ transaction of SQLite's write-ahead log with synchronous = FULL: all of them are
 file, which the operating system releases with its process, keeps a second writer away.
 
 `campaign.store_open` opens files, `campaign.execute` writes them, `bench.sweep` reads them.
+
+A study with two points that have the same record (two cases whose values are the same, say) has two rows in
+`points` and one in `runs`. Reading while another process writes is possible at any time.
 """
 
 from __future__ import annotations

@@ -9,6 +9,13 @@ once: the workers ignore it and the parent alone answers, by storing what is fin
 while processes start, so that none is left running unknown. And workers end when their parent is killed.
 
 Used by `campaign.execute` and `campaign.pool`; `campaign.dask_cluster` adds the workers of a cluster.
+
+What a number, a class or an executor means where workers are asked for (`workers_of`):
+
+    None, 4          processes of this machine, one per core or four
+    Threads(4)       threads of this process
+    Cluster("..")    workers of a Dask scheduler (`campaign.dask_cluster`)
+    an Executor      any other of `concurrent.futures`, used as it is
 """
 
 from __future__ import annotations

@@ -4,6 +4,19 @@ A `Plan` says what was asked for (preset, pushes, quick or full); `tasks` turns 
 `campaign.pool`, each of a function here or in a neighbouring module. The first word of a task's name is its
 kind, by which `paper.results` sorts what comes back. Integration steps are chosen so that halving them changes
 no figure of merit by more than 1 % (`paper.convergence`); stiffer situations have shorter ones.
+
+Kinds of tasks, and how many there are in a full plan:
+
+    headline (2)      the pushed walks of figures 4 to 6, kept whole
+    engines (2)       the pushed step on both engines
+    multipliers (3)   walking cycles under NPD and ADRC
+    claims (7)        the evidence for the claims (`paper.claims.evidence`)
+    model (3)         laws of the model at random states
+    numerics (1)      orders of the methods
+    return map (1)    samples of Theta' before one impact and the next
+    recipe (6)        gait (b)
+    map (60)          parts of the map of pushes
+    others            walks of `base_runs`
 """
 
 from __future__ import annotations

@@ -7,6 +7,15 @@ polynomial outside of its range.
 
 Every walk is computed at two integration steps. A cell in which they end differently is marginal, and no claim
 rests on it. Tasks of `paper.plan`; read by `paper.tables`, the claims, and `viz.plots.push_map`.
+
+What a walk can be:
+
+    legal      makes all steps within friction, torque limits and without scuffing
+    pulled     makes all steps; the mean normal force was negative, a real foot would have left the ground
+    made       makes all steps, and breaks another limit
+    fell       the robot fell
+    ended      ended otherwise, such as a step that takes too long
+    marginal   another word or status at half of the integration step
 """
 
 from __future__ import annotations

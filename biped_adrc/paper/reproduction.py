@@ -5,6 +5,10 @@
 Written to the output folder: figures (PNG, SVG, JSON), the two headline runs (npz and JSON), walk.html,
 summary.json and report.html. Each file is written whole or not at all, so that an interrupted run leaves
 readable files. The command `reproduce` calls this; its exit code says whether all checks hold.
+
+In summary.json: `holds` and `checks` (what is asserted), `claims` (the table of the paper's claims) with
+`claims_evidence`, `tables` and `findings` (what the report shows), `convergence` (every figure of merit at two
+steps), `settings` and `versions`, and the wall time of each task.
 """
 
 from __future__ import annotations

@@ -3,6 +3,8 @@
 Tasks have names such as "multipliers ADRC" or "recipe tac2003 NPD": the first word is the kind, the rest the
 key in that kind's mapping. Names of no kind are walks. Made by `paper.reproduction`; read by `paper.verdicts`,
 `paper.tables`, `paper.pictures` and the claims.
+
+A missing kind is an empty mapping, so that a quick plan, which has no map of pushes, needs no other type.
 """
 
 from __future__ import annotations

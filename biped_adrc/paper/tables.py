@@ -2,6 +2,8 @@
 
 The wording of the findings is in findings.toml, with the values in braces; a function here computes the values
 of each sentence. Called by `paper.reproduction`; the report (`viz.pages`) renders both.
+
+Cells are numbers, texts, lists or None; how they are rounded is decided by the report.
 """
 
 from __future__ import annotations

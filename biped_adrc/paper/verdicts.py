@@ -6,6 +6,12 @@ computed from the runs, none is typed in. Where NaN may occur NumPy's max and mi
 over it and a check would hold without a number.
 
 Called by `paper.reproduction`, which writes the checks to the summary and sets the exit code.
+
+Kinds of checks (`checks.KINDS`) and what a broken one means:
+
+    law           the program is wrong: physics or numerics
+    consistency   a gait does not do what it was designed for
+    reproduced    the paper's statement does not hold for this robot
 """
 
 from __future__ import annotations

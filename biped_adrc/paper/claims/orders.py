@@ -4,6 +4,9 @@ The paper says that more extended states avoid high gains. Two observers with m 
 Table I: one of the same bandwidth, one of the same delay margin, since a comparison of gains alone depends on
 which of the two is kept. Linear closed forms give gains, noise and errors (`observer_design.observer_loop`);
 the error under the push comes from a walk. Part of `claims.evidence`; judged in `rows_control.high_gains`.
+
+The observer of order m estimates position, rate, xi and the first m - 1 derivatives of xi, with m + 2 poles: of
+Table I there are nine, so that m = 7.
 """
 
 from __future__ import annotations
@@ -30,7 +33,7 @@ class Order(NamedTuple):
     name: str
     """For a reader."""
     m: int
-    """Its order: m + 1 derivatives of the disturbance are modelled as slow; it has m + 2 poles."""
+    """Number of extended states: xi and its first m - 1 derivatives; the observer has m + 2 poles."""
     bandwidth: float
     """Geometric mean of the poles [rad/s]."""
     largest_gain: float

@@ -5,6 +5,13 @@ converged in the integration step, or its verdict is another at half of the step
 cases. A claim is replicated only when every case declared is firm and holds, contradicted when none holds, and
 depends on the choice otherwise. Called by the rows (`rows_*`); the words are defined for the reader in
 claims.toml.
+
+Of cases that were run, with h firm cases that hold and m marginal ones:
+
+    no firm case             not testable
+    h = all cases (m = 0)    replicated
+    h = 0                    contradicted
+    otherwise                depends
 """
 
 from __future__ import annotations

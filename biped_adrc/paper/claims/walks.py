@@ -5,6 +5,10 @@ with that of the same step without a push. Peaks are taken of an interpolant, si
 between two nodes. Walks start on the orbit of their gait at the pushed step.
 
 Runs the members of `claims.admissible`; also the parts that `claims.evidence` and `claims.orders` use.
+
+For each member and controller these are simulated: the pushed step at h and h/2, the same without a push
+(shared by all pushes on that walk), and four impacts at the longer step for what comes later, at that step and
+at half.
 """
 
 from __future__ import annotations

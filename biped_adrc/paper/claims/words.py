@@ -3,6 +3,15 @@
 Wording is kept apart from computing: claims.toml has for each claim where the paper says it, what the number
 means and why the word is what it is, with braces for values; "like" takes the texts of another claim. The rows
 (`rows_*`) compute values and call `limited`, `row` or `told`.
+
+An entry of claims.toml, whose check is part of the reproduction since it is asserted:
+
+    [unaffected]
+    claim = "Figure 6: the limit cycle of ADRC 'has not been affected by the external disturbances'"
+    where = "VI"
+    number = "change of Theta' at the impact after the push: ADRC at most {adrc:.1e} rad/s, ..."
+    reason = "holds up to {limit[cycle]:g} rad/s. ..."
+    asserted = true
 """
 
 from __future__ import annotations
