@@ -2,7 +2,7 @@
 
 Rows are read from the results file and written one block at a time, so that a study larger than memory can be
 exported. A row has what is varied, then the results (`Sweep.names`). Called by the command `sweep`
-(--export, --map); what a map shows is decided by `viz.plots.sweep_maps`.
+(--export, --plot); what a map shows is decided by `viz.plots.sweep_maps`.
 """
 
 from __future__ import annotations
