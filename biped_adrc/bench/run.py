@@ -17,7 +17,7 @@ from biped_adrc.analysis.legality import outcome_of
 from biped_adrc.bench.build import case, scene_of
 from biped_adrc.bench.parameters import trial
 from biped_adrc.campaign.chunk import NO_WALK, REFUSED
-from biped_adrc.engine.batch import Case, Walked, run_case
+from biped_adrc.engine.batch import BatchWalk, Case, run_case
 from biped_adrc.errors import BipedError
 from biped_adrc.hardware.meter import LARGEST_RATIO, Reading, reading
 from biped_adrc.hybrid.status import Status
@@ -55,7 +55,7 @@ def run_trial(record: Mapping[str, Any]) -> Row:
     return _row(measured(s, made, run()))
 
 
-def measured(s: Scenario, made: Case, walked: Walked) -> Row:
+def measured(s: Scenario, made: Case, walked: BatchWalk) -> Row:
     """The numbers of a walk."""
     status = walked.status.name
     row: Row = {
@@ -75,7 +75,7 @@ def measured(s: Scenario, made: Case, walked: Walked) -> Row:
     return row
 
 
-def _pace(s: Scenario, made: Case, walked: Walked) -> Row:
+def _pace(s: Scenario, made: Case, walked: BatchWalk) -> Row:
     """How far and how fast."""
     if walked.impacts == 0:
         return {"distance": 0.0}
@@ -92,7 +92,7 @@ def _pace(s: Scenario, made: Case, walked: Walked) -> Row:
     }
 
 
-def _meter(made: Case, walked: Walked, row: Row) -> Row:
+def _meter(made: Case, walked: BatchWalk, row: Row) -> Row:
     """What the ticks counted."""
     w = made.walker
     g, distance = reading(w.held_at(walked.final_state).g), row["distance"]
@@ -108,7 +108,7 @@ def _meter(made: Case, walked: Walked, row: Row) -> Row:
     }
 
 
-def _legality(made: Case, walked: Walked, g: Reading) -> Row:
+def _legality(made: Case, walked: BatchWalk, g: Reading) -> Row:
     """What ground and motors had to give, and whether they can."""
     k = made.walker.meter.limits.of(made.walker.plant.description)  # type: ignore[union-attr]
     legal, known = g.illegal_step == 0.0, g.windows > 0.0

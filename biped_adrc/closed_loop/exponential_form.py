@@ -28,7 +28,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -71,7 +71,7 @@ class LoopParameters(NamedTuple):
 class SplitLaws(NamedTuple):
     """The pure functions behind a split, and its linear part as data."""
 
-    parameters: Any
+    parameters: ErrorParameters | LoopParameters
     """k, a NamedTuple."""
     A: Array
     """(k, k) [1/s]."""
@@ -117,7 +117,7 @@ def error_remainder(
 
 
 # -- the feedback in it too ----------------------------------------------------------------------
-def loop_row(k: LoopParameters, theta: Any) -> tuple[Array, Array]:
+def loop_row(k: LoopParameters, theta: float) -> tuple[Array, Array]:
     """r and dr/dTheta at theta [rad], each (n,)."""
     r, dr, _ = curve(k.r, k.h.rate * (theta - k.h.theta_plus))
     return r, k.h.rate * dr
@@ -153,7 +153,7 @@ def loop_velocity(k: LoopParameters, w: Array, E: Array) -> Array:
     return along * ((w[1] - r @ aside) / (r @ along)) + aside
 
 
-def _with_unactuated(k: LoopParameters, theta: Any, q_b: Array) -> Array:
+def _with_unactuated(k: LoopParameters, theta: float, q_b: Array) -> Array:
     """(q_b, q_N) with phase theta; of angles, rates or displacements."""
     return np.concatenate((q_b, (theta - k.h.c[: k.p] @ q_b) / k.h.c[k.p :]))
 
@@ -270,7 +270,7 @@ def forcing(laws: SplitLaws, w: Array, E: Array, i: Instant, ds: Array) -> tuple
     return laws.remainder(k, w, E, i.a, i.measurement.terms.kappa @ i.u, ds[k.order * k.p :])
 
 
-def split_of(loop: Loop, laws: SplitLaws, mode: Any) -> Split:
+def split_of(loop: Loop, laws: SplitLaws, mode: Mode) -> Split:
     """The closed loop in these coordinates."""
     k = laws.parameters
 

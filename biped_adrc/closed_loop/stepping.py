@@ -32,10 +32,10 @@ from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import Record, RunOptions
-from biped_adrc.hybrid.system import Found, Mover
+from biped_adrc.hybrid.system import FoundEvent, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
 from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ class SteppingLoop(ClosedLoop[Any]):
         return self.torque_limit
 
     @property
-    def swap(self) -> Any:
+    def swap(self) -> Indices:
         return self.plant.swap
 
     @property
@@ -112,7 +112,7 @@ class SteppingLoop(ClosedLoop[Any]):
 
     def move(
         self, t: float, x: Array, mode: Mode, until: float, record: Record
-    ) -> tuple[float, Array, Found | None]:
+    ) -> tuple[float, Array, FoundEvent | None]:
         """From a tick to the next, or to a contact, as `hybrid.system.Mover`."""
         (q, v, _, tail), k = parts(self, x), self.held
         assert k is not None
@@ -132,18 +132,18 @@ class SteppingLoop(ClosedLoop[Any]):
         t, x_minus = moved.state.t, rows[-1]
         return t, x_minus, self.found(t, x_minus, mode, moved) if moved.contacts else None
 
-    def found(self, t: float, x: Array, mode: Mode, moved: Advanced) -> Found:
+    def found(self, t: float, x: Array, mode: Mode, moved: Advanced) -> FoundEvent:
         """The event of the contacts, and the controller's jump."""
         (name, impulse, ends), state = together(moved.contacts), moved.state
         if ends is not None:
-            return Found(Event(name, t, x, None), None, ends)
+            return FoundEvent(Event(name, t, x, None), None, ends)
         if not np.all(np.isfinite([*state.q, *state.v, *state.own, *impulse])):
             raise NotFiniteError(
                 f"{name} at t = {t:.6g} s: its impulse or the state after it is not finite"
             )
         after = Mode(mode.step + 1, t)
         x_plus = self.with_plant(landed(self, t, x, state.q, state.v, impulse, after), state)
-        return Found(Event(name, t, x, x_plus), (x_plus, after))
+        return FoundEvent(Event(name, t, x, x_plus), (x_plus, after))
 
     def keep(self, t: Array, x: Array, u: Array, mode: Mode, record: Record) -> None:
         """Each `store_every`-th of K nodes, t (K,) and x (K, ..), both ends among them.

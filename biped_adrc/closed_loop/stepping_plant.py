@@ -10,14 +10,14 @@ is a SimulationError. Values that are not finite pass: the loop ends the run wit
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from biped_adrc.errors import BipedError, InputError, SimulationError
 from biped_adrc.hybrid.integrators import StepFailed
 from biped_adrc.hybrid.status import Status
-from biped_adrc.types import Array, read_only
+from biped_adrc.types import Array, Indices, read_only
 
 ROUND_OFF = 1e-9
 """[s] by which a plant's own clock may differ from the time that it was to reach."""
@@ -64,7 +64,7 @@ class SteppingPlant(Protocol):
     @property
     def p(self) -> int: ...
     @property
-    def swap(self) -> Any:
+    def swap(self) -> Indices:
         """Relabelling of the motors at a touchdown (p,), dtype int; `arange(p)` for none."""
 
     def start(self, t: float, q: Array, v: Array) -> PlantState:
@@ -133,7 +133,7 @@ def advanced(
     return _in_time(who, state.t, until, Advanced(after, tuple(contacts), tuple(nodes)))
 
 
-def _called(who: str, method: Callable[..., Any], *given: Any) -> Any:
+def _called(who: str, method: Callable[..., object], *given: object) -> object:
     """method(*given); what it raises of its own is a SimulationError that names it."""
     try:
         return method(*given)
@@ -146,7 +146,7 @@ def _called(who: str, method: Callable[..., Any], *given: Any) -> Any:
         ) from error
 
 
-def _numbers(what: str, found: Any, shape: tuple[int, ...]) -> Array:
+def _numbers(what: str, found: object, shape: tuple[int, ...]) -> Array:
     """A copy in float64."""
     try:
         numbers = np.array(found, dtype=float)
@@ -157,13 +157,13 @@ def _numbers(what: str, found: Any, shape: tuple[int, ...]) -> Array:
     return numbers
 
 
-def _tuple(what: str, found: Any) -> tuple[Any, ...]:
+def _tuple(what: str, found: object) -> tuple[object, ...]:
     if type(found) is not tuple:
         raise InputError(f"{what} is {found!r:.60}, expected a tuple")
     return found
 
 
-def _state(what: str, found: Any, n: int, own: int | None) -> PlantState:
+def _state(what: str, found: object, n: int, own: int | None) -> PlantState:
     if not isinstance(found, PlantState):
         raise InputError(f"{what} is {found!r:.60}, expected a PlantState(t, q, v, own)")
     return PlantState(
@@ -174,7 +174,7 @@ def _state(what: str, found: Any, n: int, own: int | None) -> PlantState:
     )
 
 
-def _contact(what: str, found: Any) -> Contact:
+def _contact(what: str, found: object) -> Contact:
     if not isinstance(found, Contact) or not isinstance(found.name, str):
         raise InputError(f"{what} is {found!r:.60}, expected a Contact(name, impulse, ends)")
     if found.ends is not None and (not isinstance(found.ends, Status) or found.ends.ok):

@@ -18,10 +18,10 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.tables import STATUS
+from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
-from biped_adrc.engine.run import COMPILED, PINOCCHIO
-from biped_adrc.engine.simulate import COMPILED_PLANT, on_compiled_plant
+from biped_adrc.engine.run import COMPILED, COMPILED_PLANT, PINOCCHIO
+from biped_adrc.engine.simulate import on_compiled_plant
 from biped_adrc.errors import BipedError, InputError, ModelError, NotFiniteError, SingularError
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -59,7 +59,7 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Walked:
+class BatchWalk:
     """What one walk of a batch leaves; M impacts, states of nx numbers."""
 
     status: Status
@@ -92,7 +92,7 @@ def simulate_many(
     cases: Iterable[Case],
     threads: int | None = None,
     progress: Callable[[int], None] | None = None,
-) -> Iterator[Walked]:
+) -> Iterator[BatchWalk]:
     """The walks in the order of their cases, made in parallel threads and handed over as they come.
 
     threads: number of cores without. `cases` may be a generator, of which a few are taken ahead. progress is
@@ -107,8 +107,8 @@ def simulate_many(
 
 def _in_order(
     cases: Iterator[Case], threads: int, progress: Callable[[int], None] | None
-) -> Iterator[Walked]:
-    waiting: deque[Future[Walked]] = deque()
+) -> Iterator[BatchWalk]:
+    waiting: deque[Future[BatchWalk]] = deque()
     kernels()  # here, so that no two threads compile at once
     with ThreadPoolExecutor(threads) as pool:
         try:
@@ -130,7 +130,7 @@ def _in_order(
                 future.cancel()
 
 
-def run_case(case: Case) -> Callable[[], Walked]:
+def run_case(case: Case) -> Callable[[], BatchWalk]:
     """What carries a case out, in any thread; parts of Python's and Pinocchio's are touched here only."""
     try:
         return _prepared(case)
@@ -144,7 +144,7 @@ def run_case(case: Case) -> Callable[[], Walked]:
         return _ended(case, Status.RAISED, f"{type(error).__name__}: {error}")
 
 
-def _prepared(case: Case) -> Callable[[], Walked]:
+def _prepared(case: Case) -> Callable[[], BatchWalk]:
     x = case.walker.initial_state(case.q, case.v, case.mode)
     if case.impacts < 1:
         raise InputError(f"the case asks for {case.impacts} impacts, expected at least 1")
@@ -158,20 +158,22 @@ def _prepared(case: Case) -> Callable[[], Walked]:
     return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
 
 
-def _ended(case: Case, status: Status, detail: str) -> Callable[[], Walked]:
+def _ended(case: Case, status: Status, detail: str) -> Callable[[], BatchWalk]:
     x, start = np.concatenate((case.q, case.v)), case.mode.start
     none = np.zeros((0, len(x)))
-    walked = Walked(status, detail, np.zeros(0), none, x, start, COMPILED, start)
+    walked = BatchWalk(status, detail, np.zeros(0), none, x, start, COMPILED, start)
     return lambda: walked
 
 
-def _strides(compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impacts: int) -> Walked:
+def _strides(
+    compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impacts: int
+) -> BatchWalk:
     """The walk from x at the start of the single support `mode`, in compiled code."""
     plan, nx = compiled.plan, len(x)
     s = plan.start(x, mode.start, mode.step, mode.start, t_end)
     strikes = np.zeros((impacts, 1 + 2 * nx))
     code, made = kernels().stride(plan.P, plan.F, compiled.K, plan.work(), s, impacts, strikes)
-    return Walked(
+    return BatchWalk(
         STATUS[code],
         "",
         strikes[:made, 0].copy(),
@@ -183,12 +185,12 @@ def _strides(compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impac
     )
 
 
-def _in_python(case: Case, x: Array, reason: BipedError) -> Walked:
+def _in_python(case: Case, x: Array, reason: BipedError) -> BatchWalk:
     """On the compiled plant, or on Pinocchio's where there is none."""
     run = on_compiled_plant if isinstance(reason, NotCompiled) else simulator.run
     made = run(case.walker, x, case.mode, case.method, case.options)
     events = made.events(FOOT_STRIKE)
-    return Walked(
+    return BatchWalk(
         made.status,
         made.detail,
         np.array([event.t for event in events]),
@@ -209,13 +211,13 @@ class Strides:
 
     def __call__(
         self, starts: Sequence[tuple[Array, Mode]], threads: int | None = None
-    ) -> list[Walked]:
+    ) -> list[BatchWalk]:
         """From every (x, mode), in their order."""
         kernels()
         with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
             return list(pool.map(self.one, starts))
 
-    def one(self, start: tuple[Array, Mode]) -> Walked:
+    def one(self, start: tuple[Array, Mode]) -> BatchWalk:
         """From x+ after an impact that began the single support of `mode`: its foot strike has just fired."""
         x, mode = start
         return _strides(self.compiled, x, mode, mode.start + self.t_end, 1)

@@ -10,18 +10,17 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, fields
 from functools import cached_property, partial
-from typing import Any
 
 import numpy as np
 
-from biped_adrc.engine.equations import Function, count
-from biped_adrc.engine.fingerprint import hash_of, skeleton, versions_text
+from biped_adrc.engine.equations import SymbolicFunction, count
+from biped_adrc.engine.fingerprint import hash_of, structure_text, versions_text
 from biped_adrc.engine.ir import generated
-from biped_adrc.engine.machine import Machine
-from biped_adrc.engine.mechanics import PlanarRobot, Robot, Structure, once_each, robot_of
+from biped_adrc.engine.machine import LoadedCode
+from biped_adrc.engine.mechanics import PlanarRobot, RobotData, RobotStructure, once_each, robot_of
 from biped_adrc.engine.symbols import Vector, column, floats
 from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
@@ -29,12 +28,14 @@ from biped_adrc.model.planar import EXACT, PlantArrays
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.types import Array
 
+Shape = tuple[int, ...]
+
 SAMPLES = 50
 """Random states at which the code is held against Pinocchio."""
 _C = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 
 
-def pointer_call(machine: Machine, name: str, K: Array, inp: Array, out: Array) -> None:
+def pointer_call(machine: LoadedCode, name: str, K: Array, inp: Array, out: Array) -> None:
     """A function for every row of inp (N, inputs) and out (N, outputs), both contiguous float64."""
     function = _C(machine.addresses[name])
     at, given, result = K.ctypes.data, inp.ctypes.data, out.ctypes.data
@@ -43,7 +44,7 @@ def pointer_call(machine: Machine, name: str, K: Array, inp: Array, out: Array) 
         given, result = given + inp.strides[0], result + out.strides[0]
 
 
-def parts_of(rows: Array, shapes: Any) -> Iterator[Array]:
+def parts_of(rows: Array, shapes: Iterable[Shape]) -> Iterator[Array]:
     """Arrays of these shapes that lie one after the other in `rows` (size,) or (N, size)."""
     at = 0
     for shape in shapes:
@@ -55,7 +56,7 @@ def parts_of(rows: Array, shapes: Any) -> Iterator[Array]:
 class Call:
     """One function with its own input and output arrays."""
 
-    def __init__(self, machine: Machine, name: str, K: Array, inputs: int, outputs: int):
+    def __init__(self, machine: LoadedCode, name: str, K: Array, inputs: int, outputs: int):
         self.owner, self.K = machine, K
         self.inp, self.out = np.zeros(inputs), np.zeros(max(1, outputs))
         self._function = _C(machine.addresses[name])
@@ -73,7 +74,7 @@ class Call:
 class CompiledBiped(Biped):
     """A Biped with `reduction`, `acceleration` and `ground_reaction` in machine code; make it with `of`."""
 
-    robot: Robot | None = None
+    robot: RobotData | None = None
 
     @classmethod
     def of(cls, biped: Biped) -> CompiledBiped:
@@ -111,7 +112,9 @@ class CompiledBiped(Biped):
     def _calls(self) -> dict[str, Call]:
         robot = self.robot
         assert robot is not None
-        key = hash_of("plant", skeleton(robot.structure), skeleton(robot.arrays), versions_text())
+        key = hash_of(
+            "plant", structure_text(robot.structure), structure_text(robot.arrays), versions_text()
+        )
         code = generated(key, plant_functions(robot.structure, robot.arrays))
         K, n = np.array([*floats(robot.arrays), 0.0]), self.n
         sizes = {
@@ -123,10 +126,10 @@ class CompiledBiped(Biped):
         return {name: Call(code, name, K, *size) for name, size in sizes.items()}
 
     @cached_property
-    def shapes(self) -> Reduction:
+    def shapes(self) -> tuple[Shape, ...]:
         """Of the parts of a `Reduction`, which `terms` gives one after the other."""
         n, p = self.n, self.p
-        return Reduction(*((n, n), (n,), (p, p), (p,), (p, p), (n - p, p), (n - p,)))  # type: ignore[arg-type]
+        return (n, n), (n,), (p, p), (p,), (p, p), (n - p, p), (n - p,)
 
     @property
     def size(self) -> int:
@@ -157,8 +160,8 @@ def _compiled(biped: Biped) -> CompiledBiped:
 
 
 def plant_functions(
-    structure: Structure, example: PlantArrays
-) -> dict[str, Callable[[], Function]]:
+    structure: RobotStructure, example: PlantArrays
+) -> dict[str, Callable[[], SymbolicFunction]]:
     """By name; `terms` and `body` give the parts of their tuples one after the other.
 
     K has symbols for the floats of the example.
@@ -166,10 +169,10 @@ def plant_functions(
     K = Vector("K", count(example))
     robot = PlanarRobot.of(structure, K.like(example))
 
-    def function(law: Callable[..., Any], given: int) -> Function:
+    def function(law: Callable[..., Iterable[Array]], given: int) -> SymbolicFunction:
         inp = Vector("inp", given * robot.n)
         parts = law(*(inp.take(robot.n) for _ in range(given)))
-        return Function(K.symbol, inp.symbol, column(*parts))
+        return SymbolicFunction(K.symbol, inp.symbol, column(*parts))
 
     return {
         "terms": partial(function, robot.reduction, 2),

@@ -7,32 +7,33 @@ above 0, out is zero and the rest is not computed.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from biped_adrc.closed_loop.exponential_form import SplitLaws
 from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.composed import written_over
 from biped_adrc.control.passive import Passive
 from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, disturbance_laws
-from biped_adrc.engine.equations import Function, count
-from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
+from biped_adrc.engine.equations import SymbolicFunction, count
+from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.kernels import methods
-from biped_adrc.engine.kernels.tables import (
-    Clock,
-    Code,
-    Method,
-    Plan,
-    PushCode,
-    Scene,
-    Sizes,
+from biped_adrc.engine.kernels.run_plan import (
+    ClockTable,
+    DisturbanceTable,
+    GroundTable,
+    LawAddresses,
+    MethodTable,
+    RunPlan,
+    StateSizes,
     plan,
 )
-from biped_adrc.engine.machine import Machine, Text, remembered
+from biped_adrc.engine.machine import LoadedCode, ModuleText, remembered
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.symbols import Tracer, Untraceable, Vector, column, floats, run
 from biped_adrc.errors import InputError
@@ -47,7 +48,7 @@ class CompiledWalker:
 
     walker: Walker
     program: Program
-    plan: Plan
+    plan: RunPlan
 
     @property
     def K(self) -> Array:
@@ -66,11 +67,11 @@ class CompiledWalker:
         split, made = _method(walker, method)
         program = Program.of(walker, size, split)
         time = walker.timing
-        clock = Clock()
+        clock = ClockTable()
         if isinstance(time, SampledTime):
             assert walker.held is not None
             part = walker.held.motors.fraction * time.period if walker.held.sizes.waiting else 0.0
-            clock = Clock(time.period, int(time.restart), t_first, part)
+            clock = ClockTable(time.period, int(time.restart), t_first, part)
         return cls(walker, program, _plan(walker, program, split, clock, made))
 
     @classmethod
@@ -86,37 +87,41 @@ class CompiledWalker:
         )
         split, made = _method(bare, method)
         program = Program.of(bare, 0, split)
-        return cls(bare, program, _plan(bare, program, split, Clock(), made))
+        return cls(bare, program, _plan(bare, program, split, ClockTable(), made))
 
 
 def _plan(
-    walker: Walker, program: Program, split: SplitLaws | None, clock: Clock, method: Method
-) -> Plan:
+    walker: Walker,
+    program: Program,
+    split: SplitLaws | None,
+    clock: ClockTable,
+    method: MethodTable,
+) -> RunPlan:
     n, p, nx = walker.plant.n, walker.plant.p, program.nx
     stiff = 0 if split is None else len(split.A)
     flows = walker.held is None or walker.held.sizes.lag  # the torque of the motors, then all does
     drops = np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2)
     return plan(
-        Code(*(program.address(name) for name in Code._fields)),
-        Sizes(n, nx, p, nx - stiff * p, stiff, nx if flows else 2 * n),
-        Scene(LEAST_STEP, drops),
+        LawAddresses(*(program.address(name) for name in LawAddresses._fields)),
+        StateSizes(n, nx, p, nx - stiff * p, stiff, nx if flows else 2 * n),
+        GroundTable(LEAST_STEP, drops),
         _push(walker.disturbance, n),
         clock,
         method,
     )
 
 
-FORMS: dict[str, Callable[[Any], Method] | None] = {
+FORMS: Mapping[str, Callable[[Any], MethodTable] | None] = {
     "rk4": lambda m: methods.rk4(m.h),
     "dop853": lambda m: methods.dop853(m.rtol, m.atol, m.max_step),
     "etd": None,
 }
 """By `OneStepMethod.compiled_form`; None for the one that needs coordinates too."""
-_MATRICES: dict[tuple[Any, ...], Method] = {}
+_MATRICES: dict[tuple[float, bytes, tuple[int, ...]], MethodTable] = {}
 """Of the exponential method, by its step and linear part; made once, by one thread."""
 
 
-def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Method]:
+def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, MethodTable]:
     form: Any = method
     written = written_over(method, "compiled_form", frozenset(("steps", "split")))
     known = method.compiled_form in FORMS
@@ -139,16 +144,16 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Me
     return split, _MATRICES[key]
 
 
-def _push(disturbance: Disturbance | None, n: int) -> PushCode:
+def _push(disturbance: Disturbance | None, n: int) -> DisturbanceTable:
     if disturbance is None:
-        return PushCode()
+        return DisturbanceTable()
     laws = disturbance_laws(disturbance)
     for law in laws:
         if law.obstacle:
             raise NotCompiled(f"{law.obstacle}; the run goes on in Python on the compiled plant")
     codes = [disturbance_code(law, n) for law in laws]
     numbers = [np.array([*floats(law.parameters), 0.0]) for law in laws]
-    return PushCode(
+    return DisturbanceTable(
         np.array([code.addresses["torque"] for code in codes], dtype=np.int64),
         np.concatenate([np.zeros(0), *numbers]),
         np.cumsum([0, *(len(k) for k in numbers)]),
@@ -174,30 +179,39 @@ rest:
 """
 
 
-def disturbance_code(law: DisturbanceLaw, n: int) -> Machine:
+Part = tuple[Callable[..., Array], int]
+"""A law, and how many numbers it gives."""
+
+
+def disturbance_code(law: DisturbanceLaw, n: int) -> LoadedCode:
     """With the functions `torque` and, where there is one, `resultant`. Raises NotCompiled."""
-    parts = {"torque": (law.torque, n), "resultant": (law.resultant, 2)}
-    given = {name: part for name, part in parts.items() if part[0] is not None}
+    given: dict[str, Part] = {"torque": (law.torque, n)}
+    if law.resultant is not None:
+        given["resultant"] = law.resultant, 2
     try:
         texts = [law_text(part[0]) for part in given.values()]
-        texts += [law_text(law.active), skeleton(law.parameters), versions_text()]
+        texts += [law_text(law.active), structure_text(law.parameters), versions_text()]
         key = hash_of("disturbance", n, *given, *texts)
         return remembered(key, list(given), lambda: _text(law, given, n))
     except Untraceable as error:
         raise NotCompiled(f"{error}; the run goes on in Python on the compiled plant") from error
 
 
-def _text(law: DisturbanceLaw, parts: dict[str, Any], n: int) -> Text:
+def _text(law: DisturbanceLaw, parts: dict[str, Part], n: int) -> ModuleText:
     if law.active is None:
-        return Text(module_text({name: _function(law, n, *part) for name, part in parts.items()}))
+        return ModuleText(
+            module_text({name: _function(law, n, *part) for name, part in parts.items()})
+        )
     functions = {"active": _function(law, n, law.active, 1, timed=True)}
     functions |= {f"{name}_acting": _function(law, n, *part) for name, part in parts.items()}
     guarded = [GUARDED.format(name=name, bytes=8 * size) for name, (_, size) in parts.items()]
     clear = "declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)"
-    return Text("\n".join([module_text(functions), clear, *guarded]))
+    return ModuleText("\n".join([module_text(functions), clear, *guarded]))
 
 
-def _function(law: DisturbanceLaw, n: int, part: Any, size: int, timed: bool = False) -> Function:
+def _function(
+    law: DisturbanceLaw, n: int, part: Callable[..., ArrayLike], size: int, timed: bool = False
+) -> SymbolicFunction:
     """A law of n coordinates on symbols. Raises InputError where it gives another number than `size`."""
     K, inp = Vector("K", count(law.parameters)), Vector("inp", 3 + 2 * n)
     k, at = K.like(law.parameters), (inp.take(), inp.take(), inp.take())
@@ -207,4 +221,4 @@ def _function(law: DisturbanceLaw, n: int, part: Any, size: int, timed: bool = F
         raise InputError(
             f"law '{part.__qualname__}' of a disturbance gives {found.numel()} numbers, expected {size}"
         )
-    return Function(K.symbol, inp.symbol, found)
+    return SymbolicFunction(K.symbol, inp.symbol, found)

@@ -13,18 +13,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar
 
+import casadi as ca
 import numpy as np
+from numpy.typing import ArrayLike
 
-from biped_adrc.closed_loop import exponential_form as split
-from biped_adrc.closed_loop import semantics
-from biped_adrc.closed_loop.exponential_form import SplitLaws
+from biped_adrc.closed_loop import exponential_form, semantics
+from biped_adrc.closed_loop.exponential_form import ErrorParameters, LoopParameters, SplitLaws
 from biped_adrc.closed_loop.semantics import Mode
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.engine.kernels.layout import OUTSIDE
-from biped_adrc.engine.mechanics import PlanarRobot, Structure
+from biped_adrc.engine.mechanics import PlanarRobot, RobotStructure
 from biped_adrc.engine.symbols import (
+    Scalar,
     Tracer,
     Vector,
     column,
@@ -37,16 +39,20 @@ from biped_adrc.errors import InputError
 from biped_adrc.hardware.meter import Outside
 from biped_adrc.hardware.sample_hold import HeldParameters, HeldSizes
 from biped_adrc.model.planar import PlantArrays
-from biped_adrc.types import Array
+from biped_adrc.observers.base import Estimate
+from biped_adrc.types import Array, Indices
+
+T = TypeVar("T")
+NONE = np.zeros(0)
 
 
-class Numbers(NamedTuple):
+class WalkerNumbers(NamedTuple):
     """All that is given at run time, in the order of the vector K."""
 
     plant: PlantArrays
     model: PlantArrays | None
     """Of the controller, None where it is the plant."""
-    k: Any
+    k: tuple[object, ...]
     """Parameters of the controller's laws."""
     torque_limit: float
     """[N m], infinite without."""
@@ -59,16 +65,16 @@ class Numbers(NamedTuple):
     """Viscous [N m s] and static [N m] of the coordinates, empty without."""
     held: HeldParameters | tuple[()] = ()
     """Of what is held between ticks, empty in continuous time."""
-    impact_gain: Any = ()
+    impact_gain: Array = NONE
     """(n,) of v+, empty without."""
-    split: Any = ()
+    split: ErrorParameters | LoopParameters | tuple[()] = ()
     """Parameters of the split's laws, empty without."""
 
 
-class Make(NamedTuple):
+class WalkerStructure(NamedTuple):
     """What the equations are made of, besides numbers."""
 
-    robot: Structure
+    robot: RobotStructure
     laws: ControllerLaws
     size: int
     """Of the controller's state."""
@@ -85,38 +91,55 @@ class Make(NamedTuple):
         return 2 * self.robot.n + self.size + (0 if self.held is None else self.held.total)
 
 
-class Function(NamedTuple):
+class SymbolicFunction(NamedTuple):
     """`void f(double* K, double* inp, double* out)` as CasADi's columns."""
 
-    K: Any
-    inp: Any
-    out: Any
+    K: ca.SX
+    inp: ca.SX
+    out: ca.SX
 
 
-def laws_on(trace: Tracer, laws: ControllerLaws, k: Any, p: int, size: int) -> ControllerLaws:
+class TracedLaws(NamedTuple):
+    """The laws of a controller for symbols, a `semantics.ControlLaw`: none is missing, none takes parameters."""
+
+    output: Callable[..., Array]
+    flow: Callable[..., Array]
+    jump: Callable[..., Array]
+    correct: Callable[..., Array]
+    predict: Callable[..., Array]
+    estimate: Callable[..., Estimate | None]
+
+
+def laws_on(trace: Tracer, laws: ControllerLaws, k: object, p: int, size: int) -> TracedLaws:
     """The laws for symbols, without their parameters k; one that is not there leaves the state as it is.
 
     Raises InputError for one that gives another number than p torques or `size` numbers of the state.
     """
 
-    def said(name: str) -> Any:
-        law, expected = getattr(laws, name), {"output": p, "estimate": None}.get(name, size)
+    def traced(name: str, expected: int) -> Callable[..., Array]:
+        law: Callable[..., Array] | None = getattr(laws, name)
+        if law is None:
+            return lambda s, *rest: s
 
-        def called(*arguments: Any) -> Any:
+        def called(*arguments: object) -> Array:
             found = run(trace, law, k, *arguments)
-            if expected is not None and np.shape(found) != (expected,):
+            if np.shape(found) != (expected,):
                 raise InputError(
                     f"law {name} gives an array of shape {np.shape(found)}, expected ({expected},)"
                 )
             return found
 
-        return called if law is not None else lambda s, *rest: s
+        return called
 
-    made = laws._replace(**{name: said(name) for name in LAWS})
-    return made if laws.estimate is not None else made._replace(estimate=lambda s, m: None)
+    def estimate(s: Array, m: Measurement) -> Estimate | None:
+        return None if laws.estimate is None else run(trace, laws.estimate, k, s, m)
+
+    flow, jump, correct, predict = (traced(name, size) for name in STATE_LAWS)
+    return TracedLaws(traced("output", p), flow, jump, correct, predict, estimate)
 
 
-LAWS = ("output", "flow", "jump", "correct", "predict", "estimate")
+STATE_LAWS = ("flow", "jump", "correct", "predict")
+"""Those that give the controller's state or its slope."""
 
 
 class SymbolicLoop(NamedTuple):
@@ -125,43 +148,43 @@ class SymbolicLoop(NamedTuple):
     plant: PlanarRobot
     nominal: PlanarRobot
     exact: bool
-    law: Any
+    law: TracedLaws
     held: HeldParameters | None
-    swap: Any
-    gain: Any
-    limit: Any
-    zeta: Any
-    given: Any
+    swap: Indices
+    gain: Array
+    limit: float
+    zeta: Array
+    given: Array
 
-    def measure(self, t: Any, q: Any, v: Any, mode: Mode) -> Measurement:
+    def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
         return semantics.measurement(self, t, q, v, mode, body=True)
 
-    def saturate(self, u: Any) -> Any:
+    def saturate(self, u: Array) -> Array:
         return np.array([minimum(maximum(x, -self.limit), self.limit) for x in u], dtype=object)
 
-    def external(self, t: Any, q: Any, v: Any, mode: Mode) -> Any:
+    def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         return self.zeta
 
-    def outside(self, t: Any, mode: Mode) -> Outside:
+    def outside(self, t: float, mode: Mode) -> Outside:
         return Outside(self.given[:2], self.given[2:4], self.given[4])
 
 
-class At(NamedTuple):
+class SymbolicInstant(NamedTuple):
     """The symbols of one instant, and the loop that they are given to."""
 
     inp: Vector
     trace: Tracer
     loop: SymbolicLoop
-    t: Any
-    x: Any
+    t: float
+    x: Array
     mode: Mode
 
-    def does(self, function: Callable[..., Any], *more: Any) -> Any:
+    def does(self, function: Callable[..., T], *more: object) -> T:
         """A function of `semantics` here."""
         return self.trace(function)(self.loop, self.t, self.x, self.mode, *more)
 
 
-def count(example: Any) -> int:
+def count(example: object) -> int:
     """Length of the vector of numbers: one more than there are, so that it is never empty."""
     return 1 + sum(1 for _ in floats(example))
 
@@ -170,23 +193,23 @@ def count(example: Any) -> int:
 class Equations:
     """The functions of one make; K is CasADi's column of the symbols in `numbers`."""
 
-    make: Make
-    K: Any
-    numbers: Numbers
+    make: WalkerStructure
+    K: ca.SX
+    numbers: WalkerNumbers
 
     @classmethod
-    def of(cls, make: Make, example: Numbers) -> Equations:
+    def of(cls, make: WalkerStructure, example: WalkerNumbers) -> Equations:
         """With symbols for the floats of an example."""
         K = Vector("K", count(example))
         return cls(make, K.symbol, K.like(example))
 
     @staticmethod
-    def names(make: Make) -> list[str]:
+    def names(make: WalkerStructure) -> list[str]:
         """Of the functions that this make has."""
         split = [] if make.split is None else ["to", "back", "remainder"]
         return ["flow", "strike", "watch", *(["tick"] if make.held is not None else []), *split]
 
-    def loop(self, trace: Tracer, zeta: Any = None, given: Any = None) -> SymbolicLoop:
+    def loop(self, trace: Tracer, zeta: Array = NONE, given: Array = NONE) -> SymbolicLoop:
         """The closed loop."""
         K, make = self.numbers, self.make
         model = K.plant if K.model is None else K.model
@@ -203,37 +226,39 @@ class Equations:
             given=given,
         )
 
-    def at(self) -> At:
+    def at(self) -> SymbolicInstant:
         """The symbols (t, step, t_start, x, zeta, outside)."""
         n, trace = self.make.robot.n, Tracer()
         inp = Vector("inp", 3 + self.make.nx + n + OUTSIDE)
         t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.make.nx)
-        return At(inp, trace, self.loop(trace, inp.take(n), inp.take(OUTSIDE)), t, x, mode)
+        return SymbolicInstant(
+            inp, trace, self.loop(trace, inp.take(n), inp.take(OUTSIDE)), t, x, mode
+        )
 
-    def made(self, inp: Vector, *parts: Any) -> Function:
+    def made(self, inp: Vector, *parts: ArrayLike | Scalar) -> SymbolicFunction:
         """The function of these inputs."""
-        return Function(self.K, inp.symbol, column(*parts))
+        return SymbolicFunction(self.K, inp.symbol, column(*parts))
 
-    def flow(self) -> Function:
+    def flow(self) -> SymbolicFunction:
         """x' between events."""
         at = self.at()
         return self.made(at.inp, at.does(semantics.flow), at.trace.solver.least)
 
-    def tick(self) -> Function:
+    def tick(self) -> SymbolicFunction:
         """x after the controller has acted, and q'' there."""
         at, n = self.at(), self.make.robot.n
         x = at.does(semantics.tick)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
         return self.made(at.inp, x, at.trace.solver.least, a)
 
-    def strike(self) -> Function:
+    def strike(self) -> SymbolicFunction:
         """x after impact, relabelling and the controller's jump; `step` is the one that begins."""
         inp, trace = Vector("inp", 2 + self.make.nx), Tracer()
         t, step, x = inp.take(), inp.take(), inp.take(self.make.nx)
         x = trace(semantics.struck)(self.loop(trace), t, x, Mode(step, t))
         return self.made(inp, x, trace.solver.least)
 
-    def watch(self) -> Function:
+    def watch(self) -> SymbolicFunction:
         """What the guards look at."""
         K, plant = self.numbers, self.loop(Tracer()).plant
         inp = Vector("inp", 3 + plant.n)
@@ -246,31 +271,35 @@ class Equations:
     def _split(self, trace: Tracer) -> SplitLaws:
         """The split's laws, for symbols."""
         laws = self.make.split
+        k = self.numbers.split
         assert laws is not None
+        assert k
         traced = {name: trace(getattr(laws, name)) for name in ("to", "back", "remainder")}
-        return laws._replace(parameters=self.numbers.split, **traced)
+        return laws._replace(parameters=k, **traced)
 
-    def _coordinates(self, y: Any) -> tuple[Any, Any]:
+    def _coordinates(self, y: Array) -> tuple[Array, Array]:
         """w and E of y."""
         assert self.make.split is not None
         p = self.make.robot.p
         stiff = len(self.make.split.A) * p
         return y[: len(y) - stiff], y[len(y) - stiff :].reshape(-1, p)
 
-    def to(self) -> Function:
+    def to(self) -> SymbolicFunction:
         """y = (w, E) of x."""
         inp, trace = Vector("inp", self.make.nx), Tracer()
         return self.made(inp, *self._split(trace).to(self.numbers.split, inp.take(self.make.nx)))
 
-    def back(self) -> Function:
+    def back(self) -> SymbolicFunction:
         """x of y = (w, E)."""
         inp, trace = Vector("inp", self.make.nx), Tracer()
         w, E = self._coordinates(inp.take(self.make.nx))
         return self.made(inp, self._split(trace).back(self.numbers.split, w, E))
 
-    def remainder(self) -> Function:
+    def remainder(self) -> SymbolicFunction:
         """N_w, and N_E in its forced rows, at y = (w, E) in place of x."""
         at = self.at()
         w, E = self._coordinates(at.x)
-        N = at.trace(split.remainder)(at.loop, self._split(at.trace), at.t, w, E, at.mode)
+        N = at.trace(exponential_form.remainder)(
+            at.loop, self._split(at.trace), at.t, w, E, at.mode
+        )
         return self.made(at.inp, *N, at.trace.solver.least)

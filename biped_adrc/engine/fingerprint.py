@@ -14,11 +14,11 @@ import platform
 import sys
 import sysconfig
 import types
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from enum import Enum
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -39,21 +39,23 @@ _BARE = vars(NamedTuple("_Bare", [])) | {
 }
 
 
-def hash_of(*parts: Any) -> str:
+def hash_of(*parts: object) -> str:
     """A name for files."""
     return hashlib.sha256("\0".join(map(str, parts)).encode()).hexdigest()[:32]
 
 
-def law_text(law: Any) -> str:
+def law_text(law: object) -> str:
     """The code of a law and all that it reaches. Raises Untraceable where that cannot be told."""
     return "\n".join(_Reach().tell(law))
 
 
-def skeleton(tree: Any) -> str:
+def structure_text(tree: object) -> str:
     """Parameters without their floats: names, shapes, and what else there is, which decides."""
     if isinstance(tree, tuple | list):
         names = getattr(tree, "_fields", range(len(tree)))
-        inside = ", ".join(f"{name}={skeleton(x)}" for name, x in zip(names, tree, strict=True))
+        inside = ", ".join(
+            f"{name}={structure_text(x)}" for name, x in zip(names, tree, strict=True)
+        )
         return f"{law_text(type(tree))}({inside})"
     if isinstance(tree, np.ndarray) and tree.dtype.kind == "f":
         return f"float{tree.shape}"
@@ -64,15 +66,14 @@ class _Reach:
     """Texts of what is reached, each thing once."""
 
     def __init__(self) -> None:
-        self.seen: dict[Any, Any] = {}
+        self.seen: dict[int | tuple[int, frozenset[str]], object] = {}
 
-    def tell(self, x: Any, names: frozenset[str] = frozenset()) -> Iterator[str]:
+    def tell(self, x: object, names: frozenset[str] = frozenset()) -> Iterator[str]:
         """The texts of x; of a module those of the attributes with these names."""
         if isinstance(x, _PLAIN):
             yield f"{type(x).__qualname__} {x!r}"
             return
-        module = isinstance(x, types.ModuleType)
-        key = (id(x), names) if module else id(x)
+        key = (id(x), names) if isinstance(x, types.ModuleType) else id(x)
         if key in self.seen:
             yield f"again {getattr(x, '__qualname__', type(x).__qualname__)}"
             return
@@ -80,7 +81,7 @@ class _Reach:
         yield f"{type(x).__module__}.{type(x).__qualname__}"
         if isinstance(x, types.FunctionType):
             yield from self.function(x)
-        elif module:
+        elif isinstance(x, types.ModuleType):
             yield x.__name__
             if not _known(x.__name__):
                 inside = {name: value for name, value in vars(x).items() if name in names}
@@ -116,13 +117,15 @@ class _Reach:
                 yield cls.__qualname__
                 yield from self.named({k: v for k, v in vars(cls).items() if k not in _BARE})
 
-    def named(self, values: dict[str, Any], names: frozenset[str] = frozenset()) -> Iterator[str]:
+    def named(
+        self, values: Mapping[str, object], names: frozenset[str] = frozenset()
+    ) -> Iterator[str]:
         """Names and what they stand for."""
         for name in sorted(values):
             yield name
             yield from self.tell(values[name], names)
 
-    def value(self, x: Any) -> Iterator[str]:
+    def value(self, x: object) -> Iterator[str]:
         """An object by its parts, an array by its bytes."""
         if isinstance(x, np.ndarray | np.generic) and x.dtype.kind != "O":
             yield f"{x.dtype}{x.shape}{x.tobytes().hex()}"
@@ -143,9 +146,9 @@ class _Reach:
         elif isinstance(x, np.ufunc):
             yield self.ufunc(x)
         else:
-            yield from self.object(x)
+            yield from self.by_parts(x)
 
-    def object(self, x: Any) -> Iterator[str]:
+    def by_parts(self, x: object) -> Iterator[str]:
         """What is inside an object of any class."""
         inside = _inside(x)
         if inside or not _known(type(x).__module__):
@@ -173,7 +176,7 @@ def _code_text(code: types.CodeType) -> str:
     return " ".join(map(str, parts))
 
 
-def _inside(x: Any) -> dict[str, Any]:
+def _inside(x: object) -> dict[str, object]:
     """The parts of an object by name."""
     wrapped = ("fget", "func", "__func__", "__self__", "args", "keywords", "__wrapped__")
     wraps = (property, functools.cached_property, functools.partial, staticmethod, classmethod)
@@ -184,7 +187,7 @@ def _inside(x: Any) -> dict[str, Any]:
     return {**found, **getattr(x, "__dict__", {})}
 
 
-def _untold(x: Any) -> Untraceable:
+def _untold(x: object) -> Untraceable:
     return Untraceable(
         f"a law reaches {x!r}, a {type(x).__name__}, whose content cannot be told from outside"
     )

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable, Mapping
-from typing import Any
 
 import casadi as ca
 
-from biped_adrc.engine.equations import Function
-from biped_adrc.engine.machine import Machine, Text, remembered
+from biped_adrc.engine.equations import SymbolicFunction
+from biped_adrc.engine.machine import LoadedCode, ModuleText, remembered
 from biped_adrc.errors import InputError
 
 BINARY = {ca.OP_ADD: "fadd", ca.OP_SUB: "fsub", ca.OP_MUL: "fmul", ca.OP_DIV: "fdiv"}
@@ -39,22 +38,22 @@ DECLARATIONS = "\n".join(
 
 
 def generated(
-    key: str, functions: Mapping[str, Callable[[], Function]], vectors: bool = False
-) -> Machine:
-    """These functions in memory, traced where none are stored under `key`; vectors: as of `Text`."""
+    key: str, functions: Mapping[str, Callable[[], SymbolicFunction]], vectors: bool = False
+) -> LoadedCode:
+    """These functions in memory, traced where none are stored under `key`; vectors: as of `ModuleText`."""
 
-    def text() -> Text:
-        return Text(module_text({name: f() for name, f in functions.items()}), vectors)
+    def text() -> ModuleText:
+        return ModuleText(module_text({name: f() for name, f in functions.items()}), vectors)
 
     return remembered(key, list(functions), text)
 
 
-def module_text(functions: dict[str, Function]) -> str:
+def module_text(functions: dict[str, SymbolicFunction]) -> str:
     """A module of functions. Raises InputError for an operation that has no line here."""
     return "\n".join([DECLARATIONS, *(function_text(name, f) for name, f in functions.items())])
 
 
-def function_text(name: str, function: Function) -> str:
+def function_text(name: str, function: SymbolicFunction) -> str:
     """One function."""
     f = ca.Function("f", [function.K, function.inp], ca.cse([function.out]))
     writer = _Writer()
@@ -92,7 +91,7 @@ class _Writer:
             self.loaded[block, index] = self.new(f"load double, ptr {self.at(block, index)}")
         return self.loaded[block, index]
 
-    def instruction(self, f: Any, i: int) -> None:
+    def instruction(self, f: ca.Function, i: int) -> None:
         code, a, o = f.instruction_id(i), f.instruction_input(i), f.instruction_output(i)
         if code == ca.OP_CONST:
             self.work[o[0]] = literal(f.instruction_constant(i))
@@ -104,7 +103,7 @@ class _Writer:
         else:
             self.work[o[0]] = self.value(code, [self.work[k] for k in a], f)
 
-    def value(self, code: int, a: list[str], f: Any) -> str:
+    def value(self, code: int, a: list[str], f: ca.Function) -> str:
         if code in COMPARISONS:
             bit = self.new(f"fcmp {COMPARISONS[code]} double {a[0]}, {a[1]}")
             return self.new(f"uitofp i1 {bit} to double")

@@ -26,7 +26,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from platformdirs import user_cache_path
 
@@ -34,24 +34,27 @@ from biped_adrc.errors import OutputError
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.versions import packages
 
+if TYPE_CHECKING:
+    from llvmlite import binding
+
 CHECK = 32
 """Bytes of the checksum before the object code."""
 _LOCK = threading.Lock()
 
 
 @dataclass(frozen=True)
-class Machine:
+class LoadedCode:
     """Functions in memory; they live as long as `owner` does."""
 
     addresses: dict[str, int]
-    owner: Any
+    owner: object
 
 
-_LOADED: dict[str, Machine] = {}
+_LOADED: dict[str, LoadedCode] = {}
 """By key, what is in memory."""
 
 
-class Text(NamedTuple):
+class ModuleText(NamedTuple):
     """A module in LLVM's language."""
 
     text: str
@@ -59,7 +62,7 @@ class Text(NamedTuple):
     """Whether to look for operations that go together in vectors, which takes its time."""
 
 
-def machine(key: str, names: Sequence[str], text: Callable[[], Text]) -> Machine:
+def load_or_compile(key: str, names: Sequence[str], text: Callable[[], ModuleText]) -> LoadedCode:
     """The functions `names` stored under `key`, or compiled from `text()`."""
     with _LOCK:
         code = stored(key)
@@ -69,10 +72,10 @@ def machine(key: str, names: Sequence[str], text: Callable[[], Text]) -> Machine
         return loaded(code, names)
 
 
-def remembered(key: str, names: Sequence[str], text: Callable[[], Text]) -> Machine:
-    """As `machine`, once per process."""
+def remembered(key: str, names: Sequence[str], text: Callable[[], ModuleText]) -> LoadedCode:
+    """As `load_or_compile`, once per process."""
     if key not in _LOADED:
-        _LOADED[key] = machine(key, names, text)
+        _LOADED[key] = load_or_compile(key, names, text)
     return _LOADED[key]
 
 
@@ -84,7 +87,7 @@ def processor() -> str:
     return f"{binding.get_host_cpu_name()} {features} {binding.llvm_version_info}"
 
 
-def target() -> Any:
+def target() -> binding.TargetMachine:
     """LLVM's machine for this processor, a new one each time: MCJIT owns the one that it is given."""
     from llvmlite import binding
 
@@ -102,18 +105,18 @@ def compiled(text: str, vectors: bool = False) -> bytes:
     """Object code of a module in LLVM's language."""
     from llvmlite import binding
 
-    machine = target()
+    host = target()
     module = binding.parse_assembly(text)
-    module.triple, module.data_layout = machine.triple, str(machine.target_data)
+    module.triple, module.data_layout = host.triple, str(host.target_data)
     module.verify()
     tuning = binding.create_pipeline_tuning_options(speed_level=3)
     tuning.slp_vectorization = vectors
-    builder = binding.create_pass_builder(machine, tuning)
+    builder = binding.create_pass_builder(host, tuning)
     builder.getModulePassManager().run(module, builder)
-    return bytes(machine.emit_object(module))
+    return bytes(host.emit_object(module))
 
 
-def loaded(code: bytes, names: Sequence[str]) -> Machine:
+def loaded(code: bytes, names: Sequence[str]) -> LoadedCode:
     """Object code in memory."""
     from llvmlite import binding
 
@@ -121,7 +124,7 @@ def loaded(code: bytes, names: Sequence[str]) -> Machine:
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
     addresses = {name: int(engine.get_function_address(name)) for name in names}
-    return Machine(addresses, engine)
+    return LoadedCode(addresses, engine)
 
 
 def _path(key: str) -> Path:
@@ -161,8 +164,8 @@ def cache_folder() -> Path:
 def key_of(source: str) -> str:
     """Hash of the source, of numba, llvmlite, NumPy and Python, and of the processor."""
     made_by = packages(("numba", "llvmlite", "numpy")).values()
-    machine = platform.python_version(), platform.machine(), platform.processor()
-    return hashlib.sha256("\0".join((source, *made_by, *machine)).encode()).hexdigest()[:24]
+    platform_text = platform.python_version(), platform.machine(), platform.processor()
+    return hashlib.sha256("\0".join((source, *made_by, *platform_text)).encode()).hexdigest()[:24]
 
 
 def load_source(source: str) -> ModuleType:

@@ -37,49 +37,53 @@ from biped_adrc.model.planar import (
     turned,
 )
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 
-class Structure(NamedTuple):
+class RobotStructure(NamedTuple):
     """What is no number of a robot but its make: links, signs, and which terms there are."""
 
     n: int
     p: int
-    A: NDArray[np.int_]
+    A: Indices
     """a = A q (n, n)."""
-    R: NDArray[np.int_]
+    R: Indices
     """Relabelling at impact (n, n)."""
     offset: Array
     """Relabelling at impact (n,) [rad]."""
-    swap: NDArray[np.int_]
+    swap: Indices
     """Relabelling of the actuated joints (p,)."""
-    present: tuple[Any, ...]
+    present: tuple[NDArray[np.bool_], ...]
     """Which of the numbers of `PlantArrays` are not zero by make, arrays of bool."""
 
 
-class Impact(NamedTuple):
+class SymbolicImpact(NamedTuple):
     """After the impact (7) and relabelling (8): q and v (n,), and the impulse F_2 (2,) [N s]."""
 
-    q: Any
-    v: Any
-    impulse: Any
+    q: Array
+    v: Array
+    impulse: Array
 
 
 @dataclass(frozen=True)
 class PlanarRobot:
     """Methods as those of `model.biped.Biped`; friction: viscous [N m s] and static [N m], or empty."""
 
-    structure: Structure
+    structure: RobotStructure
     K: PlantArrays
-    friction: tuple[Any, ...] = ()
+    friction: tuple[Array, Array] | tuple[()] = ()
 
     @classmethod
     def of(
-        cls, structure: Structure, K: PlantArrays, friction: tuple[Any, ...] = ()
+        cls,
+        structure: RobotStructure,
+        K: PlantArrays,
+        friction: tuple[Array, Array] | tuple[()] = (),
     ) -> PlanarRobot:
         """With a plain 0 for the numbers that are zero by make, whose terms then vanish."""
-        pairs: Any = zip(K, structure.present, strict=True)
-        kept: Any = [np.where(mask, x, 0.0) if mask.ndim else x for x, mask in pairs]
+        values: tuple[Any, ...] = K
+        pairs = zip(values, structure.present, strict=True)
+        kept: list[Any] = [np.where(mask, x, 0.0) if mask.ndim else x for x, mask in pairs]
         return cls(structure, PlantArrays(*kept), friction)
 
     @property
@@ -93,47 +97,46 @@ class PlanarRobot:
         return self.structure.p
 
     @property
-    def A(self) -> NDArray[np.int_]:
+    def A(self) -> Indices:
         """a = A q (n, n)."""
         return self.structure.A
 
-    def reduction(self, q: Any, v: Any) -> Reduction:
-        terms: Reduction = Tracer()(reduce)(*inertia_and_bias(self, self.K, q, v), self.p)
-        return terms
+    def reduction(self, q: Array, v: Array) -> Reduction:
+        return Tracer()(reduce)(*inertia_and_bias(self, self.K, q, v), self.p)
 
-    def body_terms(self, q: Any, v: Any) -> BodyTerms:
+    def body_terms(self, q: Array, v: Array) -> BodyTerms:
         F_0 = self.ground_reaction(q, v, np.full(self.n, 0.0, dtype=object))
         t = turned(self, q)
         F_a = jacobian(self, t, self.K.w_re, self.K.w_im)
         return BodyTerms(*gravity_and_turning(self, self.K, t, v), F_a, F_0)
 
-    def acceleration(self, q: Any, v: Any, force: Any) -> Any:
+    def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         D, Omega = inertia_and_bias(self, self.K, q, v)
         if self.friction:
             viscous, static = self.friction
             force = force - viscous * v - static * tanh(v / STICTION_SPEED)
         return solve_positive(D, force - Omega, "D_s")
 
-    def ground_reaction(self, q: Any, v: Any, a: Any) -> Any:
+    def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
         return ground_reaction(self, self.K, q, v, a)
 
-    def momentum(self, q: Any, v: Any) -> Any:
+    def momentum(self, q: Array, v: Array) -> Array:
         return jacobian(self, turned(self, q), self.K.w_re, self.K.w_im) @ v
 
-    def swing_foot(self, q: Any) -> Any:
+    def swing_foot(self, q: Array) -> Array:
         return np.array(point(turned(self, q), self.K.foot_re, self.K.foot_im))
 
-    def hip(self, q: Any) -> Any:
+    def hip(self, q: Array) -> Array:
         return np.array(point(turned(self, q), self.K.hip_re, self.K.hip_im))
 
-    def kinetic_energy(self, q: Any, v: Any) -> Any:
+    def kinetic_energy(self, q: Array, v: Array) -> float:
         D, _ = inertia_and_bias(self, self.K, q, v)
         return 0.5 * (v @ (D @ v))
 
-    def potential_energy(self, q: Any) -> Any:
+    def potential_energy(self, q: Array) -> float:
         return self.K.gravity * point(turned(self, q), self.K.w_re, self.K.w_im)[1]
 
-    def impact(self, q: Any, v: Any) -> Impact:
+    def impact(self, q: Array, v: Array) -> SymbolicImpact:
         """By the rows of p_e of (7)."""
         K, t, R = self.K, turned(self, q), self.structure.R
         D, _ = inertia_and_bias(self, K, q, v)
@@ -142,7 +145,7 @@ class PlanarRobot:
         after = before - J_m.T @ J_2 + K.mass * (J_2.T @ J_2)
         v_plus = solve_positive(after, before @ v, "N' D_e N")
         F_2 = J_m @ (v_plus - v) - K.mass * (J_2 @ v_plus)
-        return Impact(R @ q + self.structure.offset, R @ v_plus, F_2)
+        return SymbolicImpact(R @ q + self.structure.offset, R @ v_plus, F_2)
 
 
 _T = TypeVar("_T")
@@ -151,10 +154,10 @@ REMEMBERED = 64
 
 
 @dataclass(frozen=True)
-class Robot:
+class RobotData:
     """`structure` decides the code, `arrays` are given to it at run time."""
 
-    structure: Structure
+    structure: RobotStructure
     arrays: PlantArrays
 
 
@@ -173,12 +176,12 @@ def once_each(make: Callable[[Biped], _T]) -> Callable[[Biped], _T]:
 
 
 @once_each
-def robot_of(biped: Biped) -> Robot:
+def robot_of(biped: Biped) -> RobotData:
     """Read off a robot. Raises ModelError when it is no planar tree of rigid links."""
     tree = PlanarTree.of(biped)
     arrays = tree.K
-    swap: Any = biped.relabelling[: biped.p] if biped.p else np.zeros(0, dtype=int)
-    structure = Structure(
+    swap = biped.relabelling[: biped.p] if biped.p else np.zeros(0, dtype=int)
+    structure = RobotStructure(
         biped.n,
         biped.p,
         tree.A,
@@ -187,4 +190,4 @@ def robot_of(biped: Biped) -> Robot:
         swap,
         tuple(np.asarray(x) != 0.0 for x in arrays),
     )
-    return Robot(structure, arrays)
+    return RobotData(structure, arrays)

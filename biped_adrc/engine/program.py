@@ -12,18 +12,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from biped_adrc.closed_loop.exponential_form import SplitLaws
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Controller, ControllerLaws, controller_laws
-from biped_adrc.engine.equations import Equations, Function, Make, Numbers
-from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
+from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
+from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text
 from biped_adrc.engine.ir import generated
-from biped_adrc.engine.machine import Machine
-from biped_adrc.engine.mechanics import Robot, robot_of
+from biped_adrc.engine.machine import LoadedCode
+from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.symbols import Vector, column, floats
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
@@ -37,10 +36,10 @@ class NotCompiled(InputError):
 class Program:
     """Functions by name, and the numbers they are called with."""
 
-    make: Make
-    machine: Machine
+    make: WalkerStructure
+    machine: LoadedCode
     K: Array
-    numbers: Numbers
+    numbers: WalkerNumbers
     """Those in K, by name."""
 
     @property
@@ -58,7 +57,7 @@ class Program:
         model = None if walker.model is None else robot_of(walker.model)
         sizes = None if walker.held is None else walker.held.sizes
         gained = bool(walker.impact_gain)
-        make = Make(
+        make = WalkerStructure(
             _common(plant, model), laws._replace(parameters=None), size, sizes, split, gained
         )
         numbers = _numbers(walker, plant, model, laws, split)
@@ -81,7 +80,7 @@ def laws_of(controller: Controller) -> ControllerLaws:
     return laws
 
 
-def _common(plant: Robot, model: Robot | None) -> Any:
+def _common(plant: RobotData, model: RobotData | None) -> RobotStructure:
     """The plant's make, with every term that it or the model has. Raises NotCompiled for another tree."""
     if model is None:
         return plant.structure
@@ -99,14 +98,14 @@ def _common(plant: Robot, model: Robot | None) -> Any:
 
 def _numbers(
     walker: Walker,
-    plant: Robot,
-    model: Robot | None,
+    plant: RobotData,
+    model: RobotData | None,
     laws: ControllerLaws,
     split: SplitLaws | None,
-) -> Numbers:
+) -> WalkerNumbers:
     biped = walker.plant
     limit = math.inf if walker.torque_limit is None else float(walker.torque_limit)
-    return Numbers(
+    return WalkerNumbers(
         plant.arrays,
         None if model is None else model.arrays,
         laws.parameters,
@@ -116,14 +115,14 @@ def _numbers(
         float(walker.max_step_time),
         biped.friction_coefficients if biped.friction else (),
         () if walker.held is None else walker.held,
-        np.array(walker.impact_gain, dtype=float) if walker.impact_gain else (),
+        walker.gain,
         () if split is None else split.parameters,
     )
 
 
-def _machine(make: Make, numbers: Numbers) -> Machine:
-    def traced(name: str) -> Function:
-        made: Function = getattr(Equations.of(make, numbers), name)()
+def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
+    def traced(name: str) -> SymbolicFunction:
+        made: SymbolicFunction = getattr(Equations.of(make, numbers), name)()
         return made
 
     functions = {name: partial(traced, name) for name in Equations.names(make)}
@@ -133,27 +132,27 @@ def _machine(make: Make, numbers: Numbers) -> Machine:
         raise NotCompiled(f"{reason}; it runs in Python on the compiled plant") from reason
 
 
-def _key(make: Make, numbers: Numbers) -> str:
+def _key(make: WalkerStructure, numbers: WalkerNumbers) -> str:
     split = () if make.split is None else make.split[3:]
     laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split))
     return hash_of(
         "walker",
-        skeleton(make.robot),
+        structure_text(make.robot),
         laws,
         make.size,
         make.held,
         make.gained,
         () if make.split is None else (make.split.A.shape, make.split.rows),
-        skeleton(numbers),
+        structure_text(numbers),
         versions_text(),
     )
 
 
-def product(k: int, p: int) -> Machine:
+def product(k: int, p: int) -> LoadedCode:
     """With the function `turn`, straight-line code in vectors."""
 
-    def turn() -> Function:
+    def turn() -> SymbolicFunction:
         M, E = Vector("M", k * k), Vector("E", k * p)
-        return Function(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
+        return SymbolicFunction(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
 
     return generated(hash_of("turn", k, p, versions_text()), {"turn": turn}, vectors=True)

@@ -13,7 +13,7 @@ from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.types import Array
 
-PINOCCHIO, COMPILED = "pinocchio", "compiled"
+PINOCCHIO, COMPILED, COMPILED_PLANT = "pinocchio", "compiled", "compiled plant"
 ENGINES = (PINOCCHIO, COMPILED)
 
 

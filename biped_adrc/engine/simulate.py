@@ -13,21 +13,19 @@ import numpy as np
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.controller_inputs import Point, compiled_references
+from biped_adrc.engine.controller_inputs import CompiledReference, compiled_references
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run import arc
-from biped_adrc.engine.kernels.tables import STATUS
+from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.run import COMPILED, COMPILED_PLANT
 from biped_adrc.engine.ticks import TERMINAL, run_ticks
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.hybrid.simulator import Flown, RunOptions, run_arcs
-from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.simulator import FlownArc, RunOptions, run_arcs
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.types import Array
-
-COMPILED, COMPILED_PLANT = "compiled", "compiled plant"
 
 
 def run_compiled(
@@ -53,7 +51,7 @@ def on_compiled_plant(
     walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
     """A run in Python with compiled dynamics. Raises as `run_compiled`."""
-    points: list[Point] = []
+    points: list[CompiledReference] = []
     controller = compiled_references(walker.controller, walker.plant.n, points)
     model = None if walker.model is None else CompiledBiped.of(walker.model)
     plant = CompiledBiped.of(walker.plant)
@@ -82,7 +80,7 @@ class _Arcs:
         ticks = longest / F[layout.PERIOD] if F[layout.PERIOD] > 0.0 else 0.0
         return 64 + min(100_000, int(longest / shortest / every + 2.0 * ticks))
 
-    def fly(self, t: float, x: Array, mode: Mode, fired: str | None) -> Flown:
+    def fly(self, t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
         """One arc from x at t [s], and the impact at its end."""
         plan, K = self.compiled.plan, self.compiled.K
         s = plan.start(x, t, mode.step, mode.start, self.options.t_end)
@@ -98,6 +96,6 @@ class _Arcs:
         elif STATUS[code] in TERMINAL:
             event = Event(TERMINAL[STATUS[code]], t, x_minus, None)
         nodes = Arc(mode, found.t.copy(), found.x.copy(), found.dx.copy(), event)
-        lost = STATUS[code] in (Status.NOT_FINITE, Status.SINGULAR, Status.STEP_FAILED)
+        lost = STATUS[code] in simulator.FAILURES
         detail = f"after t = {nodes.t[-1]:.6g} s" if lost else ""
-        return Flown(nodes, STATUS[code], detail, outcome)
+        return FlownArc(nodes, STATUS[code], detail, outcome)

@@ -11,20 +11,45 @@ import math
 import operator
 import traceback
 import types
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar, Union, overload
 
 import casadi as ca
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from biped_adrc import linear
 from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+
+T = TypeVar("T")
 
 
 class Untraceable(InputError):
     """The law looks at a number to decide what to do, or does what has no symbol."""
+
+
+Number = Union["Scalar", float]
+"""A symbol, or a number that the structure fixes."""
+
+
+def expression(x: Number) -> ca.SX | float:
+    """The expression of a Scalar or a number."""
+    return x.e if isinstance(x, Scalar) else float(x)
+
+
+def _binary(
+    function: Callable[..., ca.SX | float], reflected: bool = False
+) -> Callable[[Scalar, Number], Scalar]:
+    def apply(self: Scalar, other: Number) -> Scalar:
+        if isinstance(other, np.ndarray):
+            return NotImplemented
+        one, two = self.e, expression(other)
+        return Scalar(function(two, one) if reflected else function(one, two))
+
+    return apply
 
 
 class Scalar:
@@ -32,7 +57,7 @@ class Scalar:
 
     __slots__ = ("e",)
 
-    def __init__(self, e: Any):
+    def __init__(self, e: ca.SX | float):
         self.e = e
 
     def __bool__(self) -> bool:
@@ -41,7 +66,7 @@ class Scalar:
     def __float__(self) -> float:
         raise Untraceable("the law turns a number into a float of Python's or of an array's")
 
-    def __pow__(self, other: Any) -> Any:
+    def __pow__(self, other: Number) -> Scalar:
         if isinstance(other, np.ndarray):
             return NotImplemented
         if isinstance(other, int | float | np.number) and float(other).is_integer():
@@ -64,45 +89,32 @@ class Scalar:
     def sin(self) -> Scalar:
         return Scalar(ca.sin(self.e))
 
-
-def expression(x: Any) -> Any:
-    """The expression of a Scalar or a number."""
-    return x.e if isinstance(x, Scalar) else float(x)
-
-
-def _binary(name: str, reflected: bool) -> Callable[[Scalar, Any], Any]:
-    function = getattr(operator, name)
-
-    def apply(self: Scalar, other: Any) -> Any:
-        if isinstance(other, np.ndarray):
-            return NotImplemented
-        one, two = self.e, expression(other)
-        return Scalar(function(two, one) if reflected else function(one, two))
-
-    return apply
+    __add__, __radd__ = _binary(operator.add), _binary(operator.add, reflected=True)
+    __sub__, __rsub__ = _binary(operator.sub), _binary(operator.sub, reflected=True)
+    __mul__, __rmul__ = _binary(operator.mul), _binary(operator.mul, reflected=True)
+    __truediv__, __rtruediv__ = _binary(operator.truediv), _binary(operator.truediv, reflected=True)
+    __lt__, __le__ = _binary(operator.lt), _binary(operator.le)
+    __gt__, __ge__ = _binary(operator.gt), _binary(operator.ge)
+    __hash__ = object.__hash__
 
 
-for _name in ("add", "sub", "mul", "truediv"):
-    setattr(Scalar, f"__{_name}__", _binary(_name, False))
-    setattr(Scalar, f"__r{_name}__", _binary(_name, True))
-for _name in ("lt", "le", "gt", "ge", "eq", "ne"):
-    setattr(Scalar, f"__{_name}__", _binary(_name, False))
-Scalar.__hash__ = object.__hash__  # type: ignore[method-assign]
+setattr(Scalar, "__eq__", _binary(operator.eq))  # noqa: B010
+setattr(Scalar, "__ne__", _binary(operator.ne))  # noqa: B010
 
 
-def _compare(name: str) -> Callable[[Any, Any], Any]:
+def _compare(name: str) -> Callable[..., Any]:
     compare = getattr(np, name)
     return lambda self, other: compare(self, other, dtype=object)
 
 
-class Symbols(np.ndarray):
+class Symbols(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     """An array of Scalars; comparisons give Scalars too, for `np.where`."""
 
     __lt__, __le__ = _compare("less"), _compare("less_equal")
     __gt__, __ge__ = _compare("greater"), _compare("greater_equal")
     __hash__ = None
 
-    def __array_wrap__(self, array: Any, *_: Any) -> Any:
+    def __array_wrap__(self, array: Array, *_: object) -> Any:
         """What an operation gives: one number as itself, as NumPy does for its own arrays."""
         return array.item() if array.ndim == 0 else array.view(Symbols)
 
@@ -117,7 +129,7 @@ FUNCTIONS = {
 """NumPy's names and CasADi's."""
 
 
-def _function(name: str) -> Callable[[Any], Any]:
+def _function(name: str) -> Callable[[Number], Scalar]:
     return lambda x: Scalar(getattr(ca, name)(expression(x)))
 
 
@@ -133,36 +145,36 @@ tanh = elementwise(_function("tanh"))
 class _Substitute:
     """A module some of whose functions are replaced."""
 
-    def __init__(self, module: types.ModuleType, replaced: dict[str, Any]):
+    def __init__(self, module: types.ModuleType, replaced: Mapping[str, object]):
         self._module = module
         self.__dict__.update(replaced)
 
-    def __getattr__(self, name: str) -> Any:
+    def __getattr__(self, name: str) -> object:
         return getattr(self._module, name)
 
 
-def _filled(value: float) -> Callable[..., Any]:
+def _filled(value: float) -> Callable[..., NDArray[np.object_]]:
     return lambda shape, *_, **__: np.full(shape, value, dtype=object)
 
 
-def minimum(a: Any, b: Any) -> Any:
+def minimum(a: Number, b: Number) -> Scalar:
     return Scalar(ca.fmin(expression(a), expression(b)))
 
 
-def maximum(a: Any, b: Any) -> Any:
+def maximum(a: Number, b: Number) -> Scalar:
     return Scalar(ca.fmax(expression(a), expression(b)))
 
 
-def where(condition: Any, a: Any, b: Any) -> Any:
+def where(condition: Number, a: Number, b: Number) -> Scalar:
     return Scalar(ca.if_else(expression(condition), expression(a), expression(b)))
 
 
-def solve_positive(A: Any, B: Any, what: str) -> Any:
+def solve_positive(A: Array, B: Array, what: str) -> Array:
     """X with A X = B for a symmetric positive definite A, by A = L d L' without pivots."""
-    n, columns = len(A), B.reshape(len(A), -1).astype(object)
+    n, columns = len(A), B.reshape(len(A), -1).astype(object).view(Symbols)
     L = np.full((n, n), 0.0, dtype=object)
-    d: list[Any] = []
-    inverse: list[Any] = []
+    d: list[Number] = []
+    inverse: list[Number] = []
     for j in range(n):
         d.append(A[j, j] - sum(L[j, k] * L[j, k] * d[k] for k in range(j)))
         inverse.append(1.0 / d[j])
@@ -179,18 +191,22 @@ def solve_positive(A: Any, B: Any, what: str) -> Any:
     return columns.reshape(B.shape)
 
 
+Row = list[Number]
+"""A row of a matrix beside its right sides, during elimination."""
+
+
 class Solver:
     """`solve` by elimination with the largest pivot of each column, chosen at run time; keeps the pivots."""
 
     def __init__(self) -> None:
-        self.pivots: list[Any] = []
+        self.pivots: list[Scalar] = []
 
-    def __call__(self, A: Any, B: Any, what: str = "") -> Any:
+    def __call__(self, A: Array, B: Array, what: str = "") -> Array:
         n = len(A)
         if n == 0:
             return np.full(np.shape(B), 0.0, dtype=object)
         rows = [list(a) + list(b) for a, b in zip(A, B.reshape(n, -1), strict=True)]
-        inverse: list[Any] = []
+        inverse: list[Number] = []
         for j in range(n):
             for i in range(j + 1, n):
                 rows[j], rows[i] = _larger_first(rows[j], rows[i], j)
@@ -209,19 +225,19 @@ class Solver:
         return X.reshape(B.shape)
 
     @property
-    def least(self) -> Any:
+    def least(self) -> Scalar:
         """The smallest |pivot|, infinite without one."""
-        least: Any = Scalar(ca.SX(math.inf))
+        least = Scalar(ca.SX(math.inf))
         for pivot in self.pivots:
             least = minimum(least, pivot)
         return least
 
 
-def _pairs(one: list[Any], other: list[Any]) -> Iterator[tuple[int, tuple[Any, Any]]]:
+def _pairs(one: Row, other: Row) -> Iterator[tuple[int, tuple[Number, Number]]]:
     return enumerate(zip(one, other, strict=True))
 
 
-def _larger_first(one: list[Any], other: list[Any], j: int) -> tuple[list[Any], list[Any]]:
+def _larger_first(one: Row, other: Row, j: int) -> tuple[Row, Row]:
     """The two rows, that with the larger entry in column j first."""
     a, b = (ca.fabs(ca.SX(expression(row[j]))) for row in (one, other))
     swap = Scalar(b > a)
@@ -230,11 +246,11 @@ def _larger_first(one: list[Any], other: list[Any], j: int) -> tuple[list[Any], 
     return first, second
 
 
-BUILTINS: dict[str, Any] = {
+BUILTINS: Mapping[str, Callable[..., object]] = {
     "float": lambda x: x,
     "abs": np.abs,
-    "min": lambda a, b: minimum(a, b),
-    "max": lambda a, b: maximum(a, b),
+    "min": minimum,
+    "max": maximum,
 }
 """What laws find under these names."""
 
@@ -264,15 +280,15 @@ class Tracer:
         }
         scalars = {name: _function(theirs) for name, theirs in FUNCTIONS.items()}
         scalars |= {f"a{name}": _function(f"a{name}") for name in ("sin", "cos", "tan")}
-        self._substitutes: list[tuple[Any, Any]] = [
+        self._substitutes: list[tuple[object, object]] = [
             (np, _Substitute(np, numpy)),
             (math, _Substitute(math, scalars)),
             (linear.solve, self.solver),
             (linear.solve_positive, solve_positive),
         ]
-        self._copies: dict[Any, Any] = {}
+        self._copies: dict[types.FunctionType, Any] = {}
 
-    def __call__(self, law: Any) -> Any:
+    def __call__(self, law: T) -> T:
         """The law for symbols, with every function that it reaches."""
         if not isinstance(law, types.FunctionType):
             return law
@@ -291,7 +307,7 @@ class Tracer:
                 cell.cell_contents = self._substitute(cell.cell_contents)
         return self._copies[law]
 
-    def _substitute(self, value: Any) -> Any:
+    def _substitute(self, value: object) -> object:
         for old, new in self._substitutes:
             if value is old:
                 return new
@@ -300,12 +316,12 @@ class Tracer:
         return self(value)
 
 
-def rebuilt(like: Any, parts: list[Any]) -> Any:
+def rebuilt(like: tuple[object, ...] | list[object], parts: list[object]) -> object:
     """A tuple, NamedTuple or list of the same make with other parts."""
     return like._make(parts) if hasattr(like, "_make") else type(like)(parts)
 
 
-def run(trace: Tracer, law: Any, *arguments: Any) -> Any:
+def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
     """A law on symbols. Raises Untraceable that names the function which cannot be run so."""
     try:
         return trace(law)(*arguments)
@@ -336,6 +352,12 @@ class Vector:
         self.symbol = ca.SX.sym(name, size)
         self._taken = 0
 
+    @overload
+    def take(self) -> Any: ...
+
+    @overload
+    def take(self, first: int, /, *more: int) -> Array: ...
+
     def take(self, *shape: int) -> Any:
         """The next symbols as an object array of this shape; a Scalar for no shape."""
         if not shape:
@@ -346,16 +368,19 @@ class Vector:
             out[index] = self.take()
         return out
 
-    def like(self, tree: Any) -> Any:
+    def like(self, tree: T) -> T:
+        return self._like(tree)
+
+    def _like(self, tree: object) -> Any:
         """The parameters of a law with their floats as symbols; ints stay what they are."""
         if isinstance(tree, tuple | list):
-            return rebuilt(tree, [self.like(x) for x in tree])
+            return rebuilt(tree, [self._like(x) for x in tree])
         if isinstance(tree, np.ndarray):
             return self.take(*tree.shape) if tree.dtype.kind == "f" else tree
         return self.take() if isinstance(tree, float | np.floating) else tree
 
 
-def floats(tree: Any) -> Iterator[float]:
+def floats(tree: object) -> Iterator[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
     if isinstance(tree, tuple | list):
         for x in tree:
@@ -367,7 +392,7 @@ def floats(tree: Any) -> Iterator[float]:
         yield float(tree)
 
 
-def column(*parts: Any) -> Any:
+def column(*parts: ArrayLike | Scalar) -> ca.SX:
     """CasADi's column of all numbers in arrays and scalars."""
     flat = [expression(x) for part in parts for x in np.asarray(part, dtype=object).ravel()]
     return ca.vertcat(*flat) if flat else ca.SX(0, 1)

@@ -12,34 +12,31 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import repeat
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.semantics import asked
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.controller_inputs import Point, Told
+from biped_adrc.engine.controller_inputs import CompiledReference, ControllerInputs
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.layout import COMPLETED, END
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run import arc
-from biped_adrc.engine.kernels.tables import STATUS
-from biped_adrc.errors import NotFiniteError, SingularError
+from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.sample_hold import HeldSizes
 from biped_adrc.hybrid import simulator
-from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
+from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import Record, RunOptions
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.system import Clock, Found, HybridSystem, Mover
+from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
 from biped_adrc.model.reduction import Reduction
 from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """The guards that end a run, by status."""
@@ -55,7 +52,7 @@ def run_ticks(
     mode: Mode,
     method: OneStepMethod,
     options: RunOptions,
-    points: Sequence[Point] = (),
+    points: Sequence[CompiledReference] = (),
 ) -> Trajectory:
     """A run of a walker with compiled dynamics, whose controller has references with the laws `points`.
 
@@ -64,32 +61,26 @@ def run_ticks(
     plant = CompiledWalker.held(walker, method)
     assert walker.held is not None
     sizes = walker.held.sizes
-    system: HybridSystem = Ticked(walker, plant, flowing(sizes, len(x0)))
+    system: HybridSystem = TicksWithHardware(walker, plant, flowing(sizes, len(x0)))
     if sizes.total == sizes.p and not sizes.rate:
-        told = Told(walker.nominal, points[0] if points else None)
-        system = Bare(walker, plant, told, options.t0)
+        told = ControllerInputs(walker.nominal, points[0] if points else None)
+        system = TicksWithoutHardware(walker, plant, told, options.t0)
     return simulator.run(system, x0, mode, method, options)
 
 
-LOST = {
-    Status.NOT_FINITE: NotFiniteError,
-    Status.SINGULAR: SingularError,
-    Status.STEP_FAILED: StepFailed,
-}
-"""What is raised for these statuses."""
-
-
-def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> Found | None:
-    """The event behind a code of the kernels, None for none. Raises one of LOST, or what the jump raises."""
+def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> FoundEvent | None:
+    """The event behind a code of the kernels, None for none. Raises one of `simulator.FAILURES`, or what the jump raises."""
     if code == COMPLETED:
         return None
     if code == layout.STRUCK:
         outcome = walker.struck(t, x, mode)
-        return Found(Event(FOOT_STRIKE, t, x, outcome[0]), outcome)
+        return FoundEvent(Event(FOOT_STRIKE, t, x, outcome[0]), outcome)
     status = STATUS[code]
-    if status in LOST:
-        raise LOST[status](f"the plant's motion ends after t = {t:.6g} s: {status.name}")
-    return Found(Event(TERMINAL[status], t, x, None), None, status)
+    if status in simulator.FAILURES:
+        raise simulator.FAILURES[status](
+            f"the plant's motion ends after t = {t:.6g} s: {status.name}"
+        )
+    return FoundEvent(Event(TERMINAL[status], t, x, None), None, status)
 
 
 def start(
@@ -103,14 +94,14 @@ def start(
 
 
 # -- with hardware ---------------------------------------------------------------------------------
-def flowing(sizes: HeldSizes, length: int) -> NDArray[np.int_]:
+def flowing(sizes: HeldSizes, length: int) -> Indices:
     """Where in a state of `length` numbers what flows between ticks is: q, q', with lag u_m, and u."""
     motors = length - sizes.p * (sizes.waiting + 2)
     lagging = range(motors, motors + sizes.p) if sizes.lag else ()
     return np.array([*range(2 * sizes.n), *lagging, *range(length - sizes.p, length)])
 
 
-def whole(x: Array, at: NDArray[np.int_], rows: Array) -> Array:
+def whole(x: Array, at: Indices, rows: Array) -> Array:
     """x with other numbers at these places, in as many rows as there are."""
     out = np.tile(x, (*rows.shape[:-1], 1)) if rows.ndim > 1 else x.copy()
     out[..., at] = rows
@@ -118,30 +109,30 @@ def whole(x: Array, at: NDArray[np.int_], rows: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Ticked(HybridSystem):
+class TicksWithHardware(HybridSystem):
     """The walker's own ticks, hardware and meter included, on the held plant."""
 
     walker: Walker
     plant: CompiledWalker
-    flowing: NDArray[np.int_]
+    flowing: Indices
 
     def clocks(self) -> tuple[Clock, ...]:
         return self.walker.clocks()
 
     def mover(self, fired: str | None) -> Mover:
-        return Between(self, fired)
+        return HeldMotion(self, fired)
 
 
-class Between:
-    """Moves `Ticked` from one of its ticks to the next."""
+class HeldMotion:
+    """Moves `TicksWithHardware` from one of its ticks to the next."""
 
-    def __init__(self, system: Ticked, fired: str | None):
+    def __init__(self, system: TicksWithHardware, fired: str | None):
         self.system, self.fired = system, fired
         self.s: Array | None = None
 
     def __call__(
         self, t: float, x: Array, mode: Mode, until: float, record: Record
-    ) -> tuple[float, Array, Found | None]:
+    ) -> tuple[float, Array, FoundEvent | None]:
         plant, at = self.system.plant, self.system.flowing
         if self.s is None:
             self.s = start(plant, x[at], t, mode, until, self.fired, record.every)
@@ -160,7 +151,7 @@ _HOLD = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)
 
 
 @dataclass(frozen=True)
-class Bare(HybridSystem):
+class TicksWithoutHardware(HybridSystem):
     """x = (q, q', s, u): ticks and motion in one, since a tick costs little more than the controller itself.
 
     The call that moves the plant to a tick leaves what the controller is given there in a block of memory.
@@ -168,7 +159,7 @@ class Bare(HybridSystem):
 
     walker: Walker
     plant: CompiledWalker
-    told: Told
+    told: ControllerInputs
     t_first: float
 
     def mover(self, fired: str | None) -> Mover:
@@ -176,12 +167,12 @@ class Bare(HybridSystem):
 
     def move(
         self, fired: str | None, t: float, x: Array, mode: Mode, until: float, record: Record
-    ) -> tuple[float, Array, Found | None]:
+    ) -> tuple[float, Array, FoundEvent | None]:
         """Over all ticks of an arc, as `system.Mover`."""
         n, end = self.walker.plant.n, len(x) - self.walker.plant.p
         held = np.concatenate((x[: 2 * n], x[end:]))
         s = start(self.plant, held, t, mode, until, fired, record.every)
-        seen, states, ends = Seen(self.plant, self.told, s), [x[2 * n : end]], [0]
+        seen, states, ends = TickInputs(self.plant, self.told, s), [x[2 * n : end]], [0]
         try:
             code = self.ticks(seen, t, mode, until, states, ends)
         finally:
@@ -192,7 +183,7 @@ class Bare(HybridSystem):
 
     def ticks(
         self,
-        seen: Seen,
+        seen: TickInputs,
         t: float,
         mode: Mode,
         until: float,
@@ -212,7 +203,7 @@ class Bare(HybridSystem):
         count = max(0, math.floor((t - origin) / period))
         while origin + count * period < t:
             count += 1
-        told, (step, began) = self.told.point or Unasked(), mode
+        told, (step, began) = self.told.point or NoReference(), mode
         due = origin + count * period
         hold, at, output, saturate = seen.hold, seen.at, law.output, walker.saturate
         for q, v, terms, point, following in seen:
@@ -252,19 +243,23 @@ class Bare(HybridSystem):
 
 
 @dataclass
-class Unasked:
+class NoReference:
     """In place of a reference that there is none of."""
 
-    now: Any = None
+    now: object = None
 
 
-class Seen:
+TickInput = tuple[Array, Array, Reduction, ReferencePoint | None, int]
+"""q, v, terms of the model and reference at a tick; where the next of them goes, an address."""
+
+
+class TickInputs:
     """(q, v, terms, point) at one tick after the other, all read only, and where `hold` writes the next.
 
     hold(at, following) takes the plant on; a code.
     """
 
-    def __init__(self, plant: CompiledWalker, told: Told, s: Array):
+    def __init__(self, plant: CompiledWalker, told: ControllerInputs, s: Array):
         self.plan, self.K, self.work, self.s = plant.plan, plant.K, plant.plan.work(), s
         self.told, self.n = told, told.robot.structure.n
         self.shapes = [(), (self.n,), (self.n,), *told.shapes]
@@ -289,7 +284,7 @@ class Seen:
         """The nodes so far."""
         return self.rows[: int(self.s[layout.COUNT])]
 
-    def __iter__(self) -> Iterator[Any]:
+    def __iter__(self) -> Iterator[TickInput]:
         last = np.empty((1, self.width))
         last[0, 0] = self.s[layout.TIME]
         last[0, 1 : 1 + 2 * self.n] = self.s[layout.HEAD : layout.HEAD + 2 * self.n]

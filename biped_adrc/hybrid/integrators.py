@@ -21,7 +21,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from scipy.integrate import DOP853, RK45, OdeSolver, Radau
@@ -182,6 +182,8 @@ class Stiff(_SciPy):
     _solver = Radau
 
 
+Start = tuple[float, Array, Array, tuple[Array, Array]]
+"""t [s], p, E and the remainder at the start of a step of ETD-RK4."""
 _SAME_STEP = 1e-9  # relative difference below which two steps share their phi-functions
 
 
@@ -280,7 +282,7 @@ class Exponential(OneStepMethod):
             p1, E1 = etd_rk4(split, table, t, p, E, N, h)
             N1, x1, dx1 = node(t1, p1, E1)
 
-            def at(s: float, start: tuple[Any, Any, Any, Any] = (t, p, E, N)) -> Array:
+            def at(s: float, start: Start = (t, p, E, N)) -> Array:
                 h = s - start[0]
                 return split.back(*etd_rk4(split, phi_table(A, h), *start, h))
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, NamedTuple
@@ -20,7 +20,7 @@ from scipy.optimize import brentq
 from biped_adrc.errors import InputError, NotFiniteError, SingularError, check_count
 from biped_adrc.hybrid.integrators import OneStepMethod, Step, StepFailed
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.system import Clock, Found, Guard, HybridSystem, Mode, Outcome, Split
+from biped_adrc.hybrid.system import Clock, FoundEvent, Guard, HybridSystem, Mode, Outcome, Split
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.types import Array
 
@@ -37,7 +37,7 @@ class Record:
     """Nodes of the arc being built: one by one, or many in rows."""
 
     every: int
-    t: list[Any] = field(default_factory=list)
+    t: list[float | Array] = field(default_factory=list)
     x: list[Array] = field(default_factory=list)
     dx: list[Array] = field(default_factory=list)
     read: dict[str, list[Array]] = field(default_factory=dict)
@@ -119,7 +119,7 @@ class RunOptions:
         return Status.COMPLETED if self.stop_after is None else Status.TIME_OUT
 
 
-class Flown(NamedTuple):
+class FlownArc(NamedTuple):
     """One arc, how it ended, and (x+, mode+) after an event that is not the run's end."""
 
     arc: Arc
@@ -152,7 +152,7 @@ def run(
 
 
 def run_arcs(
-    fly: Callable[[float, Array, Mode, str | None], Flown],
+    fly: Callable[[float, Array, Mode, str | None], FlownArc],
     x0: Array,
     mode: Mode,
     label: str,
@@ -182,15 +182,12 @@ def run_arcs(
     return Trajectory(tuple(arcs), status, flown.detail, {"method": label})
 
 
-FAILURES = (NotFiniteError, SingularError, StepFailed)
-"""What ends a run with a status."""
-
-
-def failed(error: Exception) -> Status:
-    """The status of a run that one of `FAILURES` has ended."""
-    if isinstance(error, NotFiniteError):
-        return Status.NOT_FINITE
-    return Status.SINGULAR if isinstance(error, SingularError) else Status.STEP_FAILED
+FAILURES: Mapping[Status, type[Exception]] = {
+    Status.NOT_FINITE: NotFiniteError,
+    Status.SINGULAR: SingularError,
+    Status.STEP_FAILED: StepFailed,
+}
+"""The errors that end a run with a status in place of being raised."""
 
 
 def _flow_arc(
@@ -201,7 +198,7 @@ def _flow_arc(
     x: Array,
     mode: Mode,
     fired: str | None,
-) -> Flown:
+) -> FlownArc:
     """One arc from (t, x)."""
     record, t_arc, found = Record(options.store_every), t, None
     status, detail = Status.COMPLETED, ""
@@ -215,13 +212,14 @@ def _flow_arc(
             x = _tick(system.clocks(), t, t_arc, options.t0, x, mode)
             t_next = _next_break(system, mode, t, t_arc, options.t0, options.t_end)
             t, x, found = move(t, x, mode, t_next, record)
-    except FAILURES as error:
-        status, detail = failed(error), str(error)
+    except tuple(FAILURES.values()) as error:
+        status = next(s for s, kind in FAILURES.items() if isinstance(error, kind))
+        detail = str(error)
     if not record.t:
         record.add(t, x, np.zeros_like(x))
     if found is None:
-        return Flown(record.arc(mode, None), status, detail)
-    return Flown(record.arc(mode, found.event), found.status, "", found.outcome)
+        return FlownArc(record.arc(mode, None), status, detail)
+    return FlownArc(record.arc(mode, found.event), found.status, "", found.outcome)
 
 
 @dataclass(frozen=True)
@@ -235,7 +233,7 @@ class _Steps:
 
     def __call__(
         self, t: float, x: Array, mode: Mode, until: float, record: Record
-    ) -> tuple[float, Array, Found | None]:
+    ) -> tuple[float, Array, FoundEvent | None]:
         """As `system.Mover`."""
         for step in self.steps(t, x, mode, until, record):
             found = self.watch.first(step)
@@ -311,7 +309,7 @@ class _Watch:
         self.guards = guards
         self.values = [0.0 if g.name == fired else g.witness(t, x) for g in guards]
 
-    def first(self, step: Step) -> Found | None:
+    def first(self, step: Step) -> FoundEvent | None:
         """The earliest crossing in `step` that is an event."""
         before_t = step.t0
         for t in interior(step.t0, step.t1):
@@ -325,10 +323,10 @@ class _Watch:
             self.values, before_t = after, t
             for te, xe, guard in sorted(crossed, key=lambda c: c[0]):
                 if guard.terminal is not None:
-                    return Found(Event(guard.name, te, xe, None), None, guard.terminal)
+                    return FoundEvent(Event(guard.name, te, xe, None), None, guard.terminal)
                 outcome = guard.reset(te, xe) if guard.reset is not None else None
                 if outcome is not None:
-                    return Found(Event(guard.name, te, xe, outcome[0]), outcome)
+                    return FoundEvent(Event(guard.name, te, xe, outcome[0]), outcome)
         return None
 
     @staticmethod

@@ -14,11 +14,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from biped_adrc.errors import BipedError, InputError, OutputError
 from biped_adrc.files import output_path, write_bytes, write_text
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
+
+Stored = NDArray[Any]
+"""An array of a file, of numbers or text."""
 
 FORMAT = "biped_adrc run 1"
 BESIDE = "beside."
@@ -52,8 +56,8 @@ def check_beside(path: Path) -> None:
 def save(
     trajectory: Trajectory,
     path: Path | str,
-    settings: dict[str, Any] | None = None,
-    beside_it: Mapping[str, Any] | None = None,
+    settings: Mapping[str, object] | None = None,
+    beside_it: Mapping[str, ArrayLike] | None = None,
 ) -> Path:
     """Write `path` (.npz) and the same name with .json; returns it. Modes are stored as tuples of numbers.
 
@@ -96,7 +100,7 @@ def save(
     return path
 
 
-def load(path: Path | str, mode: Callable[..., Any] = lambda *numbers: numbers) -> Trajectory:
+def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: numbers) -> Trajectory:
     """The run in `path` (.npz); `mode` makes a mode from its stored numbers.
 
     Raises InputError for a file that is missing, damaged or of another format.
@@ -117,7 +121,7 @@ def load(path: Path | str, mode: Callable[..., Any] = lambda *numbers: numbers) 
         return Trajectory(arcs, Status[meta["status"]], str(meta["detail"]), settings)
 
 
-def load_beside(path: Path | str) -> dict[str, Any]:
+def load_beside(path: Path | str) -> dict[str, Stored]:
     """The arrays beside the trajectory in a file that `load` has read. Raises InputError."""
     with reading_run(path), np.load(Path(path), allow_pickle=False) as data:
         names = [name for name in data.files if name.startswith(BESIDE)]
@@ -142,7 +146,9 @@ def reading_run(path: Path | str) -> Iterator[None]:
         ) from error
 
 
-def _arc(data: Any, i: int, event: dict[str, Any] | None, mode: Callable[..., Any]) -> Arc:
+def _arc(
+    data: Mapping[str, Stored], i: int, event: Mapping[str, Any] | None, mode: Callable[..., object]
+) -> Arc:
     found = None
     if event is not None:
         plus = data.get(f"x_plus{i}")

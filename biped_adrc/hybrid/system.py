@@ -24,7 +24,7 @@ Outcome = tuple[Array, Mode] | None
 """(x+, mode+) after an event; None where the run ends with it."""
 
 
-class Found(NamedTuple):
+class FoundEvent(NamedTuple):
     """The event that ended an arc."""
 
     event: Event
@@ -32,7 +32,7 @@ class Found(NamedTuple):
     status: Status = Status.COMPLETED
 
 
-Mover = Callable[[float, Array, Mode, float, Any], tuple[float, Array, Found | None]]
+Mover = Callable[[float, Array, Mode, float, Any], tuple[float, Array, FoundEvent | None]]
 """move(t, x, mode, until, record) -> t, x, and the event that ended the arc there, if one did.
 
 Nodes go into `record`, a `simulator.Record`, as they are made, so that they are kept where it raises.

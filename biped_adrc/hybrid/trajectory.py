@@ -5,13 +5,31 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.types import Array
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+T = TypeVar("T")
+
+
+class Viewer(Protocol):
+    """What draws a trajectory: the walk that it is of."""
+
+    def animate(self, path: Path | str) -> object:
+        """Write the motion as an animation."""
+
+    def plot(self) -> Figure:
+        """The main signals."""
+
+    def _repr_html_(self) -> str | None:
+        """For notebooks."""
 
 
 @dataclass(frozen=True)
@@ -87,9 +105,9 @@ class Trajectory:
     status: Status
     detail: str = ""
     settings: dict[str, Any] = field(default_factory=dict)
-    viewer: Callable[[Trajectory], Any] | None = field(default=None, compare=False, repr=False)
+    viewer: Callable[[Trajectory], Viewer] | None = field(default=None, compare=False, repr=False)
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
         return {**self.__dict__, "viewer": None}
 
     @property
@@ -134,7 +152,7 @@ class Trajectory:
         """The state at the end: x+ when the run ended at an event."""
         return self(self.t_end)
 
-    def sample(self, function: Callable[[float, Array, Any], Any]) -> list[Any]:
+    def sample(self, function: Callable[[float, Array, Any], T]) -> list[T]:
         """function(t, x, mode) at every stored node."""
         return [
             function(float(t), x, arc.mode)
@@ -147,14 +165,14 @@ class Trajectory:
         """Write the motion as an animation, by the suffix of `path`. Raises InputError and OutputError."""
         self._seen().animate(path)
 
-    def plot(self) -> Any:
+    def plot(self) -> Figure:
         """The main signals as a matplotlib Figure. Raises InputError."""
         return self._seen().plot()
 
     def _repr_html_(self) -> str | None:
         return None if self.viewer is None else self._seen()._repr_html_()
 
-    def _seen(self) -> Any:
+    def _seen(self) -> Viewer:
         if self.viewer is None:
             raise InputError(
                 "this trajectory does not know its robot, so it cannot be drawn; take it from "

@@ -17,7 +17,7 @@ import math
 import numpy as np
 
 from biped_adrc.engine.kernels import layout
-from biped_adrc.engine.kernels.tables import Ints, Method
+from biped_adrc.engine.kernels.run_plan import Ints, MethodTable
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hybrid.integrators import Phi, PhiTable
 from biped_adrc.types import Array
@@ -28,13 +28,13 @@ STABLE = 0.1
 """Largest |lambda| h 2^-(levels - 1) for the classical step that ends a landing."""
 
 
-def rk4(h: float) -> Method:
+def rk4(h: float) -> MethodTable:
     """The classical method with step h [s]. Raises InputError."""
     check_positive(h, f"step h [s] is {h}")
-    return Method(layout.RK4, h=h)
+    return MethodTable(layout.RK4, h=h)
 
 
-def dop853(rtol: float, atol: float, max_step: float) -> Method:
+def dop853(rtol: float, atol: float, max_step: float) -> MethodTable:
     """Dormand and Prince 8(5, 3) with step control; max_step [s]. Raises InputError."""
     for name, value in (("rtol", rtol), ("atol", atol), ("max_step [s]", max_step)):
         check_positive(value, f"{name} is {value}")
@@ -43,10 +43,10 @@ def dop853(rtol: float, atol: float, max_step: float) -> Method:
         raise InputError(
             f"rtol is {rtol:g}, expected at least {least:.1e}, the round-off of a step"
         )
-    return Method(layout.DOP853, rtol=rtol, atol=atol, max_step=max_step)
+    return MethodTable(layout.DOP853, rtol=rtol, atol=atol, max_step=max_step)
 
 
-def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> Method:
+def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> MethodTable:
     """ETD-RK4 with step h [s] for E' = A E + N_E, A (k, k) [1/s], N_E zero but in `rows`.
 
     levels: the shortest sub-step of a landing is h 2^-(levels - 1). Raises InputError, also where the classical
@@ -69,7 +69,7 @@ def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> Method:
             f"the fastest pole is {fastest:.3g} rad/s and the shortest sub-step {shortest:.2e} s; "
             f"their product has to be below {STABLE}: give more levels or a shorter h"
         )
-    return Method(layout.ETD, h=h, phi=phi_levels(A, h, levels), rows=rows)
+    return MethodTable(layout.ETD, h=h, phi=phi_levels(A, h, levels), rows=rows)
 
 
 def _times(A: Array, B: Array) -> Array:

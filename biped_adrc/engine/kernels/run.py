@@ -8,7 +8,7 @@ import numpy as np
 
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.tables import Plan
+from biped_adrc.engine.kernels.run_plan import RunPlan
 from biped_adrc.types import Array
 
 
@@ -16,7 +16,7 @@ class ArcRun(NamedTuple):
     """Nodes of one arc and how it ended."""
 
     code: int
-    """Of `tables.STATUS`, or `layout.STRUCK`; x is then x-."""
+    """Of `run_plan.STATUS`, or `layout.STRUCK`; x is then x-."""
     s: Array
     """The run's vector at the end."""
     t: Array
@@ -27,7 +27,7 @@ class ArcRun(NamedTuple):
     """(m, nx)"""
 
 
-def arc(made: Plan, K: Array, s: Array, every: int = 1, room: int = 1024) -> ArcRun:
+def arc(made: RunPlan, K: Array, s: Array, every: int = 1, room: int = 1024) -> ArcRun:
     """One arc from the run's vector s to its first event or END, every k-th step kept; s stays as it was."""
     nx, W = made.nx, made.work()
     while True:

@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from itertools import accumulate
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.types import Array
 
 Ints = NDArray[np.int64]
+T = TypeVar("T", np.int64, np.float64)
 
 STATUS = (
     Status.COMPLETED,
@@ -35,7 +37,7 @@ STATUS = (
 """By the code of a kernel; `layout.STRUCK` and `layout.FULL` are no statuses."""
 
 
-class Code(NamedTuple):
+class LawAddresses(NamedTuple):
     """Addresses of `void f(double* K, double* inp, double* out)`, 0 for none.
 
     zeta is (n,) [N m]; pivot, the least of the matrices inverted, makes a state that is not finite SINGULAR
@@ -61,7 +63,7 @@ class Code(NamedTuple):
     """For a matrix M (k, k) in place of K: E -> M E."""
 
 
-class Sizes(NamedTuple):
+class StateSizes(NamedTuple):
     """n coordinates, nx states, p joints, nw and (k, p) numbers of y = (w, E).
 
     moving: how many of the first states flow, all for 0; the others are held between ticks.
@@ -75,14 +77,14 @@ class Sizes(NamedTuple):
     moving: int = 0
 
 
-class Scene(NamedTuple):
+class GroundTable(NamedTuple):
     """least_step [m]; drops (m, 2): rows (single support, height [m])."""
 
     least_step: float
     drops: Array
 
 
-class PushCode(NamedTuple):
+class DisturbanceTable(NamedTuple):
     """zeta as a sum of parts, each a function (t, step, t_start, q, v) -> zeta (n,); 0 without any.
 
     Part i has the parameters K[offsets[i]:offsets[i + 1]]. switches (m, 2): rows (step, s); the torque is not
@@ -97,7 +99,7 @@ class PushCode(NamedTuple):
     """Addresses of (t, step, t_start, q, v) -> force (2,) [N] on the robot as a whole, 0 for none."""
 
 
-class Clock(NamedTuple):
+class ClockTable(NamedTuple):
     """Ticks every `period` [s], 0 for continuous time, from the arc's start or, without restart, t_first."""
 
     period: float = 0.0
@@ -107,7 +109,7 @@ class Clock(NamedTuple):
     """[s] after each tick at which the waiting torque acts, 0 for none."""
 
 
-class Method(NamedTuple):
+class MethodTable(NamedTuple):
     """Step or tolerances, and for ETD-RK4 phi (levels, 6, k, k) and the forced rows."""
 
     kind: int
@@ -126,7 +128,7 @@ LEAST_PERIOD = 1e-9
 
 
 @dataclass(frozen=True)
-class Plan:
+class RunPlan:
     """P and F, read only, and the sizes of what a run needs beside them."""
 
     P: Ints
@@ -154,8 +156,13 @@ class Plan:
 
 
 def plan(
-    code: Code, sizes: Sizes, scene: Scene, push: PushCode, clock: Clock, method: Method
-) -> Plan:
+    code: LawAddresses,
+    sizes: StateSizes,
+    scene: GroundTable,
+    push: DisturbanceTable,
+    clock: ClockTable,
+    method: MethodTable,
+) -> RunPlan:
     """Raises InputError for parts that do not fit together."""
     _check(code, sizes, push, clock, method)
     P = np.zeros(layout.P_HEAD, dtype=np.int64)
@@ -183,10 +190,16 @@ def plan(
     parts = [(a, at[3] + o, r) for a, o, r in given]
     P, where = _joined([P, method.rows, np.array(parts, dtype=np.int64)], np.int64)
     P[layout.ROWS_AT], P[layout.PARTS_AT] = where[1], where[2]
-    return Plan(P, F, sizes.nx, _width(sizes))
+    return RunPlan(P, F, sizes.nx, _width(sizes))
 
 
-def _check(code: Code, sizes: Sizes, push: PushCode, clock: Clock, method: Method) -> None:
+def _check(
+    code: LawAddresses,
+    sizes: StateSizes,
+    push: DisturbanceTable,
+    clock: ClockTable,
+    method: MethodTable,
+) -> None:
     if len(push.offsets) != len(push.addresses) + 1 or push.offsets[-1] > len(push.K):
         raise InputError(
             f"{len(push.addresses)} parts of a disturbance with {len(push.K)} parameters have offsets "
@@ -208,14 +221,13 @@ def _check(code: Code, sizes: Sizes, push: PushCode, clock: Clock, method: Metho
         raise InputError(f"no address of {', '.join(missing)}, which this method and clock call")
 
 
-def _joined(parts: Sequence[Array | Ints], dtype: Any) -> tuple[Any, list[int]]:
+def _joined(parts: Sequence[Array | Ints], dtype: type[T]) -> tuple[NDArray[T], list[int]]:
     """All in one vector, and where each begins."""
-    flat = [np.asarray(part, dtype=dtype).ravel() for part in parts]
-    ends = np.cumsum([len(part) for part in flat])
-    return np.concatenate(flat), [0, *ends[:-1].tolist()]
+    flat: list[NDArray[T]] = [np.asarray(part, dtype=dtype).ravel() for part in parts]
+    return np.concatenate(flat), [0, *accumulate(map(len, flat[:-1]))]
 
 
-def _width(sizes: Sizes) -> int:
+def _width(sizes: StateSizes) -> int:
     """Numbers of the longest row: a law's input or output, or the head of a run."""
     states = max(sizes.nx, sizes.nw + sizes.k * sizes.p)
     return max(layout.HEAD, 3 + states + max(sizes.n, 2) + layout.OUTSIDE)
