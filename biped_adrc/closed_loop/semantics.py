@@ -271,7 +271,7 @@ def instant(loop: Loop, t: float, x: Array, mode: Mode) -> Instant:
 
 
 def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
-    """x' between events, of the shape of x.
+    """x' (nx,) between events, at t [s].
 
     Continuous time: (q', q'', s'). Sampled time: the controller rests, the torque is held, and of
     the held tail only lagging motors move.
@@ -287,8 +287,8 @@ def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
 
 
 def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
-    """x after one sample instant: sensors, controller, motors and meter in this order; q and q' do
-    not change.
+    """x (nx,) after one sample instant at t [s]: sensors, controller, motors and meter in this
+    order; q and q' do not change.
 
     Behind sensors the controller sees the measured (q, q') of the sensors' state w in place of the
     true ones. The meter always uses the true state.
@@ -315,7 +315,8 @@ def asked(loop: Loop, s: Array, m: Measurement) -> tuple[Array, Array]:
 def decided(
     loop: Loop, k: HeldParameters, s: Array, m: Measurement, line: Line
 ) -> tuple[Array, Line]:
-    """The controller's state and the queue of torques after it has acted on a measurement.
+    """The controller's state and the queue of torques after it has acted on a measurement; torques
+    are (p,) [N m].
 
     Order: correct, output, saturation, rate limit, queue, predict. With a known computation delay
     the observer is fed the torque that acts in the coming period, otherwise the one just asked for.
@@ -380,11 +381,12 @@ def struck(loop: Loop, t: float, x: Array, after: Mode) -> Array:
 def landed(
     loop: Loop, t: float, x: Array, q_plus: Array, v_plus: Array, impulse: Array, after: Mode
 ) -> Array:
-    """x+ after an impact at x- that left the plant at q_plus (n,) [rad], v_plus (n,) [rad/s].
+    """x+ (nx,) after an impact at x- that left the plant at q_plus (n,) [rad], v_plus (n,) [rad/s].
 
-    Shared by plants with an impact map and by those that compute their own contacts. The held tail
-    and the controller's state are relabelled; the sensors see the impact as far as the controller's
-    model predicts it. impulse (2,) [N s]: of the ground, for the meter.
+    Shared by plants with an impact map and by those that compute their own contacts. Controller
+    state and held tail are relabelled. A rate that the sensors derive from differences is reset to
+    what the nominal model's impact predicts, since no difference across an impact is a rate.
+    impulse (2,) [N s]: of the ground, for the meter.
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     seen = q_plus, v_plus

@@ -1,11 +1,13 @@
-"""One-step methods behind one interface.
+"""One-step methods behind one interface: RK4, Dormand-Prince 8(5, 3), Radau IIA, and ETD-RK4.
 
-A method yields steps over a smooth segment [t, t_end]. A step can give its own state at any time inside it
-(`at`), to the accuracy of the method; the loop locates events with that.
+A method yields steps over a smooth segment [t, t_end]. A step can give its own state at any time
+inside it (`at`), to the accuracy of the method; the simulator locates events with that. The
+compiled loops have RK4, Adaptive and Exponential too (`compiled_form`).
 
-The exponential Runge-Kutta method ETD-RK4 is for a flow whose stiff part is linear. In the coordinates of
-`Split`, E' = A E + N_E(t, p, E) and p' = N_p(t, p, E). A is integrated exactly through the phi-functions; p
-sees the classical RK4 (Cox, Matthews, J. Comput. Phys. 176, 2002, eqs (26)-(29)):
+The exponential Runge-Kutta method ETD-RK4 is for a flow whose stiff part is linear. In the
+coordinates of `Split`, E' = A E + N_E(t, p, E) and p' = N_p(t, p, E). A is integrated exactly
+through the phi-functions; p sees the classical RK4 (Cox, Matthews, J. Comput. Phys. 176, 2002, eqs
+(26)-(29)):
 
     a = e^(hA/2) E + h/2 phi1(hA/2) N(E)
     b = e^(hA/2) E + h/2 phi1(hA/2) N(a)
@@ -41,19 +43,22 @@ class StepFailed(Exception):
 
 @dataclass(frozen=True)
 class Step:
-    """From (t0, x0) to (t1, x1) with slopes dx0, dx1 at the ends."""
+    """One step of a method, from (t0, x0) to (t1, x1); times [s], states (nx,)."""
 
     t0: float
     t1: float
     x0: Array
     x1: Array
     dx0: Array
+    """Slope x' at the start (nx,)."""
     dx1: Array
+    """Slope x' at the end (nx,)."""
     at: Callable[[float], Array]
+    """at(t) -> x(t) (nx,) for t0 <= t <= t1, to the order of the method."""
 
 
 class OneStepMethod(ABC):
-    """Yields the steps of a smooth segment."""
+    """Base of the methods: yields the steps of a smooth segment. A user's own needs `steps` and `label`."""
 
     compiled_form: ClassVar[str] = ""
     """Name of the same method in the compiled loops; empty for one that runs in Python only."""
@@ -66,7 +71,7 @@ class OneStepMethod(ABC):
     def steps(
         self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
-        """Steps from (t, x) to t_end under x' = f(t, x)."""
+        """Steps from (t, x) to t_end [s] under x' = f(t, x), x (nx,); in `split` where it is not None."""
 
     @property
     @abstractmethod
@@ -75,7 +80,7 @@ class OneStepMethod(ABC):
 
 
 def step_ends(t: float, t_end: float, h: float) -> Iterator[float]:
-    """t + h, t + 2h, ..., t_end; counted, not accumulated."""
+    """t + h, t + 2h, ..., t_end [s]; counted, not accumulated, so that round-off does not grow."""
     count = max(1, math.ceil((t_end - t) / h - LANDING))
     for k in range(1, count):
         yield t + k * h
@@ -113,7 +118,7 @@ class RK4(OneStepMethod):
 
 
 def rk4(f: Flow, t: float, x: Array, dx: Array, h: float) -> Array:
-    """One step of length h from (t, x), dx = f(t, x)."""
+    """x (nx,) after one RK4 step of length h [s] from (t, x), dx = f(t, x)."""
     k2 = f(t + 0.5 * h, x + 0.5 * h * dx)
     k3 = f(t + 0.5 * h, x + 0.5 * h * k2)
     k4 = f(t + h, x + h * k3)
@@ -122,7 +127,11 @@ def rk4(f: Flow, t: float, x: Array, dx: Array, h: float) -> Array:
 
 @dataclass(frozen=True)
 class _SciPy(OneStepMethod):
-    """A SciPy solver, used one step at a time; events are located on its own dense output."""
+    """A SciPy solver, used one step at a time; events are located on its own dense output.
+
+    rtol [1], atol: tolerances of a step; max_step [s]: longest step, so that no event is jumped
+    over.
+    """
 
     rtol: float = 1e-9
     atol: float = 1e-9
@@ -141,6 +150,9 @@ class _SciPy(OneStepMethod):
     def steps(
         self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
+        """Steps of SciPy's solver. A flow that raises at a trial state gives NaN, and the step is
+        rejected; the error is raised only where the solver gives up.
+        """
         last: NotFiniteError | SingularError | None = None
 
         def tried(t: float, x: Array) -> Array:
@@ -192,14 +204,20 @@ Phi = tuple[Array, Array, Array, Array]
 
 
 class PhiTable(NamedTuple):
-    """The matrices of one step h, each (k, k); h is inside the weights."""
+    """The matrices of one step of length h of ETD-RK4, each (k, k); h is inside the weights."""
 
     half: Array
+    """e^(hA/2)"""
     half_phi1: Array
+    """h/2 phi1(hA/2) [s]"""
     full: Array
+    """e^(hA)"""
     first: Array
+    """h (phi1 - 3 phi2 + 4 phi3) [s], for N(E)."""
     middle: Array
+    """h (2 phi2 - 4 phi3) [s], for N(a) and N(b)."""
     last: Array
+    """h (4 phi3 - phi2) [s], for N(c)."""
 
     @classmethod
     def of(cls, half: Phi, phi: Phi, h: float) -> PhiTable:
@@ -212,7 +230,9 @@ class PhiTable(NamedTuple):
 def phi_functions(A: Array, h: float) -> Phi:
     """e^(hA), phi1(hA), phi2(hA), phi3(hA), each (k, k), from one exponential of a (4k, 4k) matrix.
 
-    phi_0 = e^z, phi_(j+1)(z) = (phi_j(z) - 1/j!) / z.
+        phi_0 = e^z,   phi_(j+1)(z) = (phi_j(z) - 1/j!) / z
+
+    The block matrix has the phi-functions in its first row, so no division by a small z is needed.
     """
     k = A.shape[0]
     block = np.zeros((4 * k, 4 * k))
@@ -224,12 +244,13 @@ def phi_functions(A: Array, h: float) -> Phi:
 
 
 def phi_table(A: Array, h: float) -> PhiTable:
-    """The matrices of ETD-RK4 for step h [s]."""
+    """The matrices of ETD-RK4 for A (k, k) [1/s] and a step h [s]."""
     return PhiTable.of(phi_functions(A, 0.5 * h), phi_functions(A, h), h)
 
 
 @lru_cache(maxsize=16)
 def _remembered(A: bytes, k: int, h: float) -> PhiTable:
+    """`phi_table` for the regular step of a method, kept for the last 16 (A, h); A as bytes."""
     return phi_table(np.frombuffer(A).reshape(k, k), h)
 
 
@@ -268,6 +289,10 @@ class Exponential(OneStepMethod):
     def steps(
         self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
+        """Steps in the coordinates of `split`; a step of another length than h makes matrices of its own.
+
+        Raises InputError without such coordinates.
+        """
         if split is None:
             raise no_coordinates()
         A = np.ascontiguousarray(split.A)
@@ -293,7 +318,7 @@ class Exponential(OneStepMethod):
 def _linear_node(
     split: Split, t: float, p: Array, E: Array
 ) -> tuple[tuple[Array, Array], Array, Array]:
-    """The remainder, x and x' for a linear `back`."""
+    """The remainder, x and x' (nx,) at (t, p, E) for a linear `back`, which maps slopes as it maps states."""
     N = split.remainder(t, p, E)
     return N, split.back(p, E), split.back(N[0], split.A @ E + N[1])
 
@@ -307,7 +332,7 @@ def etd_rk4(
     N: tuple[Array, Array],
     h: float,
 ) -> tuple[Array, Array]:
-    """One step of length h from (p, E) with N = remainder(t, p, E)."""
+    """p and E (k, c) after one step of length h [s] from (p, E), with N = remainder(t, p, E) known already."""
     Np, NE = N
     half, phi, full, first, middle, last = table
     half_E = half @ E

@@ -1,8 +1,12 @@
-"""The hybrid loop: step, locate the event, reset, tick, repeat.
+"""The simulation loop of a hybrid system in Python: step, locate the event, reset, sample, repeat.
 
-Every arc starts with the ticks that are due, flows to the next switching time or tick, and ends at the
-first event. Events are located by root finding on the step itself, taken again with a shorter length,
-so that x- has the accuracy of the method.
+Every arc starts with the clock updates that are due, flows to the next switching time or sample
+instant, and ends at the first event. Events are located by Brent's method on the step itself, taken
+again with a shorter length, so that x- has the accuracy of the method and not of an interpolant. At
+breaks the flow is asked for its limit from the left.
+
+`run_arcs` is shared: the Python engine flies an arc with `_flow_arc`, the compiled one with a
+kernel (`engine.simulate`). Systems that move by themselves give a `Mover` in place of a flow.
 """
 
 from __future__ import annotations
@@ -34,7 +38,11 @@ _T_XTOL = 1e-15  # [s], tolerance of the event time
 
 @dataclass
 class Record:
-    """Nodes of the arc being built: one by one, or many in rows."""
+    """Nodes of the arc being built: one by one, or many in rows.
+
+    every: each k-th step is kept; the lists t [s], x (nx,) or (K, nx), dx likewise, and `read` by
+    name grow with every call; skipped: steps since the last one kept.
+    """
 
     every: int
     t: list[float | Array] = field(default_factory=list)
@@ -44,7 +52,7 @@ class Record:
     skipped: int = 0
 
     def add(self, t: float | Array, x: Array, dx: Array, **read: Array) -> None:
-        """One node, or K of them in K rows of each; and what was read there."""
+        """One node t [s], x (nx,), dx (nx,), or K of them in K rows of each; and what was read there."""
         self.t.append(t)
         self.x.append(x)
         self.dx.append(dx)
@@ -53,7 +61,11 @@ class Record:
         self.skipped = 0
 
     def step(self, step: Step, last: bool) -> None:
-        """Store the end of a step, or skip it when only every k-th is kept."""
+        """Store the end of a step, or skip it when only every k-th is kept; `last` is always kept.
+
+        Of a step longer than RESOLUTION interior points are stored too: dense output is a cubic,
+        and a long step of a high-order method is not.
+        """
         self.skipped += 1
         if last or self.skipped >= self.every:
             for t in interior(step.t0, step.t1)[:-1]:
@@ -61,7 +73,7 @@ class Record:
             self.add(step.t1, step.x1, step.dx1)
 
     def arc(self, mode: Mode, event: Event | None) -> Arc:
-        """All of them."""
+        """All nodes as one arc that ran in `mode` and ended in `event`."""
         read = {name: np.vstack(rows) for name, rows in self.read.items()}
         return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event, read)
 
@@ -73,28 +85,30 @@ def interior(t0: float, t1: float) -> list[float]:
 
 
 def slope_of(step: Step, t: float) -> Array:
-    """x'(t) inside a step, by central difference of its own states."""
+    """x'(t) (nx,) inside a step, t in [s], by central difference of the step's own states."""
     d = 1e-4 * (step.t1 - step.t0)
     return (step.at(t + d) - step.at(t - d)) / (2.0 * d)
 
 
 @dataclass(frozen=True)
 class RunOptions:
-    """How long a run goes on and what is kept of it.
-
-    t0, t_end [s]: start and latest end. stop_after (guard, count): end after that many events of that guard;
-    then reaching t_end first is a TIME_OUT. store_every: keep each k-th step for dense output.
-    """
+    """How long a run goes on and what is kept of it."""
 
     t_end: float
+    """Latest end [s]."""
     t0: float = 0.0
+    """Start [s]."""
     stop_after: tuple[str, int] | None = None
+    """(guard, count): end after that many events of that guard; then reaching t_end first is a TIME_OUT."""
     max_events: int = 100_000
+    """A run with more events ends as EVENT_LIMIT: events that accumulate (Zeno) would never end."""
     store_every: int = 1
+    """Keep each k-th step for dense output."""
     progress: Progress | None = None
+    """Told of every event."""
 
     def check(self, x: Array) -> None:
-        """Raise InputError for a run from x that cannot begin."""
+        """Raise InputError for a run from x (nx,) that cannot begin."""
         if x.ndim != 1 or not np.all(np.isfinite(x)):
             raise InputError(f"the initial state is {x}, expected a vector of finite numbers")
         if not (math.isfinite(self.t_end) and math.isfinite(self.t0) and self.t_end > self.t0):
@@ -125,6 +139,7 @@ class FlownArc(NamedTuple):
     arc: Arc
     status: Status
     detail: str = ""
+    """The error's own text, where one ended it."""
     outcome: Outcome = None
 
 
@@ -135,10 +150,11 @@ def simulate(
     method: OneStepMethod,
     **options: Any,
 ) -> Trajectory:
-    """Run `system` from (t0, x0, mode); options are those of `RunOptions`, of which t_end has to be given.
+    """Run `system` from (t0, x0, mode), x0 (nx,); options are those of `RunOptions`, of which t_end
+    has to be given.
 
-    Raises InputError for a start that is not finite or a duration that is not positive. Whatever happens
-    during the run is in the trajectory's status.
+    Raises InputError for a start that is not finite or a duration that is not positive. Whatever
+    happens during the run is in the trajectory's status.
     """
     return run(system, x0, mode, method, RunOptions(**options))
 
@@ -146,7 +162,7 @@ def simulate(
 def run(
     system: HybridSystem, x0: Array, mode: Mode, method: OneStepMethod | None, options: RunOptions
 ) -> Trajectory:
-    """As `simulate`; a system with a mover needs no method."""
+    """As `simulate`, from x0 (nx,) with options as a record; a system with a mover needs no method."""
     label = "steps of the plant's own" if method is None else method.label
     return run_arcs(partial(_flow_arc, system, method, options), x0, mode, label, options)
 
@@ -158,7 +174,11 @@ def run_arcs(
     label: str,
     options: RunOptions,
 ) -> Trajectory:
-    """As `simulate`, arc after arc made by fly(t, x, mode, name of the guard that has just fired)."""
+    """A run from x0 (nx,), arc after arc made by fly(t, x, mode, name of the guard that has just fired).
+
+    label: of the method, for the settings. Counts events, applies resets and decides when the run
+    is over.
+    """
     x, t = np.array(x0, dtype=float), options.t0
     options.check(x)
     arcs, events = list[Arc](), Counter[str]()
@@ -199,7 +219,9 @@ def _flow_arc(
     mode: Mode,
     fired: str | None,
 ) -> FlownArc:
-    """One arc from (t, x)."""
+    """One arc from (t, x) in Python: clock updates and moves until an event, t_end, or an error of
+    `FAILURES`.
+    """
     record, t_arc, found = Record(options.store_every), t, None
     status, detail = Status.COMPLETED, ""
     move = system.mover(fired)
@@ -224,7 +246,7 @@ def _flow_arc(
 
 @dataclass(frozen=True)
 class _Steps:
-    """Moves a system over one arc by the steps of a method, and watches its guards."""
+    """Moves a system over one arc by the steps of a one-step method, and watches its event functions."""
 
     system: HybridSystem
     method: OneStepMethod
@@ -234,7 +256,7 @@ class _Steps:
     def __call__(
         self, t: float, x: Array, mode: Mode, until: float, record: Record
     ) -> tuple[float, Array, FoundEvent | None]:
-        """As `system.Mover`."""
+        """To `until` [s] or the first event, as `system.Mover`; nodes go into `record`."""
         for step in self.steps(t, x, mode, until, record):
             found = self.watch.first(step)
             if found is not None:
@@ -246,7 +268,10 @@ class _Steps:
         return t, x, None
 
     def steps(self, t: float, x: Array, mode: Mode, until: float, record: Record) -> Iterator[Step]:
-        """From (t, x); the flow is asked for its limit from the left at `until`."""
+        """Steps from (t, x) to `until` [s]; the flow is asked for its limit from the left there.
+
+        Raises NotFiniteError after a step to a state that is not finite.
+        """
         just_before = math.nextafter(until, -math.inf)
         split = None if self.split is None else _until(self.split, just_before)
         first = True
@@ -264,7 +289,7 @@ class _Steps:
 
 
 def _until(split: Split, last: float) -> Split:
-    """The split with no time after `last` asked for."""
+    """The split with no time after `last` [s] asked for."""
     remainder, node = split.remainder, split.node
     clamped = replace(split, remainder=lambda t, p, E: remainder(min(t, last), p, E))
     if node is None:
@@ -273,12 +298,14 @@ def _until(split: Split, last: float) -> Split:
 
 
 def _ticks(clock: Clock, t_arc: float, t_first: float) -> float:
+    """Time [s] of the first sample instant of a clock in this arc."""
     return (t_arc if clock.restart else t_first) + clock.offset
 
 
 def _tick(
     clocks: tuple[Clock, ...], t: float, t_arc: float, t_first: float, x: Array, mode: Mode
 ) -> Array:
+    """x (nx,) after the updates of all clocks that are due at t [s]."""
     for clock in clocks:
         start = _ticks(clock, t_arc, t_first)
         k = round((t - start) / clock.period)
@@ -290,7 +317,7 @@ def _tick(
 def _next_break(
     system: HybridSystem, mode: Mode, t: float, t_arc: float, t_first: float, t_end: float
 ) -> float:
-    """The first switching time or tick after t, at most t_end."""
+    """The first switching time or sample instant after t [s], at most t_end."""
     times = [s for s in system.switching_times(mode) if s > t]
     for clock in system.clocks():
         start = _ticks(clock, t_arc, t_first)
@@ -302,7 +329,7 @@ def _next_break(
 
 
 class _Watch:
-    """The witnesses along one arc; a guard is armed once its witness has left zero."""
+    """The witnesses (event functions) along one arc; a guard is armed once its witness has left zero."""
 
     def __init__(self, guards: tuple[Guard, ...], t: float, x: Array, fired: str | None):
         """`fired` has just ended the last arc: what is left of its witness is round-off, taken as zero."""
@@ -310,7 +337,11 @@ class _Watch:
         self.values = [0.0 if g.name == fired else g.witness(t, x) for g in guards]
 
     def first(self, step: Step) -> FoundEvent | None:
-        """The earliest crossing in `step` that is an event."""
+        """The earliest crossing in `step` that is an event; None without one.
+
+        Long steps are looked through every RESOLUTION, and a reset that returns None lets a
+        crossing pass.
+        """
         before_t = step.t0
         for t in interior(step.t0, step.t1):
             x = step.x1 if t == step.t1 else step.at(t)
@@ -331,7 +362,7 @@ class _Watch:
 
     @staticmethod
     def _locate(guard: Guard, step: Step, ta: float, tb: float) -> tuple[float, Array]:
-        """Time and state of the crossing in (ta, tb]."""
+        """Time [s] and state (nx,) of the crossing in (ta, tb], by Brent's method to round-off."""
 
         def witness(t: float) -> float:
             return guard.witness(t, step.x0 if t == step.t0 else step.at(t))

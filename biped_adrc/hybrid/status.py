@@ -1,4 +1,8 @@
-"""How a run ended; each text says what to change."""
+"""How a run ended. Each text says what happened and what to change; the command line prints it as it is.
+
+A run never raises for what happens on the way: `hybrid.simulator` and the compiled loops note a
+status, and the trajectory up to there is kept.
+"""
 
 from __future__ import annotations
 

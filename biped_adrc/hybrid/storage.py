@@ -1,6 +1,11 @@
 """Runs on disk: one npz of plain arrays with the settings as JSON inside, and the same JSON beside it.
 
-Nothing is pickled. Files are written whole or not at all.
+For arc i the npz holds t{i}, x{i}, dx{i}, mode{i}, read{i}_NAME and, at an event, x_minus{i},
+x_plus{i}; `meta` is the JSON text with status, settings and the events' names and times. The JSON
+beside it is for people and for `grep`; only the npz is read again.
+
+Nothing is pickled, so reading a file of somebody else's runs no code. Files are written whole or
+not at all. `scenario.stored` adds the walker's record by `beside_it`.
 """
 
 from __future__ import annotations
@@ -25,12 +30,14 @@ Stored = NDArray[Any]
 """An array of a file, of numbers or text."""
 
 FORMAT = "biped_adrc run 1"
+"""Version of the layout; a file of another one is refused."""
 BESIDE = "beside."
 """Before the names of arrays that are no part of the trajectory."""
 
 
 def run_files(path: Path | str) -> tuple[Path, Path]:
-    """The .npz of a run and the .json beside it; .npz is put behind a name without a kind, such as 'push_0.1'.
+    """The .npz of a run and the .json beside it; .npz is put behind a name without a kind, such as
+    'push_0.1'.
 
     Raises InputError for a name of another kind.
     """
@@ -59,11 +66,14 @@ def save(
     settings: Mapping[str, object] | None = None,
     beside_it: Mapping[str, ArrayLike] | None = None,
 ) -> Path:
-    """Write `path` (.npz) and the same name with .json; returns it. Modes are stored as tuples of numbers.
+    """Write `path` (.npz) and the same name with .json; returns the path. Modes are stored as
+    tuples of numbers.
 
-    beside_it: arrays by name that `load_beside` gives back, such as the walker's record. Raises InputError for
-    a name of another kind or settings that JSON has not, and OutputError when the files cannot be written or
-    the .json would take the place of something else.
+    - settings: noted beside those of the trajectory.
+    - beside_it: arrays by name that `load_beside` gives back, such as the walker's record.
+
+    Raises InputError for a name of another kind or settings that JSON has not, and OutputError when
+    the files cannot be written or the .json would take the place of something else.
     """
     path, beside = run_files(path)
     check_beside(beside)
@@ -101,7 +111,7 @@ def save(
 
 
 def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: numbers) -> Trajectory:
-    """The run in `path` (.npz); `mode` makes a mode from its stored numbers.
+    """The run in `path` (.npz); `mode` makes a mode from its stored numbers, by default a tuple of them.
 
     Raises InputError for a file that is missing, damaged or of another format.
     """
@@ -149,6 +159,9 @@ def reading_run(path: Path | str) -> Iterator[None]:
 def _arc(
     data: Mapping[str, Stored], i: int, event: Mapping[str, Any] | None, mode: Callable[..., object]
 ) -> Arc:
+    """Arc i of the arrays in a file, with its event as noted in the JSON. Raises ValueError for
+    what does not fit.
+    """
     found = None
     if event is not None:
         plus = data.get(f"x_plus{i}")
