@@ -1,9 +1,16 @@
 """A robot whose dynamics are compiled, for controllers in plain Python.
 
-Kinematics, contact and everything that is not asked for at every instant stay Pinocchio's.
+    terms      (q, v) -> D, Omega, kappa, xi, ... of (11)-(15)
+    body       (q, v) -> G, C' q', F_a, F_0
+    accelerate (q, v, force) -> q''
+    ground     (q, v, a) -> F
 
-terms (q, v) -> D, Omega, kappa, xi, ... of (11)-(15),   body (q, v) -> G, C' q', F_a, F_0
-accelerate (q, v, force) -> q'',   ground (q, v, a) -> F
+A `CompiledBiped` is a `model.biped.Biped` with these four replaced by machine code, traced from
+`engine.mechanics`; kinematics, contact and all that is not asked for at every instant stay
+Pinocchio's. Before it is handed out it is compared with Pinocchio at random states.
+`engine.simulate` puts it in the place of the plant when a controller has no compiled form.
+`pointer_call`, `parts_of` and `Call` are how the rest of the engine calls generated code from
+Python.
 """
 
 from __future__ import annotations
@@ -29,14 +36,18 @@ from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.types import Array
 
 Shape = tuple[int, ...]
+"""Shape of an array."""
 
 SAMPLES = 50
-"""Random states at which the code is held against Pinocchio."""
+"""Number of random states at which the code is compared with Pinocchio."""
 _C = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 
 
 def pointer_call(machine: LoadedCode, name: str, K: Array, inp: Array, out: Array) -> None:
-    """A function for every row of inp (N, inputs) and out (N, outputs), both contiguous float64."""
+    """Call a function for every row of inp (N, inputs) and write out (N, outputs), both contiguous float64.
+
+    By addresses: one ctypes call per row, no array is made.
+    """
     function = _C(machine.addresses[name])
     at, given, result = K.ctypes.data, inp.ctypes.data, out.ctypes.data
     for _ in range(len(inp)):
@@ -45,7 +56,7 @@ def pointer_call(machine: LoadedCode, name: str, K: Array, inp: Array, out: Arra
 
 
 def parts_of(rows: Array, shapes: Iterable[Shape]) -> Iterator[Array]:
-    """Arrays of these shapes that lie one after the other in `rows` (size,) or (N, size)."""
+    """Arrays of these shapes that lie one after the other in `rows` (size,) or (N, size); views, no copies."""
     at = 0
     for shape in shapes:
         part = rows[..., at : at + math.prod(shape)]
@@ -54,7 +65,10 @@ def parts_of(rows: Array, shapes: Iterable[Shape]) -> Iterator[Array]:
 
 
 class Call:
-    """One function with its own input and output arrays."""
+    """One generated function with its own input and output arrays; not to be shared between threads.
+
+    machine: keeps the code in memory. K: its parameters. inputs, outputs: how many numbers.
+    """
 
     def __init__(self, machine: LoadedCode, name: str, K: Array, inputs: int, outputs: int):
         self.owner, self.K = machine, K
@@ -63,7 +77,7 @@ class Call:
         self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
 
     def __call__(self, *given: Array) -> Array:
-        """The outputs of what is in `inp`, or of these inputs."""
+        """The outputs (outputs,) of what is in `inp`, or of these inputs joined; a copy."""
         if given:
             np.concatenate(given, out=self.inp)
         self._function(*self._at)
@@ -72,7 +86,10 @@ class Call:
 
 @dataclass(frozen=True)
 class CompiledBiped(Biped):
-    """A Biped with `reduction`, `acceleration` and `ground_reaction` in machine code; make it with `of`."""
+    """A Biped with `reduction`, `body_terms`, `acceleration` and `ground_reaction` in machine code.
+
+    Make it with `of`; robot: structure and numbers that the code is called with.
+    """
 
     robot: RobotData | None = None
 
@@ -80,13 +97,17 @@ class CompiledBiped(Biped):
     def of(cls, biped: Biped) -> CompiledBiped:
         """Compile, or take from memory or disk, and check.
 
-        Raises ModelError for a robot that is no planar tree of rigid links, or where the code differs from
-        Pinocchio by more than 1e-11 relative.
+        Raises ModelError for a robot that is no planar tree of rigid links, or where the code
+        differs from Pinocchio by more than 1e-11 relative.
         """
         return _compiled(biped)
 
     def checked(self, biped: Biped, samples: int = SAMPLES) -> CompiledBiped:
-        """Itself, when its terms are Pinocchio's at random states and q'' obeys (1). Raises ModelError."""
+        """Itself, when its terms are Pinocchio's at random states and q'' obeys (1). Raises ModelError.
+
+        The gap of q'' is measured as a force, D_s q'' against the free force on the scale of |D_s|
+        |q''|, so that the conditioning of D_s does not count.
+        """
         random = np.random.default_rng(3)
         for _ in range(samples):
             q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)
@@ -110,6 +131,7 @@ class CompiledBiped(Biped):
 
     @cached_property
     def _calls(self) -> dict[str, Call]:
+        """The four functions by name, compiled on first use."""
         robot = self.robot
         assert robot is not None
         key = hash_of(
@@ -137,24 +159,29 @@ class CompiledBiped(Biped):
         return sum(map(math.prod, self.shapes))
 
     def reduction(self, q: Array, v: Array) -> Reduction:
+        """The terms of (11)-(15) at q (n,) [rad], v (n,) [rad/s]."""
         terms = self._calls["terms"](self._angles(q), self._angles(v))
         return Reduction(*parts_of(terms, self.shapes))
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
+        """G, C' q' (n,) [N m], F_a (2, n), F_0 (2,) [N] at q (n,) [rad], v (n,) [rad/s]."""
         out, n = self._calls["body"](self._angles(q), self._angles(v)), self.n
         return BodyTerms(out[:n], out[n : 2 * n], out[2 * n : 4 * n].reshape(2, n), out[4 * n :])
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
+        """q'' (n,) [rad/s^2] under `force` (n,) [N m]; friction is added in Python, where the robot has any."""
         if self.friction:
             force = force + self.friction_torque(v)
         return self._calls["accelerate"](self._angles(q), self._angles(v), force)
 
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
+        """On the stance foot (2,) [N] for q'' = a (n,) [rad/s^2]."""
         return self._calls["ground"](self._angles(q), self._angles(v), a)
 
 
 @once_each
 def _compiled(biped: Biped) -> CompiledBiped:
+    """As `CompiledBiped.of`, remembered for the last robots."""
     given = {f.name: getattr(biped, f.name) for f in fields(Biped)}
     return CompiledBiped(**given, robot=robot_of(biped)).checked(biped)
 
@@ -162,9 +189,10 @@ def _compiled(biped: Biped) -> CompiledBiped:
 def plant_functions(
     structure: RobotStructure, example: PlantArrays
 ) -> dict[str, Callable[[], SymbolicFunction]]:
-    """By name; `terms` and `body` give the parts of their tuples one after the other.
+    """The four functions by name, each to be traced when it is needed.
 
-    K has symbols for the floats of the example.
+    `terms` and `body` give the parts of their tuples one after the other. K has symbols for the
+    floats of the example.
     """
     K = Vector("K", count(example))
     robot = PlanarRobot.of(structure, K.like(example))

@@ -1,6 +1,10 @@
-"""`closed_loop.system.reading` in compiled code, at every node of a run.
+"""`closed_loop.system.signals_at` in compiled code, at every node of a run.
 
-observe (t, step, t_start, x, zeta) -> the parts of a `InstantSignals`, in its order
+    observe (t, step, t_start, x, zeta) -> the parts of an `InstantSignals`, in its order
+
+Signals are not stored with a run but computed again from the states, at tens of thousands of nodes.
+`analysis.signals` does that with this function, and in Python where a part has no compiled form.
+The disturbance zeta is an input, since it may be a function in plain Python.
 """
 
 from __future__ import annotations
@@ -34,14 +38,16 @@ from biped_adrc.types import Array
 
 
 class SignalNumbers(NamedTuple):
-    """The walker's numbers, and those of the reference that is looked at."""
+    """What `observe` is given as K: the walker's numbers, and those of the reference that is looked at."""
 
     walker: WalkerNumbers
+    """All numbers of the walker."""
     h: object
+    """Parameters of the reference."""
 
 
 def observe(make: WalkerStructure, example: SignalNumbers, h: ReferenceLaws) -> SymbolicFunction:
-    """The function for one make of walker and reference, with symbols for the floats of an example."""
+    """The function for one structure of walker and reference, with symbols for the floats of an example."""
     K = Vector("K", count(example))
     watched = K.like(example)
     equations = Equations(make, K.symbol, watched.walker)
@@ -56,7 +62,11 @@ def observe(make: WalkerStructure, example: SignalNumbers, h: ReferenceLaws) -> 
 def compiled_readings(
     walker: Walker, trajectory: Trajectory, reference: Reference
 ) -> InstantSignals | None:
-    """At all nodes of a run; None where a part has no compiled form."""
+    """All signals at all N nodes of a run, N rows of each; None where a part has no compiled form.
+
+    Nodes at jumps are read just before them (`Arc.seen`), where the disturbance has its limit from
+    the left.
+    """
     h = reference_laws(reference)
     if h.obstacle:
         return None
@@ -80,7 +90,7 @@ def compiled_readings(
 
 
 def _inputs(walker: Walker, arc: Arc) -> Array:
-    """Rows of what `observe` is given at the nodes of an arc."""
+    """Rows (K, inputs) of what `observe` is given at the K nodes of an arc; the meter's inputs are zero."""
     n, mode, ones = walker.plant.n, arc.mode, np.ones((len(arc.t), 1))
     rows = zip(arc.seen, arc.x, strict=True)
     zeta = [walker.external(float(t), x[:n], x[n : 2 * n], mode) for t, x in rows]
@@ -89,6 +99,7 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
 
 
 def _code(make: WalkerStructure, watched: SignalNumbers, h: ReferenceLaws) -> LoadedCode:
+    """Machine code of `observe`, under a hash of the walker's structure, its laws and the reference's."""
     laws = "\n".join(law_text(law) for law in (*make.laws[1:], h.point))
     key = hash_of(
         *("observe", structure_text(make.robot), laws, make.size, make.held),

@@ -1,8 +1,17 @@
-"""A walker, a one-step method and a disturbance, ready for the compiled loops.
+"""A walker, a one-step method and a disturbance, made ready for the compiled loops.
 
-The laws of disturbances are functions `void f(double* K, double* inp, double* out)` of their own: inp is (t,
-step, t_start, q, v), out zeta (n,) or the force (2,). A law's `active` is looked at first: where it is not
-above 0, out is zero and the rest is not computed.
+Three things come together here: the program of the walker (`engine.program`: flow, tick, strike,
+..), the matrices or tolerances of the method (`engine.kernels.methods`), and the laws of the
+disturbance, which are compiled by themselves so that another disturbance does not recompile the
+walker. The result is a `RunPlan`, which the kernels take.
+
+The laws of disturbances are functions `void f(double* K, double* inp, double* out)`: inp is (t,
+step, t_start, q, v), out zeta (n,) [N m] or the force (2,) [N]. A law's `active` is evaluated
+first: where it is not above 0, out is zero and the rest is not computed, since most pushes act for
+a small part of a walk.
+
+What cannot be compiled raises `NotCompiled` with the reason; `engine.simulate` then runs in Python
+on the compiled plant.
 """
 
 from __future__ import annotations
@@ -44,15 +53,18 @@ from biped_adrc.types import Array
 
 @dataclass(frozen=True)
 class CompiledWalker:
-    """`plan` and `K` are what the loops take; `program` keeps the code they call in memory."""
+    """A walker that the compiled loops can run."""
 
     walker: Walker
+    """As it was given, or the held plant alone."""
     program: Program
+    """Keeps the code in memory and holds the parameters."""
     plan: RunPlan
+    """Sizes, addresses and settings of the run, as vectors."""
 
     @property
     def K(self) -> Array:
-        """The numbers."""
+        """Parameters of the walker's functions (size,), in their own units."""
         return self.program.K
 
     @classmethod
@@ -76,7 +88,11 @@ class CompiledWalker:
 
     @classmethod
     def held(cls, walker: Walker, method: OneStepMethod) -> CompiledWalker:
-        """The plant alone under a torque that is held; x = (q, q', u), with lag (q, q', u_m, u). As `of`."""
+        """The plant alone under a torque that is held; x = (q, q', u), with lagging motors (q, q', u_m, u).
+
+        For controllers in plain Python (`engine.ticks`). A period longer than any run takes the
+        place of the clock. Raises as `of`.
+        """
         bare = replace(
             walker,
             controller=Passive(),
@@ -97,6 +113,7 @@ def _plan(
     clock: ClockTable,
     method: MethodTable,
 ) -> RunPlan:
+    """The plan of a run: addresses, sizes, ground, disturbance, clock and method in one record."""
     n, p, nx = walker.plant.n, walker.plant.p, program.nx
     stiff = 0 if split is None else len(split.A)
     flows = walker.held is None or walker.held.sizes.lag  # the torque of the motors, then all does
@@ -116,12 +133,17 @@ FORMS: Mapping[str, Callable[[Any], MethodTable] | None] = {
     "dop853": lambda m: methods.dop853(m.rtol, m.atol, m.max_step),
     "etd": None,
 }
-"""By `OneStepMethod.compiled_form`; None for the one that needs coordinates too."""
+"""Tables of the methods by `OneStepMethod.compiled_form`; None for the one that needs coordinates too."""
 _MATRICES: dict[tuple[float, bytes, tuple[int, ...]], MethodTable] = {}
-"""Of the exponential method, by its step and linear part; made once, by one thread."""
+"""Tables of the exponential method by step, linear part and forced rows; made once, by one thread."""
 
 
 def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, MethodTable]:
+    """The coordinates that a method needs, if any, and its table.
+
+    Raises NotCompiled for a method of the user's own, which says so by writing `steps` or by no
+    compiled form; InputError for coordinates that the walker does not have.
+    """
     form: Any = method
     written = written_over(method, "compiled_form", frozenset(("steps", "split")))
     known = method.compiled_form in FORMS
@@ -145,6 +167,7 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Me
 
 
 def _push(disturbance: Disturbance | None, n: int) -> DisturbanceTable:
+    """The laws of a disturbance as addresses and numbers. Raises NotCompiled for one in plain Python."""
     if disturbance is None:
         return DisturbanceTable()
     laws = disturbance_laws(disturbance)
@@ -177,6 +200,7 @@ rest:
   ret void
 }}
 """
+"""A function that looks at `active` first."""
 
 
 Part = tuple[Callable[..., Array], int]
@@ -184,7 +208,7 @@ Part = tuple[Callable[..., Array], int]
 
 
 def disturbance_code(law: DisturbanceLaw, n: int) -> LoadedCode:
-    """With the functions `torque` and, where there is one, `resultant`. Raises NotCompiled."""
+    """Machine code with the functions `torque` and, where there is one, `resultant`. Raises NotCompiled."""
     given: dict[str, Part] = {"torque": (law.torque, n)}
     if law.resultant is not None:
         given["resultant"] = law.resultant, 2
@@ -198,6 +222,7 @@ def disturbance_code(law: DisturbanceLaw, n: int) -> LoadedCode:
 
 
 def _text(law: DisturbanceLaw, parts: dict[str, Part], n: int) -> ModuleText:
+    """The module of a disturbance's functions, each behind its `active` where it has one."""
     if law.active is None:
         return ModuleText(
             module_text({name: _function(law, n, *part) for name, part in parts.items()})
@@ -212,7 +237,10 @@ def _text(law: DisturbanceLaw, parts: dict[str, Part], n: int) -> ModuleText:
 def _function(
     law: DisturbanceLaw, n: int, part: Callable[..., ArrayLike], size: int, timed: bool = False
 ) -> SymbolicFunction:
-    """A law of n coordinates on symbols. Raises InputError where it gives another number than `size`."""
+    """A law for n coordinates on symbols; timed: it takes no q and v.
+
+    Raises InputError where it gives another number of numbers than `size`.
+    """
     K, inp = Vector("K", count(law.parameters)), Vector("inp", 3 + 2 * n)
     k, at = K.like(law.parameters), (inp.take(), inp.take(), inp.take())
     state = () if timed else (inp.take(n), inp.take(n))

@@ -1,7 +1,13 @@
-"""What a controller in plain Python is told, in machine code: the model's terms, and its reference beside them.
+"""The inputs of a controller in plain Python, in machine code: the model's terms, and its reference
+beside them.
 
-told  (t, q, v) -> the parts of a `Reduction`, then those of a `ReferencePoint`
-point (t, q, v) -> the parts of a `ReferencePoint`
+    told  (t, q, v) -> the parts of a `Reduction`, then those of a `ReferencePoint`
+    point (t, q, v) -> the parts of a `ReferencePoint`
+
+A controller written as a Python method cannot be compiled, but nearly all of its time goes into the
+nominal model and the reference. Both are compiled, and the call that moves the plant to a sample
+instant leaves them there (`engine.ticks`). The controller does not notice: its reference is
+replaced by one that returns what is known already.
 """
 
 from __future__ import annotations
@@ -26,7 +32,11 @@ from biped_adrc.types import Array
 
 
 class CompiledReference:
-    """A law of references for n coordinates, called as it is; `now` are arguments and what it says of them."""
+    """The law of a reference for n coordinates in machine code, called as the law itself is.
+
+    `now` is (q, v, point): arguments and the reference at them, where somebody has computed it
+    already. They are recognised by identity, since those arrays are read-only and not used again.
+    """
 
     def __init__(self, laws: ReferenceLaws, n: int):
         self.laws, self.n = laws, n
@@ -46,10 +56,11 @@ class CompiledReference:
         return SymbolicFunction(K.symbol, inp.symbol, column(*self.traced(k, t, q, v)))
 
     def traced(self, k: object, t: float, q: Array, v: Array) -> ReferencePoint:
-        """The reference at symbols. Raises Untraceable."""
+        """The reference at symbols of t, q (n,), v (n,). Raises Untraceable."""
         return run(Tracer(), self.laws.point, k, t, q, v)
 
     def __call__(self, k: object, t: float, q: Array, v: Array) -> ReferencePoint:
+        """The reference at t [s], q (n,) [rad], v (n,) [rad/s]; k is not needed, its numbers are in K."""
         seen_q, seen_v, known = self.now
         if q is seen_q and v is seen_v and known is not None:  # both arrays are read only
             return known
@@ -59,7 +70,11 @@ class CompiledReference:
 
 
 def compiled_references(part: object, n: int, points: list[CompiledReference]) -> Any:
-    """A controller, or a part of one, with the references in its fields compiled; `points` gets their laws."""
+    """A controller, or a part of one, with the references in its fields compiled.
+
+    Controllers nest (`inner`), so fields of dataclasses are searched to any depth. `points` is
+    extended by the laws found. What cannot be compiled stays as it is.
+    """
     if isinstance(part, Reference):
         return _compiled(part, n, points)
     if not is_dataclass(part) or isinstance(part, type | Biped):
@@ -71,7 +86,7 @@ def compiled_references(part: object, n: int, points: list[CompiledReference]) -
 
 
 def _compiled(reference: Reference, n: int, points: list[CompiledReference]) -> Reference:
-    """The reference with its law in machine code; itself where it has none, or none to be compiled."""
+    """The reference with its law in machine code; itself where it has no law that can be compiled."""
     laws: ReferenceLaws | None = reference._laws
     if laws is None or reference._obstacle or laws.obstacle:
         return reference
@@ -85,14 +100,16 @@ def _compiled(reference: Reference, n: int, points: list[CompiledReference]) -> 
 
 
 class InputNumbers(NamedTuple):
-    """Of the model and of the reference."""
+    """What `told` is given as K: numbers of the model and of the reference."""
 
     robot: PlantArrays
+    """Of the model."""
     k: object
+    """Of the reference, () without one."""
 
 
 class ControllerInputs:
-    """`told` for a model and one reference, or none."""
+    """The function `told` for a nominal model and at most one reference."""
 
     def __init__(self, model: Biped, point: CompiledReference | None):
         assert isinstance(model, CompiledBiped)
@@ -113,7 +130,7 @@ class ControllerInputs:
 
     @property
     def address(self) -> int:
-        """Of the function."""
+        """Address of the function."""
         return self.machine.addresses["told"]
 
     def function(self) -> SymbolicFunction:

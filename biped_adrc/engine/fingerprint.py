@@ -1,7 +1,14 @@
-"""What generated code depends on, as one hash: the laws' code, the make of robot and parameters, versions.
+"""What generated code depends on, as one hash: the laws' code, the structure of robot and
+parameters, versions.
 
-A law is followed into everything that it can reach: functions, classes, objects, constants and, in modules, the
-attributes that it names. Libraries are told by name, this package by its source.
+Object code is kept on disk between sessions, so a change of anything that it was made from has to
+give another name. A law is followed into everything that it can reach: functions, classes, objects,
+constants and, in modules, the attributes that it names. Libraries are represented by their names
+and versions, this package by a hash of its source. What cannot be followed, such as an object of a
+compiled extension, raises Untraceable: it is better not to compile than to run old code.
+
+`engine.program`, `engine.compiled_walker` and all others that call `engine.ir.generated` build
+their keys here.
 """
 
 from __future__ import annotations
@@ -40,17 +47,17 @@ _BARE = vars(NamedTuple("_Bare", [])) | {
 
 
 def hash_of(*parts: object) -> str:
-    """A name for files."""
+    """A name for files, from the texts of these parts."""
     return hashlib.sha256("\0".join(map(str, parts)).encode()).hexdigest()[:32]
 
 
 def law_text(law: object) -> str:
-    """The code of a law and all that it reaches. Raises Untraceable where that cannot be told."""
+    """The code of a law and all that it reaches, as text. Raises Untraceable where its content is hidden."""
     return "\n".join(_Reach().tell(law))
 
 
 def structure_text(tree: object) -> str:
-    """Parameters without their floats: names, shapes, and what else there is, which decides."""
+    """Parameters without their floats: names, shapes, and what else there is, which decides the code."""
     if isinstance(tree, tuple | list):
         names = getattr(tree, "_fields", range(len(tree)))
         inside = ", ".join(
@@ -63,7 +70,10 @@ def structure_text(tree: object) -> str:
 
 
 class _Reach:
-    """Texts of what is reached, each thing once."""
+    """Texts of what is reached, each thing once, in a fixed order.
+
+    seen: by identity; the objects are kept, so that no identity is used again.
+    """
 
     def __init__(self) -> None:
         self.seen: dict[int | tuple[int, frozenset[str]], object] = {}
@@ -110,7 +120,7 @@ class _Reach:
                 yield from self.tell(sys.modules[name], names)
 
     def class_(self, x: type) -> Iterator[str]:
-        """By name; a class of the user's with all that it and its bases hold."""
+        """A class by its name and fields; one of the user's with all that it and its bases hold."""
         yield f"{x.__module__}.{x.__qualname__}{getattr(x, '_fields', '')}"
         for cls in x.__mro__:
             if not _known(cls.__module__):
@@ -120,7 +130,7 @@ class _Reach:
     def named(
         self, values: Mapping[str, object], names: frozenset[str] = frozenset()
     ) -> Iterator[str]:
-        """Names and what they stand for."""
+        """Names, sorted, and what they stand for."""
         for name in sorted(values):
             yield name
             yield from self.tell(values[name], names)
@@ -149,7 +159,7 @@ class _Reach:
             yield from self.by_parts(x)
 
     def by_parts(self, x: object) -> Iterator[str]:
-        """What is inside an object of any class."""
+        """What is inside an object of any class; of a library's the pickled form. Raises Untraceable."""
         inside = _inside(x)
         if inside or not _known(type(x).__module__):
             yield from self.class_(type(x))
@@ -161,7 +171,7 @@ class _Reach:
             raise _untold(x) from error
 
     def ufunc(self, x: np.ufunc) -> str:
-        """One of NumPy's by its name."""
+        """One of NumPy's by its name. Raises Untraceable for any other."""
         if getattr(np, x.__name__, None) is not x:
             raise _untold(x)
         return x.__name__
@@ -169,6 +179,7 @@ class _Reach:
 
 @lru_cache(maxsize=1024)
 def _code_text(code: types.CodeType) -> str:
+    """Bytecode, names and constants; sets of constants sorted, since their order changes from run to run."""
     parts = [code.co_code.hex(), code.co_names, code.co_varnames, code.co_freevars]
     for constant in code.co_consts:
         inside = sorted(map(repr, constant)) if isinstance(constant, frozenset) else constant
@@ -177,7 +188,7 @@ def _code_text(code: types.CodeType) -> str:
 
 
 def _inside(x: object) -> dict[str, object]:
-    """The parts of an object by name."""
+    """The parts of an object by name: of wrappers what they wrap, of others slots and attributes."""
     wrapped = ("fget", "func", "__func__", "__self__", "args", "keywords", "__wrapped__")
     wraps = (property, functools.cached_property, functools.partial, staticmethod, classmethod)
     if isinstance(x, (*wraps, types.MethodType)) or hasattr(x, "cache_parameters"):
@@ -188,6 +199,7 @@ def _inside(x: object) -> dict[str, object]:
 
 
 def _untold(x: object) -> Untraceable:
+    """The error for an object that cannot be followed."""
     return Untraceable(
         f"a law reaches {x!r}, a {type(x).__name__}, whose content cannot be told from outside"
     )
@@ -207,7 +219,7 @@ def _known(module: str) -> bool:
 
 @lru_cache(maxsize=1024)
 def _words(code: types.CodeType) -> frozenset[str]:
-    """Texts in a piece of code that may be names, as for `getattr`."""
+    """Texts in a piece of code that may be names of attributes, as for `getattr`."""
     inner = (_words(x) for x in code.co_consts if isinstance(x, types.CodeType))
     own = (x for x in code.co_consts if isinstance(x, str) and x.isidentifier())
     return frozenset(own).union(*inner)

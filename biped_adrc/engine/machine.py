@@ -1,12 +1,16 @@
 """Machine code of generated functions and modules, kept on disk with checksums.
 
-Functions: object code is stored under a hash of what it was made from and of what makes it; a damaged file is
-made again, and where nothing can be written it is made in memory each time.
+Last stage of the compiler. Two kinds of code are kept in `cache_folder()`:
 
-Modules: one folder per hash of the source and of what compiles it. Files are written beside and moved into
-place, so several processes may make the same one. What cannot be written is kept in a temporary folder; what is
-damaged is written again. numba keeps its machine code beside; `seal` adds a checksum to each of its files, and
-those without the right one are removed before they are read.
+Functions (from `engine.ir`): object code is stored under a hash of what it was made from and of
+what makes it; a damaged file is made again, and where nothing can be written it is made in memory
+each time.
+
+Modules (the loops of `engine.kernels`, compiled by numba): one folder per hash of the source and of
+what compiles it. Files are written beside and moved into place, so several processes may make the
+same one. What cannot be written is kept in a temporary folder; what is damaged is written again.
+numba keeps its machine code beside the source and does not check it; `seal` adds a checksum to each
+of its files, and those without the right one are removed before they are read.
 """
 
 from __future__ import annotations
@@ -47,7 +51,9 @@ class LoadedCode:
     """Functions in memory; they live as long as `owner` does."""
 
     addresses: dict[str, int]
+    """By name."""
     owner: object
+    """LLVM's engine."""
 
 
 _LOADED: dict[str, LoadedCode] = {}
@@ -63,7 +69,7 @@ class ModuleText(NamedTuple):
 
 
 def load_or_compile(key: str, names: Sequence[str], text: Callable[[], ModuleText]) -> LoadedCode:
-    """The functions `names` stored under `key`, or compiled from `text()`."""
+    """The functions `names` stored under `key`, or compiled from `text()` and stored; one thread at a time."""
     with _LOCK:
         code = stored(key)
         if code is None:
@@ -73,14 +79,14 @@ def load_or_compile(key: str, names: Sequence[str], text: Callable[[], ModuleTex
 
 
 def remembered(key: str, names: Sequence[str], text: Callable[[], ModuleText]) -> LoadedCode:
-    """As `load_or_compile`, once per process."""
+    """As `load_or_compile`, once per process and key."""
     if key not in _LOADED:
         _LOADED[key] = load_or_compile(key, names, text)
     return _LOADED[key]
 
 
 def processor() -> str:
-    """What the code is made for: the processor, its instructions, and LLVM."""
+    """What the code is made for: the processor, its instructions, and LLVM's version."""
     from llvmlite import binding
 
     features = binding.get_host_cpu_features().flatten()
@@ -88,7 +94,7 @@ def processor() -> str:
 
 
 def target() -> binding.TargetMachine:
-    """LLVM's machine for this processor, a new one each time: MCJIT owns the one that it is given."""
+    """LLVM's target machine for this processor, a new one each time: MCJIT owns the one that it is given."""
     from llvmlite import binding
 
     binding.initialize_native_target()
@@ -102,7 +108,7 @@ def target() -> binding.TargetMachine:
 
 
 def compiled(text: str, vectors: bool = False) -> bytes:
-    """Object code of a module in LLVM's language."""
+    """Object code of a module in LLVM's language, optimised at level 3 without reordering of sums."""
     from llvmlite import binding
 
     host = target()
@@ -117,7 +123,7 @@ def compiled(text: str, vectors: bool = False) -> bytes:
 
 
 def loaded(code: bytes, names: Sequence[str]) -> LoadedCode:
-    """Object code in memory."""
+    """Object code in memory, with the addresses of these functions."""
     from llvmlite import binding
 
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target())
@@ -128,11 +134,12 @@ def loaded(code: bytes, names: Sequence[str]) -> LoadedCode:
 
 
 def _path(key: str) -> Path:
+    """File of the object code stored under `key`."""
     return cache_folder() / "code" / f"{key}.bin"
 
 
 def stored(key: str) -> bytes | None:
-    """Object code from the disk; None when it is not there or damaged."""
+    """Object code from the disk; None when it is not there or its checksum is wrong."""
     try:
         data = _path(key).read_bytes()
     except OSError:
@@ -142,7 +149,7 @@ def stored(key: str) -> bytes | None:
 
 
 def keep(key: str, code: bytes) -> None:
-    """Write object code where that is possible."""
+    """Write object code with its checksum, where that is possible."""
     try:
         write_bytes(_path(key), hashlib.sha256(key.encode() + code).digest() + code)
     except (OSError, OutputError):
@@ -196,6 +203,7 @@ def seal(module: ModuleType) -> None:
 
 
 def _remove_unsealed(folder: Path) -> None:
+    """Remove numba's files without the right checksum."""
     for path in _machine_code(folder):
         mark = path.with_name(path.name + MARK)
         with suppress(OSError):
@@ -204,15 +212,17 @@ def _remove_unsealed(folder: Path) -> None:
 
 
 def _machine_code(folder: Path) -> list[Path]:
+    """The files that numba keeps beside a module: index (.nbi) and code (.nbc)."""
     return [path for path in (folder / "__pycache__").glob("*.nb[ic]") if path.is_file()]
 
 
 def _checksum(path: Path) -> str:
+    """Of name and content, so that exchanged files are noticed too."""
     return hashlib.sha256(path.name.encode() + path.read_bytes()).hexdigest()
 
 
 def forget(module: ModuleType) -> None:
-    """Remove the machine code numba keeps of a module, where it cannot be used."""
+    """Remove the machine code that numba keeps of a module, where it cannot be used."""
     shutil.rmtree(Path(str(module.__file__)).parent / "__pycache__", ignore_errors=True)
 
 
@@ -229,6 +239,7 @@ def _written(path: Path, source: str) -> Path:
 
 @lru_cache(maxsize=1)
 def _temporary() -> Path:
+    """A folder for this process alone, removed when it ends."""
     folder = Path(tempfile.mkdtemp(prefix="biped_adrc-"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return folder

@@ -1,10 +1,12 @@
 """A walker as machine code: addresses of its functions, and the vector K of its numbers.
 
-One compilation serves every robot, gain and gait of the same make; a program is made in microseconds where its
-functions are in memory, in milliseconds where they are on disk.
+One compilation serves every robot, gain and gait of the same structure: the hash has no floats in
+it (`fingerprint.structure_text`). So a program is made in microseconds where its functions are in
+memory, in milliseconds where they are on disk; only for a new structure is anything traced and
+compiled.
 
-Beside them stands the product of the exponential method: `turn`, M E for a matrix M (k, k) in place of K and E
-(k, p).
+Beside the functions of `engine.equations` stands `turn`, the product of the exponential method: M E
+for a matrix M (k, k) in the place of K and E (k, p).
 """
 
 from __future__ import annotations
@@ -37,10 +39,13 @@ class Program:
     """Functions by name, and the numbers they are called with."""
 
     make: WalkerStructure
+    """Structure of the walker."""
     machine: LoadedCode
+    """Its functions in memory."""
     K: Array
+    """The numbers as a vector; its last entry is unused, so that it is never empty."""
     numbers: WalkerNumbers
-    """Those in K, by name."""
+    """The same by name."""
 
     @property
     def nx(self) -> int:
@@ -49,9 +54,11 @@ class Program:
 
     @classmethod
     def of(cls, walker: Walker, size: int, split: SplitLaws | None = None) -> Program:
-        """The program of a walker whose controller has `size` states, with coordinates to split it in.
+        """The program of a walker whose controller has `size` states; split: coordinates of the
+        exponential method.
 
-        Raises NotCompiled, or ModelError for a robot that is no planar tree.
+        Raises NotCompiled for a part without laws, or ModelError for a robot that is no planar
+        tree.
         """
         plant, laws = robot_of(walker.plant), laws_of(walker.law)
         model = None if walker.model is None else robot_of(walker.model)
@@ -65,7 +72,7 @@ class Program:
         return cls(make, _machine(make, numbers), K, numbers)
 
     def address(self, name: str) -> int:
-        """Where a function is, 0 for one that this walker has not."""
+        """Address of a compiled function; 0 if this walker does not need it."""
         split = self.make.split
         if name == "turn" and split is not None:
             return product(len(split.A), self.make.robot.p).addresses[name]
@@ -81,7 +88,10 @@ def laws_of(controller: Controller) -> ControllerLaws:
 
 
 def _common(plant: RobotData, model: RobotData | None) -> RobotStructure:
-    """The plant's make, with every term that it or the model has. Raises NotCompiled for another tree."""
+    """The plant's structure, with every term that it or the model has, since both run through the same code.
+
+    Raises NotCompiled for a model whose links are joined in another way.
+    """
     if model is None:
         return plant.structure
     one, other = plant.structure, model.structure
@@ -103,6 +113,7 @@ def _numbers(
     laws: ControllerLaws,
     split: SplitLaws | None,
 ) -> WalkerNumbers:
+    """All numbers of a walker by name, as K lists them."""
     biped = walker.plant
     limit = math.inf if walker.torque_limit is None else float(walker.torque_limit)
     return WalkerNumbers(
@@ -121,6 +132,8 @@ def _numbers(
 
 
 def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
+    """The functions of a structure in memory. Raises NotCompiled for an operation without machine code."""
+
     def traced(name: str) -> SymbolicFunction:
         made: SymbolicFunction = getattr(Equations.of(make, numbers), name)()
         return made
@@ -133,6 +146,7 @@ def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
 
 
 def _key(make: WalkerStructure, numbers: WalkerNumbers) -> str:
+    """Hash of all that decides the code: laws, structure, versions; no float is in it."""
     split = () if make.split is None else make.split[3:]
     laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split))
     return hash_of(
@@ -149,7 +163,7 @@ def _key(make: WalkerStructure, numbers: WalkerNumbers) -> str:
 
 
 def product(k: int, p: int) -> LoadedCode:
-    """With the function `turn`, straight-line code in vectors."""
+    """Machine code with the function `turn`, as vector instructions."""
 
     def turn() -> SymbolicFunction:
         M, E = Vector("M", k * k), Vector("E", k * p)

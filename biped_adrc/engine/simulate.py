@@ -1,7 +1,12 @@
 """Runs of a walker in compiled code, with the trajectory that the Python engine would leave.
 
-What has no laws runs in Python on the compiled plant: in sampled time the controller is called once per tick
-and the plant moves in between in compiled code; anything else takes the Python engine with compiled dynamics.
+Three ways, the fastest that fits is taken:
+
+- all compiled: controller, observer, disturbance and method have laws; an arc is one call of a
+  kernel;
+- compiled plant, sampled time: the controller is plain Python, called once per sample instant, and
+  the plant moves in between in compiled code (`engine.ticks`);
+- compiled plant otherwise: the Python loop of `hybrid.simulator` on compiled dynamics.
 """
 
 from __future__ import annotations
@@ -31,10 +36,11 @@ from biped_adrc.types import Array
 def run_compiled(
     walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
-    """As `hybrid.simulate` for a walker.
+    """As `hybrid.simulator.run` for a walker, from x0 (nx,).
 
-    The trajectory's settings say which engine ran and, where it is not all compiled, why. Raises InputError
-    for a start that is not finite or parts that do not fit, ModelError for a robot that is no planar tree.
+    The trajectory's settings say which engine ran and, where it is not all compiled, why. Raises
+    InputError for a start that is not finite or parts that do not fit, ModelError for a robot that
+    is no planar tree.
     """
     options.check(np.asarray(x0))
     try:
@@ -50,7 +56,7 @@ def run_compiled(
 def on_compiled_plant(
     walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
-    """A run in Python with compiled dynamics. Raises as `run_compiled`."""
+    """A run in Python from x0 (nx,) with compiled dynamics and references. Raises as `run_compiled`."""
     points: list[CompiledReference] = []
     controller = compiled_references(walker.controller, walker.plant.n, points)
     model = None if walker.model is None else CompiledBiped.of(walker.model)
@@ -81,7 +87,9 @@ class _Arcs:
         return 64 + min(100_000, int(longest / shortest / every + 2.0 * ticks))
 
     def fly(self, t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
-        """One arc from x at t [s], and the impact at its end."""
+        """One arc from x (nx,) at t [s], and the impact at its end; fired: the event before, None
+        at the start.
+        """
         plan, K = self.compiled.plan, self.compiled.K
         s = plan.start(x, t, mode.step, mode.start, self.options.t_end)
         s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE

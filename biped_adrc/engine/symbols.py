@@ -1,8 +1,17 @@
 """Laws on symbols: run once on CasADi's scalars in NumPy's object arrays, a law leaves an expression.
 
-A law sees copies of `np`, `math` and `solve` that make no float arrays and decide nothing by the numbers.
-Numbers of type int decide, and are part of the expression's structure; floats are symbols, to be given at run
-time. A law that branches on a symbol raises `Untraceable`.
+This is the first stage of the compiler: law -> expression (here) -> LLVM text (`engine.ir`) ->
+machine code (`engine.machine`). A law is an ordinary Python function on NumPy arrays. `Tracer`
+makes a copy of it, and of every function that it reaches, in which `np`, `math` and `linear.solve`
+are replaced by twins that make no float arrays and decide nothing by the numbers. The law's own
+lines are not rewritten.
+
+Numbers of type int decide (sizes, flags) and are part of the expression's structure; floats are
+symbols, to be given at run time, so that one compilation serves all values. A law that branches on
+a symbol raises `Untraceable`; np.where is the way to write such a choice.
+
+Symbols are typed as the numbers and arrays that they stand for, since the functions that take them
+are typed for numbers.
 """
 
 from __future__ import annotations
@@ -28,7 +37,9 @@ T = TypeVar("T")
 
 
 class Untraceable(InputError):
-    """The law looks at a number to decide what to do, or does what has no symbol."""
+    """The law looks at a number to decide what to do, or does what has no symbol. The text names
+    the function.
+    """
 
 
 Number = Union["Scalar", float]
@@ -36,13 +47,18 @@ Number = Union["Scalar", float]
 
 
 def expression(x: Number) -> ca.SX | float:
-    """The expression of a Scalar or a number."""
+    """The CasADi expression behind a Scalar, or the number itself as a float."""
     return x.e if isinstance(x, Scalar) else float(x)
 
 
 def _binary(
     function: Callable[..., ca.SX | float], reflected: bool = False
 ) -> Callable[[Scalar, Number], Scalar]:
+    """A method of `Scalar` for this operator; reflected: with the operands exchanged, as for 2.0 * x.
+
+    Beside an array it returns NotImplemented, and NumPy then applies the operator entry by entry.
+    """
+
     def apply(self: Scalar, other: Number) -> Scalar:
         if isinstance(other, np.ndarray):
             return NotImplemented
@@ -53,7 +69,11 @@ def _binary(
 
 
 class Scalar:
-    """One number of an expression; arithmetic gives another."""
+    """One number of an expression; arithmetic with another Scalar or a float gives another Scalar.
+
+    e: the CasADi expression. Turning it into a bool or a float raises Untraceable, since that is
+    where a law would decide by a number. Comparisons give Scalars that are 0 or 1, for np.where.
+    """
 
     __slots__ = ("e",)
 
@@ -67,6 +87,7 @@ class Scalar:
         raise Untraceable("the law turns a number into a float of Python's or of an array's")
 
     def __pow__(self, other: Number) -> Scalar:
+        """A whole exponent stays an int, which CasADi turns into products; any other is a power."""
         if isinstance(other, np.ndarray):
             return NotImplemented
         if isinstance(other, int | float | np.number) and float(other).is_integer():
@@ -83,7 +104,7 @@ class Scalar:
         return self
 
     def cos(self) -> Scalar:
-        """Asked for by NumPy, as `sin`."""
+        """NumPy asks each entry of an object array for its `cos`, and for its `sin`."""
         return Scalar(ca.cos(self.e))
 
     def sin(self) -> Scalar:
@@ -103,12 +124,16 @@ setattr(Scalar, "__ne__", _binary(operator.ne))  # noqa: B010
 
 
 def _compare(name: str) -> Callable[..., Any]:
+    """NumPy's comparison of that name with Scalars as result, where NumPy would make an array of bool."""
     compare = getattr(np, name)
     return lambda self, other: compare(self, other, dtype=object)
 
 
 class Symbols(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
-    """An array of Scalars; comparisons give Scalars too, for `np.where`."""
+    """An object array of Scalars; comparisons give Scalars too, for `np.where`.
+
+    Typed as the array of float64 that it stands for, so that laws take it.
+    """
 
     __lt__, __le__ = _compare("less"), _compare("less_equal")
     __gt__, __ge__ = _compare("greater"), _compare("greater_equal")
@@ -126,10 +151,11 @@ FUNCTIONS = {
     "floor": "floor",
     "sign": "sign",
 }
-"""NumPy's names and CasADi's."""
+"""Functions of one number that can be traced: NumPy's names and CasADi's."""
 
 
 def _function(name: str) -> Callable[[Number], Scalar]:
+    """CasADi's function of that name for one Scalar."""
     return lambda x: Scalar(getattr(ca, name)(expression(x)))
 
 
@@ -143,7 +169,7 @@ tanh = elementwise(_function("tanh"))
 
 
 class _Substitute:
-    """A module some of whose functions are replaced."""
+    """A module some of whose functions are replaced; every other name is the module's own."""
 
     def __init__(self, module: types.ModuleType, replaced: Mapping[str, object]):
         self._module = module
@@ -154,23 +180,32 @@ class _Substitute:
 
 
 def _filled(value: float) -> Callable[..., NDArray[np.object_]]:
+    """A function like np.zeros or np.ones that makes object arrays, whose entries may become Scalars."""
     return lambda shape, *_, **__: np.full(shape, value, dtype=object)
 
 
 def minimum(a: Number, b: Number) -> Scalar:
+    """The smaller of two numbers."""
     return Scalar(ca.fmin(expression(a), expression(b)))
 
 
 def maximum(a: Number, b: Number) -> Scalar:
+    """The larger of two numbers."""
     return Scalar(ca.fmax(expression(a), expression(b)))
 
 
 def where(condition: Number, a: Number, b: Number) -> Scalar:
+    """a where the condition is not 0, else b; both are evaluated."""
     return Scalar(ca.if_else(expression(condition), expression(a), expression(b)))
 
 
 def solve_positive(A: Array, B: Array, what: str) -> Array:
-    """X with A X = B for a symmetric positive definite A, by A = L d L' without pivots."""
+    """X (n, c) or (n,) with A X = B for a symmetric positive definite A (n, n), by A = L d L'
+    without pivots.
+
+    Written out entry by entry, since the expression has to be straight-line code; n is small.
+    `what` names the matrix in the version for numbers, `linear.solve_positive`.
+    """
     n, columns = len(A), B.reshape(len(A), -1).astype(object).view(Symbols)
     L = np.full((n, n), 0.0, dtype=object)
     d: list[Number] = []
@@ -192,16 +227,22 @@ def solve_positive(A: Array, B: Array, what: str) -> Array:
 
 
 Row = list[Number]
-"""A row of a matrix beside its right sides, during elimination."""
+"""One row of a matrix beside its right sides, during elimination."""
 
 
 class Solver:
-    """`solve` by elimination with the largest pivot of each column, chosen at run time; keeps the pivots."""
+    """`linear.solve` on symbols: elimination with the largest pivot of each column.
+
+    Which row has the largest pivot is not known while tracing, so the rows are exchanged by choices
+    in the expression. All pivots are kept: an exact zero among them at run time means a singular
+    matrix.
+    """
 
     def __init__(self) -> None:
         self.pivots: list[Scalar] = []
 
     def __call__(self, A: Array, B: Array, what: str = "") -> Array:
+        """X (n, c) or (n,) with A X = B, for A (n, n)."""
         n = len(A)
         if n == 0:
             return np.full(np.shape(B), 0.0, dtype=object)
@@ -226,7 +267,7 @@ class Solver:
 
     @property
     def least(self) -> Scalar:
-        """The smallest |pivot|, infinite without one."""
+        """The smallest |pivot| of all solutions so far, infinite without one; generated functions return it."""
         least = Scalar(ca.SX(math.inf))
         for pivot in self.pivots:
             least = minimum(least, pivot)
@@ -234,11 +275,12 @@ class Solver:
 
 
 def _pairs(one: Row, other: Row) -> Iterator[tuple[int, tuple[Number, Number]]]:
+    """Column number, and the entries of both rows in that column."""
     return enumerate(zip(one, other, strict=True))
 
 
 def _larger_first(one: Row, other: Row, j: int) -> tuple[Row, Row]:
-    """The two rows, that with the larger entry in column j first."""
+    """The two rows, that with the larger entry in column j first; entries left of column j are zero."""
     a, b = (ca.fabs(ca.SX(expression(row[j]))) for row in (one, other))
     swap = Scalar(b > a)
     first = [where(swap, b, a) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
@@ -252,11 +294,11 @@ BUILTINS: Mapping[str, Callable[..., object]] = {
     "min": minimum,
     "max": maximum,
 }
-"""What laws find under these names."""
+"""What laws find under these names in place of Python's: no float(), and no choice by a number."""
 
 
 class Tracer:
-    """Copies of laws that run on symbols, with one solver for all."""
+    """Copies of laws that run on symbols, with one solver for all, so that `solver.least` covers them all."""
 
     def __init__(self) -> None:
         self.solver = Solver()
@@ -289,7 +331,12 @@ class Tracer:
         self._copies: dict[types.FunctionType, Any] = {}
 
     def __call__(self, law: T) -> T:
-        """The law for symbols, with every function that it reaches."""
+        """The law for symbols, with every function that it reaches; what is no Python function
+        stays as it is.
+
+        A copy shares the code object and has its own globals and closure, in which names are
+        replaced. Copies are remembered, so recursion between laws ends.
+        """
         if not isinstance(law, types.FunctionType):
             return law
         if law not in self._copies:
@@ -308,6 +355,7 @@ class Tracer:
         return self._copies[law]
 
     def _substitute(self, value: object) -> object:
+        """The twin of a value that a law names: of a module, a solver, a law, or a tuple of such."""
         for old, new in self._substitutes:
             if value is old:
                 return new
@@ -317,12 +365,12 @@ class Tracer:
 
 
 def rebuilt(like: tuple[object, ...] | list[object], parts: list[object]) -> object:
-    """A tuple, NamedTuple or list of the same make with other parts."""
+    """A tuple, NamedTuple or list of the same class with other parts."""
     return like._make(parts) if hasattr(like, "_make") else type(like)(parts)
 
 
 def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
-    """A law on symbols. Raises Untraceable that names the function which cannot be run so."""
+    """What a law gives on symbols. Raises Untraceable that names the function which cannot be run so."""
     try:
         return trace(law)(*arguments)
     except Exception as error:  # whatever NumPy says of an object that is no float
@@ -340,13 +388,17 @@ LIBRARIES = (__file__, str(Path(np.__file__).parent), str(Path(ca.__file__).pare
 
 @lru_cache(maxsize=1024)
 def names_of(code: types.CodeType) -> frozenset[str]:
-    """The names that a piece of code and what is defined inside it look up."""
+    """The global names and attributes that a piece of code, and code defined inside it, looks up."""
     inner = (names_of(x) for x in code.co_consts if isinstance(x, types.CodeType))
     return frozenset(code.co_names).union(*inner)
 
 
 class Vector:
-    """A flat vector of symbols, taken from the front, one array after the other."""
+    """A flat vector of symbols (size,), taken from the front, one array after the other.
+
+    `floats` lists the numbers of parameters in the same order, so a generated function and its
+    caller agree on the layout without writing it down.
+    """
 
     def __init__(self, name: str, size: int):
         self.symbol = ca.SX.sym(name, size)
@@ -369,10 +421,11 @@ class Vector:
         return out
 
     def like(self, tree: T) -> T:
+        """The parameters of a law with their floats as symbols; ints stay what they are."""
         return self._like(tree)
 
     def _like(self, tree: object) -> Any:
-        """The parameters of a law with their floats as symbols; ints stay what they are."""
+        """The same for any part of a tree of tuples, lists, arrays and numbers."""
         if isinstance(tree, tuple | list):
             return rebuilt(tree, [self._like(x) for x in tree])
         if isinstance(tree, np.ndarray):
@@ -393,6 +446,6 @@ def floats(tree: object) -> Iterator[float]:
 
 
 def column(*parts: ArrayLike | Scalar) -> ca.SX:
-    """CasADi's column of all numbers in arrays and scalars."""
+    """CasADi's column (size, 1) of all numbers in arrays and scalars, one after the other."""
     flat = [expression(x) for part in parts for x in np.asarray(part, dtype=object).ravel()]
     return ca.vertcat(*flat) if flat else ca.SX(0, 1)

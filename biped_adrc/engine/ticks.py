@@ -1,7 +1,14 @@
-"""Sampled control in plain Python on the compiled plant: the controller is called once per tick.
+"""Sampled control in plain Python on the compiled plant: the controller is called once per sample instant.
 
-Between ticks the plant is (q, q', u) with the torque held, or (q, q', u_m, u) where the motors lag; it moves by
-itself in compiled code, disturbance and events included.
+Between sample instants the plant is (q, q', u) with the torque held, or (q, q', u_m, u) where the
+motors lag; it moves by itself in compiled code, disturbance and events included. There are two
+systems for `hybrid.simulator`:
+
+- `TicksWithHardware`, with sensors, delays or a meter, runs the walker's own sample instants of
+  `closed_loop.semantics`, one call of a kernel between two of them;
+- `TicksWithoutHardware` does a whole arc in one loop. One compiled call moves the plant, computes
+  the model's terms and the reference at the next sample instant, and leaves them where Python reads
+  them, so that a sample instant costs little more than the controller itself.
 """
 
 from __future__ import annotations
@@ -39,9 +46,9 @@ from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, Indices
 
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
-"""The guards that end a run, by status."""
+"""Names of the event functions that end a run, by status."""
 BLOCK = 256
-"""Ticks of which the measurements lie in one array."""
+"""Sample instants whose inputs lie in one array."""
 ROOM = 1024
 """Nodes of an arc to make room for at first."""
 
@@ -54,7 +61,8 @@ def run_ticks(
     options: RunOptions,
     points: Sequence[CompiledReference] = (),
 ) -> Trajectory:
-    """A run of a walker with compiled dynamics, whose controller has references with the laws `points`.
+    """A run from x0 (nx,) of a walker with compiled dynamics, whose controller has references with
+    the laws `points`.
 
     Raises NotCompiled for a disturbance or method without laws.
     """
@@ -69,7 +77,10 @@ def run_ticks(
 
 
 def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> FoundEvent | None:
-    """The event behind a code of the kernels, None for none. Raises one of `simulator.FAILURES`, or what the jump raises."""
+    """The event behind a code of the kernels at t [s], x (nx,); None for COMPLETED.
+
+    Raises one of `simulator.FAILURES`, or what the controller's jump raises.
+    """
     if code == COMPLETED:
         return None
     if code == layout.STRUCK:
@@ -86,7 +97,7 @@ def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> FoundEve
 def start(
     plant: CompiledWalker, x: Array, t: float, mode: Mode, end: float, fired: str | None, every: int
 ) -> Array:
-    """The vector s of a held plant's run over one arc."""
+    """The run vector s of a held plant over one arc, from x (nx,) at t [s] to `end` [s] at the latest."""
     s = plant.plan.start(x, t, mode.step, mode.start, end)
     s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
     s[layout.EVERY] = every
@@ -95,14 +106,14 @@ def start(
 
 # -- with hardware ---------------------------------------------------------------------------------
 def flowing(sizes: HeldSizes, length: int) -> Indices:
-    """Where in a state of `length` numbers what flows between ticks is: q, q', with lag u_m, and u."""
+    """Where in a state of `length` numbers the held plant is: places of q, q', with lag u_m, and u."""
     motors = length - sizes.p * (sizes.waiting + 2)
     lagging = range(motors, motors + sizes.p) if sizes.lag else ()
     return np.array([*range(2 * sizes.n), *lagging, *range(length - sizes.p, length)])
 
 
 def whole(x: Array, at: Indices, rows: Array) -> Array:
-    """x with other numbers at these places, in as many rows as there are."""
+    """x (nx,) with other numbers at these places, in as many rows as there are: (nx,) or (N, nx)."""
     out = np.tile(x, (*rows.shape[:-1], 1)) if rows.ndim > 1 else x.copy()
     out[..., at] = rows
     return out
@@ -110,11 +121,14 @@ def whole(x: Array, at: Indices, rows: Array) -> Array:
 
 @dataclass(frozen=True)
 class TicksWithHardware(HybridSystem):
-    """The walker's own ticks, hardware and meter included, on the held plant."""
+    """The walker's own sample instants, hardware and meter included, on the held plant."""
 
     walker: Walker
+    """With compiled dynamics."""
     plant: CompiledWalker
+    """The plant under a held torque."""
     flowing: Indices
+    """Its places in a state of the walker."""
 
     def clocks(self) -> tuple[Clock, ...]:
         return self.walker.clocks()
@@ -124,7 +138,11 @@ class TicksWithHardware(HybridSystem):
 
 
 class HeldMotion:
-    """Moves `TicksWithHardware` from one of its ticks to the next."""
+    """Moves `TicksWithHardware` from one of its sample instants to the next, over one arc.
+
+    s: the kernels' run vector, made at the first call and carried on, so that events are watched
+    across sample instants.
+    """
 
     def __init__(self, system: TicksWithHardware, fired: str | None):
         self.system, self.fired = system, fired
@@ -133,6 +151,7 @@ class HeldMotion:
     def __call__(
         self, t: float, x: Array, mode: Mode, until: float, record: Record
     ) -> tuple[float, Array, FoundEvent | None]:
+        """From (t, x) to `until` [s] or the first event, as `hybrid.system.Mover`."""
         plant, at = self.system.plant, self.system.flowing
         if self.s is None:
             self.s = start(plant, x[at], t, mode, until, self.fired, record.every)
@@ -152,15 +171,21 @@ _HOLD = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)
 
 @dataclass(frozen=True)
 class TicksWithoutHardware(HybridSystem):
-    """x = (q, q', s, u): ticks and motion in one, since a tick costs little more than the controller itself.
+    """x = (q, q', s, u): sample instants and motion in one loop, since one costs little more than
+    the controller itself.
 
-    The call that moves the plant to a tick leaves what the controller is given there in a block of memory.
+    The call that moves the plant to a sample instant leaves what the controller is given there in a
+    block of memory.
     """
 
     walker: Walker
+    """With compiled dynamics and references."""
     plant: CompiledWalker
+    """The plant under a held torque."""
     told: ControllerInputs
+    """What the controller is given, compiled."""
     t_first: float
+    """Start of the run [s]."""
 
     def mover(self, fired: str | None) -> Mover:
         return partial(self.move, fired)
@@ -168,7 +193,10 @@ class TicksWithoutHardware(HybridSystem):
     def move(
         self, fired: str | None, t: float, x: Array, mode: Mode, until: float, record: Record
     ) -> tuple[float, Array, FoundEvent | None]:
-        """Over all ticks of an arc, as `system.Mover`."""
+        """Over all sample instants of an arc, from x (nx,) at t [s], as `hybrid.system.Mover`.
+
+        Nodes are recorded even where the controller raises.
+        """
         n, end = self.walker.plant.n, len(x) - self.walker.plant.p
         held = np.concatenate((x[: 2 * n], x[end:]))
         s = start(self.plant, held, t, mode, until, fired, record.every)
@@ -190,9 +218,10 @@ class TicksWithoutHardware(HybridSystem):
         states: list[Array],
         ends: list[int],
     ) -> int:
-        """Tick, move, tick, to an event or to `until`; a code. After every tick s goes into `states`.
+        """Sample, move, sample, to an event or to `until` [s]; a code of the kernels.
 
-        ends: how many nodes there were at each tick.
+        After every sample instant the controller's state (size,) goes into `states`, and into
+        `ends` how many nodes there were.
         """
         walker, law, time = self.walker, self.walker.law, self.walker.timing
         assert isinstance(time, SampledTime)
@@ -231,7 +260,7 @@ class TicksWithoutHardware(HybridSystem):
         raise AssertionError
 
     def keep(self, nodes: Array, states: list[Array], ends: list[int], record: Record) -> None:
-        """The nodes, with the state of the controller at each of them."""
+        """Record the nodes (N, 1 + 2 nx), with the controller's state at each of them."""
         n, nx = self.walker.plant.n, self.plant.plan.nx
         s = np.zeros((len(nodes), 0))
         if len(states[0]):
@@ -244,19 +273,20 @@ class TicksWithoutHardware(HybridSystem):
 
 @dataclass
 class NoReference:
-    """In place of a reference that there is none of."""
+    """In the place of a compiled reference where the controller has none."""
 
     now: object = None
 
 
 TickInput = tuple[Array, Array, Reduction, ReferencePoint | None, int]
-"""q, v, terms of the model and reference at a tick; where the next of them goes, an address."""
+"""q, v, terms of the model and reference at a sample instant; and the address where the next ones go."""
 
 
 class TickInputs:
-    """(q, v, terms, point) at one tick after the other, all read only, and where `hold` writes the next.
+    """What the controller is given at one sample instant after the other, all arrays read-only.
 
-    hold(at, following) takes the plant on; a code.
+    hold(at, following) moves the plant on, writes the next inputs at the address `following`, and
+    returns a code; `at` is the address of `given`, the list of addresses that the kernel reads.
     """
 
     def __init__(self, plant: CompiledWalker, told: ControllerInputs, s: Array):
@@ -271,7 +301,7 @@ class TickInputs:
         self.at = self.given.ctypes.data
 
     def grow(self, rows: int) -> None:
-        """Room for so many nodes; those that there are stay."""
+        """Make room for so many nodes; those that there are stay."""
         more = np.empty((rows, self.rows.shape[1]))
         more[: len(self.rows)] = self.rows
         self.rows, self.s[layout.ROOM] = more, rows
@@ -281,10 +311,15 @@ class TickInputs:
 
     @property
     def kept(self) -> Array:
-        """The nodes so far."""
+        """The nodes so far (N, 1 + 2 nx): t [s], x, x'."""
         return self.rows[: int(self.s[layout.COUNT])]
 
     def __iter__(self) -> Iterator[TickInput]:
+        """Inputs at one sample instant after the other, views into blocks of BLOCK rows.
+
+        The first row is computed here; every other one is filled by the call of `hold` before. A
+        new block is made each time, since controllers may keep what they were given.
+        """
         last = np.empty((1, self.width))
         last[0, 0] = self.s[layout.TIME]
         last[0, 1 : 1 + 2 * self.n] = self.s[layout.HEAD : layout.HEAD + 2 * self.n]

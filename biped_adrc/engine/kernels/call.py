@@ -1,8 +1,13 @@
 """Pointers, calls of C functions by their addresses at run time, and how the loops are compiled.
 
-The loops work on pointers, written and read as arrays are; a vector is a pointer to its first number.
-numba compiles what a function calls once more into each of its callers; a `unit` is compiled once, and called
-by its symbol.
+The loops work on pointers, written and read as arrays are; a vector is a pointer to its first
+number. Generated laws are called by an address that is data of the run, so the loops are compiled
+once for all walkers.
+
+There are three decorators. `inner` functions are compiled into each of their callers, `unit`s once
+each and called by their symbol, which keeps the compile time down; `kernel`s are what Python calls.
+The annotations of units and kernels are read as their signatures (int, float, Ints, Array, Rows),
+so nothing is compiled for types seen at run time.
 """
 
 from __future__ import annotations
@@ -22,6 +27,7 @@ from numpy.typing import NDArray
 Ints = NDArray[np.int64]
 Rows = NDArray[np.float64]
 _Function = TypeVar("_Function", bound=Callable[..., object])
+"""A function that keeps its type through a decorator."""
 
 
 Generated = tuple[Signature, Callable[..., ir.Value]]
@@ -35,18 +41,22 @@ cfunc: Any = numba.cfunc
 types: Any = numba.types
 
 KERNELS: list[Dispatcher] = []
+"""All kernels, to be compiled."""
 UNITS: dict[str, tuple[Signature, Callable[..., object]]] = {}
 """By symbol: the signature and the function, in the order in which they need each other."""
 ADDRESSES: dict[str, int] = {}
 """Of the units in memory, by name."""
 _NUMBERS = {"int": types.int64, "float": types.float64, "None": types.void}
+"""numba's types by the annotations of numbers."""
 _POINTERS = {"Ints": types.CPointer(types.int64), "Array": types.CPointer(types.float64)}
+"""Of vectors, in units."""
 _ARRAYS = {"Ints": types.int64[::1], "Array": types.float64[::1], "Rows": types.float64[:, ::1]}
+"""Of vectors and matrices, in kernels."""
 _KEEP: list[object] = []
 
 
 def intrinsic(function: Callable[..., Generated]) -> Callable[..., Any]:
-    """numba's, written in LLVM's instructions."""
+    """numba's decorator for a function that is written in LLVM's instructions."""
     made: Any = extending.intrinsic
     return made(function)
 
@@ -59,7 +69,7 @@ def kernel(function: _Function) -> _Function:
 
 
 def inner(function: _Function) -> _Function:
-    """Compiled into the units and kernels that call it, and kept on disk with them."""
+    """Compiled into the units and kernels that call it, and kept on disk with them; for small functions."""
     return njit(
         nogil=True,
         error_model="numpy",
@@ -71,7 +81,7 @@ def inner(function: _Function) -> _Function:
 def _signature(
     function: Callable[..., object], kinds: Mapping[str, Type]
 ) -> tuple[list[Type], Any]:
-    """Kinds of the arguments and of the result, from the annotations."""
+    """numba's types of the arguments and of the result (None for none known), from the annotations."""
     known = {**_NUMBERS, **kinds}
     hints = function.__annotations__
     return [known[hint] for name, hint in hints.items() if name != "return"], known.get(
@@ -80,7 +90,10 @@ def _signature(
 
 
 def unit(function: _Function) -> _Function:
-    """A C function with a symbol of its own, once `compile_all` has run; its annotations are its signature."""
+    """A C function with a symbol of its own, once `compile_all` has run; its annotations are its signature.
+
+    What it is given comes back as a reference to that symbol, so callers do not compile it again.
+    """
     arguments, result = _signature(function, _POINTERS)
     signature = result(*arguments)
     symbol = f"{function.__module__}.{function.__name__}"
@@ -89,7 +102,10 @@ def unit(function: _Function) -> _Function:
 
 
 def compile_all() -> None:
-    """The machine code of all units and kernels, from the disk if it is there; no more is compiled after."""
+    """The machine code of all units and kernels, from the disk if it is there; no more is compiled after.
+
+    Units come first, in the order in which they need each other: a kernel links to their symbols.
+    """
     for symbol, (signature, function) in UNITS.items():
         compiled = cfunc(signature, cache=True, error_model="numpy")(function)
         _KEEP.append(compiled)
@@ -101,6 +117,7 @@ def compile_all() -> None:
 
 
 def _pointer(context: Context, builder: ir.IRBuilder, kind: Type, value: ir.Value) -> ir.Value:
+    """The first address of an array; a pointer as it is."""
     if isinstance(kind, types.Array):
         return context.make_array(kind)(context, builder, value).data
     return value
@@ -137,7 +154,7 @@ def data(typingctx: object, array: Any) -> Generated:
 
 @intrinsic
 def shift(typingctx: object, pointer: Type, i: Type) -> Generated:
-    """Pointer to entry i."""
+    """Pointer to entry i of what `pointer` points to."""
 
     def codegen(
         context: Context, builder: ir.IRBuilder, signature: Signature, arguments: list[ir.Value]
@@ -148,6 +165,8 @@ def shift(typingctx: object, pointer: Type, i: Type) -> Generated:
 
 
 def _pointer_at(number: Type, kind: ir.Type) -> Callable[..., Any]:
+    """An intrinsic from an address (int64) to a pointer to numbers of this type."""
+
     def at(typingctx: object, address: Type) -> Generated:
         def codegen(
             context: Context,

@@ -1,14 +1,23 @@
-"""Where the loops find their numbers: one vector of integers P, one of floats F, and work rows W.
+"""Places of numbers in memory, shared by the kernels and by Python.
 
-Every function takes some of (P, F, K, W): the plan of a run in integers and in floats, the parameters K that
-the called laws read, and the work rows, whose first is the state of the run. The names here are plain numbers,
-and so constants to the compiler.
+Every kernel function takes some of these vectors:
+
+    P   integers of the plan: addresses, sizes, places in F     read only
+    F   floats of the plan: clock, tolerances, matrices         read only
+    K   parameters that the called laws read                    read only
+    W   work rows (ROWS, width); row 0 is the head of the run   one per run
+    s   the run vector: head, then x                            one per run
+    R   nodes kept (rows, 1 + 2 nx): t, x, x'                   one per run
+
+The names here are plain numbers, and so constants to the compiler; a structured record would say
+more, and compile longer.
 """
 
 from __future__ import annotations
 
 # P: addresses
 FLOW, TICK, STRIKE, WATCH, TO, BACK, REMAINDER = 0, 1, 2, 3, 4, 5, 6
+"""P: addresses of the walker's functions, in the order of `run_plan.LawAddresses`."""
 TURN = 7
 # P: sizes n, nx, p, nw, k, the forced rows of E, and the levels of halving
 COORDINATES, STATES, JOINTS, SLOW, STIFF, FORCED, LEVELS = 8, 9, 10, 11, 12, 13, 14
@@ -28,25 +37,33 @@ PART_SIZE = (
 OUTSIDE = 5  # numbers for the meter behind a tick's input: force, impulse, drop
 # F
 PERIOD, T_FIRST, LEAST_STEP, H, RTOL, ATOL, MAX_STEP = 0, 1, 2, 3, 4, 5, 6
+"""F: sampling period [s], start of the run [s], minimum step length [m], fixed step [s],
+tolerances, longest step [s].
+"""
 PERIOD_PART = 7  # [s] after a tick, at which the waiting torque acts
 F_HEAD = 8
 
 # kinds of method
 RK4, DOP853, ETD = 0, 1, 2
+"""Kinds of method."""
 # the matrices of one level of halving, in the order of PhiTable
 HALF, HALF_PHI, FULL_STEP, FIRST, MIDDLE, LAST, MATRICES = 0, 1, 2, 3, 4, 5, 6
+"""Matrices of one level of halving, in the order of `hybrid.integrators.PhiTable`."""
 # the tableau: A (12, 12), B and C (12,), E3 and E5 (13,), one after the other
 STAGES = 12
 B_AT, C_AT, E3_AT, E5_AT, TABLEAU = 144, 156, 168, 181, 194
 
 # guards, in the order in which they are watched
 FOOT_STRIKE, HIP_TOO_LOW, STEP_TOO_LONG, GUARDS = 0, 1, 2, 3
+"""Event functions in the order in which they are watched: touchdown, hip too low, single support too long."""
 FOOT_X = 3  # beside the three witnesses: x of the swing foot
 
 # codes that an arc ends with; the first eight are statuses
 COMPLETED, TIME_OUT, FELL, STALLED = 0, 1, 2, 3
+"""Codes that an arc ends with; the first eight are those of `run_plan.STATUS`."""
 NOT_FINITE, SINGULAR, STEP_FAILED, EVENT_LIMIT = 4, 5, 6, 7
 STRUCK, FULL = 8, 9
+"""An impact ended the arc; R is full. No statuses: the caller goes on."""
 
 # head of the vector s of a run, and of W: t [s]; single support; its start [s]; end of the arc or
 # segment [s]; the guard that ended the last arc, -1 for none; every how many steps a node is kept; nodes kept;
@@ -70,7 +87,12 @@ SLOPES = 32  # 13 rows of DOP853
 ROWS = 45
 
 RESOLUTION = 2e-3  # [s], longest stretch of a step without a look at the witnesses
+"""Longest stretch of a step without a look at the event functions [s]."""
 MOST_STEPS = 10_000_000  # of one segment; more of them are a method that cannot go on
+"""Of one segment; with more of them a method cannot go on (STEP_FAILED)."""
 LANDING = 1e-9  # a last step longer than h by this fraction is still one step
+"""A last step longer than h by this fraction [1] is still one step."""
 SAME_STEP = 1e-9  # relative difference below which two steps share their matrices
+"""Relative difference [1] below which two steps share their matrices."""
 XTOL, XRTOL = 1e-15, 9e-16  # [s] and relative, of the time of an event
+"""Tolerances [s] and [1] of the time of an event."""
