@@ -189,7 +189,7 @@ def _compiled(biped: Biped) -> CompiledBiped:
 def plant_functions(
     structure: RobotStructure, example: PlantArrays
 ) -> dict[str, Callable[[], SymbolicFunction]]:
-    """The four functions by name, each to be traced when it is needed.
+    """The four functions by name, each to be traced when it is needed; q, v, force, a are (n,).
 
     `terms` and `body` give the parts of their tuples one after the other. K has symbols for the
     floats of the example.

@@ -47,7 +47,11 @@ class SignalNumbers(NamedTuple):
 
 
 def observe(make: WalkerStructure, example: SignalNumbers, h: ReferenceLaws) -> SymbolicFunction:
-    """The function for one structure of walker and reference, with symbols for the floats of an example."""
+    """The function for one structure of walker and reference, with symbols for the floats of an example.
+
+    make: structure of the walker; h: laws of the reference. The expressions are those of
+    `signals_at`.
+    """
     K = Vector("K", count(example))
     watched = K.like(example)
     equations = Equations(make, K.symbol, watched.walker)
@@ -64,8 +68,9 @@ def compiled_readings(
 ) -> InstantSignals | None:
     """All signals at all N nodes of a run, N rows of each; None where a part has no compiled form.
 
-    Nodes at jumps are read just before them (`Arc.seen`), where the disturbance has its limit from
-    the left.
+    reference: the curve that is looked at, which need not be the one the controller tracked. Nodes
+    at jumps are read just before them (`Arc.seen`), where the disturbance has its limit from the
+    left.
     """
     h = reference_laws(reference)
     if h.obstacle:

@@ -16,8 +16,10 @@ on the compiled plant.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -73,8 +75,9 @@ class CompiledWalker:
     ) -> CompiledWalker:
         """For a controller with `size` states and a run that begins at t_first [s].
 
-        Raises NotCompiled where a part has no laws or the method no compiled form, InputError for a method
-        without the coordinates that it needs.
+        Compiles the walker's functions where they are not in memory or on disk, and makes the plan.
+        Raises NotCompiled where a part has no laws or the method no compiled form, InputError for a
+        method without the coordinates that it needs.
         """
         split, made = _method(walker, method)
         program = Program.of(walker, size, split)
@@ -113,7 +116,11 @@ def _plan(
     clock: ClockTable,
     method: MethodTable,
 ) -> RunPlan:
-    """The plan of a run: addresses, sizes, ground, disturbance, clock and method in one record."""
+    """The plan of a run: addresses, sizes, ground, disturbance, clock and method in one record.
+
+    Of a held state only q and v flow, so the step methods may skip the rest; with lagging motors
+    all of it does.
+    """
     n, p, nx = walker.plant.n, walker.plant.p, program.nx
     stiff = 0 if split is None else len(split.A)
     flows = walker.held is None or walker.held.sizes.lag  # the torque of the motors, then all does
@@ -134,8 +141,13 @@ FORMS: Mapping[str, Callable[[Any], MethodTable] | None] = {
     "etd": None,
 }
 """Tables of the methods by `OneStepMethod.compiled_form`; None for the one that needs coordinates too."""
-_MATRICES: dict[tuple[float, bytes, tuple[int, ...]], MethodTable] = {}
-"""Tables of the exponential method by step, linear part and forced rows; made once, by one thread."""
+
+
+@lru_cache(maxsize=64)
+def _matrices(h: float, A: bytes, rows: tuple[int, ...]) -> MethodTable:
+    """The table of the exponential method for a step h [s], A (k, k) as bytes, and forced rows."""
+    k = math.isqrt(len(A) // 8)
+    return methods.etd(h, np.frombuffer(A).reshape(k, k), np.array(rows, dtype=np.int64))
 
 
 def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, MethodTable]:
@@ -158,16 +170,14 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Me
     split = walker.split_laws(form.feedback)
     if split is None:
         raise no_coordinates()
-    key = form.h, split.A.tobytes(), split.rows
-    if key not in _MATRICES:
-        while len(_MATRICES) >= 64:
-            _MATRICES.pop(next(iter(_MATRICES)))
-        _MATRICES[key] = methods.etd(form.h, split.A, np.array(split.rows, dtype=np.int64))
-    return split, _MATRICES[key]
+    return split, _matrices(form.h, split.A.tobytes(), split.rows)
 
 
 def _push(disturbance: Disturbance | None, n: int) -> DisturbanceTable:
-    """The laws of a disturbance as addresses and numbers. Raises NotCompiled for one in plain Python."""
+    """The laws of a disturbance as addresses and numbers; none without a disturbance.
+
+    Raises NotCompiled for a part that is a method in plain Python, with its obstacle.
+    """
     if disturbance is None:
         return DisturbanceTable()
     laws = disturbance_laws(disturbance)
@@ -222,7 +232,11 @@ def disturbance_code(law: DisturbanceLaw, n: int) -> LoadedCode:
 
 
 def _text(law: DisturbanceLaw, parts: dict[str, Part], n: int) -> ModuleText:
-    """The module of a disturbance's functions, each behind its `active` where it has one."""
+    """The module of a disturbance's functions.
+
+    A law with `active` gets three: `active`, the function proper, and one that calls it only where
+    the first is above 0.
+    """
     if law.active is None:
         return ModuleText(
             module_text({name: _function(law, n, *part) for name, part in parts.items()})

@@ -34,8 +34,9 @@ from biped_adrc.types import Array
 class CompiledReference:
     """The law of a reference for n coordinates in machine code, called as the law itself is.
 
-    `now` is (q, v, point): arguments and the reference at them, where somebody has computed it
-    already. They are recognised by identity, since those arrays are read-only and not used again.
+    `now` is (q, v, point): arguments and the reference at them, where `told` has computed it
+    already. They are recognised by identity, which is safe since those arrays are read-only and
+    made anew each time.
     """
 
     def __init__(self, laws: ReferenceLaws, n: int):
@@ -109,7 +110,11 @@ class InputNumbers(NamedTuple):
 
 
 class ControllerInputs:
-    """The function `told` for a nominal model and at most one reference."""
+    """The function `told` for a nominal model and at most one reference.
+
+    model: a CompiledBiped. K: numbers of both, as `told` takes them; shapes: of the parts that it
+    gives.
+    """
 
     def __init__(self, model: Biped, point: CompiledReference | None):
         assert isinstance(model, CompiledBiped)

@@ -178,7 +178,9 @@ class SymbolicLoop(NamedTuple):
     given: Array
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """With the body's terms always: what no law asks for leaves no code."""
+        """With the body's terms always, at q (n,) [rad], v (n,) [rad/s]: what no law asks for
+        leaves no code.
+        """
         return semantics.measurement(self, t, q, v, mode, body=True)
 
     def saturate(self, u: Array) -> Array:

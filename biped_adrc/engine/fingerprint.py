@@ -35,15 +35,18 @@ from biped_adrc.versions import NEVER_TRACED, packages, source_text
 _PACKAGE = __name__.partition(".")[0]
 _FOLDERS = tuple(sysconfig.get_paths()[kind] for kind in ("stdlib", "purelib", "platlib"))
 _PLAIN = (types.NoneType, bool, int, float, complex, str, bytes, range, Enum, types.EllipsisType)
+"""Values that are their own text."""
 _NAMED = (
     *(types.MethodDescriptorType, types.WrapperDescriptorType, types.MemberDescriptorType),
     *(types.GetSetDescriptorType, types.MethodWrapperType, types.ClassMethodDescriptorType),
 )
+"""Methods of built-in classes, known by their names."""
 _BARE = vars(NamedTuple("_Bare", [])) | {
     "__firstlineno__": 0,
     "_abc_impl": 0,
     "__abstractmethods__": 0,
 }
+"""Attributes that every class has, and that say nothing of its content."""
 
 
 def hash_of(*parts: object) -> str:
@@ -102,7 +105,10 @@ class _Reach:
             yield from self.value(x)
 
     def function(self, x: types.FunctionType) -> Iterator[str]:
-        """Code, defaults, and what its names stand for, here and in modules that it imports."""
+        """Code, defaults, and what its names stand for, here and in modules that it imports.
+
+        A library's function is known by its name; its version is in `versions_text`.
+        """
         yield f"{x.__module__}.{x.__qualname__}"
         if _known(x.__module__) and not x.__module__.startswith(_PACKAGE):
             return
@@ -136,7 +142,7 @@ class _Reach:
             yield from self.tell(values[name], names)
 
     def value(self, x: object) -> Iterator[str]:
-        """An object by its parts, an array by its bytes."""
+        """An object by its parts, an array by its bytes; a set sorted by text, since its order is not fixed."""
         if isinstance(x, np.ndarray | np.generic) and x.dtype.kind != "O":
             yield f"{x.dtype}{x.shape}{x.tobytes().hex()}"
         elif isinstance(x, tuple | list | np.ndarray):
@@ -207,7 +213,10 @@ def _untold(x: object) -> Untraceable:
 
 @lru_cache(maxsize=4096)
 def _known(module: str) -> bool:
-    """Whether a module is one of a library, or of this package where laws may come from."""
+    """Whether a module belongs to a library, or to this package where laws may come from.
+
+    Those are covered by versions and by the source's hash, so they are not followed.
+    """
     top, *rooms = module.split(".")
     if top == _PACKAGE:
         return not rooms or rooms[0] not in NEVER_TRACED
@@ -219,7 +228,7 @@ def _known(module: str) -> bool:
 
 @lru_cache(maxsize=1024)
 def _words(code: types.CodeType) -> frozenset[str]:
-    """Texts in a piece of code that may be names of attributes, as for `getattr`."""
+    """Texts in a piece of code that may be names of attributes, as for `getattr`; they are looked up too."""
     inner = (_words(x) for x in code.co_consts if isinstance(x, types.CodeType))
     own = (x for x in code.co_consts if isinstance(x, str) and x.isidentifier())
     return frozenset(own).union(*inner)
@@ -235,7 +244,9 @@ def _imported(code: types.CodeType) -> frozenset[str]:
 
 @lru_cache(maxsize=1)
 def versions_text() -> str:
-    """The versions of what makes code, the processor, and the package's own source."""
+    """The versions of what makes code, the processor, and a hash of the package's own source; once
+    per process.
+    """
     from biped_adrc.engine.machine import processor
 
     made_by = packages(("numpy", "casadi", "llvmlite")).values()

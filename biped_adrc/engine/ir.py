@@ -48,9 +48,12 @@ DECLARATIONS = "\n".join(
 def generated(
     key: str, functions: Mapping[str, Callable[[], SymbolicFunction]], vectors: bool = False
 ) -> LoadedCode:
-    """These functions in memory, traced only where no object code is stored under `key`.
+    """These functions in memory, by name; traced and written only where no object code is stored
+    under `key`.
 
-    vectors: as of `ModuleText`.
+    - key: a hash of all that the functions depend on (`engine.fingerprint`).
+    - functions: by name, each to be called for its expression.
+    - vectors: as of `ModuleText`.
     """
 
     def text() -> ModuleText:
@@ -65,7 +68,11 @@ def module_text(functions: dict[str, SymbolicFunction]) -> str:
 
 
 def function_text(name: str, function: SymbolicFunction) -> str:
-    """The text of one function with arguments K, inp, out, which do not overlap."""
+    """The text of one function with arguments K, inp, out, which do not overlap.
+
+    Common subexpressions are taken out first (CasADi's cse): positions and rates of the links occur
+    many times.
+    """
     f = ca.Function("f", [function.K, function.inp], ca.cse([function.out]))
     writer = _Writer()
     for i in range(f.n_instructions()):
@@ -123,8 +130,10 @@ class _Writer:
             self.work[o[0]] = self.value(code, [self.work[k] for k in a], f)
 
     def value(self, code: int, a: list[str], f: ca.Function) -> str:
-        """Name of the value of an operation `code` of the values a. Raises InputError for an
-        unknown operation.
+        """Name of the value of an operation `code` of the values a; writes the lines that it needs.
+
+        Comparisons and NOT give 0.0 or 1.0, choices select. Raises InputError for an operation
+        without a line here.
         """
         if code in COMPARISONS:
             bit = self.new(f"fcmp {COMPARISONS[code]} double {a[0]}, {a[1]}")

@@ -69,7 +69,11 @@ class ModuleText(NamedTuple):
 
 
 def load_or_compile(key: str, names: Sequence[str], text: Callable[[], ModuleText]) -> LoadedCode:
-    """The functions `names` stored under `key`, or compiled from `text()` and stored; one thread at a time."""
+    """The functions `names` stored under `key`, or compiled from `text()` and stored.
+
+    One thread at a time, so that no two of them compile the same; other processes may, and write
+    the same file.
+    """
     with _LOCK:
         code = stored(key)
         if code is None:
@@ -108,7 +112,11 @@ def target() -> binding.TargetMachine:
 
 
 def compiled(text: str, vectors: bool = False) -> bytes:
-    """Object code of a module in LLVM's language, optimised at level 3 without reordering of sums."""
+    """Object code of a module in LLVM's language, optimised for this processor at level 3.
+
+    No fast-math flags: sums keep their order. vectors: look for operations that go together (SLP),
+    which helps `turn` and takes its time elsewhere.
+    """
     from llvmlite import binding
 
     host = target()
@@ -176,7 +184,10 @@ def key_of(source: str) -> str:
 
 
 def load_source(source: str) -> ModuleType:
-    """The module with this source, from the disk if it is there and undamaged."""
+    """The module with this source, from the disk if it is there and undamaged; numba compiles it when asked.
+
+    Where the cache folder cannot be written, a temporary one takes its place.
+    """
     key = key_of(source)
     try:
         path = _written(cache_folder() / key / "kernels.py", source)
@@ -193,7 +204,9 @@ def load_source(source: str) -> ModuleType:
 
 
 def seal(module: ModuleType) -> None:
-    """Note the checksums of what numba has written for a module, once it is compiled."""
+    """Note the checksums of what numba has written for a module, once it is compiled; where that is
+    possible.
+    """
     for path in _machine_code(Path(str(module.__file__)).parent):
         check = _checksum(path)
         mark = path.with_name(path.name + MARK)
@@ -227,7 +240,10 @@ def forget(module: ModuleType) -> None:
 
 
 def _written(path: Path, source: str) -> Path:
-    """The file with this text; rewritten, without the machine code beside it, when it has another one."""
+    """The file with this text; where it has another one it is rewritten, without the machine code beside it.
+
+    Raises OSError for a folder that is read-only, where numba could not keep its code.
+    """
     found = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else None
     if found != source:
         shutil.rmtree(path.parent / "__pycache__", ignore_errors=True)

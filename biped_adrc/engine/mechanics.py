@@ -89,7 +89,9 @@ class PlanarRobot:
         K: PlantArrays,
         friction: tuple[Array, Array] | tuple[()] = (),
     ) -> PlanarRobot:
-        """With a plain 0 for the entries of K that the structure says are zero, whose terms then vanish."""
+        """With a plain 0 for the entries of K (n,), (n, n) that the structure says are zero; their
+        terms then vanish.
+        """
         values: tuple[Any, ...] = K
         pairs = zip(values, structure.present, strict=True)
         kept: list[Any] = [np.where(mask, x, 0.0) if mask.ndim else x for x, mask in pairs]

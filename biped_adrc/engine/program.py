@@ -57,8 +57,9 @@ class Program:
         """The program of a walker whose controller has `size` states; split: coordinates of the
         exponential method.
 
-        Raises NotCompiled for a part without laws, or ModelError for a robot that is no planar
-        tree.
+        Takes the laws of the controller in its time base, the data of plant and model, and puts all
+        floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part without laws,
+        or ModelError for a robot that is no planar tree.
         """
         plant, laws = robot_of(walker.plant), laws_of(walker.law)
         model = None if walker.model is None else robot_of(walker.model)
@@ -146,7 +147,10 @@ def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
 
 
 def _key(make: WalkerStructure, numbers: WalkerNumbers) -> str:
-    """Hash of all that decides the code: laws, structure, versions; no float is in it."""
+    """Hash of all that decides the code: laws, structure, versions; no float is in it.
+
+    Parameters count by their names and shapes alone.
+    """
     split = () if make.split is None else make.split[3:]
     laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split))
     return hash_of(
@@ -163,7 +167,11 @@ def _key(make: WalkerStructure, numbers: WalkerNumbers) -> str:
 
 
 def product(k: int, p: int) -> LoadedCode:
-    """Machine code with the function `turn`, as vector instructions."""
+    """Machine code with the function `turn` for M (k, k) and E (k, p), as vector instructions.
+
+    The matrices of ETD-RK4 change with the length of a step, so M is an argument, in the place of
+    K.
+    """
 
     def turn() -> SymbolicFunction:
         M, E = Vector("M", k * k), Vector("E", k * p)

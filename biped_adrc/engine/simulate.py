@@ -72,14 +72,18 @@ def on_compiled_plant(
 
 @dataclass(frozen=True)
 class _Arcs:
-    """Arcs of a walker that is compiled as a whole."""
+    """Arcs of a walker that is compiled as a whole, one after the other, for `simulator.run_arcs`."""
 
     compiled: CompiledWalker
     options: RunOptions
 
     @property
     def room(self) -> int:
-        """Nodes of an arc to make room for at first: those of a long single support, two at each tick."""
+        """Nodes of an arc to make room for at first: those of a single support of 0.6 s, two at
+        each sample instant.
+
+        Where that is too few the arc is made again with more, so it need not be right.
+        """
         plan, longest = self.compiled.plan, 0.6
         F, every = plan.F, self.options.store_every
         shortest = F[layout.H] if plan.P[layout.KIND] != layout.DOP853 else 1e-3

@@ -160,7 +160,7 @@ def _function(name: str) -> Callable[[Number], Scalar]:
 
 
 def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A function of scalars for arrays and scalars alike."""
+    """A function of scalars for arrays and scalars alike, entry by entry, with object arrays as result."""
     vectorised = np.frompyfunc(function, function.__code__.co_argcount, 1)
     return lambda *arguments: vectorised(*arguments)
 
@@ -203,8 +203,9 @@ def solve_positive(A: Array, B: Array, what: str) -> Array:
     """X (n, c) or (n,) with A X = B for a symmetric positive definite A (n, n), by A = L d L'
     without pivots.
 
-    Written out entry by entry, since the expression has to be straight-line code; n is small.
-    `what` names the matrix in the version for numbers, `linear.solve_positive`.
+    Written out entry by entry, since the expression has to be straight-line code. `what` names the
+    matrix in the version for numbers, `linear.solve_positive`; here a pivot of zero gives NaN or
+    infinity at run time.
     """
     n, columns = len(A), B.reshape(len(A), -1).astype(object).view(Symbols)
     L = np.full((n, n), 0.0, dtype=object)
@@ -233,16 +234,19 @@ Row = list[Number]
 class Solver:
     """`linear.solve` on symbols: elimination with the largest pivot of each column.
 
-    Which row has the largest pivot is not known while tracing, so the rows are exchanged by choices
-    in the expression. All pivots are kept: an exact zero among them at run time means a singular
-    matrix.
+    Which row has the largest pivot is not known while tracing, so rows are exchanged by choices in
+    the expression. All pivots are kept: an exact zero among them at run time means a singular
+    matrix, which the kernels report as SINGULAR.
     """
 
     def __init__(self) -> None:
         self.pivots: list[Scalar] = []
 
     def __call__(self, A: Array, B: Array, what: str = "") -> Array:
-        """X (n, c) or (n,) with A X = B, for A (n, n)."""
+        """X (n, c) or (n,) with A X = B, for A (n, n) and B (n, c) or (n,).
+
+        Entries below the diagonal become plain zeros, so no code is written for them.
+        """
         n = len(A)
         if n == 0:
             return np.full(np.shape(B), 0.0, dtype=object)
@@ -335,7 +339,8 @@ class Tracer:
         stays as it is.
 
         A copy shares the code object and has its own globals and closure, in which names are
-        replaced. Copies are remembered, so recursion between laws ends.
+        replaced. Copies are remembered before their names are replaced, so laws that call each
+        other end.
         """
         if not isinstance(law, types.FunctionType):
             return law
@@ -370,7 +375,11 @@ def rebuilt(like: tuple[object, ...] | list[object], parts: list[object]) -> obj
 
 
 def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
-    """What a law gives on symbols. Raises Untraceable that names the function which cannot be run so."""
+    """What a law gives on symbols, at these arguments.
+
+    Raises Untraceable that names the last function of the user's or this package's in which the
+    error arose, since the error itself comes from inside NumPy or CasADi.
+    """
     try:
         return trace(law)(*arguments)
     except Exception as error:  # whatever NumPy says of an object that is no float
@@ -396,8 +405,8 @@ def names_of(code: types.CodeType) -> frozenset[str]:
 class Vector:
     """A flat vector of symbols (size,), taken from the front, one array after the other.
 
-    `floats` lists the numbers of parameters in the same order, so a generated function and its
-    caller agree on the layout without writing it down.
+    name: for CasADi's messages. `floats` lists the numbers of parameters in the same order, so a
+    generated function and its caller agree on the layout without writing it down.
     """
 
     def __init__(self, name: str, size: int):

@@ -61,10 +61,11 @@ def run_ticks(
     options: RunOptions,
     points: Sequence[CompiledReference] = (),
 ) -> Trajectory:
-    """A run from x0 (nx,) of a walker with compiled dynamics, whose controller has references with
-    the laws `points`.
+    """A run from x0 (nx,) of a walker with compiled dynamics whose controller is plain Python.
 
-    Raises NotCompiled for a disturbance or method without laws.
+    points: laws of the controller's references, compiled. The faster way is taken where nothing but
+    the torque is held between sample instants. Raises NotCompiled for a disturbance or method
+    without laws.
     """
     plant = CompiledWalker.held(walker, method)
     assert walker.held is not None
@@ -79,7 +80,8 @@ def run_ticks(
 def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> FoundEvent | None:
     """The event behind a code of the kernels at t [s], x (nx,); None for COMPLETED.
 
-    Raises one of `simulator.FAILURES`, or what the controller's jump raises.
+    An impact is carried out here, by the walker itself. Raises one of `simulator.FAILURES` where
+    the plant's motion was lost, or what the controller's jump raises.
     """
     if code == COMPLETED:
         return None
@@ -97,7 +99,10 @@ def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> FoundEve
 def start(
     plant: CompiledWalker, x: Array, t: float, mode: Mode, end: float, fired: str | None, every: int
 ) -> Array:
-    """The run vector s of a held plant over one arc, from x (nx,) at t [s] to `end` [s] at the latest."""
+    """The run vector s of a held plant over one arc, from x (nx,) at t [s] to `end` [s] at the latest.
+
+    fired: the event that ended the arc before. every: which nodes are kept.
+    """
     s = plant.plan.start(x, t, mode.step, mode.start, end)
     s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
     s[layout.EVERY] = every
@@ -221,7 +226,8 @@ class TicksWithoutHardware(HybridSystem):
         """Sample, move, sample, to an event or to `until` [s]; a code of the kernels.
 
         After every sample instant the controller's state (size,) goes into `states`, and into
-        `ends` how many nodes there were.
+        `ends` how many nodes there were. The loop is written out, without calls that could be
+        saved: it runs once per sample instant.
         """
         walker, law, time = self.walker, self.walker.law, self.walker.timing
         assert isinstance(time, SampledTime)

@@ -34,6 +34,7 @@ from biped_adrc.hybrid.system import HybridSystem, Mode, Split
 from biped_adrc.types import Array
 
 Flow = Callable[[float, Array], Array]
+"""f(t, x) -> x'."""
 LANDING = 1e-9  # a last step longer than h by this fraction is still one step, dimensionless
 
 
@@ -64,7 +65,9 @@ class OneStepMethod(ABC):
     """Name of the same method in the compiled loops; empty for one that runs in Python only."""
 
     def split(self, system: HybridSystem, mode: Mode) -> Split | None:
-        """The coordinates of `system` that the method steps in; None for x itself."""
+        """The coordinates of `system` that the method steps in; None for x itself. Raises
+        InputError for none.
+        """
         return None
 
     @abstractmethod
@@ -105,6 +108,7 @@ class RK4(OneStepMethod):
     def steps(
         self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
+        """Steps from (t, x), x (nx,), to t_end [s]; inside a step `at` takes a shorter one from its start."""
         dx = f(t, x)
         for t1 in step_ends(t, t_end, self.h):
             x1 = rk4(f, t, x, dx, t1 - t)
@@ -129,8 +133,8 @@ def rk4(f: Flow, t: float, x: Array, dx: Array, h: float) -> Array:
 class _SciPy(OneStepMethod):
     """A SciPy solver, used one step at a time; events are located on its own dense output.
 
-    rtol [1], atol: tolerances of a step; max_step [s]: longest step, so that no event is jumped
-    over.
+    - rtol [1], atol: relative and absolute tolerance of a step.
+    - max_step [s]: longest step, so that the event functions are looked at often enough.
     """
 
     rtol: float = 1e-9
@@ -150,8 +154,11 @@ class _SciPy(OneStepMethod):
     def steps(
         self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
-        """Steps of SciPy's solver. A flow that raises at a trial state gives NaN, and the step is
-        rejected; the error is raised only where the solver gives up.
+        """Steps from (t, x), x (nx,), to t_end [s].
+
+        A flow that raises NotFiniteError or SingularError at a trial state gives NaN, and the
+        solver rejects the step; the error is raised only where the solver gives up. Raises
+        StepFailed with the solver's message otherwise.
         """
         last: NotFiniteError | SingularError | None = None
 
@@ -181,7 +188,7 @@ class _SciPy(OneStepMethod):
 
 @dataclass(frozen=True)
 class Adaptive(_SciPy):
-    """The explicit pair of Dormand and Prince of order 8(5, 3), with step control."""
+    """The explicit pair of Dormand and Prince of order 8(5, 3), with step control, as SciPy's DOP853."""
 
     compiled_form: ClassVar[str] = "dop853"
     _solver = DOP853
@@ -244,7 +251,7 @@ def phi_functions(A: Array, h: float) -> Phi:
 
 
 def phi_table(A: Array, h: float) -> PhiTable:
-    """The matrices of ETD-RK4 for A (k, k) [1/s] and a step h [s]."""
+    """The matrices of ETD-RK4 for A (k, k) [1/s] and a step h [s], from two matrix exponentials."""
     return PhiTable.of(phi_functions(A, 0.5 * h), phi_functions(A, h), h)
 
 
@@ -255,7 +262,7 @@ def _remembered(A: bytes, k: int, h: float) -> PhiTable:
 
 
 def no_coordinates() -> InputError:
-    """What the method says of a system without a split."""
+    """The error of the method for a system without a split."""
     return InputError(
         "the exponential method needs a controller in continuous time whose observer is linear "
         "in its error and measures the true q_b; use RK4, Adaptive or Stiff instead"
@@ -289,9 +296,10 @@ class Exponential(OneStepMethod):
     def steps(
         self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
-        """Steps in the coordinates of `split`; a step of another length than h makes matrices of its own.
+        """Steps from (t, x), x (nx,), to t_end [s] in the coordinates of `split`.
 
-        Raises InputError without such coordinates.
+        A step of another length than h, before a break, makes matrices of its own, and so does
+        every look inside a step. Raises InputError without such coordinates.
         """
         if split is None:
             raise no_coordinates()
@@ -332,7 +340,10 @@ def etd_rk4(
     N: tuple[Array, Array],
     h: float,
 ) -> tuple[Array, Array]:
-    """p and E (k, c) after one step of length h [s] from (p, E), with N = remainder(t, p, E) known already."""
+    """p and E (k, c) after one step of length h [s] from (p, E), with N = remainder(t, p, E) known already.
+
+    table: the matrices of that h. Three more evaluations of the remainder, as RK4 has.
+    """
     Np, NE = N
     half, phi, full, first, middle, last = table
     half_E = half @ E

@@ -79,7 +79,7 @@ class Record:
 
 
 def interior(t0: float, t1: float) -> list[float]:
-    """Times in (t0, t1] no further apart than RESOLUTION, the last one t1."""
+    """Times in (t0, t1] [s] no further apart than RESOLUTION, the last one t1."""
     count = max(1, math.ceil((t1 - t0) / RESOLUTION - 1e-9))
     return [t0 + (t1 - t0) * k / count for k in range(1, count)] + [t1]
 
@@ -150,11 +150,11 @@ def simulate(
     method: OneStepMethod,
     **options: Any,
 ) -> Trajectory:
-    """Run `system` from (t0, x0, mode), x0 (nx,); options are those of `RunOptions`, of which t_end
-    has to be given.
+    """Run `system` from (t0, x0, mode), x0 (nx,).
 
-    Raises InputError for a start that is not finite or a duration that is not positive. Whatever
-    happens during the run is in the trajectory's status.
+    options are those of `RunOptions`, of which t_end has to be given. Raises InputError for a start
+    that is not finite or a duration that is not positive. Whatever happens during the run is in the
+    trajectory's status.
     """
     return run(system, x0, mode, method, RunOptions(**options))
 
@@ -177,7 +177,7 @@ def run_arcs(
     """A run from x0 (nx,), arc after arc made by fly(t, x, mode, name of the guard that has just fired).
 
     label: of the method, for the settings. Counts events, applies resets and decides when the run
-    is over.
+    is over. Overflow is no warning here: a state that is not finite ends the run as NOT_FINITE.
     """
     x, t = np.array(x0, dtype=float), options.t0
     options.check(x)
@@ -221,6 +221,9 @@ def _flow_arc(
 ) -> FlownArc:
     """One arc from (t, x) in Python: clock updates and moves until an event, t_end, or an error of
     `FAILURES`.
+
+    fired: the event that ended the arc before. An arc that fails before its first node keeps its
+    start.
     """
     record, t_arc, found = Record(options.store_every), t, None
     status, detail = Status.COMPLETED, ""
@@ -289,7 +292,9 @@ class _Steps:
 
 
 def _until(split: Split, last: float) -> Split:
-    """The split with no time after `last` [s] asked for."""
+    """The split with no time after `last` [s] asked for, so that a step that ends at a break sees
+    its left limit.
+    """
     remainder, node = split.remainder, split.node
     clamped = replace(split, remainder=lambda t, p, E: remainder(min(t, last), p, E))
     if node is None:
@@ -305,7 +310,11 @@ def _ticks(clock: Clock, t_arc: float, t_first: float) -> float:
 def _tick(
     clocks: tuple[Clock, ...], t: float, t_arc: float, t_first: float, x: Array, mode: Mode
 ) -> Array:
-    """x (nx,) after the updates of all clocks that are due at t [s]."""
+    """x (nx,) after the updates of all clocks that are due at t [s], in the order of the system's clocks.
+
+    A clock is due where t equals start + k period exactly; breaks are computed by the same
+    expression.
+    """
     for clock in clocks:
         start = _ticks(clock, t_arc, t_first)
         k = round((t - start) / clock.period)
@@ -317,7 +326,7 @@ def _tick(
 def _next_break(
     system: HybridSystem, mode: Mode, t: float, t_arc: float, t_first: float, t_end: float
 ) -> float:
-    """The first switching time or sample instant after t [s], at most t_end."""
+    """The first switching time or sample instant after t [s], at most t_end: no step goes across one."""
     times = [s for s in system.switching_times(mode) if s > t]
     for clock in system.clocks():
         start = _ticks(clock, t_arc, t_first)
@@ -329,7 +338,10 @@ def _next_break(
 
 
 class _Watch:
-    """The witnesses (event functions) along one arc; a guard is armed once its witness has left zero."""
+    """The witnesses (event functions) along one arc; a guard is armed once its witness has left zero.
+
+    values: those at the last time looked at.
+    """
 
     def __init__(self, guards: tuple[Guard, ...], t: float, x: Array, fired: str | None):
         """`fired` has just ended the last arc: what is left of its witness is round-off, taken as zero."""

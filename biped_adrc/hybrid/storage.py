@@ -46,7 +46,7 @@ def run_files(path: Path | str) -> tuple[Path, Path]:
 
 
 def check_beside(path: Path) -> None:
-    """Raises OutputError where the .json of a run would take the place of something else, such as a gait."""
+    """Raise OutputError where the .json of a run would take the place of something else, such as a gait."""
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
         ours = isinstance(record, dict) and record.get("format") == FORMAT
@@ -69,6 +69,7 @@ def save(
     """Write `path` (.npz) and the same name with .json; returns the path. Modes are stored as
     tuples of numbers.
 
+    - trajectory: states (K, nx) and what else its arcs hold, in full precision.
     - settings: noted beside those of the trajectory.
     - beside_it: arrays by name that `load_beside` gives back, such as the walker's record.
 
@@ -132,7 +133,7 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
 
 
 def load_beside(path: Path | str) -> dict[str, Stored]:
-    """The arrays beside the trajectory in a file that `load` has read. Raises InputError."""
+    """The arrays beside the trajectory, by name, in a file that `load` has read. Raises InputError."""
     with reading_run(path), np.load(Path(path), allow_pickle=False) as data:
         names = [name for name in data.files if name.startswith(BESIDE)]
         return {name.removeprefix(BESIDE): data[name] for name in names}
@@ -140,7 +141,7 @@ def load_beside(path: Path | str) -> dict[str, Stored]:
 
 @contextmanager
 def reading_run(path: Path | str) -> Iterator[None]:
-    """Raises InputError, which names the file, for whatever goes wrong while a run is read."""
+    """While a run is read: whatever goes wrong becomes an InputError that names the file."""
     if not isinstance(path, str | os.PathLike):
         raise InputError(f"a run is read from {path!r}, expected the name of a file")
     try:
@@ -175,7 +176,7 @@ def _arc(
 
 
 def _check_arc(arc: Arc, name: str) -> None:
-    """Raise ValueError for times that go back and for rows or states that do not fit one another."""
+    """Raise ValueError for times (K,) that go back, or rows and states that do not fit one another."""
     t, x, event = arc.t, arc.x, arc.event
     if t.ndim != 1 or len(t) == 0 or not np.all(np.isfinite(t)) or np.any(np.diff(t) < 0.0):
         raise ValueError(f"{name} has no times t (K,) that ascend")

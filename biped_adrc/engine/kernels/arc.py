@@ -69,7 +69,11 @@ def release(P: Ints, F: Array, W: Array, t: float, start: float) -> None:
 
 @inner
 def travel(P: Ints, F: Array, K: Array, W: Array, R: Array) -> int:
-    """From X0 at TIME to the first event or END; a code, COMPLETED at END. X0 and TIME are left there."""
+    """From X0 at TIME to the first event or END; a code, COMPLETED at END.
+
+    Each round: the sample instant that is due, the release of a waiting torque that is due, then
+    steps to the next break. X0 (nx,) and TIME [s] are left where it ended.
+    """
     start = W[ARC] if P[RESTART] == 1 else F[T_FIRST]
     while W[TIME] < W[END]:
         t = W[TIME]
@@ -88,10 +92,9 @@ def travel(P: Ints, F: Array, K: Array, W: Array, R: Array) -> int:
 
 @inner
 def arm(P: Ints, F: Array, K: Array, W: Array) -> None:
-    """The event functions at the start of an arc; what is left of the one that has just fired is
-    taken as zero.
+    """Values of the event functions (GUARDS,) at the start of an arc.
 
-    A value of zero never fires, so an impact does not repeat itself by round-off.
+    What is left of the one that has just fired is round-off and taken as zero, which never fires.
     """
     W[ARC] = W[TIME]
     after = row(P, W, AFTER)
@@ -123,7 +126,7 @@ def go_on(P: Ints, F: Array, K: Array, W: Array, s: Array, R: Array) -> int:
     END; a code.
 
     s is written only where R was not FULL, so that the call can be repeated with more room. An arc
-    without a step leaves one node.
+    that ends before its first step leaves one node, so that no arc is empty.
     """
     load(P, W, s)
     lower(P, F, W)
@@ -154,8 +157,8 @@ def arc(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array, kept:
 def hold(given: Ints, seen: Array) -> int:
     """As `arc`; then in `seen` (t, q, q') there, and behind them what a law says of these.
 
-    given (8,): addresses of P, F, K, W, s and R, of the law, and of its numbers. By addresses,
-    since a call with arrays costs more than the motion over one period.
+    given (8,): addresses of P, F, K, W, s and R, of the law, and of its numbers. By addresses, so
+    that Python passes two pointers and no arrays.
     """
     P, F, K, W = ints_at(given[0]), floats_at(given[1]), floats_at(given[2]), floats_at(given[3])
     s = floats_at(given[4])
@@ -197,7 +200,7 @@ def stride(
     and how many were made.
 
     strikes (m, 1 + 2 nx) gets a row (t, x-, x+) of each; more than m of them end as EVENT_LIMIT. No
-    other nodes are kept, so this is faster than arc by arc.
+    nodes are kept in between.
     """
     P, F, K, W, s = data(ints), data(floats), data(numbers), data(work), data(run)
     nx, made = P[STATES], 0

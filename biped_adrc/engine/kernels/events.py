@@ -21,7 +21,11 @@ from biped_adrc.types import Array
 
 @inner
 def reach(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array, dx: Array, s: float) -> None:
-    """Rows XE and TRIED: state and event functions at s [s], by one step from (t, x), x (nx,), dx (nx,)."""
+    """Rows XE and TRIED: state and event functions at s [s], by one step from (t, x), x (nx,), dx (nx,).
+
+    DOP853 always starts from X0; the others take one classical step, ETD-RK4 from the end of its
+    sub-steps.
+    """
     xe = row(P, W, XE)
     if P[KIND] == DOP853:
         eighth(P, F, K, W, t, s - t, xe)
@@ -61,7 +65,8 @@ def brent(
     """Time [s] of a root by Brent's method as in `scipy.optimize.brentq`, whose iterates it repeats.
 
     The guard's event function is f_before at `before` and f_now at `now` [s]; states in between are
-    one step from (base, x), x (nx,), dx (nx,).
+    one step from (base, x), x (nx,), dx (nx,). Secant or inverse quadratic steps, bisection where
+    those do not shrink the bracket.
     """
     other, f_other = before, f_before
     last = step = now - before
@@ -106,7 +111,8 @@ def locate(
 ) -> float:
     """Time [s] of the guard's crossing in (ta, tb] of the step from t0; rows XE and TRIED are left there.
 
-    For ETD-RK4 sub-steps first halve the interval, down to the shortest one.
+    For ETD-RK4 sub-steps narrow the bracket first, down to the shortest one; Brent's method goes on
+    within it with classical steps, which are stable at that length.
     """
     fa, fb = W[VALUES + guard], row(P, W, AFTER)[guard]
     base, x, dx = t0, row(P, W, X0), row(P, W, DX0)
@@ -127,7 +133,8 @@ def crossed(P: Ints, F: Array, K: Array, W: Array, t0: float, ta: float, tb: flo
     """Code of the earliest event in (ta, tb] [s], 0 for none; its time goes into EVENT, its state
     into row XE.
 
-    A touchdown less than LEAST_STEP ahead of the stance foot is no event.
+    Every event function that falls through zero is located and the earliest counts. A touchdown
+    less than LEAST_STEP ahead of the stance foot is no event, so the others are still looked at.
     """
     after, tried = row(P, W, AFTER), row(P, W, TRIED)
     first, first_guard, last = math.inf, -1, -1
@@ -155,7 +162,11 @@ def pieces(t0: float, t1: float) -> int:
 
 @inner
 def hermite(P: Ints, W: Array, h: float, s: float, out: Array) -> None:
-    """out (n,) [rad] = q at the fraction s of the step of length h [s] from X0 to X1."""
+    """out (n,) [rad] = q at the fraction s of the step of length h [s] from X0 to X1.
+
+    The cubic through both states with their rates as slopes; q alone, since event functions need no
+    more.
+    """
     n, x0, x1 = P[COORDINATES], row(P, W, X0), row(P, W, X1)
     for i in range(n):
         rise = x1[i] - x0[i]
@@ -167,7 +178,8 @@ def hermite(P: Ints, W: Array, h: float, s: float, out: Array) -> None:
 def suspect(P: Ints, F: Array, K: Array, W: Array, t0: float, t1: float, count: int) -> bool:
     """Whether an event function falls through zero between `count` points of the Hermite polynomial.
 
-    Row AFTER has its values at t1 [s] already.
+    A cheap first look at a long step: no flow is evaluated. Row AFTER has the values at t1 [s]
+    already.
     """
     stage = row(P, W, STAGE)
     v0, v1, v2 = W[VALUES], W[VALUES + 1], W[VALUES + 2]
@@ -188,6 +200,7 @@ def suspect(P: Ints, F: Array, K: Array, W: Array, t0: float, t1: float, count: 
 def event(P: Ints, F: Array, K: Array, W: Array, t0: float, t1: float) -> int:
     """Code of the earliest event in the step from (t0, X0) to (t1, X1), times in [s], 0 for none.
 
+    A long step is looked through stretch by stretch, so the first of two events in it is found.
     Without an event VALUES become those at t1.
     """
     count, x1, w = pieces(t0, t1), row(P, W, X1), row(P, W, AFTER)

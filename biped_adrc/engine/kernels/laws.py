@@ -40,9 +40,9 @@ def copy_held(P: Ints, x: Array, out: Array) -> None:
 
 @inner
 def finite(x: Array, size: int) -> bool:
-    """Whether the sum of squares of x (size,) is finite: a cheap test for states, which are never huge.
+    """Whether the sum of squares of x (size,) is finite, as for every state that means anything.
 
-    Four sums side by side, since one would wait for the addition before it.
+    Four sums side by side, so that no addition waits for the one before it.
     """
     a = b = c = d = 0.0
     for i in range(0, size - 3, 4):
@@ -73,13 +73,18 @@ def regular(dx: Array, size: int) -> bool:
 
 @inner
 def broken(W: Array) -> int:
-    """The status of a run whose state or slope is not finite."""
+    """The status of a run whose state (nx,) or slope is not finite: SINGULAR after a pivot of zero,
+    else NOT_FINITE.
+    """
     return SINGULAR if W[ZERO_PIVOT] == 1.0 else NOT_FINITE
 
 
 @inner
 def disturb(P: Ints, F: Array, W: Array, zeta: Array) -> None:
-    """zeta (n,) [N m]: the sum of the disturbance's parts at (t, step, t_start, q, v) in row INP."""
+    """zeta (n,) [N m]: the sum of the disturbance's parts at (t, step, t_start, q, v) in row INP.
+
+    Each part is a function of its own, called by its address with its own parameters in F.
+    """
     n, inp, part = P[COORDINATES], row(P, W, INP), row(P, W, PART)
     for i in range(n):
         zeta[i] = 0.0
@@ -120,7 +125,11 @@ def flow(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array, dx: Array) -
 
 @inner
 def next_switch(P: Ints, F: Array, W: Array, t: float, last: float) -> float:
-    """The first switching time of the disturbance after t [s], at most `last` [s]."""
+    """The first switching time of the disturbance after t [s], at most `last` [s].
+
+    A switch with step 0 counts from the start of the run, any other from the start of that single
+    support.
+    """
     first = last
     for i in range(P[SWITCHES]):
         at = P[SWITCHES_AT] + 2 * i
@@ -133,7 +142,10 @@ def next_switch(P: Ints, F: Array, W: Array, t: float, last: float) -> float:
 
 @inner
 def pushed(P: Ints, F: Array, W: Array, t: float, weight: float, total: Array) -> None:
-    """total (2,) grows by weight times the force from outside [N] at t [s], with (q, v) in row INP."""
+    """total (2,) grows by weight times the force from outside [N] at t [s], with (q, v) in row INP.
+
+    Only the parts of the disturbance that have a resultant are asked; pure torques have none.
+    """
     inp, part = row(P, W, INP), row(P, W, PART)
     inp[0], inp[1], inp[2] = t, W[STEP], W[START]
     for k in range(P[PARTS]):
@@ -172,7 +184,7 @@ def act(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array) -> int:
     """x (nx,) after a sample instant at t [s], and row DX0 its slope.
 
     On a non-finite result x is left unchanged and an error code returned. The slope comes with the
-    same call, so the first step after it needs no evaluation of the flow.
+    same call; unless motors lag it is complete, and the first step needs no evaluation of the flow.
     """
     n, nx, out, dx = P[COORDINATES], P[STATES], row(P, W, OUT), row(P, W, DX0)
     from_outside(P, F, W, t, shift(row(P, W, INP), 3 + nx + n))
@@ -190,7 +202,10 @@ def act(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array) -> int:
 
 @unit
 def remainder(P: Ints, F: Array, K: Array, W: Array, t: float, y: Array, N: Array) -> None:
-    """N = (N_w, N_E) at (t, y), t [s], y = (w, E); the disturbance is evaluated at x of y."""
+    """N = (N_w, N_E) at (t, y), t [s], y = (w, E), N_E in the forced rows only.
+
+    The disturbance depends on (q, v), so where there is one, x of y is computed for it first.
+    """
     n, ny = P[COORDINATES], P[SLOW] + P[STIFF] * P[JOINTS]
     inp, zeta = row(P, W, INP), row(P, W, ZETA)
     inp[0], inp[1], inp[2] = min(t, W[LIMIT]), W[STEP], W[START]
@@ -213,8 +228,10 @@ def join(P: Ints, K: Array, y: Array, x: Array) -> None:
 
 @inner
 def jump(P: Ints, K: Array, W: Array, x: Array, out: Array) -> int:
-    """out (nx,) = x+ at the impact in x (nx,); a status. STEP, START and ARC become those of the
-    next single support.
+    """out (nx,) = x+ at the impact in x (nx,); a status.
+
+    On success STEP, START and ARC become those of the single support that begins; on failure they
+    stay.
     """
     nx, inp = P[STATES], row(P, W, INP)
     inp[0], inp[1] = W[TIME], W[STEP] + 1.0
@@ -231,7 +248,9 @@ def jump(P: Ints, K: Array, W: Array, x: Array, out: Array) -> int:
 
 @unit
 def watch(P: Ints, F: Array, K: Array, W: Array, t: float, q: Array, out: Array) -> None:
-    """out (4,): the three event functions at (t, q), t [s], q (n,) [rad], and x of the swing foot [m]."""
+    """out (4,): the event functions at (t, q), t [s], q (n,) [rad]: clearance [m], hip margin [m],
+    time left [s]; then x of the swing foot [m].
+    """
     inp = row(P, W, INP)
     inp[0], inp[1], inp[2] = t, W[START], W[DROP]
     copy(q, shift(inp, 3), P[COORDINATES])

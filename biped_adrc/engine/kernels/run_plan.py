@@ -2,8 +2,8 @@
 
 `engine.compiled_walker` fills the records below (addresses, sizes, ground, disturbance, clock,
 method) with names; `plan` checks that they fit together and flattens them into the vectors of
-integers P and floats F, whose places `layout` names. Kernels read vectors since numba compiles them
-fast. A plan is read only and serves any number of runs, in any thread.
+integers P and floats F, whose places `layout` names. A plan is read only and serves any number of
+runs, in any thread; what changes during a run is in the run vector s and in the work rows W.
 """
 
 from __future__ import annotations

@@ -3,6 +3,9 @@
 A segment lies between two breaks. Within it the method steps from X0 to X1 (for ETD-RK4 from Y0 to
 Y1), the event functions are looked at after every step, and nodes (t, x, x') go into the rows of R,
 every k-th step and points inside of a long one.
+
+EVERY = 0 keeps no nodes. Then slopes that only nodes need are not computed: ETD-RK4 steps in y
+alone and asks for x where an event function looks at it.
 """
 
 from __future__ import annotations
@@ -25,7 +28,10 @@ def left(t: float) -> float:
 
 @inner
 def node(P: Ints, W: Array, R: Array, t: float, x: Array, dx: Array) -> bool:
-    """Keep (t, x, dx), x and dx (nx,), as the next row of R; False when there is no room."""
+    """Keep (t, x, dx), x and dx (nx,), as the next row of R; False when there is no room.
+
+    The caller then reports FULL, and Python repeats the arc with more rows.
+    """
     i, nx = int(W[COUNT]), P[STATES]
     if i >= W[ROOM]:
         return False
@@ -54,9 +60,11 @@ def nodes(P: Ints, F: Array, K: Array, W: Array, R: Array, t0: float, t1: float)
 
 @inner
 def begin(P: Ints, F: Array, K: Array, W: Array, t: float) -> None:
-    """What the first step of a segment at t [s] starts from, beside X0: slope DX0, for ETD-RK4 Y0 and N0.
+    """What the first step of a segment at t [s] starts from, beside X0: slope DX0 (nx,), for
+    ETD-RK4 Y0 and N0.
 
-    After a sample instant the slope is known (SLOPED) and not computed again.
+    After a sample instant the slope is known (SLOPED) and not computed again. ETD-RK4 needs it for
+    nodes only.
     """
     x, y = row(P, W, X0), row(P, W, Y0)
     if P[KIND] == ETD:
@@ -69,10 +77,10 @@ def begin(P: Ints, F: Array, K: Array, W: Array, t: float) -> None:
 
 @unit
 def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int) -> int:
-    """X1 and what the next step starts from, at t1 [s], by RK4 or ETD-RK4; a status.
+    """X1 (nx,) and what the next step starts from, at t1 [s], by RK4 or ETD-RK4; a status.
 
-    last: 1 for the step before a break, after which slope and remainder are not needed. A step of
-    ETD-RK4 that is not h long is made of sub-steps and one classical step.
+    last: 1 for the step before a break, after which the laws change and slope and remainder would
+    be wasted. A step of ETD-RK4 that is not h long is made of sub-steps and one classical step.
     """
     sloped, x1, y1 = W[EVERY] > 0.0, row(P, W, X1), row(P, W, Y1)
     if P[KIND] == RK4:
@@ -102,7 +110,7 @@ def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int)
 
 @inner
 def pass_on(P: Ints, W: Array) -> None:
-    """The end of a step becomes the start of the next: X1, DX1, and for ETD-RK4 Y1, N1."""
+    """The end of a step becomes the start of the next: X1, DX1 (nx,), and for ETD-RK4 Y1, N1."""
     copy(row(P, W, X1), row(P, W, X0), P[MOVING])
     copy(row(P, W, DX1), row(P, W, DX0), P[MOVING])
     if P[KIND] == ETD:
@@ -112,7 +120,10 @@ def pass_on(P: Ints, W: Array) -> None:
 
 @inner
 def stop(P: Ints, F: Array, K: Array, W: Array, R: Array, code: int) -> int:
-    """X0 (nx,) and TIME at the event just found, kept as a node with its slope from the left; its code."""
+    """X0 (nx,) and TIME at the event just found, kept as a node with its slope from the left; its code.
+
+    FULL where there is no room for the node; then the arc is made again.
+    """
     te, x, dx = W[EVENT], row(P, W, X0), row(P, W, DX0)
     copy(row(P, W, XE), x, P[STATES])
     W[TIME] = te
@@ -127,7 +138,8 @@ def stop(P: Ints, F: Array, K: Array, W: Array, R: Array, code: int) -> int:
 def through(P: Ints, F: Array, K: Array, W: Array, t_next: float, R: Array) -> int:
     """From X0 at TIME to t_next [s], over which all is smooth; a code, 0 at t_next.
 
-    More than MOST_STEPS steps, or a step of no length, end as STEP_FAILED.
+    Steps of fixed length are counted and not added up, so round-off does not grow. More than
+    MOST_STEPS steps, or a step of no length, end as STEP_FAILED.
     """
     t0 = t = W[TIME]
     every, skipped, steps, h = int(W[EVERY]), 0, 0, F[H]

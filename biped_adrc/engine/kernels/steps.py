@@ -29,7 +29,8 @@ def classical(
 ) -> None:
     """out (nx,) = one RK4 step of length h [s] from (t, x) with the slope dx (nx,).
 
-    Only the first MOVING numbers move; what is held is copied.
+    Only the first MOVING numbers move; the rest, held between sample instants, is copied. The
+    stages see the torques of it, which is all that a flow reads.
     """
     m, rest, stage = P[MOVING], P[STATES] - P[MOVING], row(P, W, STAGE)
     k2, k3, k4 = row(P, W, K2), row(P, W, K3), row(P, W, K4)
@@ -52,13 +53,16 @@ def classical(
 
 @inner
 def matrix(P: Ints, F: Array, level: int, which: int) -> Array:
-    """Pointer to one of the six matrices (k, k) of a level."""
+    """Pointer to one of the six matrices (k, k) of a level in F; `which` is HALF, HALF_PHI, ..."""
     return shift(F, P[WEIGHTS_AT] + (MATRICES * level + which) * P[STIFF] * P[STIFF])
 
 
 @inner
 def turn(P: Ints, M: Array, y: Array, out: Array) -> None:
-    """E of out = M E of y, M (k, k), E (k, p); w is left as it is."""
+    """E of out = M E of y, M (k, k), E (k, p); w of out is left as it is.
+
+    By generated vector code: k and p are constants in it.
+    """
     nw = P[SLOW]
     call(P[TURN], M, shift(y, nw), shift(out, nw))
 
@@ -96,6 +100,9 @@ def exponential(
 ) -> None:
     """out = y after one step of ETD-RK4 of length h [s] from (t, y) with the remainder N; h is that
     of the level.
+
+    The equations of `hybrid.integrators`, stages a, b and c in rows YA and YB; w takes the
+    classical RK4 with the same stages.
     """
     ny, e_half = P[SLOW] + P[STIFF] * P[JOINTS], row(P, W, E_HALF)
     a, b = row(P, W, YA), row(P, W, YB)
@@ -132,9 +139,10 @@ def halve(
 ) -> None:
     """Sub-steps from (t, Y0) that end before tb [s], and after ta [s] only before the guard's crossing.
 
-    Binary search with the prepared matrices: a sub-step of each level is taken or left out. Leaves
-    the state in rows XB, DXB (nx,), its time in LANDED, and the end of the bracket with its witness
-    in FAR, FAR_VALUE. guard -1: without an event, towards tb alone.
+    Binary search with the prepared matrices: a sub-step of each level is taken or left out. One
+    that ends behind the crossing is not taken and becomes the end of the bracket. Leaves the state
+    in rows XB, DXB (nx,), its time in LANDED, and the end of the bracket with its event function in
+    FAR, FAR_VALUE. guard -1: without an event, towards tb alone.
     """
     ny, levels = P[SLOW] + P[STIFF] * P[JOINTS], P[LEVELS]
     y, N, trial = row(P, W, Y_SUB), row(P, W, N_SUB), row(P, W, Y_TRY)
@@ -164,7 +172,7 @@ def halve(
 
 @inner
 def weighted(P: Ints, W: Array, c: Array, stages: int, i: int) -> float:
-    """Entry i of a stage's slope: sum_s c_s K_s,i with the first `stages` weights of c (stages,)."""
+    """Entry i of a weighted sum of slopes: sum_s c_s K_s,i with the first `stages` weights of c (stages,)."""
     slopes, width, total = row(P, W, SLOPES), P[WIDTH], 0.0
     for s in range(stages):
         total += slopes[s * width + i] * c[s]
@@ -175,7 +183,7 @@ def weighted(P: Ints, W: Array, c: Array, stages: int, i: int) -> float:
 def eighth(P: Ints, F: Array, K: Array, W: Array, t: float, h: float, out: Array) -> None:
     """out (nx,) = one step of DOP853 of length h [s] from (t, X0) with the slope DX0.
 
-    Leaves the 12 slopes in rows SLOPES, for the error estimate.
+    Twelve stages; their slopes stay in rows SLOPES for the error estimate.
     """
     nx, A = P[STATES], shift(F, P[WEIGHTS_AT])
     x, stage, B = row(P, W, X0), row(P, W, STAGE), shift(A, B_AT)
@@ -192,7 +200,7 @@ def eighth(P: Ints, F: Array, K: Array, W: Array, t: float, h: float, out: Array
 def error_norm(P: Ints, F: Array, W: Array, h: float) -> float:
     """Error of the step of length h [s] from X0 to X1 (nx,), as a fraction of the tolerance [1].
 
-    Combines the estimates of order 5 and 3 as Hairer's code does.
+    The estimates of order 5 and 3 combined as in Hairer's code; below 1 the step is accepted.
     """
     nx, A, x, x1 = P[STATES], shift(F, P[WEIGHTS_AT]), row(P, W, X0), row(P, W, X1)
     fifth, third = 0.0, 0.0
@@ -207,10 +215,12 @@ def error_norm(P: Ints, F: Array, W: Array, h: float) -> float:
 
 @unit
 def adaptive(P: Ints, F: Array, K: Array, W: Array, t: float, t_end: float, h: float) -> int:
-    """X1, DX1 (nx,) from X0, DX0, with the longest step that meets the tolerance; a status.
+    """X1, DX1 (nx,) from X0, DX0, with a step that meets the tolerance; a status.
 
     h [s]: first step to try. The time reached goes into REACHED, the next step to try into TRY. A
-    step below ten times the spacing of floats is STEP_FAILED.
+    step is shortened by at most 5, lengthened by at most 10, and not lengthened right after a
+    rejection, as SciPy does. Below ten times the spacing of floats it ends as STEP_FAILED, or as
+    NOT_FINITE or SINGULAR where numbers are lost.
     """
     nx, least = P[STATES], 10.0 * (np.nextafter(t, np.inf) - t)
     x1, dx1 = row(P, W, X1), row(P, W, DX1)
