@@ -46,6 +46,7 @@ class ArmSystem(ClosedLoop[Arm]):
     limited: bool = True
 
     def __post_init__(self) -> None:
+        """Raise InputError for what is no arm's: a delay, or a controller that needs the ground."""
         self.check()
         if isinstance(self.timing, SampledTime) and self.timing.delay > 0.0:
             raise InputError(

@@ -64,6 +64,7 @@ class SteppingLoop(ClosedLoop[Any]):
     motors: Motors | None = None
 
     def __post_init__(self) -> None:
+        """Raise InputError for what does not fit; see the class."""
         if not isinstance(self.timing, SampledTime):
             raise InputError(
                 f"a plant that moves by itself is controlled at ticks, found {type(self.timing).__name__}; "

@@ -81,6 +81,7 @@ class Walker(ClosedLoop[Biped]):
     impact_gain: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
+        """Raise InputError for values that do not fit together; see the class."""
         check_slope(self.slope)
         limit = self.torque_limit
         if limit is not None and not (math.isfinite(limit) and limit > 0):

@@ -127,6 +127,8 @@ def _in_order(
 ) -> Iterator[BatchWalk]:
     """As `simulate_many`: a queue of futures, whose first is handed over when it is done or the
     queue is full.
+
+    Whoever stops asking (closes the generator) cancels what has not begun.
     """
     waiting: deque[Future[BatchWalk]] = deque()
     kernels()  # here, so that no two threads compile at once
@@ -194,7 +196,9 @@ def _ended(case: Case, status: Status, detail: str) -> Callable[[], BatchWalk]:
 def _strides(
     compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impacts: int
 ) -> BatchWalk:
-    """The walk from x (nx,) at the start of the single support `mode`, in compiled code."""
+    """The walk from x (nx,) at the start of the single support `mode`, in compiled code; t_end [s]
+    at the latest.
+    """
     plan, nx = compiled.plan, len(x)
     s = plan.start(x, mode.start, mode.step, mode.start, t_end)
     strikes = np.zeros((impacts, 1 + 2 * nx))

@@ -71,6 +71,9 @@ class Call:
     """
 
     def __init__(self, machine: LoadedCode, name: str, K: Array, inputs: int, outputs: int):
+        """K (size,) are the parameters; the arrays `inp` (inputs,) and `out` (outputs,) are made
+        once and reused.
+        """
         self.owner, self.K = machine, K
         self.inp, self.out = np.zeros(inputs), np.zeros(max(1, outputs))
         self._function = _C(machine.addresses[name])

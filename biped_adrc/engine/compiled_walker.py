@@ -153,8 +153,8 @@ def _matrices(h: float, A: bytes, rows: tuple[int, ...]) -> MethodTable:
 def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, MethodTable]:
     """The coordinates that a method needs, if any, and its table.
 
-    Raises NotCompiled for a method of the user's own, which says so by writing `steps` or by no
-    compiled form; InputError for coordinates that the walker does not have.
+    Raises NotCompiled for a method of the user's own, which has no compiled form or writes over the
+    steps of one that has; InputError for coordinates that the walker does not have.
     """
     form: Any = method
     written = written_over(method, "compiled_form", frozenset(("steps", "split")))
@@ -218,7 +218,10 @@ Part = tuple[Callable[..., Array], int]
 
 
 def disturbance_code(law: DisturbanceLaw, n: int) -> LoadedCode:
-    """Machine code with the functions `torque` and, where there is one, `resultant`. Raises NotCompiled."""
+    """Machine code with the functions `torque` and, where there is one, `resultant`, for n coordinates.
+
+    Raises NotCompiled for a law that cannot be traced, with the reason.
+    """
     given: dict[str, Part] = {"torque": (law.torque, n)}
     if law.resultant is not None:
         given["resultant"] = law.resultant, 2

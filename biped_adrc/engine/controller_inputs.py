@@ -1,12 +1,12 @@
 """The inputs of a controller in plain Python, in machine code: the model's terms, and its reference
 beside them.
 
-    told  (t, q, v) -> the parts of a `Reduction`, then those of a `ReferencePoint`
-    point (t, q, v) -> the parts of a `ReferencePoint`
+    inputs (t, q, v) -> the parts of a `Reduction`, then those of a `ReferencePoint`
+    point  (t, q, v) -> the parts of a `ReferencePoint`
 
-A controller written as a Python method cannot be compiled, but nearly all of its time goes into the
-nominal model and the reference. Both are compiled, and the call that moves the plant to a sample
-instant leaves them there (`engine.ticks`). The controller does not notice: its reference is
+A controller written as a Python method cannot be compiled, but nearly all that it needs can: the
+nominal model's terms and the reference. The call that moves the plant to a sample instant computes
+them and leaves them there (`engine.ticks`). The controller does not notice: its reference is
 replaced by one that returns what is known already.
 """
 
@@ -34,12 +34,13 @@ from biped_adrc.types import Array
 class CompiledReference:
     """The law of a reference for n coordinates in machine code, called as the law itself is.
 
-    `now` is (q, v, point): arguments and the reference at them, where `told` has computed it
-    already. They are recognised by identity, which is safe since those arrays are read-only and
-    made anew each time.
+    `now` is (q, v, point): arguments and the reference at them, where `ControllerInputs` has
+    computed it already. They are recognised by identity, which is safe since those arrays are
+    read-only and made anew each time.
     """
 
     def __init__(self, laws: ReferenceLaws, n: int):
+        """Compiles the law, whose shapes are found by calling it once at zero. Raises Untraceable."""
         self.laws, self.n = laws, n
         self.now: tuple[Array | None, Array | None, ReferencePoint | None] = (None, None, None)
         example = laws.point(laws.parameters, 0.0, np.zeros(n), np.zeros(n))
@@ -101,7 +102,7 @@ def _compiled(reference: Reference, n: int, points: list[CompiledReference]) -> 
 
 
 class InputNumbers(NamedTuple):
-    """What `told` is given as K: numbers of the model and of the reference."""
+    """What the function is given as K: numbers of the model and of the reference."""
 
     robot: PlantArrays
     """Of the model."""
@@ -110,13 +111,16 @@ class InputNumbers(NamedTuple):
 
 
 class ControllerInputs:
-    """The function `told` for a nominal model and at most one reference.
+    """The function `inputs` for a nominal model and at most one reference.
 
-    model: a CompiledBiped. K: numbers of both, as `told` takes them; shapes: of the parts that it
-    gives.
+    model: a CompiledBiped. K: numbers of both, as the function takes them; shapes: of the parts
+    that it gives.
     """
 
     def __init__(self, model: Biped, point: CompiledReference | None):
+        """Compiles the function for the model's structure and the reference's law; `point` None for
+        no reference.
+        """
         assert isinstance(model, CompiledBiped)
         assert model.robot is not None
         robot = self.robot = model.robot
@@ -125,18 +129,18 @@ class ControllerInputs:
         self.K = np.array([*floats(self.numbers), 0.0])
         law = "" if point is None else law_text(point.laws.point)
         key = (
-            "told",
+            "inputs",
             structure_text(robot.structure),
             structure_text(self.numbers),
             law,
             versions_text(),
         )
-        self.machine = generated(hash_of(*key), {"told": self.function})
+        self.machine = generated(hash_of(*key), {"inputs": self.function})
 
     @property
     def address(self) -> int:
         """Address of the function."""
-        return self.machine.addresses["told"]
+        return self.machine.addresses["inputs"]
 
     def function(self) -> SymbolicFunction:
         """Model and reference on symbols."""

@@ -167,13 +167,21 @@ class SymbolicLoop(NamedTuple):
     """A `semantics.Loop` of symbols; zeta (n,) [N m] and `given` (OUTSIDE,), for the meter, are inputs."""
 
     plant: PlanarRobot
+    """The robot that moves, on symbols."""
     nominal: PlanarRobot
+    """The controller's model, on symbols; the same ones where it is the plant."""
     exact: bool
+    """Whether the controller's model is the plant."""
     law: TracedLaws
+    """The controller in its time base."""
     held: HeldParameters | None
+    """Parameters of what is held between sample instants, None in continuous time."""
     swap: Indices
+    """Relabelling of the actuated joints (p,), numbers of the structure."""
     gain: Array
+    """Relative errors of v+ (n,) [1], or empty."""
     limit: float
+    """Torque limit [N m]."""
     zeta: Array
     given: Array
 
@@ -202,10 +210,13 @@ class SymbolicInstant(NamedTuple):
     inp: Vector
     """All inputs, as one vector."""
     trace: Tracer
+    """Makes copies of laws for symbols, and keeps the pivots."""
     loop: SymbolicLoop
     t: float
     x: Array
+    """State (nx,)."""
     mode: Mode
+    """Single support and its start, symbols too."""
 
     def does(self, function: Callable[..., T], *more: object) -> T:
         """What a function of `semantics`, or one with the same first arguments, gives here."""
@@ -225,6 +236,7 @@ class Equations:
     """
 
     make: WalkerStructure
+    """Structure of the walker."""
     K: ca.SX
     numbers: WalkerNumbers
 

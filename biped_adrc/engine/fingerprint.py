@@ -55,12 +55,18 @@ def hash_of(*parts: object) -> str:
 
 
 def law_text(law: object) -> str:
-    """The code of a law and all that it reaches, as text. Raises Untraceable where its content is hidden."""
+    """The code of a law and all that it reaches, as text. Raises Untraceable where its content is hidden.
+
+    Two laws with the same text compile to the same code.
+    """
     return "\n".join(_Reach().tell(law))
 
 
 def structure_text(tree: object) -> str:
-    """Parameters without their floats: names, shapes, and what else there is, which decides the code."""
+    """Parameters without their floats: names, shapes, and what else there is, which decides the code.
+
+    ints, texts and flags are part of it; floats and float arrays are replaced by their shapes.
+    """
     if isinstance(tree, tuple | list):
         names = getattr(tree, "_fields", range(len(tree)))
         inside = ", ".join(
@@ -82,7 +88,10 @@ class _Reach:
         self.seen: dict[int | tuple[int, frozenset[str]], object] = {}
 
     def tell(self, x: object, names: frozenset[str] = frozenset()) -> Iterator[str]:
-        """The texts of x; of a module those of the attributes with these names."""
+        """The texts of x; of a module those of the attributes with these names.
+
+        A thing met again is named only, so that circles end.
+        """
         if isinstance(x, _PLAIN):
             yield f"{type(x).__qualname__} {x!r}"
             return
@@ -165,7 +174,10 @@ class _Reach:
             yield from self.by_parts(x)
 
     def by_parts(self, x: object) -> Iterator[str]:
-        """What is inside an object of any class; of a library's the pickled form. Raises Untraceable."""
+        """What is inside an object of any class; of a library's the pickled form.
+
+        Raises Untraceable where there is neither.
+        """
         inside = _inside(x)
         if inside or not _known(type(x).__module__):
             yield from self.class_(type(x))
@@ -236,7 +248,7 @@ def _words(code: types.CodeType) -> frozenset[str]:
 
 @lru_cache(maxsize=1024)
 def _imported(code: types.CodeType) -> frozenset[str]:
-    """Names of modules that a piece of code imports."""
+    """Names of modules that a piece of code imports inside itself."""
     own = {x.argval for x in dis.get_instructions(code) if x.opname == "IMPORT_NAME"}
     inner = (_imported(x) for x in code.co_consts if isinstance(x, types.CodeType))
     return frozenset(own).union(*inner)

@@ -89,6 +89,7 @@ class _Writer:
     """
 
     def __init__(self) -> None:
+        """Nothing written yet; `count` numbers the values, which LLVM wants to be assigned once each."""
         self.lines: list[str] = []
         self.stores: list[str] = []
         self.work: dict[int, str] = {}

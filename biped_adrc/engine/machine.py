@@ -44,6 +44,7 @@ if TYPE_CHECKING:
 CHECK = 32
 """Bytes of the checksum before the object code."""
 _LOCK = threading.Lock()
+"""One thread at a time compiles or loads."""
 
 
 @dataclass(frozen=True)
@@ -57,13 +58,14 @@ class LoadedCode:
 
 
 _LOADED: dict[str, LoadedCode] = {}
-"""By key, what is in memory."""
+"""What is in memory, by key, for the whole process: laws are few and small."""
 
 
 class ModuleText(NamedTuple):
     """A module in LLVM's language."""
 
     text: str
+    """The module itself."""
     vectors: bool = False
     """Whether to look for operations that go together in vectors, which takes its time."""
 
@@ -147,7 +149,10 @@ def _path(key: str) -> Path:
 
 
 def stored(key: str) -> bytes | None:
-    """Object code from the disk; None when it is not there or its checksum is wrong."""
+    """Object code from the disk; None when it is not there or its checksum is wrong.
+
+    The checksum covers the key too, so a file under a wrong name is noticed.
+    """
     try:
         data = _path(key).read_bytes()
     except OSError:
@@ -168,7 +173,7 @@ VARIABLE = "BIPED_ADRC_CACHE"
 """Environment variable: the folder of generated modules, by default biped_adrc in the user's cache."""
 
 MARK = ".sha256"
-"""Ending of the file with the checksum of another."""
+"""Ending of the file with the checksum of another file."""
 
 
 def cache_folder() -> Path:
@@ -177,7 +182,10 @@ def cache_folder() -> Path:
 
 
 def key_of(source: str) -> str:
-    """Hash of the source, of numba, llvmlite, NumPy and Python, and of the processor."""
+    """Hash of the source, of numba, llvmlite, NumPy and Python, and of the processor.
+
+    What is compiled for one processor may use instructions that another has not.
+    """
     made_by = packages(("numba", "llvmlite", "numpy")).values()
     platform_text = platform.python_version(), platform.machine(), platform.processor()
     return hashlib.sha256("\0".join((source, *made_by, *platform_text)).encode()).hexdigest()[:24]

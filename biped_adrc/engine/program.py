@@ -73,7 +73,11 @@ class Program:
         return cls(make, _machine(make, numbers), K, numbers)
 
     def address(self, name: str) -> int:
-        """Address of a compiled function; 0 if this walker does not need it."""
+        """Address of a compiled function; 0 if this walker does not need it.
+
+        The kernels never call an address of 0: `run_plan.plan` checks what the method and the clock
+        need.
+        """
         split = self.make.split
         if name == "turn" and split is not None:
             return product(len(split.A), self.make.robot.p).addresses[name]
@@ -114,7 +118,7 @@ def _numbers(
     laws: ControllerLaws,
     split: SplitLaws | None,
 ) -> WalkerNumbers:
-    """All numbers of a walker by name, as K lists them."""
+    """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place."""
     biped = walker.plant
     limit = math.inf if walker.torque_limit is None else float(walker.torque_limit)
     return WalkerNumbers(
@@ -133,7 +137,10 @@ def _numbers(
 
 
 def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
-    """The functions of a structure in memory. Raises NotCompiled for an operation without machine code."""
+    """The functions of a structure in memory, traced one by one where there is no code on disk.
+
+    Raises NotCompiled for a law that cannot be traced or an operation without machine code.
+    """
 
     def traced(name: str) -> SymbolicFunction:
         made: SymbolicFunction = getattr(Equations.of(make, numbers), name)()

@@ -76,6 +76,7 @@ class _Arcs:
 
     compiled: CompiledWalker
     options: RunOptions
+    """When the run ends, and every how many steps a node is kept."""
 
     @property
     def room(self) -> int:

@@ -207,7 +207,8 @@ def solve_positive(A: Array, B: Array, what: str) -> Array:
     matrix in the version for numbers, `linear.solve_positive`; here a pivot of zero gives NaN or
     infinity at run time.
     """
-    n, columns = len(A), B.reshape(len(A), -1).astype(object).view(Symbols)
+    n = len(A)
+    columns: Any = B.reshape(n, -1).astype(object)
     L = np.full((n, n), 0.0, dtype=object)
     d: list[Number] = []
     inverse: list[Number] = []
@@ -284,7 +285,10 @@ def _pairs(one: Row, other: Row) -> Iterator[tuple[int, tuple[Number, Number]]]:
 
 
 def _larger_first(one: Row, other: Row, j: int) -> tuple[Row, Row]:
-    """The two rows, that with the larger entry in column j first; entries left of column j are zero."""
+    """The two rows, that with the larger entry in column j first; entries left of column j are zero.
+
+    The exchange is a choice for each entry, since the rows are known at run time only.
+    """
     a, b = (ca.fabs(ca.SX(expression(row[j]))) for row in (one, other))
     swap = Scalar(b > a)
     first = [where(swap, b, a) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
@@ -305,6 +309,7 @@ class Tracer:
     """Copies of laws that run on symbols, with one solver for all, so that `solver.least` covers them all."""
 
     def __init__(self) -> None:
+        """The replacements, by identity of what laws name: NumPy, math, and the two functions of `linear`."""
         self.solver = Solver()
         functions = {name: elementwise(_function(theirs)) for name, theirs in FUNCTIONS.items()}
         numpy = {
@@ -392,7 +397,9 @@ def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
 
 
 LIBRARIES = (__file__, str(Path(np.__file__).parent), str(Path(ca.__file__).parent))
-"""Where the functions are that laws call, and that are no laws themselves."""
+"""Folders of the functions that laws call and that are no laws themselves; errors there are put
+down to the law.
+"""
 
 
 @lru_cache(maxsize=1024)
@@ -455,6 +462,6 @@ def floats(tree: object) -> Iterator[float]:
 
 
 def column(*parts: ArrayLike | Scalar) -> ca.SX:
-    """CasADi's column (size, 1) of all numbers in arrays and scalars, one after the other."""
+    """CasADi's column (size, 1) of all numbers in arrays and scalars, one after the other, rows first."""
     flat = [expression(x) for part in parts for x in np.asarray(part, dtype=object).ravel()]
     return ca.vertcat(*flat) if flat else ca.SX(0, 1)

@@ -72,8 +72,8 @@ def run_ticks(
     sizes = walker.held.sizes
     system: HybridSystem = TicksWithHardware(walker, plant, flowing(sizes, len(x0)))
     if sizes.total == sizes.p and not sizes.rate:
-        told = ControllerInputs(walker.nominal, points[0] if points else None)
-        system = TicksWithoutHardware(walker, plant, told, options.t0)
+        inputs = ControllerInputs(walker.nominal, points[0] if points else None)
+        system = TicksWithoutHardware(walker, plant, inputs, options.t0)
     return simulator.run(system, x0, mode, method, options)
 
 
@@ -118,7 +118,10 @@ def flowing(sizes: HeldSizes, length: int) -> Indices:
 
 
 def whole(x: Array, at: Indices, rows: Array) -> Array:
-    """x (nx,) with other numbers at these places, in as many rows as there are: (nx,) or (N, nx)."""
+    """x (nx,) with other numbers at these places, in as many rows as there are: (nx,) or (N, nx).
+
+    What does not move between sample instants is the same in every row.
+    """
     out = np.tile(x, (*rows.shape[:-1], 1)) if rows.ndim > 1 else x.copy()
     out[..., at] = rows
     return out
@@ -145,8 +148,8 @@ class TicksWithHardware(HybridSystem):
 class HeldMotion:
     """Moves `TicksWithHardware` from one of its sample instants to the next, over one arc.
 
-    s: the kernels' run vector, made at the first call and carried on, so that events are watched
-    across sample instants.
+    s: the kernels' run vector, made at the first call and carried on, so that an event function
+    keeps its value across a sample instant, where the plant's q does not jump.
     """
 
     def __init__(self, system: TicksWithHardware, fired: str | None):
@@ -187,7 +190,7 @@ class TicksWithoutHardware(HybridSystem):
     """With compiled dynamics and references."""
     plant: CompiledWalker
     """The plant under a held torque."""
-    told: ControllerInputs
+    inputs: ControllerInputs
     """What the controller is given, compiled."""
     t_first: float
     """Start of the run [s]."""
@@ -205,7 +208,7 @@ class TicksWithoutHardware(HybridSystem):
         n, end = self.walker.plant.n, len(x) - self.walker.plant.p
         held = np.concatenate((x[: 2 * n], x[end:]))
         s = start(self.plant, held, t, mode, until, fired, record.every)
-        seen, states, ends = TickInputs(self.plant, self.told, s), [x[2 * n : end]], [0]
+        seen, states, ends = TickInputs(self.plant, self.inputs, s), [x[2 * n : end]], [0]
         try:
             code = self.ticks(seen, t, mode, until, states, ends)
         finally:
@@ -238,11 +241,11 @@ class TicksWithoutHardware(HybridSystem):
         count = max(0, math.floor((t - origin) / period))
         while origin + count * period < t:
             count += 1
-        told, (step, began) = self.told.point or NoReference(), mode
+        reference, (step, began) = self.inputs.point or NoReference(), mode
         due = origin + count * period
         hold, at, output, saturate = seen.hold, seen.at, law.output, walker.saturate
         for q, v, terms, point, following in seen:
-            told.now = q, v, point
+            reference.now = q, v, point
             if t == due:
                 B = None if body is None else body(q, v)
                 m = _MEASUREMENT((t, step, t - began, q, v, terms, B))
@@ -266,7 +269,11 @@ class TicksWithoutHardware(HybridSystem):
         raise AssertionError
 
     def keep(self, nodes: Array, states: list[Array], ends: list[int], record: Record) -> None:
-        """Record the nodes (N, 1 + 2 nx), with the controller's state at each of them."""
+        """Record the nodes (N, 1 + 2 nx), with the controller's state at each of them.
+
+        The state changes at sample instants alone, so it is repeated from one to the next; its
+        slope is zero.
+        """
         n, nx = self.walker.plant.n, self.plant.plan.nx
         s = np.zeros((len(nodes), 0))
         if len(states[0]):
@@ -282,6 +289,7 @@ class NoReference:
     """In the place of a compiled reference where the controller has none."""
 
     now: object = None
+    """Written at every sample instant and never read."""
 
 
 TickInput = tuple[Array, Array, Reduction, ReferencePoint | None, int]
@@ -295,10 +303,14 @@ class TickInputs:
     returns a code; `at` is the address of `given`, the list of addresses that the kernel reads.
     """
 
-    def __init__(self, plant: CompiledWalker, told: ControllerInputs, s: Array):
+    def __init__(self, plant: CompiledWalker, inputs: ControllerInputs, s: Array):
+        """The plant's plan with work rows of its own, and the block of addresses that `hold` reads.
+
+        s: run vector of the arc; inputs: the compiled function behind it.
+        """
         self.plan, self.K, self.work, self.s = plant.plan, plant.K, plant.plan.work(), s
-        self.told, self.n = told, told.robot.structure.n
-        self.shapes = [(), (self.n,), (self.n,), *told.shapes]
+        self.inputs, self.n = inputs, inputs.robot.structure.n
+        self.shapes = [(), (self.n,), (self.n,), *inputs.shapes]
         self.width = sum(map(math.prod, self.shapes))
         self.hold = _HOLD(kernels().ADDRESSES["hold"])
         self.given = np.zeros(8, dtype=np.int64)
@@ -307,13 +319,15 @@ class TickInputs:
         self.at = self.given.ctypes.data
 
     def grow(self, rows: int) -> None:
-        """Make room for so many nodes; those that there are stay."""
+        """Make room for so many nodes; those that there are stay. Addresses change, so `given` is
+        written anew.
+        """
         more = np.empty((rows, self.rows.shape[1]))
         more[: len(self.rows)] = self.rows
         self.rows, self.s[layout.ROOM] = more, rows
         arrays = (self.plan.P, self.plan.F, self.K, self.work, self.s, self.rows)
         addresses = [array.ctypes.data for array in arrays]
-        self.given[:] = *addresses, self.told.address, self.told.K.ctypes.data
+        self.given[:] = *addresses, self.inputs.address, self.inputs.K.ctypes.data
 
     @property
     def kept(self) -> Array:
@@ -329,7 +343,7 @@ class TickInputs:
         last = np.empty((1, self.width))
         last[0, 0] = self.s[layout.TIME]
         last[0, 1 : 1 + 2 * self.n] = self.s[layout.HEAD : layout.HEAD + 2 * self.n]
-        pointer_call(self.told.machine, "told", self.told.K, last, last[:, 1 + 2 * self.n :])
+        pointer_call(self.inputs.machine, "inputs", self.inputs.K, last, last[:, 1 + 2 * self.n :])
         while True:
             block = np.empty((BLOCK + 1, self.width))
             block[0], first, row = last[0], block.ctypes.data, 8 * self.width

@@ -35,7 +35,8 @@ from biped_adrc.types import Array
 
 Flow = Callable[[float, Array], Array]
 """f(t, x) -> x'."""
-LANDING = 1e-9  # a last step longer than h by this fraction is still one step, dimensionless
+LANDING = 1e-9
+"""A last step longer than h by this fraction [1] is still one step: round-off in the count of steps."""
 
 
 class StepFailed(Exception):
@@ -203,7 +204,8 @@ class Stiff(_SciPy):
 
 Start = tuple[float, Array, Array, tuple[Array, Array]]
 """t [s], p, E and the remainder at the start of a step of ETD-RK4."""
-_SAME_STEP = 1e-9  # relative difference below which two steps share their phi-functions
+_SAME_STEP = 1e-9
+"""Relative difference [1] below which two steps share their phi-functions."""
 
 
 Phi = tuple[Array, Array, Array, Array]

@@ -138,9 +138,11 @@ class FlownArc(NamedTuple):
 
     arc: Arc
     status: Status
+    """COMPLETED also where the run goes on."""
     detail: str = ""
     """The error's own text, where one ended it."""
     outcome: Outcome = None
+    """None where the run ends with this arc."""
 
 
 def simulate(

@@ -41,7 +41,7 @@ class Status(Enum):
         "the ground or the motors could not have carried this step; push less, walk slower, or change the gait "
         "or the controller"
     )
-    """Friction cone, lift-off or torque limit broken."""
+    """What ground or motors could not have carried (`analysis.legality`)."""
     EVENT_LIMIT = "more events than max_events; the events accumulate (Zeno), or raise max_events"
     """As many events as `RunOptions.max_events`."""
 

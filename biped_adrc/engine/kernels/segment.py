@@ -4,8 +4,8 @@ A segment lies between two breaks. Within it the method steps from X0 to X1 (for
 Y1), the event functions are looked at after every step, and nodes (t, x, x') go into the rows of R,
 every k-th step and points inside of a long one.
 
-EVERY = 0 keeps no nodes. Then slopes that only nodes need are not computed: ETD-RK4 steps in y
-alone and asks for x where an event function looks at it.
+EVERY = 0 keeps no nodes. Then slopes that only nodes need are not computed: ETD-RK4 evaluates its
+remainder, and gets x from y for the event functions.
 """
 
 from __future__ import annotations
