@@ -150,12 +150,12 @@ class PlanarRobot:
         """(x, z) from the stance foot (2,) [m]."""
         return np.array(point(turned(self, q), self.K.hip_re, self.K.hip_im))
 
-    def kinetic_energy(self, q: Array, v: Array) -> float:
+    def kinetic_energy(self, q: Array, v: Array) -> Array:
         """(1/2) v' D_s v [J], at q (n,) [rad], v (n,) [rad/s]."""
         D, _ = inertia_and_bias(self, self.K, q, v)
         return 0.5 * (v @ (D @ v))
 
-    def potential_energy(self, q: Array) -> float:
+    def potential_energy(self, q: Array) -> Array:
         """[J], zero at the height of the stance foot, at q (n,) [rad]."""
         return self.K.gravity * point(turned(self, q), self.K.w_re, self.K.w_im)[1]
 
