@@ -11,6 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 """Real array in float64; shapes are stated in the docstrings."""
 
+Indices = NDArray[np.int_]
+"""Array of int: row numbers, and the relabelling of joints at an impact."""
+
 ComplexArray = NDArray[np.complex128]
 """Complex array, for eigenvalues and transfer functions."""
 

@@ -14,7 +14,7 @@ BENCHMARKS = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(BENCHMARKS), str(BENCHMARKS / "peers")]
 
 import biped_adrc as ba  # noqa: E402
-from biped_adrc.engine.batch import Case, Walked, run_case  # noqa: E402
+from biped_adrc.engine.batch import BatchWalk, Case, run_case  # noqa: E402
 from biped_adrc.engine.run import simulate_by  # noqa: E402
 from biped_adrc.hybrid.integrators import OneStepMethod  # noqa: E402
 from biped_adrc.paper.plan import PAPER_PUSH  # noqa: E402
@@ -67,10 +67,10 @@ def with_controller(setting: Setting, controller: ba.Controller) -> Setting:
     return setting._replace(walker=replace(setting.walker, controller=controller))
 
 
-def ready(case: Case) -> Callable[[], Walked]:
+def ready(case: Case) -> Callable[[], BatchWalk]:
     """What carries a case out from its start, as often as it is called; compiled before."""
 
-    def walked() -> Walked:
+    def walked() -> BatchWalk:
         return run_case(case)()
 
     walked()

@@ -21,7 +21,7 @@ from biped_adrc.analysis.legality import outcome_of
 from biped_adrc.bench.build import case, scene_of
 from biped_adrc.bench.parameters import trial
 from biped_adrc.campaign.chunk import NO_WALK, REFUSED, Record
-from biped_adrc.engine.batch import Case, Walked, run_case
+from biped_adrc.engine.batch import BatchWalk, Case, run_case
 from biped_adrc.errors import BipedError
 from biped_adrc.hardware.meter import LARGEST_RATIO, Reading, reading
 from biped_adrc.hybrid.status import Status
@@ -60,7 +60,7 @@ def run_trial(record: Record) -> WalkRow:
     return _row(measured(s, made, run()))
 
 
-def measured(s: Scenario, made: Case, walked: Walked) -> WalkRow:
+def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
     """The row of a walk that has been carried out.
 
     s: its scenario; made: the walker and its start; walked: final state, impacts and status.
@@ -83,7 +83,7 @@ def measured(s: Scenario, made: Case, walked: Walked) -> WalkRow:
     return row
 
 
-def _pace(s: Scenario, made: Case, walked: Walked) -> WalkRow:
+def _pace(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
     """Distance [m], mean speed and speed of the last two steps [m/s], relative change of speed against the
     gait's.
 
@@ -104,7 +104,7 @@ def _pace(s: Scenario, made: Case, walked: Walked) -> WalkRow:
     }
 
 
-def _meter(made: Case, walked: Walked, row: WalkRow) -> WalkRow:
+def _meter(made: Case, walked: BatchWalk, row: WalkRow) -> WalkRow:
     """What the meter counted: root mean squares over ticks and joints, cost of transport, and legality.
 
     The cost is work / (weight x distance), None without forward motion.
@@ -123,7 +123,7 @@ def _meter(made: Case, walked: Walked, row: WalkRow) -> WalkRow:
     }
 
 
-def _legality(made: Case, walked: Walked, g: Reading) -> WalkRow:
+def _legality(made: Case, walked: BatchWalk, g: Reading) -> WalkRow:
     """What the walk asked of ground and motors, whether that is possible, and which limit it broke.
 
     Forces averaged over the window of `Limits` decide; peaks at single ticks are reported beside them. A ratio

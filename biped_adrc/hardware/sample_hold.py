@@ -19,7 +19,7 @@ from biped_adrc.hardware.meter import Hit, Meter, MeterParameters, metered_impac
 from biped_adrc.hardware.motors import IDEAL, Line, Motors, relabelled, whole_and_part
 from biped_adrc.hardware.sensors import Sensors, sensed_impact, sensor_state
 from biped_adrc.timing import ContinuousTime, SampledTime
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 
 class HeldSizes(NamedTuple):
@@ -160,7 +160,7 @@ def at_start(k: HeldParameters, q: Array, v: Array, sensors: Sensors | None) -> 
 def after_impact(
     k: HeldParameters,
     held: Held,
-    swap: Array,
+    swap: Indices,
     q_minus: Array,
     q: Array,
     v: Array,

@@ -20,10 +20,10 @@ from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.noise import TorqueNoise
 from biped_adrc.engine.compiled_walker import disturbance_code
-from biped_adrc.engine.equations import Function
+from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.fingerprint import hash_of
 from biped_adrc.engine.ir import module_text
-from biped_adrc.engine.machine import Text, machine
+from biped_adrc.engine.machine import ModuleText, load_or_compile
 from biped_adrc.engine.symbols import Tracer, Vector, column, floats, run
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import CorrectedConstraint
@@ -59,9 +59,9 @@ def agree(law, *arguments):
     K = Vector("K", len(numbers))
     made = run(Tracer(), law, *(K.like(argument) for argument in arguments))
     parts = made if isinstance(made, tuple) else (made,)
-    function = Function(K.symbol, Vector("inp", 1).symbol, column(*parts))
+    function = SymbolicFunction(K.symbol, Vector("inp", 1).symbol, column(*parts))
     text = module_text({"law": function})
-    code = machine(hash_of("tested", text), ["law"], lambda: Text(text))
+    code = load_or_compile(hash_of("tested", text), ["law"], lambda: ModuleText(text))
     one = (
         np.concatenate([np.ravel(x) for x in expected]) if isinstance(expected, tuple) else expected
     )

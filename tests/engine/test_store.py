@@ -10,11 +10,11 @@ import pytest
 
 from biped_adrc.engine.machine import (
     VARIABLE,
-    Text,
+    ModuleText,
     _path,
     cache_folder,
+    load_or_compile,
     load_source,
-    machine,
     stored,
 )
 
@@ -39,7 +39,7 @@ def result(code):
 
 def make(key="some-key", text=TEXT):
     made = []
-    code = machine(key, ["f"], lambda: (made.append(1), Text(text))[1])
+    code = load_or_compile(key, ["f"], lambda: (made.append(1), ModuleText(text))[1])
     return result(code), len(made)
 
 
