@@ -14,7 +14,7 @@ from biped_adrc.errors import GaitError, InputError
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
-    from biped_adrc.gait.design.ipopt import Progress
+    from biped_adrc.gait.design.ipopt import IpoptProgress
     from biped_adrc.types import Array
 
 
@@ -105,7 +105,7 @@ def gait_library(
         raise GaitError("; ".join(missed))
 
 
-def _progress(shown: Status) -> Progress:
+def _progress(shown: Status) -> IpoptProgress:
     def say(iteration: int, objective: float, missed: float) -> None:
         shown.update(f"iteration {iteration}, objective {objective:.4g}, missed by {missed:.1e}")
 

@@ -27,6 +27,10 @@ so each of  F_N > 0,  mu F_N -+ F_T > 0,  u_max -+ u_i > 0  reads  A(Theta) + B(
 Theta together leave an interval of zeta. rho is increasing, so a walk that starts inside an interval
 around zeta* stays inside it: the interval is a domain of attraction that the ground and the motors allow.
 The unilateral contact is what Westervelt, Grizzle, Koditschek (IEEE TAC 48(1), 2003) ask of an orbit.
+
+I and V_zero are Legendre series through the values at the Gauss nodes of `ZeroDynamics`, so that they can be
+evaluated, differentiated and searched for zeros anywhere in the step. Used by `analysis.zero_report` and by
+`biped-adrc gait zero`.
 """
 
 from __future__ import annotations
@@ -52,7 +56,7 @@ _SADDLE = 1e-6  # |dV_zero/dTheta| at V_max over its largest, below which V_max 
 
 
 def series(zero: ZeroDynamics, values: Array) -> Legendre:
-    """The polynomial in Theta through values (K,) at the Gauss nodes of `zero`."""
+    """The polynomial in Theta [rad] through values (K,) at the Gauss nodes of `zero`."""
     s, w, _ = gauss_nodes(len(values))
     x, c = 2.0 * s - 1.0, zero.constraint
     coefficients = (legendre.legvander(x, len(x) - 1).T @ (2.0 * w * values)) * (
@@ -62,18 +66,19 @@ def series(zero: ZeroDynamics, values: Array) -> Legendre:
 
 
 def grid(zero: ZeroDynamics) -> Array:
-    """Theta from Theta+ to Theta-, both included."""
+    """_GRID phases [rad] (401,) from Theta+ to Theta-, both included."""
     return np.linspace(zero.constraint.theta_plus, zero.constraint.theta_minus, _GRID)
 
 
 @dataclass(frozen=True)
 class ZeroOrbits:
-    """The restricted return map rho of one constraint, its fixed point and its domain. Make it with `of`.
+    """The restricted return map rho of one constraint, its fixed point and its domain. Make it by `of`.
 
     zeta is always sigma-^2 / 2 before an impact [kg^2 m^4/s^2].
     """
 
     zero: ZeroDynamics
+    """The constraint, and the model at its Gauss nodes."""
     inertia: Legendre
     """I(Theta) [kg m^2]."""
     potential: Legendre
@@ -85,7 +90,11 @@ class ZeroOrbits:
 
     @classmethod
     def of(cls, zero: ZeroDynamics) -> ZeroOrbits:
-        """Raises GaitError when I changes its sign, or the impact turns the motion round."""
+        """The map of a constraint.
+
+        Raises GaitError when the robot has not exactly one unactuated coordinate, when I changes its sign
+        (Theta is no phase), or when the impact reverses the motion.
+        """
         b, c = zero.biped, zero.constraint
         if b.n != b.p + 1:
             raise GaitError(
@@ -106,12 +115,13 @@ class ZeroOrbits:
     # -- the numbers of the literature -------------------------------------------------------------
     @property
     def v_end(self) -> float:
-        """V_zero(Theta-); negative when gravity speeds the step up."""
+        """V_zero(Theta-) [kg^2 m^4/s^2]; negative when gravity speeds the step up."""
         return float(self.potential(self.zero.constraint.theta_minus))
 
     @cached_property
     def v_max(self) -> float:
-        """V_max = max V_zero >= 0, what sigma+^2 / 2 must exceed."""
+        """V_max = max V_zero >= 0 [kg^2 m^4/s^2], which sigma+^2 / 2 must exceed for the step to be
+        finished."""
         return max(0.0, float(self.potential(self.theta_max)))
 
     @property
@@ -122,12 +132,15 @@ class ZeroOrbits:
 
     @property
     def lowest(self) -> float:
-        """V_max / delta^2: from above it, the next step is finished."""
+        """V_max / delta^2 [kg^2 m^4/s^2]: from a zeta above it, the next step is finished."""
         return self.v_max / self.delta**2
 
     @property
     def zeta_star(self) -> float:
-        """The fixed point of rho. Raises GaitError that says which condition fails, and by how much."""
+        """The fixed point of rho [kg^2 m^4/s^2].
+
+        Raises GaitError that says which condition of existence or stability fails, and by how much.
+        """
         d2, V, top = self.delta**2, self.v_end, self.v_max
         if not d2 < 1.0:
             raise GaitError(
@@ -149,14 +162,14 @@ class ZeroOrbits:
         return -V / (1.0 - d2)
 
     def sigma(self, zeta: float) -> float:
-        """sigma- [kg m^2/s] of zeta, in the direction of the walk."""
+        """sigma- [kg m^2/s] for a zeta, with the sign of the direction of the walk."""
         c = self.zero.constraint
         forward = (c.theta_minus - c.theta_plus) * float(self.inertia(c.theta_minus))
         return math.copysign(math.sqrt(2.0 * zeta), forward)
 
     # -- the return map ----------------------------------------------------------------------------
     def rho(self, zeta: float) -> float:
-        """zeta one step later. Raises GaitError for a step that is not finished."""
+        """The return map: zeta one step later. Raises GaitError for a step that is not finished."""
         begin = self.delta**2 * self._checked(zeta)
         if not begin > self.v_max:
             raise GaitError(
@@ -166,14 +179,17 @@ class ZeroOrbits:
         return begin - self.v_end
 
     def iterate(self, zeta: float, steps: int) -> Array:
-        """zeta, rho(zeta), rho(rho(zeta)), ... (steps + 1,). Raises GaitError as rho."""
+        """zeta, rho(zeta), rho(rho(zeta)), ... (steps + 1,) [kg^2 m^4/s^2]. Raises GaitError as rho."""
         found = [self._checked(zeta)]
         for _ in range(steps):
             found.append(self.rho(found[-1]))
         return np.array(found)
 
     def steps_to(self, zeta: float, closeness: float) -> int:
-        """Steps until |zeta_k - zeta*| <= closeness * zeta*. Raises GaitError when it never comes there."""
+        """Number of steps until |zeta_k - zeta*| <= closeness * zeta*, from |zeta_k - zeta*| ~ delta^(2 k).
+
+        Raises GaitError for a closeness that is not positive, and as `rho` and `zeta_star`.
+        """
         check_positive(closeness, f"closeness is {closeness}", error=GaitError)
         self.rho(zeta)
         ratio = abs(zeta / self.zeta_star - 1.0) / closeness
@@ -183,7 +199,7 @@ class ZeroOrbits:
 
     # -- what a step looks like --------------------------------------------------------------------
     def sigma_squared(self, theta: Array, zeta: float) -> Array:
-        """sigma^2 at theta in the step after zeta; negative where the step does not come."""
+        """sigma^2 [kg^2 m^4/s^2] at theta (K,) [rad] in the step after zeta; negative past where it stops."""
         square: Array = 2.0 * (self.delta**2 * zeta - self.potential(theta))
         return square
 
@@ -196,6 +212,10 @@ class ZeroOrbits:
         return self._duration(zeta)
 
     def _duration(self, zeta: float) -> float:
+        """int |I / sigma| dTheta [s] by adaptive quadrature, which sigma near 0 at V_max asks for.
+
+        Raises GaitError where its error estimate exceeds _DURATION of it.
+        """
         c, low = self.zero.constraint, self.lowest
 
         def slowness(theta: float) -> float:
@@ -218,7 +238,7 @@ class ZeroOrbits:
 
     @cached_property
     def step_length(self) -> float:
-        """Distance of the feet at impact [m]; along the ground, on a slope."""
+        """Distance between the feet at impact [m], along the ground where that has a slope."""
         q = configuration(self.zero.constraint, self.zero.constraint.theta_minus)[0]
         return float(np.linalg.norm(self.zero.biped.swing_foot(q)))
 
@@ -230,22 +250,24 @@ class ZeroOrbits:
 
     @cached_property
     def _slows_down_for_ever(self) -> bool:
-        """Whether V_max is an equilibrium, on which a step at the lower end would come to rest."""
+        """Whether V_max is an equilibrium (dV_zero/dTheta = 0): a step at the lower end comes to rest there."""
         slope = self.potential.deriv()
         largest = float(np.max(np.abs(slope(grid(self.zero)))))
         return abs(float(slope(self.theta_max))) < _SADDLE * largest
 
     def kinetic_energy(self, zeta: float) -> float:
-        """Kinetic energy [J] before an impact with zeta."""
+        """Kinetic energy [J] just before an impact with zeta."""
         return self.zero.biped.kinetic_energy(*self.zero.end_state(self.sigma(zeta)))
 
     def _checked(self, zeta: float) -> float:
+        """zeta itself. Raises GaitError unless it is a finite number >= 0."""
         if not (math.isfinite(zeta) and zeta >= 0):
             raise GaitError(f"zeta = {zeta} kg^2 m^4/s^2, expected a finite number >= 0")
         return zeta
 
 
 def _check_phase(inertia: Legendre, theta: Array) -> None:
+    """Raise GaitError, which names the phase, where I(Theta) changes its sign on the grid theta (K,) [rad]."""
     values = inertia(theta)
     turns = np.flatnonzero(values[1:] * values[:-1] <= 0)
     if len(turns):
@@ -259,7 +281,8 @@ def _check_phase(inertia: Legendre, theta: Array) -> None:
 
 
 def _highest(potential: Legendre, theta: Array) -> float:
-    """Where V_zero is largest: an end, or a zero of its slope."""
+    """The phase [rad] at which V_zero is largest: an end of theta (K,), or a zero of its slope beside the
+    largest value on that grid."""
     k = int(np.argmax(potential(theta)))
     slope = potential.deriv()
     for one, other in ((theta[max(k - 1, 0)], theta[k]), (theta[k], theta[min(k + 1, _GRID - 1)])):
@@ -275,15 +298,18 @@ UNLIMITED = "no limit"
 
 
 @dataclass(frozen=True)
-class Limits:
-    """friction: mu, largest |F_T| / F_N. torque: largest |u_i| [N m]; None leaves a limit out.
+class DomainLimits:
+    """What ground and motors allow in `domain`; None leaves a limit out. F_N > 0 holds in any case.
 
-    slope [rad]: of the ground, positive downhill.
+    Raises InputError for a limit that is not positive or a slope of a right angle and more.
     """
 
     friction: float | None = None
+    """mu, largest |F_T| / F_N."""
     torque: float | None = None
+    """Largest |u_i| [N m]."""
     slope: float = 0.0
+    """Of the ground [rad], positive downhill."""
 
     def __post_init__(self) -> None:
         for name in ("friction", "torque"):
@@ -295,7 +321,7 @@ class Limits:
 
 
 class Bound(NamedTuple):
-    """One end of the domain."""
+    """One end of the domain, and the limit that sets it."""
 
     zeta: float
     """[kg^2 m^4/s^2]."""
@@ -306,43 +332,49 @@ class Bound(NamedTuple):
 
 
 class Domain(NamedTuple):
-    """The interval lower.zeta < zeta < upper.zeta."""
+    """The interval lower.zeta < zeta < upper.zeta [kg^2 m^4/s^2]."""
 
     lower: Bound
     upper: Bound
 
     @property
     def empty(self) -> bool:
-        """Whether no speed keeps all limits."""
+        """True where no speed keeps all limits."""
         return not self.lower.zeta < self.upper.zeta
 
     def holds(self, zeta: float) -> bool:
-        """Whether zeta is inside."""
+        """True where zeta is inside, both ends excluded."""
         return self.lower.zeta < zeta < self.upper.zeta
 
 
-def domain(orbits: ZeroOrbits, limits: Limits | None = None) -> Domain:
-    """The zeta whose next step is finished and keeps the limits; without limits, F_N > 0 still holds.
+def domain(orbits: ZeroOrbits, limits: DomainLimits | None = None) -> Domain:
+    """The interval of zeta whose next step is finished and keeps the limits; F_N > 0 without limits.
 
-    It contains zeta* when the periodic orbit keeps them, and is then a domain of attraction.
+    It contains zeta* when the periodic orbit keeps them, and is then a domain of attraction: each limit leaves
+    an interval, and the domain is their intersection.
     """
     lower = Bound(orbits.lowest, PASSING, orbits.theta_max)
     upper = Bound(math.inf, UNLIMITED, math.nan)
-    for margin in _margins(orbits, Limits() if limits is None else limits):
+    for margin in _margins(orbits, DomainLimits() if limits is None else limits):
         lower = max(lower, _end(orbits, margin, 1.0), key=lambda bound: bound.zeta)
         upper = min(upper, _end(orbits, margin, -1.0), key=lambda bound: bound.zeta)
     return Domain(lower, upper)
 
 
 class Margin(NamedTuple):
-    """still + moving Theta'^2 > 0 is asked for; values (K,) at the Gauss nodes."""
+    """One limit as still + moving Theta'^2 > 0, at the K Gauss nodes; forces [N] or torques [N m]."""
 
     cause: str
+    """Which limit, as in `Bound.cause`."""
     still: Array
+    """Distance to the limit at rest (K,)."""
     moving: Array
+    """Its change with Theta'^2 (K,), per rad^2/s^2."""
 
 
-def _margins(orbits: ZeroOrbits, limits: Limits) -> list[Margin]:
+def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
+    """All limits; the model at Theta' = 0 and 1 rad/s gives both coefficients, since it is affine in
+    Theta'^2."""
     zero = orbits.zero
     rest, moving = ([zero.dynamics(k, rate) for k in range(len(zero.theta))] for rate in (0.0, 1.0))
     u_0, u_1 = (np.array([found[1] for found in rows]) for rows in (rest, moving))

@@ -20,7 +20,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.columns import columns
 from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import GaitError, InputError, SimulationError
-from biped_adrc.gait.design.ipopt import Progress
+from biped_adrc.gait.design.ipopt import IpoptProgress
 from biped_adrc.gait.design.optimise import Optimum, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
 from biped_adrc.gait.gait import Gait, load_gait
@@ -95,7 +95,7 @@ def design_gait(
     degree: int = 6,
     nodes: int = 24,
     limits: StepLimits | None = None,
-    progress: Progress | None = None,
+    progress: IpoptProgress | None = None,
 ) -> DesignedGait:
     """The periodic, hybrid-invariant gait of least objective, certified by simulating it.
 
