@@ -1,8 +1,10 @@
-"""A gait in the words of one angle convention: plain arrays, as they come from elsewhere.
+"""A gait in one angle convention as plain arrays, the form in which gaits are exchanged.
 
     y(s) = H0 q'(s),   s = (theta - theta+) / (theta- - theta+),   theta = c' q'
 
-The rows of `coefficients` are y: by default the outputs of the convention, or all of its coordinates.
+The rows of `coefficients` are y: by default the outputs of the convention, or all of its coordinates, which the
+number of rows tells. The record checks itself when it is made (shapes, finite numbers, a phase range), so that
+`convert` and `closure` need not; whether the numbers are a gait is for `closure` to say.
 """
 
 from __future__ import annotations
@@ -10,7 +12,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -40,20 +41,22 @@ class GaitRecord:
     outputs: Array | None = None
     """H0 (rows, n); the convention's own outputs, or all coordinates, when None."""
     curve: str = "bezier"
+    """Kind of the curves, "bezier" or "polynomial"."""
     reverse: bool = False
     """True if the first coefficients belong to the end of the step (s runs from 1 to 0)."""
     q_minus: Array | None = None
     """(n,) just before impact [rad], in this convention; from the zero dynamics when None."""
     v_minus: Array | None = None
-    """(n,) [rad/s]."""
+    """(n,) just before impact [rad/s]; given together with q_minus."""
     period: float | None = None
-    """[s]."""
+    """Duration of a step [s]; from the zero dynamics when None."""
     slope: float = 0.0
     """Of the ground [rad], positive downhill."""
     name: str = "imported"
     robot: str = ""
     preset: str = ""
-    provenance: Mapping[str, Any] = field(default_factory=dict)
+    provenance: Mapping[str, object] = field(default_factory=dict)
+    """Where the gait comes from, free text by name."""
 
     def __post_init__(self) -> None:
         if self.curve not in CURVES:
@@ -93,12 +96,12 @@ class GaitRecord:
 
     @property
     def of_all_coordinates(self) -> bool:
-        """Whether the rows are the coordinates themselves."""
+        """True where the rows are the n coordinates themselves rather than outputs."""
         return self.outputs is None and self.coefficients.shape[0] == self.layout.n
 
     @property
     def curve_of_rows(self) -> Curve:
-        """y(s)."""
+        """The curve y(s) of the rows [rad]."""
         return CURVES[self.curve](self.coefficients)
 
     def error(self, text: str) -> GaitError:
@@ -129,6 +132,8 @@ class GaitRecord:
         return self.error(f"coefficients have {rows} joints (rows), expected {expected}; {cause}")
 
     def _array(self, key: str, value: object, dimensions: int) -> Array:
+        """An entry as a read-only real array of so many dimensions. Raises GaitError that says what is
+        wrong."""
         try:
             a = np.array(value)
             if np.iscomplexobj(a):
@@ -153,6 +158,8 @@ class GaitRecord:
         return a
 
     def _check_phase_range(self) -> None:
+        """Make the scalar entries floats. Raises GaitError for one that is not finite or a range without
+        extent."""
         for key in ("theta_plus", "theta_minus", "period", "slope"):
             value = getattr(self, key)
             if key == "period" and value is None:
@@ -174,7 +181,7 @@ class GaitRecord:
 
 
 def _counts_of(name: str) -> tuple[int, ...]:
-    """Numbers of rows in a convention, with knees and without."""
+    """Numbers of rows that a gait may have in a convention, with knees and without."""
     return tuple(k for knees in (True, False) for k in _row_counts(convention(name, knees)))
 
 
