@@ -17,7 +17,7 @@ from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.engine.batch import Case
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import InputError
-from biped_adrc.scenario.build import Scene, build, start
+from biped_adrc.scenario.build import RobotAndGait, build, start
 from biped_adrc.scenario.registry import find, is_own, source_hash
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
@@ -69,7 +69,7 @@ OF_SCENE = ("robot", "preset", "gait", "friction", "continued")
 """Values of a scenario that a scene is made of."""
 
 
-def scene_of(s: Scenario) -> Scene:
+def scene_of(s: Scenario) -> RobotAndGait:
     """Loaded once in a process, and again when a file has changed. Raises InputError where there is none."""
     paths = (*files_of("robot", s.robot), *files_of("gait", s.gait))
     there = [(str(path), path.stat()) for path in paths if path.is_file()]
@@ -78,8 +78,8 @@ def scene_of(s: Scenario) -> Scene:
 
 
 @lru_cache(maxsize=16)
-def _scene(values: tuple[tuple[str, Any], ...], stamp: Stamp) -> Scene:
-    return Scene.of(Scenario(**dict(values)))
+def _scene(values: tuple[tuple[str, Any], ...], stamp: Stamp) -> RobotAndGait:
+    return RobotAndGait.of(Scenario(**dict(values)))
 
 
 def case(s: Scenario) -> Case:

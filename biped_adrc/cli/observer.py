@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped
     from biped_adrc.observer_design.observer_design import ObserverReport
     from biped_adrc.observers.gpi import GPIObserver
-    from biped_adrc.studies.observer_check import DelayCheck, Walked
+    from biped_adrc.studies.observer_check import CheckedWalk, DelayCheck
 
 
 @app.command("observer")
@@ -127,7 +127,7 @@ def _confirm(
     _print_walks(checks, walks)
 
 
-def _print_walks(checks: list[DelayCheck], walks: list[Walked]) -> None:
+def _print_walks(checks: list[DelayCheck], walks: list[CheckedWalk]) -> None:
     header = ("walk", "status", "errors stay", escape("error of later steps [rad]"))
     table = Table(*header, title="Confirmed by walking", title_justify="left")
     rows = [walked for check in checks for walked in (check.below, check.above, check.limited)]
