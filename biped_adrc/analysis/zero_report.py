@@ -18,16 +18,9 @@ from biped_adrc.columns import columns
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import CLOSES
+from biped_adrc.gait.zero_domain import UNLIMITED, Bound, Domain, DomainLimits, domain
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration
-from biped_adrc.gait.zero_orbits import (
-    UNLIMITED,
-    Bound,
-    Domain,
-    DomainLimits,
-    ZeroOrbits,
-    domain,
-    grid,
-)
+from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 

@@ -118,7 +118,7 @@ def gait_zero(
     """Say what the zero dynamics of a gait allow: orbit, stability, domain of attraction, speeds."""
     from biped_adrc.analysis.zero_report import zero_report
     from biped_adrc.gait.gait import load_gait
-    from biped_adrc.gait.zero_orbits import DomainLimits
+    from biped_adrc.gait.zero_domain import DomainLimits
     from biped_adrc.model.biped import Biped
 
     plot = None if plot is None else output_path(plot, FIGURES)

@@ -50,9 +50,11 @@ def step_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
     split = walker.split(Mode())
     if split is None:
         return ()
-    edges = [step for part in terms(walker.disturbance) for step in _edges(part)]
+    edges = {step for part in terms(walker.disturbance) for step in _edges(part)}
     constant = 1.0 / float(np.max(np.abs(np.linalg.eigvals(split.A))))
-    longest = max((_longest(a) for a in trajectory.arcs if _beside_edge(a, edges)), default=0.0)
+    # an edge of step 0 is in time of the walk: it may be in any single support
+    beside = [a for a in trajectory.arcs if edges & {0, a.mode.step, a.mode.step - 1}]
+    longest = max((float(np.max(np.diff(a.t), initial=0.0)) for a in beside), default=0.0)
     if longest <= LONGER * constant:
         return ()
     return (
@@ -60,16 +62,6 @@ def step_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
         f"constant of the observer ({1e3 * constant:.2g} ms): the largest errors may be mostly errors of "
         "integration; give a step as short as that, or the compiled engine and no step",
     )
-
-
-def _beside_edge(arc: Arc, edges: list[int]) -> bool:
-    """True for a single support with an edge or the one after it; 0 among the edges is any time."""
-    return bool({0, arc.mode.step, arc.mode.step - 1}.intersection(edges))
-
-
-def _longest(arc: Arc) -> float:
-    """Longest integration step of an arc [s]."""
-    return float(np.max(np.diff(arc.t), initial=0.0))
 
 
 def _edges(disturbance: Disturbance) -> dict[int, list[float]]:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 _PUSH = re.compile(
     r"(?P<joints>[^@]+)@(?P<step>\d+):(?P<start>[0-9.eE+]+)-(?P<stop>[0-9.eE+]*)"
-    r"(:sine=(?P<f>[0-9.eE+]+)|:rise=(?P<rise>[0-9.eE+-]+))?"
+    r"(:sine=(?P<frequency>[0-9.eE+]+)|:rise=(?P<rise>[0-9.eE+-]+))?"
 )
 
 
@@ -113,13 +113,11 @@ def parse_push(text: str) -> Push:
                 waiting = []
         if waiting:
             raise ValueError(f"no torque for {waiting}")
-        start = float(match["start"])
-        stop = float(match["stop"]) if match["stop"] else math.inf
-        frequency = float(match["f"]) if match["f"] else 5.0
-        rise = float(match["rise"]) if match["rise"] else 0.0
-        if rise and not match["stop"]:
+        names = [name for name in ("start", "stop", "frequency", "rise") if match[name]]
+        numbers = {"stop": math.inf} | {name: float(match[name]) for name in names}
+        if numbers.get("rise") and not match["stop"]:
             raise ValueError("only a pulse, which has a stop, has a rise")
     except ValueError as error:
         raise InputError(f"push '{text}': {error}") from error
-    kind = "sine" if match["f"] else "pulse" if match["stop"] else "step"
-    return Push(torque, int(match["step"]), start, stop, kind, frequency, rise)
+    kind = "sine" if match["frequency"] else "pulse" if match["stop"] else "step"
+    return Push(torque, int(match["step"]), kind=kind, **numbers)

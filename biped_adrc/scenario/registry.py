@@ -51,15 +51,10 @@ class Entry:
         return _imported(self.home) if self.given is None else self.given
 
 
-def _read() -> dict[str, dict[str, Entry]]:
-    """The entries of registry.toml, by kind and name."""
-    return {
-        kind: {name: Entry(**values) for name, values in entries.items()}
-        for kind, entries in packaged("biped_adrc.scenario", "registry.toml").items()
-    }
-
-
-REGISTRY = {**_read(), "curve": {}, "robot": {}, "gait": {}}
+REGISTRY: dict[str, dict[str, Entry]] = {
+    kind: {name: Entry(**values) for name, values in entries.items()}
+    for kind, entries in packaged("biped_adrc.scenario", "registry.toml").items()
+} | {"curve": {}, "robot": {}, "gait": {}}
 """By kind and name, from registry.toml and `register`; `names` has curves and files of robots and gaits too."""
 
 

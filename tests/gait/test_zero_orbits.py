@@ -15,7 +15,8 @@ from biped_adrc.analysis.zero_report import zero_report
 from biped_adrc.cli import app
 from biped_adrc.errors import GaitError, InputError
 from biped_adrc.gait.curves import Polynomial
-from biped_adrc.gait.zero_orbits import DomainLimits, ZeroOrbits, domain
+from biped_adrc.gait.zero_domain import DomainLimits, domain
+from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.robots.robot_toml import KnownLimits
 from biped_adrc.robots.robot_toml import Limits as WithinLimits
 from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 
-from biped_adrc.errors import GaitError
+from biped_adrc.errors import GaitError, check_positive
 from biped_adrc.model.biped import Biped
 
 MOST_NODES = 100
@@ -142,8 +142,8 @@ class GaitRequest:
         if self.through is not None and not all(map(math.isfinite, self.through)):
             raise GaitError(f"the state to pass through is {self.through}, expected finite numbers")
         for name, value in (("speed", self.speed), ("step length", self.step)):
-            if value is not None and not (math.isfinite(value) and value > 0.0):
-                raise GaitError(f"the {name} is {value}, expected a positive number")
+            if value is not None:
+                check_positive(value, f"the {name} is {value}", error=GaitError)
         if not abs(self.slope) < 0.5:
             raise GaitError(f"the slope is {self.slope} rad, expected less than 0.5 rad either way")
         if not 4 <= self.degree <= 12:

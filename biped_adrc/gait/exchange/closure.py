@@ -13,7 +13,7 @@ and what to try; if the same numbers close in another convention, it says which.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -109,19 +109,24 @@ def first_misfit(
     record: GaitRecord, along: Coordinates, biped: Biped | None, slopes: bool
 ) -> Misfit | None:
     """The first check that fails, or None. Without a robot only those that need none."""
-    checks: list[Callable[[], Misfit | None]] = [
-        lambda: _radians(record),
-        lambda: _direction(along),
-        lambda: _phase_of_rows(record, along),
-        lambda: _closure(along),
-        lambda: _state(record, along),
-    ]
+    return next(filter(None, _checks(record, along, biped, slopes)), None)
+
+
+def _checks(
+    record: GaitRecord, along: Coordinates, biped: Biped | None, slopes: bool
+) -> Iterator[Misfit | None]:
+    """The results of all checks in their order, each computed when it is asked for."""
     if biped is not None:
-        checks[:0] = [lambda: _fits(along, biped)]
-        checks.append(lambda: _feet(along, biped, record.slope))
+        yield _fits(along, biped)
+    yield _radians(record)
+    yield _direction(along)
+    yield _phase_of_rows(record, along)
+    yield _closure(along)
+    yield _state(record, along)
+    if biped is not None:
+        yield _feet(along, biped, record.slope)
         if slopes:
-            checks.append(lambda: _slopes(record, along, biped))
-    return next((misfit for c in checks if (misfit := c()) is not None), None)
+            yield _slopes(record, along, biped)
 
 
 def _radians(record: GaitRecord) -> Misfit | None:
