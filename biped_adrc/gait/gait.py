@@ -35,23 +35,35 @@ CLOSES = 1e-3
 
 
 class GaitFile(TypedDict, total=False):
-    """The JSON file of a gait, in rad, rad/s and s; the fields of `Gait` with the constraint taken apart."""
+    """The JSON file of a gait, in rad, rad/s and s; the fields of `Gait` with the constraint taken apart.
+
+    Files are read by people and compared by version control, so keys and order are fixed and numbers are
+    written with all digits: a gait that is loaded is the gait that was saved.
+    """
 
     format: str
+    """Always FORMAT; another one is refused."""
     name: str
     robot: str
     preset: str
     units: str
+    """For a reader: "rad, rad/s, s"."""
     provenance: dict[str, object]
+    """How the gait was made, free text by name."""
     period: float
+    """Duration of the single support [s]."""
     slope: float
     """Of the ground [rad]; may be left out on level ground."""
     q_minus: list[float]
+    """Configuration just before impact (n,) [rad]."""
     v_minus: list[float]
+    """Rates just before impact (n,) [rad/s]."""
     phase: list[float]
     """c (n,), Theta = c q."""
     theta_plus: float
+    """Theta just after impact [rad]."""
     theta_minus: float
+    """Theta just before the next impact [rad]."""
     curve: str
     """Kind of the curve, "bezier" or "polynomial"."""
     coefficients: list[list[float]]
@@ -60,9 +72,20 @@ class GaitFile(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class Gait:
-    """A gait of one robot: its virtual constraint and the periodic orbit that walks along it."""
+    """A gait of one robot: its virtual constraint and the periodic orbit that walks along it.
+
+    The orbit is stored by its state just before impact, from which the impact map gives the start of a step.
+    For a hybrid-invariant constraint it is the orbit of the zero dynamics; gait (b) of the paper is not
+    hybrid-invariant, and stores the orbit of the closed loop.
+
+        gait = ba.load_gait("published", ba.Biped.load("rabbit"))
+        q_d, slope, curvature = gait.constraint.h(gait.constraint.theta_plus)
+
+    No check is made when a gait is constructed; `check` compares it with a robot.
+    """
 
     name: str
+    """By which `load_gait` finds its file."""
     robot: str
     preset: str
     """Robot and preset it was made for."""
@@ -201,7 +224,11 @@ def _readable(record: GaitFile) -> str:
 
 
 def gait_names(robot: str, preset: str) -> tuple[str, ...]:
-    """Names of the stored gaits of a robot and preset, sorted."""
+    """Names of the stored gaits of a robot and preset, sorted.
+
+    Files are called NAME-PRESET.json, and one preset may be the end of another, as "bare" is of
+    "identified-bare": files of the longer preset are not taken for gaits of the shorter one.
+    """
     end = f"-{preset}.json"
     folder = data_folder("gaits") / robot
     found = (f.name.removesuffix(end) for f in folder.glob(f"*{end}"))

@@ -1,6 +1,7 @@
 """Domain of attraction of a walking cycle on the zero dynamics: how slow and how fast the steps may be.
 
-X
+On the constraint the ground reaction and the torques are affine in Theta'^2, hence in zeta = sigma-^2 / 2
+before the last impact:
 
     F(Theta) = F_0 + F_1 Theta'^2,   Theta'^2 = 2 (delta^2 zeta - V_zero(Theta)) / I^2
 

@@ -87,6 +87,10 @@ class RobotAndGait:
 def build(s: Scenario, scene: RobotAndGait | None = None, metered: bool = False) -> Walker:
     """The walker of a scenario.
 
+    The plant is the nominal robot with the scenario's model errors, the controller's model always the nominal
+    one; the ground's slope is the gait's plus the scenario's. Sensors, motors, meter and ground steps are None
+    or empty where the scenario has none.
+
     scene: robot and gait where they are at hand. metered: with a meter that records torques and ground forces
     at the sample instants. Raises InputError for what does not fit together.
     """
@@ -165,7 +169,12 @@ def start(s: Scenario, scene: RobotAndGait) -> tuple[Array, Array]:
 
 
 def plant_of(s: Scenario, biped: Biped) -> Biped:
-    """The robot that walks: the nominal one with the scenario's model errors, itself where there are none."""
+    """The robot that walks: the nominal one with the scenario's model errors, itself where there are none.
+
+    In this order: factors of mass and inertia by link, a load on the trunk, and errors that are drawn with the
+    widths mass_error, com_error, inertia_error and friction_error. That it is the same object where there are
+    none tells `build` that plant and model agree.
+    """
     plant = biped
     if s.mass or s.inertia:
         plant = plant.with_errors(mass=s.mass, inertia=s.inertia)
@@ -178,7 +187,11 @@ def plant_of(s: Scenario, biped: Biped) -> Biped:
 
 
 def sensors(s: Scenario) -> Sensors | None:
-    """The sensors of a scenario; None where all measurements are exact."""
+    """The sensors of a scenario; None where all measurements are exact.
+
+    Exact means: no encoder counts, rates that are measured, and no noise. Noise has its own stream of random
+    numbers.
+    """
     exact = s.counts is None and s.velocity == "measured"
     if exact and s.noise == s.pitch_noise == s.rate_noise == 0.0:
         return None
@@ -187,7 +200,11 @@ def sensors(s: Scenario) -> Sensors | None:
 
 
 def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:
-    """Changes of the ground's height: uneven ground, and a step down (or up) at `pushed_step`; () if level."""
+    """Changes of the ground's height: uneven ground, and a step down (or up) at `pushed_step`; () if level.
+
+    `ground_rms`: random heights [m], drawn for all steps of the walk. `ground_step`: depth [m], negative for a
+    step up.
+    """
     steps: tuple[StepDown | StepUp, ...] = ()
     if s.ground_rms > 0.0:
         last = s.first_step + s.impacts - 1

@@ -144,8 +144,9 @@ class ControllerMaker:
         """The observer, made by the constructor or the class method of `MAKERS` that takes most of what is
         given.
 
-        told: values of the scenario that are given. None where nothing is given and the controller's own
-        default holds.
+        told: values of the scenario that are given, such as poles, or a bandwidth and an order. Among the ways
+        that lack nothing the one that takes most is called, so that no value is dropped that another way would
+        take. None where nothing is given and the controller's own default holds.
         """
         usual = _default(make)
         kind = type(usual) if self.s.observer is None else find("observer", self.s.observer).load()

@@ -7,6 +7,13 @@ file.
 
 `walk`, `run.walk_scenario` and `stored.load_walk` return a `Walk`; the command line, notebooks, studies and the
 reproduction of the paper read it.
+
+    walk.signals         arrays over time: q, v, u, errors, estimates, ground reaction
+    walk.certificates    per step: friction, torque, clearance, energy
+    walk.legality        could ground and motors have carried it? until_illegal cuts it where not
+    walk.remarks         sentences on what was not as it was asked for
+    walk.plot, animate   figures and pictures
+    walk.save, export    .npz to read it again, .mat for MATLAB
 """
 
 from __future__ import annotations

@@ -7,6 +7,12 @@ and values where a scenario has none. Besides these a name may be one that `regi
 Classes are imported when a walker is built, never when a file is read. Those of the user are also looked for in
 the working directory, so that worker processes find them. `construct` calls a class with those values that its
 constructor takes by name, which is how a new controller gets gains, reference or observer without code here.
+
+What becomes of a name:
+
+    "adrc"             spelled -> "ADRC" -> find -> Entry -> load -> ADRCController -> construct
+    "my_law:Mine"      no entry; find -> Entry("my_law:Mine") -> load imports my_law
+    register(.., f)    Entry with the object itself; records name it by its module:Class (`portable`)
 """
 
 from __future__ import annotations
@@ -167,8 +173,12 @@ def _plain(name: str) -> str:
 
 
 def _imported(home: str) -> Callable[..., object]:
-    """The class `module:Class`, from Python's path or the working directory. Raises InputError with the
-    cause."""
+    """The class `module:Class`, from Python's path or the working directory.
+
+    The working directory is put at the end of the path, so that it cannot hide an installed module. Whatever
+    the user's module raises when it is imported becomes an InputError with the cause, as do a module and a
+    class that there are not.
+    """
     module, _, name = home.partition(":")
     here = os.getcwd()
     if not home.startswith("biped_adrc.") and here not in sys.path and "" not in sys.path:

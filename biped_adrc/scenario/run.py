@@ -131,6 +131,8 @@ def walk_scenario(
 ) -> Walk:
     """Simulate a scenario from the impact of the gait's periodic orbit, or of a passive robot's cycle.
 
+    The same scenario gives the same walk in every process: all random numbers come from its seed.
+
     progress: called as the walk goes on. method: in place of the scenario's. A fall is a status of the
     trajectory, not an error. Raises InputError for values that do not fit together.
     """

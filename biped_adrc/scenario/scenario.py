@@ -64,9 +64,18 @@ FREE = ("adaptive", "stiff")
 class Scenario:
     """One walk in plain values; see `scenario.toml` for the text, unit and range of each field.
 
-    `hardware` fills in what is not given of sampling, sensors and motors. Lengths are in m, angles in rad,
-    times in s, torques in N m. Raises InputError for an unknown name, a value out of its range, and one that
-    would have no effect.
+    Fields come in groups: who walks and how far; the controller and its observer; sampling, sensors and motors;
+    pushes; errors of the model (the plant is not the robot that the controller knows); ground; start; what
+    ground and motors can give; numerics. Lengths are in m, angles in rad, times in s, torques in N m.
+
+        s = ba.Scenario("ADRC", hardware="rabbit", pushes="q1,q2=30@3:0.1-0.3", impacts=8)
+        walk = ba.walk_scenario(s)
+
+    `hardware` fills in what is not given of sampling, sensors and motors; a value that is given wins. What a
+    controller, observer or push takes beside the fields goes into `own` by name. With dataclasses.replace a
+    study varies one field and keeps the others.
+
+    Raises InputError for an unknown name, a value out of its range, and one that would have no effect.
     """
 
     # who walks, how far
@@ -174,6 +183,7 @@ class Scenario:
     @field_validator(*CHOICES)
     @classmethod
     def _chosen(cls, given: str | None, info: ValidationInfo) -> str | None:
+        """A value of CHOICES. Raises ValueError with those that there are."""
         choices = CHOICES[str(info.field_name)]
         if given is not None and given not in choices:
             raise ValueError(f"found '{given}', expected one of {list(choices)}")

@@ -5,6 +5,12 @@ files matter. Reading a file imports no code of the user's: for a controller tha
 takes its place, and the signals, which are then in the file, are used as they are. A stored walk is checked
 before it is handed over (`_check`), so that a damaged file is noticed on reading. Files of version 0.1 are read
 too.
+
+Entries of the file, beside the trajectory that `hybrid.storage` writes:
+
+    walker      JSON: {"parts": records of all objects, "walker": place of the walker, "gait": the gait}
+    signal.*    arrays over the nodes: u alone, or all signals where a class of the user's takes part
+    settings    versions, the scenario's record, names of the user's classes, and what the caller adds
 """
 
 from __future__ import annotations

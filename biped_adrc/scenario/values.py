@@ -23,7 +23,9 @@ _T = TypeVar("_T")
 def described(name: str) -> Callable[[type[_T]], type[_T]]:
     """Decorator: gives the fields of a class the texts and ranges of a TOML file beside this module.
 
-    Fields with a number or a range are strict: the text "3" is no number.
+    Fields with a number or a range are strict: the text "3" is no number. Keys of a field in the file are
+    `text`, `unit`, and the limits of pydantic's Field (ge, gt, le, lt). It goes below pydantic's `dataclass`,
+    which reads the defaults that are set here.
     """
 
     def decorate(cls: type[_T]) -> type[_T]:
@@ -51,7 +53,8 @@ def clear(
 ) -> Callable[[type[_T]], type[_T]]:
     """Decorator: makes a pydantic dataclass raise InputError with one clear sentence.
 
-    filled: from the values that are given, values for those that are not.
+    filled: from the values that are given, values for those that are not. It goes above pydantic's `dataclass`,
+    whose constructor it replaces.
     """
 
     def decorate(cls: type[_T]) -> type[_T]:

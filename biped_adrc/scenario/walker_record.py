@@ -7,6 +7,14 @@ Only classes of this package are imported when a record is read (`is_ours`), so 
 its own. A class of the user's is stored by name, values and a hash of its source, and becomes a `MissingPart`
 unless the user hands it over. `stored` uses both to write walks that can be read without the files they were
 made from.
+
+How values are written:
+
+    None, bool, int, float, str   as they are
+    array                         {"array": [...], "shape": [...], "dtype": "float64"}
+    list, tuple, mapping          {"list": [...]}, {"tuple": [...]}, {"map": {...}}
+    complex, path, enum           {"complex": [re, im]}, {"path": "..."}, {"enum": [module:Class, name]}
+    any other object              {"part": place}, a `PartRecord` in the list of records
 """
 
 from __future__ import annotations

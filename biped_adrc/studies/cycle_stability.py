@@ -48,8 +48,10 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import default_method
 from biped_adrc.types import Array
 
-DIFFERENCE = 1e-4  # [rad, rad/s], of differences that are extrapolated
-BESIDE = 1e-3  # how much faster than on the cycle the regression's walk starts, dimensionless
+DIFFERENCE = 1e-4
+"""Half width of the central differences of P [rad, rad/s], for controllers without states."""
+BESIDE = 1e-3
+"""Relative increase of the rates with which the walk of the regression starts beside the cycle."""
 
 
 @dataclass(frozen=True)
@@ -57,8 +59,11 @@ class CycleStability:
     """The fixed point of a return map and its multipliers by every method that applies."""
 
     cycle: Cycle
+    """The return map, and the state from which the fixed point was found."""
     orbit: PeriodicOrbit
+    """The fixed point, its residual, and its multipliers."""
     table: StabilityTable
+    """Multipliers by method, and whether they agree."""
 
 
 def gait_cycle(s: Scenario, observer_states: bool = True, slope: float | None = None) -> Cycle:
@@ -118,6 +123,13 @@ def cycle_stability(
     cycle: Cycle, samples: int = 25, tolerances: Tolerances | None = None
 ) -> CycleStability:
     """Fixed point of a cycle and its multipliers by every method.
+
+        found = ba.cycle_stability(ba.find_cycle("rabbit", controller="NPD"))
+
+    The methods are independent of each other: the variational equation along the step with the saltation at
+    impact, central differences of the return map, delta^2 of the zero dynamics (for a hybrid-invariant
+    constraint one of the multipliers), and the paper's regression on a walk. That they agree is the test of
+    each.
 
     samples: impacts of the walk for the regression; 0 leaves it out. tolerances: within which the methods have
     to agree. For a controller with states only central differences (and the regression) apply, since the

@@ -137,7 +137,9 @@ def objective_named(objective: Objective | str) -> Objective:
 
 
 def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGait:
-    """Walk an optimised gait under NPD and compare its first step with the limits.
+    """Walk an optimised gait for STEPS steps under NPD and compare its first step with the limits.
+
+    The simulation shares neither nodes nor quadrature with the design, only the robot; it has adaptive steps.
 
     Raises GaitError when it does not walk, violates a limit, or leaves the gait's orbit.
     """
@@ -171,7 +173,11 @@ MOST_SPEEDS = 1000
 
 @dataclass(frozen=True)
 class GaitLibrary:
-    """Gaits of one robot and preset over speed. Raises GaitError for none, or a speed that is not positive."""
+    """Gaits of one robot and preset over speed.
+
+    Gaits are not interpolated: a mean of two hybrid-invariant constraints is not hybrid-invariant in general,
+    so a speed is served by the nearest gait. Raises GaitError for none, or a speed that is not positive.
+    """
 
     gaits: Mapping[float, Gait]
     """By average speed [m/s]; sorted, slowest first."""

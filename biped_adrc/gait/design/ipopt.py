@@ -28,11 +28,15 @@ Bounds = tuple[Array, Array]
 """Lower and upper bounds of the decision vector, both (nx,)."""
 
 MAX_ITERATIONS = 250
+"""Of one run of IPOPT."""
 MAX_SECONDS = 60.0
-"""Of one attempt [s]."""
+"""Wall time of one run of IPOPT [s]."""
 ASKED = ("the speed", "the step length")
-ASKED_WEIGHT = 100.0  # so that a limit is named before what was asked
-MISSED = 1e-5  # a limit that has to give by more than this is named
+"""Names of the equality rows that state what was asked for rather than the physics of the step."""
+ASKED_WEIGHT = 100.0
+"""Weight of the slacks of ASKED in the relaxation, so that a limit gives way before what was asked does."""
+MISSED = 1e-5
+"""Largest slack of a limit that counts as kept."""
 _SOLVED = ("Solve_Succeeded", "Solved_To_Acceptable_Level")
 
 
@@ -94,7 +98,11 @@ def solve(
 
 @contextmanager
 def _interruptible(watch: _Watch) -> Iterator[None]:
-    """Ctrl-C ends IPOPT at its next iteration and is raised afterwards; CasADi itself would swallow it."""
+    """Context in which Ctrl-C ends IPOPT at its next iteration and is raised afterwards.
+
+    An exception inside of a CasADi callback is swallowed by CasADi, so the signal only sets a flag that the
+    callback reads. Signals reach the main thread alone; in any other nothing is changed.
+    """
     here = threading.current_thread() is threading.main_thread()
     before = signal.signal(signal.SIGINT, lambda *_: watch.interrupt()) if here else None
     try:
@@ -133,6 +141,7 @@ class _Watch(ca.Callback):
         return 1
 
     def get_sparsity_in(self, i: int) -> ca.Sparsity:
+        """Shape of the solver's output i: a dense column, or empty for the multipliers of no parameters."""
         size = self._sizes[ca.nlpsol_out(i)]
         return ca.Sparsity.dense(size, 1) if size else ca.Sparsity(0, 0)
 

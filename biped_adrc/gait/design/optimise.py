@@ -38,7 +38,9 @@ from biped_adrc.model.planar import PlanarTree
 from biped_adrc.types import Array
 
 NODES = 120
-SPEED = 1e-4  # largest relative difference to the speed and step asked for
+"""Gauss nodes of the audit, five times those at which the programme keeps its limits by default."""
+SPEED = 1e-4
+"""Largest relative difference of speed and step length from those asked for."""
 
 
 class Audited(NamedTuple):
@@ -142,7 +144,10 @@ def missed_wishes(request: GaitRequest, a: Audited) -> tuple[str, ...]:
 
 
 SLOWEST, FASTEST = 0.02, 60.0  # [rad/s], |Theta'|
-WINDING = 1.5  # [rad], how far a coefficient may be from the first guess
+"""Bounds of the unknown rates."""
+WINDING = 1.5
+"""Largest distance of a Bezier coefficient from the first guess [rad]; angles repeat every 2 pi, so that
+without bounds a leg may wind round."""
 
 
 @dataclass(frozen=True)
@@ -161,7 +166,12 @@ class Optimum:
 def optimise(biped: Biped, request: GaitRequest, progress: IpoptProgress | None = None) -> Optimum:
     """The gait of least objective, from a cold start; local optimum, as of any nonlinear programme.
 
-    The request's nodes are tried first, then twice as many where a limit is violated between them. Raises
+    1. Solve the programme in stages at the nodes of the request (`_staged`).
+    2. Build the exact gait of the solution (`exact_gait`), and evaluate it at NODES nodes (`audited`).
+    3. Compare speed, step length and all limits (`missed_wishes`, `missed_limits`). Done if nothing is missed;
+       otherwise start again with twice the nodes, and give up if that misses something too.
+
+    progress: called after each iteration of IPOPT. Raises
     GaitError naming the limits that would have to give, or the robot that has no such gait (exactly one
     unactuated coordinate is needed), and KeyboardInterrupt on Ctrl-C.
     """

@@ -26,11 +26,16 @@ from biped_adrc.model.contact import Impact
 from biped_adrc.model.planar import PlanarTree, point, turned
 from biped_adrc.types import Array
 
-LONGEST = 1.2  # step, share of the leg
-FROUDE = 1.5  # largest speed over sqrt(g leg); above 1 a stretched leg already leaves the ground
-MOVED = 1e-3  # [rad], how far a state to pass through may be moved onto the ground
-STEP = 0.5  # of the leg, where no step is asked for; and the Froude number of the guess
-BEND = 0.2  # share of its range, or at most this angle [rad], by which a joint starts off its end
+LONGEST = 1.2
+"""Longest step that is looked for, as a share of the leg length."""
+FROUDE = 1.5
+"""Largest speed over sqrt(g leg) that is looked for; above 1 an inverted pendulum already leaves the ground."""
+MOVED = 1e-3
+"""Largest change of a joint that puts the swing foot of a given state on the ground [rad]."""
+STEP = 0.5
+"""Step length of the guess over the leg where none is asked for, and speed over sqrt(g leg) where none is."""
+BEND = 0.2
+"""Largest distance of a joint of the guess from the end of its range [rad]; a quarter of a shorter range."""
 
 
 def standing(tree: PlanarTree) -> Array:
@@ -75,6 +80,7 @@ def apart(
         bounds[:, biped.description.joint_index(joint)] = ends
 
     def miss(q: Array) -> Array:
+        """Residuals (n + 3,): foot from its target, hip from half way [m], q from standing [rad], weighted."""
         t = turned(tree, q)
         foot, hip = np.array(point(t, K.foot_re, K.foot_im)), point(t, K.hip_re, K.hip_im)
         return np.concatenate(

@@ -161,7 +161,10 @@ def _fits(along: Coordinates, biped: Biped) -> Misfit | None:
 
 
 def _direction(along: Coordinates) -> Misfit | None:
-    """The paper's phase falls while the robot walks to +x; other phases may run either way."""
+    """The paper's phase falls while the robot walks to +x.
+
+    A phase that is not parallel to the paper's row may run either way, so it is not checked.
+    """
     if not along.virtual_leg or along.theta_plus > along.theta_minus:
         return None
     return Misfit(
@@ -174,7 +177,11 @@ def _direction(along: Coordinates) -> Misfit | None:
 
 
 def _phase_of_rows(record: GaitRecord, along: Coordinates) -> Misfit | None:
-    """c q(s) runs linearly over the given range: with one row per coordinate the phase is given twice."""
+    """c q(s) runs linearly from theta+ to theta- within CLOSES [rad].
+
+    With one row per coordinate the phase is given twice, by the curves and by its range; with outputs it is
+    not, and there is nothing to compare. Curves fitted over time fail here.
+    """
     if not record.of_all_coordinates:
         return None
     span = along.theta_minus - along.theta_plus
@@ -194,7 +201,10 @@ def _phase_of_rows(record: GaitRecord, along: Coordinates) -> Misfit | None:
 
 
 def _closure(along: Coordinates) -> Misfit | None:
-    """q(0) = R q(1) within CLOSES [rad]: the end of the step, relabelled, is its start."""
+    """q(0) = R q(1) within CLOSES [rad]: the end of the step, relabelled, is its start.
+
+    Both are poses of double support. The joint with the largest gap is the one that is reported.
+    """
     n = len(along.phase)
     R = convention("paper", knees=n == 5).relabelling
     begin, end = along.curve(0.0)[0], R.angles(along.curve(1.0)[0])
@@ -212,8 +222,11 @@ def _closure(along: Coordinates) -> Misfit | None:
 
 
 def _state(record: GaitRecord, along: Coordinates) -> Misfit | None:
-    """The state before impact, where the record has one, is the end of the curve, and its rates fit its
-    slope."""
+    """The state before impact, where the record has one, lies on the end of the curve.
+
+    q- = q(1) within CLOSES [rad], and q'- = dq/ds(1) s' within RATES [rad/s], with s' from the state's own
+    Theta'.
+    """
     state = state_to_paper(record, along.turns)
     if state is None:
         return None
@@ -238,7 +251,11 @@ def _state(record: GaitRecord, along: Coordinates) -> Misfit | None:
 
 
 def _feet(along: Coordinates, biped: Biped, slope: float) -> Misfit | None:
-    """The swing foot starts and ends on ground of `slope` [rad], and ends ahead of the stance foot."""
+    """The swing foot starts and ends on ground of `slope` [rad] within CLOSES [m], and ends ahead of the stance
+    foot.
+
+    This needs the robot's link lengths, and fails for a gait that was made for other ones.
+    """
     for s, when in ((0.0, "start"), (1.0, "end")):
         x, z = biped.swing_foot(along.curve(s)[0])
         height = float(z + math.tan(slope) * x)
@@ -263,8 +280,11 @@ def _feet(along: Coordinates, biped: Biped, slope: float) -> Misfit | None:
 
 
 def _slopes(record: GaitRecord, along: Coordinates, biped: Biped) -> Misfit | None:
-    """dq/dTheta after the impact is the slope at the start, within SLOPES: the constraint is
-    hybrid-invariant."""
+    """dq/dTheta after the impact is the slope at the start, within SLOPES: the constraint is hybrid-invariant.
+
+    The impact is linear in the rates, so the direction dq/dTheta after it does not depend on the speed. It
+    depends on the masses, which makes this the one check that tells robots of equal link lengths apart.
+    """
     span = along.theta_minus - along.theta_plus
     end, start = along.curve(1.0), along.curve(0.0)
     rate = np.sign(span) * end[1] / span

@@ -28,7 +28,8 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.types import Array
 
 _TURN = 2.0 * np.pi
-_PARALLEL = 1e-12  # relative, of two phase rows
+_PARALLEL = 1e-12
+"""Largest relative difference of two phase rows that count as parallel."""
 
 
 class Coordinates(NamedTuple):
@@ -111,7 +112,10 @@ def coordinates(record: GaitRecord) -> Coordinates:
 
 
 def _completed(record: GaitRecord, curve: Curve, c: Array) -> Curve:
-    """q'(s) from the outputs and the phase."""
+    """q'(s), all n coordinates, from the outputs y(s) and the phase row c (n,) by [H0; c] q' = [y; theta].
+
+    Raises GaitError where outputs and phase together are not n independent rows.
+    """
     layout = record.layout
     outputs = layout.outputs if record.outputs is None else record.outputs
     H = np.vstack((outputs, c))

@@ -84,7 +84,8 @@ def _text(value: object) -> object:
 
 
 FORMAT = "biped_adrc exchanged gait 1"
-UNITS = {
+"""Entry `format` of a gait file written here; files of other programs need none."""
+UNITS = {  # of the entries of a gait file, written into it
     "coefficients": "rad",
     "theta_plus": "rad",
     "theta_minus": "rad",
@@ -102,7 +103,7 @@ _TEXT = ("convention", "curve", "name", "robot", "preset")
 
 
 def write_record(record: GaitRecord, path: Path | str) -> None:
-    """Write a record as .json or .mat, with the units of its entries.
+    """Write a record as .json or .mat: the fields of `GaitRecord` by name, a `format`, and the units.
 
     What is None is left out; provenance is text of JSON in a .mat file. Raises InputError for another suffix,
     and OutputError.
@@ -208,6 +209,7 @@ def _provenance(value: object) -> dict[str, object]:
 
 
 RUN_FORMAT = "biped_adrc exchanged run 1"
+"""Entry `format` of a walk as a .mat file."""
 RUN_UNITS = {
     name: unit
     for unit, names in {

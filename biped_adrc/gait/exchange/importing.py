@@ -43,6 +43,10 @@ def import_gait(
     impact of this robot; False accepts constraints that are not hybrid-invariant. Without q_minus, v_minus or
     period these come from the zero dynamics.
 
+        gait = ba.import_gait("ames.mat", biped, convention="frost", names={"coefficients": "alpha"})
+
+    The gait is named by the record ("imported" where it has no name) and can be walked and saved as any other.
+
     Raises GaitError that names the joint, what was found, what was expected, the likely cause and what to
     try; InputError for a file that cannot be read.
     """

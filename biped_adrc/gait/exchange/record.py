@@ -25,13 +25,17 @@ _COORDINATES = {5: True, 3: False}  # with knees, without
 
 @dataclass(frozen=True)
 class GaitRecord:
-    """Coefficients (rows, M + 1) [rad] and the phase, in convention `convention`; n coordinates.
+    """A gait of a robot with n coordinates in one angle convention.
 
-    Raises GaitError that names the entry, what was found, what was expected and what to try.
+    Only convention, coefficients and the range of the phase are needed; everything else has a default or
+    follows from the robot when the record is imported. Raises GaitError that names the entry, what was found,
+    what was expected and what to try.
     """
 
     convention: str
+    """Name of the angle convention, of `conventions.CONVENTIONS`."""
     coefficients: Array
+    """Of the curves (rows, M + 1) [rad], one row per output or per coordinate."""
     theta_plus: float
     """[rad] just after impact."""
     theta_minus: float
@@ -109,6 +113,8 @@ class GaitRecord:
         return GaitError(f"gait '{self.name}' in convention '{self.convention}': {text}")
 
     def _known(self, knees: bool) -> Convention:
+        """The convention of the record, for a robot with knees or without. Raises GaitError for an unknown
+        name."""
         if self.convention not in CONVENTIONS:
             raise GaitError(
                 f"gait '{self.name}': there is no angle convention '{self.convention}'; choose one of "
@@ -117,6 +123,10 @@ class GaitRecord:
         return convention(self.convention, knees)
 
     def _wrong_rows(self, rows: int) -> GaitError:
+        """The error for a number of rows that the convention does not have.
+
+        The likely cause is another convention that has so many rows, or a matrix that is transposed.
+        """
         takes = _counts_of(self.convention)
         others = [name for name in CONVENTIONS if rows in _counts_of(name)]
         columns = self.coefficients.shape[1]
