@@ -12,6 +12,14 @@ exchange the two first.
 
 The conventions are data, in `conventions.toml` beside this module. `exchange` uses them to bring gaits of other
 groups into the paper's coordinates and back; inside the package all angles are the paper's.
+
+Entries of a convention in the file, for a robot with knees (five coordinates):
+
+    coordinates          names, in the convention's order
+    A, half_turns        q = A q' + pi half_turns
+    knees, outputs       places of the knees; coordinates that are a gait's usual outputs
+    sense                +1 if the phase falls in a walk to +x, -1 if it grows
+    source               publication or program
 """
 
 from __future__ import annotations
@@ -113,7 +121,13 @@ class Convention:
 
 
 def between(source: Convention, target: Convention) -> AngleMap:
-    """The map from the coordinates of `source` to those of `target`. Raises InputError."""
+    """The map from the coordinates of `source` to those of `target`.
+
+        to_frost = between(convention("paper"), convention("frost"))
+        q, v = to_frost.angles(gait.q_minus), to_frost.rates(gait.v_minus)
+
+    Raises InputError for one with knees and one without.
+    """
     if source.n != target.n:
         raise InputError(
             f"convention '{source.name}' has {source.n} coordinates and '{target.name}' {target.n}; ask "

@@ -31,8 +31,10 @@ from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Bezier, Polynomial, ramp
 from biped_adrc.types import Array, read_only
 
-_SLOPE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0  # times 1 / h, error h^4 f^(5) / 30
-_BEND = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0  # times 1 / h^2, error h^4 f^(6) / 90
+_SLOPE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0
+"""Central difference of order 4 for f' over -2 h .. 2 h, times 1 / h; its error is h^4 f^(5) / 30."""
+_BEND = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
+"""The same for f'', times 1 / h^2; its error is h^4 f^(6) / 90."""
 
 
 class OutputPoint(NamedTuple):
@@ -83,7 +85,10 @@ class LinearOutputs(Outputs):
         return OutputPoint(self.H0 @ q - r.q_d, self.H0 @ v - r.dq_d, self.H0 - r.H, -r.drift)
 
     def as_virtual_constraint(self) -> VirtualConstraint:
-        """q_b = h(Theta) with y = 0 on the same configurations, a Bezier curve where h_d is one.
+        """The virtual constraint q_b = h(Theta) whose configurations are those of y = 0, a Bezier curve where
+        h_d is.
+
+        Zero dynamics and gaits are written for virtual constraints, so this brings linear outputs to them.
 
         Raises GaitError when there is not one output fewer than coordinates, or [H0; c] is singular.
         """
@@ -107,6 +112,8 @@ class LinearOutputs(Outputs):
 @dataclass(frozen=True)
 class FunctionOutputs(Outputs):
     """y = function(q), a Python function that is at least four times differentiable.
+
+        height = FunctionOutputs(lambda q: np.array([biped.hip(q)[1] - 0.78, q[4]]))
 
     What is not given of its derivatives comes from central differences of order 4. For a function and
     derivatives of order one and the width of 4e-3, J is within 1e-11 and the drift within 1e-10 |v|^2 of the

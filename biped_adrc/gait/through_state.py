@@ -29,11 +29,16 @@ from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 
-_SLOWEST = 0.05  # least sigma^2 during the step over that before impact, dimensionless
-_TORQUE_SCALE = 1e3  # [N^2 m^2 s], typical int u'u dt of a step
-_CLOSURE_WEIGHT = 300.0  # of the relative closure against the scaled torque
+_SLOWEST = 0.05
+"""Least sigma^2 during the step over that before impact, dimensionless: the step must not nearly stop."""
+_TORQUE_SCALE = 1e3
+"""Typical int u'u dt of a step [N^2 m^2 s], by which the torque residuals are scaled to about 1."""
+_CLOSURE_WEIGHT = 300.0
+"""Weight of the relative closure against the scaled torque."""
 _LIMIT_WEIGHT = 10.0
-_LIMIT_TOLERANCE = 5e-3  # scaled as in `margins`: half a newton, half a millimetre
+"""Weight of a violated limit against the scaled torque."""
+_LIMIT_TOLERANCE = 5e-3
+"""Largest violation of a limit in the end, scaled as in `margins`: half a newton, half a millimetre."""
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,11 @@ the swing foot meets the ground, and so where the curve ends.
 I and V_zero are Legendre series through the values at the Gauss nodes of `ZeroDynamics`, so that they can be
 evaluated, differentiated and searched for zeros anywhere in the step. `zero_domain` adds what
 ground and motors allow; `analysis.zero_report` prints both.
+
+    orbits = ba.ZeroOrbits.of(ba.ZeroDynamics.of(biped, gait.constraint))
+    star = orbits.zeta_star              247.4 kg^2 m^4/s^2 for the published gait of RABBIT
+    orbits.speed(star), orbits.delta**2  0.750 m/s, and the multiplier 0.694
+    orbits.iterate(0.6 * star, 5)        how a slower walk comes back to it, step by step
 """
 
 from __future__ import annotations
@@ -38,9 +43,12 @@ from biped_adrc.errors import GaitError, check_positive
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
 from biped_adrc.types import Array
 
-_GRID = 401  # points among which signs and extremes are looked for; zeros are then solved for
-_DURATION = 1e-6  # largest error of a duration over itself
-_SADDLE = 1e-6  # |dV_zero/dTheta| at V_max over its largest, below which V_max is an equilibrium
+_GRID = 401
+"""Phases among which signs and extremes are looked for; zeros between two of them are then solved for."""
+_DURATION = 1e-6
+"""Largest error of a duration over itself."""
+_SADDLE = 1e-6
+"""|dV_zero/dTheta| at V_max over its largest value, below which V_max counts as an equilibrium."""
 
 
 def series(zero: ZeroDynamics, values: Array) -> Legendre:

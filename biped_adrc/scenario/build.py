@@ -41,7 +41,11 @@ WITHOUT_MOTORS = (*WALKED, "method", "h", "tolerance", "engine")
 
 @dataclass(frozen=True)
 class RobotAndGait:
-    """The nominal robot of a scenario, and the gait that it walks or, without motors, its known cycle."""
+    """The nominal robot of a scenario, and the gait that it walks or, without motors, its known cycle.
+
+    Loading both takes longer than making a walker; studies of many walks of one robot make this once and hand
+    it to `build` and `start`.
+    """
 
     biped: Biped
     gait: Gait | None = None

@@ -116,6 +116,9 @@ class ControllerMaker:
     ) -> dict[str, object]:
         """The scenario's values for a constructor, gains and observer made of theirs.
 
+        Gains that are given replace those of the constructor's default, one by one. Poles stand in place of a
+        bandwidth and an order, so the entry's defaults of these are then left out.
+
         defaults: those of the registry's entry, which hold where the scenario has none.
         """
         given = {name: getattr(self.s, name) for name in OF_CONTROLLER}

@@ -3,6 +3,14 @@
 A scenario has two ways to push: `pushes`, a list of `Push` with their own windows (the paper's), and the single
 push of the fields `push`, `on`, `amplitude`, `force`, ..., whose kind is a name of the registry and whose onset
 may be drawn (studies). `build.build` calls `disturbances`; disturbances of several pushes are added up.
+
+Where the single push acts is the text `Scenario.on`:
+
+    q1,-q2          these coordinates, the second one with the other sign (a torque)
+    random joints   all driven joints, with factors drawn from -1 to 1 (a torque)
+    link torso      the origin of a link, along `direction` (a force)
+
+A disturbance class that takes `force` is given (F_x, F_z) [N] as well, whatever `on` says.
 """
 
 from __future__ import annotations

@@ -2,6 +2,9 @@
 
 A walk itself holds megabytes of states. Studies of thousands of walks and the reproduction of the paper compare
 outcomes; `Walk.outcome` makes one, `run.execute` returns it.
+
+`Outcome.half` is the outcome at half the integration step, where it was asked for: the difference of the two is
+an estimate of the error of integration in every number here, since RK4's error falls by 16.
 """
 
 from __future__ import annotations

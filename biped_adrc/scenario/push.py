@@ -2,6 +2,11 @@
 
 The paper's pushes are of this form: torques on the driven joints in one single support, for a window of time.
 `Push` is checked when it is made; `Push.disturbance` gives the object that the closed loop evaluates.
+
+    q1,q2,q3,q4=30@19:0.1-0.3            30 N m on four joints in single support 19, from 0.1 to 0.3 s
+    q1=20,q5=-5@3:0.05-0.2:rise=0.01     two torques, each edge taking 10 ms
+    q1=40@19:0.05-0.3:sine=5             a sine of 5 Hz within the window
+    q5=10@2:0.1-                         a step of the torque that stays for good
 """
 
 from __future__ import annotations

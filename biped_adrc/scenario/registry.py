@@ -83,6 +83,9 @@ def _stored(kind: str) -> Iterable[str]:
 def register(kind: str, name: str, thing: Callable[..., object], words: str = "") -> None:
     """Make a class or function of one's own known by a name, in this process.
 
+        ba.register("controller", "my law", MyController, "PD with my feedforward")
+        ba.walk_scenario(ba.Scenario("my law", own={"stiffness": 300.0}))
+
     kind: "controller", "observer", "disturbance", "curve", "robot" or "gait". words: for a reader. Records of
     scenarios write it as `module:Class`, so that other processes find it. Raises InputError for an unknown
     kind, and for a name that is taken or reads as `module:Class`.

@@ -44,7 +44,21 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "method": ("rk4", "exponential", "feedback", "adaptive", "stiff"),
     "engine": ("pinocchio", "compiled"),
 }
-"""Values that a field may have, by field."""
+"""Values that a field may have, by field.
+
+reset: what becomes of the observer at impact. none: nothing. relabel: the states of the legs swap. measured: as
+relabel, with angles and rates from the measurement. model: as at the start, xi^ from the nominal model.
+
+velocity: where rates come from in sampled time. measured: exactly, with noise. differences: of encoder angles.
+gyro: differences, but for the rate of the pitch.
+
+method: of integration. rk4: fixed step. exponential: ETD-RK4 with the observer's linear part solved exactly.
+feedback: the same with the controller's feedback in the linear part. adaptive: explicit with step control.
+stiff: Radau IIA of order 5, implicit.
+
+engine: compiled runs machine code made from the laws; pinocchio runs the Python methods, with Pinocchio's
+model.
+"""
 NAMED = {"controller": "controller", "observer": "observer", "push": "disturbance"}
 """Fields whose value is a name of the registry, and its kind there."""
 OF_PUSH = ("on", "direction", "onset", "duration", "frequency")
@@ -271,7 +285,12 @@ class Scenario:
 
 
 DRAWN = ("start", "onset", "joints", "noise", "sensors", "model", "impact", "ground")
-"""What is random in a walk. The place in this list selects the stream, so new names go to its end."""
+"""What is random in a walk. The place in this list selects the stream, so new names go to its end.
+
+start: offsets of coordinates and speed. onset: time of the push. joints: factors of a push on random joints.
+noise: the push that is noise. sensors: noise of measurements. model: errors of masses, centres, inertias and
+friction. impact: error of the impact map. ground: heights of uneven ground.
+"""
 
 
 FIELDS: Mapping[str, FieldInfo] = Scenario.__pydantic_fields__  # type: ignore[attr-defined]

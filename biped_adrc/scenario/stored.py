@@ -85,6 +85,9 @@ def save_walk(walk: Walk, path: Path | str, settings: Mapping[str, object] | Non
 def load_walk(path: Path | str, controller: object = None) -> Walk:
     """The walk in a run file (.npz) written by `Walk.save`, `simulate` or `reproduce`.
 
+        walk = ba.load_walk("walk.npz")
+        walk = ba.load_walk("walk.npz", controller=MyController)
+
     controller: class or object of one's own, of the controller or of another part such as its observer, with
     which the walk can go on; without, its signals, figures and pictures are those of the file. Raises
     InputError.
@@ -217,7 +220,8 @@ def values_of_0_1(record: Mapping[str, _V]) -> dict[str, _V]:
 
 
 def load_walks(paths: Sequence[Path]) -> dict[str, Walk]:
-    """The walks in run files, named by controller and, where that is not enough, by file."""
+    """The walks in run files, by a name for each: its controller, with the file or a number where names
+    repeat."""
     found = [(path, load_walk(path)) for path in paths]
     names = [walk.controller_name for _, walk in found]
     if len(set(names)) < len(names):

@@ -5,6 +5,10 @@ elsewhere. A walk is therefore cut at impacts into parts (`Part`), with a fine s
 which the disturbance switches and a usual one in the others; the trajectories are joined.
 
 `walk` is for walkers made in Python, `run.walk_scenario` for scenarios. Both return a `Walk`.
+
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    made = ba.walk(walker, gait, impacts=8)          # a Walk
+    refined(walker, 8, 1, RK4(), RK4(5e-5))          # parts: usual, fine where the push switches, usual
 """
 
 from __future__ import annotations

@@ -90,7 +90,12 @@ def is_ours(home: str) -> bool:
 
 @dataclass
 class Writer:
-    """Turns objects into records; the inverse of `Reader`."""
+    """Turns objects into records; the inverse of `Reader`.
+
+    An object that is used twice, such as the robot in walker and gait, is written once and is one object again
+    after reading. Objects are dataclasses, NamedTuples, or classes that keep the arguments of their constructor
+    as attributes of the same names.
+    """
 
     records: list[PartRecord] = field(default_factory=list)
     """Of all objects seen, each once; an object is referred to by its place here."""
@@ -165,7 +170,11 @@ def _names(x: Any) -> list[str]:
 
 @dataclass
 class Reader:
-    """Makes objects of records; the inverse of `Writer`."""
+    """Makes objects of records; the inverse of `Writer`.
+
+    A part whose class is missing does not stop the others: what needs it becomes a `MissingPart` too, and the
+    rest of the walker is made.
+    """
 
     records: list[PartRecord]
     given: Mapping[str, object]

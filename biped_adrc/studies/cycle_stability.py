@@ -10,6 +10,10 @@ point, multipliers by central differences, delta^2.
 
 The return map P takes the state just before one impact to that before the next; multipliers are the eigenvalues
 of its derivative at the fixed point, and the cycle is stable if all lie inside the unit circle.
+
+A `Cycle` of a controller with states (an observer) has these behind the mechanical ones in its state, unless
+observer_states is False: then the controller starts anew after each impact, and the map has 2 n - 1
+coordinates.
 """
 
 from __future__ import annotations
@@ -101,6 +105,9 @@ def find_cycle(
 ) -> Cycle:
     """The cycle of a robot by name: of a gait under a controller (by default NPD), passive without motors.
 
+        walking = ba.find_cycle("rabbit", gait="published", controller="ADRC", observer_states=False)
+        passive = ba.find_cycle("compass", slope=0.05)
+
     observer_states: whether the controller's states belong to the state of the return map. slope: [rad], of
     another ground. own: own values of the controller. Raises InputError for a controller that does not fit the
     robot, and as Biped.load, load_gait, known_cycle.
@@ -153,6 +160,8 @@ def cycle_stability(
 
 def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = None) -> Certificate:
     """The certificate of the step at the fixed point: what it asks of ground and motors, within these limits.
+
+    Certificates depend on states, torques and forces alone, so a reference of zeros is given for the signals.
 
     Raises SimulationError where the step does not end with an impact.
     """

@@ -10,6 +10,10 @@ Theta moves with the joints: `robot_margin` finds by bisection where the robot i
 
 `observer_design` computes margins from transfer functions and never walks; this module gives the proof in
 simulation. Called by `biped-adrc observer` and by users who design an observer.
+
+    case = DelayCase(biped, gait, GPIObserver.from_bandwidth(300.0, 1))
+    check = check_delay(case)
+    check.margin, check.robot_margin, check.confirmed
 """
 
 from __future__ import annotations
@@ -149,8 +153,12 @@ class DelayCase(NamedTuple):
 
 
 def check_delay(case: DelayCase) -> DelayCheck:
-    """Compare the linear delay margin with walks below and above it. Raises InputError for a loop without
-    one."""
+    """Compare the linear delay margin with walks below and above it.
+
+    One walk more has a finer approximant of the delay, which shows the error of the approximant, and one more
+    the torque limit, which shows what it does to a loop that diverges. Raises InputError for a loop without a
+    finite margin.
+    """
     margin = case.margin
     if not (math.isfinite(margin) and margin > 0.0):
         raise InputError(
@@ -165,7 +173,10 @@ def check_delay(case: DelayCase) -> DelayCheck:
 
 
 def robot_margin(case: DelayCase) -> float:
-    """The delay [s] at which the robot stops tracking, by bisection; nan if not in LOW to HIGH."""
+    """The delay [s] at which the robot stops tracking, by bisection to RESOLUTION of the linear margin.
+
+    nan where the robot does not track at LOW times the linear margin, or still does at HIGH times it.
+    """
     margin, low, high = case.margin, LOW, HIGH
     if not case.walked(low * margin).tracks or case.walked(high * margin).tracks:
         return math.nan

@@ -164,6 +164,11 @@ def relaxed(
 ) -> Array:
     """A decision vector (nx,) that keeps all limits, found by the relaxation with slacks from x0 (nx,).
 
+        minimise  w . s + 1e-6 f(x)   subject to  low - s <= g(x) <= high + s,  s >= 0
+
+    Each name of a limit has one slack s, so that all rows of that name give way together; the small share of
+    the objective keeps the solution unique. The problem is always feasible for slacks that are large enough.
+
     asked, status: what was asked for and how IPOPT failed, for the message. One slack per name of a limit;
     speed and step length asked for have slacks of weight ASKED_WEIGHT, the equations of the model none.
     Raises GaitError naming the limits whose slack stays above MISSED.

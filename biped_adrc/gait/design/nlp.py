@@ -80,7 +80,11 @@ def transcribe(
 
 
 def _equalities(k: SymbolicStep) -> tuple[Bounded, ...]:
-    """Rows that make the step one periodic orbit of the hybrid zero dynamics, and give speed and step asked."""
+    """Rows that make the step one periodic orbit of the hybrid zero dynamics, and give speed and step asked.
+
+    The end of the curve is the pre-impact state, its start the state after the impact with the legs relabelled,
+    in value and in slope; the angular momentum follows the quadrature to each node and comes back to itself.
+    """
     x, p, M = k.x, k.p, k.request.degree
     sigma_minus = k.sigma(x.q, k.dq) * x.rate
     sigma_plus = k.sigma(k.q_plus, k.v_plus) * x.rate

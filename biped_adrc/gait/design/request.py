@@ -17,6 +17,8 @@ from biped_adrc.errors import GaitError, check_positive
 from biped_adrc.model.biped import Biped
 
 MOST_NODES = 100
+"""Largest number of nodes that may be asked for; twice as many are tried where limits are missed between
+them."""
 
 
 class Objective(Enum):
@@ -33,6 +35,8 @@ class Objective(Enum):
 @dataclass(frozen=True)
 class StepLimits:
     """Limits of one step; None takes the robot's own from its record (`robot.toml`).
+
+        ba.design_gait("rabbit", 0.8, limits=StepLimits(friction=0.5, torque=100.0, clearance=0.03))
 
     Raises GaitError for a limit that is negative, zero where it divides, or a range without extent.
     """

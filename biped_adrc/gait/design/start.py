@@ -6,6 +6,9 @@ the relabelled pose to this one, the impact at its end, and Bezier curves throug
 
 A request through a given state takes steps 1 and 2 from that state. Speeds and steps out of reach of the legs
 are refused here, before IPOPT runs. Called by `optimise`.
+
+IPOPT finds a local optimum near its guess, so the guess decides which gait is found: knees bent the usual way,
+feet on the ground, the hip between them, and no leg wound round. It need not be periodic or keep any limit.
 """
 
 from __future__ import annotations

@@ -9,6 +9,15 @@ noticed.
 
 Entries are checked here for what only a file can get wrong (missing keys, text in place of numbers);
 `record.GaitRecord` checks shapes and numbers, `closure` whether it is a gait.
+
+A gait file of another program needs three entries, and one more unless the caller states the convention:
+
+    coefficients             (rows, M + 1) [rad], one row per output or coordinate
+    theta_plus, theta_minus  range of the phase [rad]
+    convention               a name of `conventions.CONVENTIONS`
+
+All other fields of `GaitRecord` may be added under their names. What is called differently is mapped by
+`names`.
 """
 
 from __future__ import annotations
@@ -235,6 +244,8 @@ def export_run(
     note: str = "",
 ) -> None:
     """Write columns (K,) or (K, ...) over the same K instants as a .mat file, such as `vars(walk.signals)`.
+
+        export_run({"t": s.t, "lag": lag}, "lag.mat", units={"lag": "rad"})
 
     columns: by name, 't' [s] among them. units: of columns that are not of this package. note: free text.
     Angles are in this paper's convention. Raises InputError for a column without a unit or of another length,

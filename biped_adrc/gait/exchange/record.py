@@ -20,12 +20,16 @@ from biped_adrc.gait.conventions import CONVENTIONS, Convention, convention
 from biped_adrc.gait.curves import CURVES, Curve
 from biped_adrc.types import Array, read_only
 
-_COORDINATES = {5: True, 3: False}  # with knees, without
+_COORDINATES = {5: True, 3: False}
+"""By the number of coordinates, whether the robot has knees."""
 
 
 @dataclass(frozen=True)
 class GaitRecord:
     """A gait of a robot with n coordinates in one angle convention.
+
+        record = GaitRecord("frost", alpha, theta_plus=-0.25, theta_minus=0.25, name="from FROST")
+        gait = ba.import_gait(record, biped)
 
     Only convention, coefficients and the range of the phase are needed; everything else has a default or
     follows from the robot when the record is imported. Raises GaitError that names the entry, what was found,
