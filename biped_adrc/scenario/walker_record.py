@@ -172,8 +172,8 @@ def _names(x: Any) -> list[str]:
 class Reader:
     """Makes objects of records; the inverse of `Writer`.
 
-    A part whose class is missing does not stop the others: what needs it becomes a `MissingPart` too, and the
-    rest of the walker is made.
+    A part whose class is missing does not stop the others: what contains it becomes a
+    `MissingPart` too, and the rest is made. `whole` is for parts that must not be missing.
     """
 
     records: list[PartRecord]
