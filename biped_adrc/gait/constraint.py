@@ -69,8 +69,10 @@ def path(k: ConstraintParameters, theta: float) -> tuple[Array, Array, Array]:
 
 
 def virtual_constraint(k: ConstraintParameters, q: Array, v: Array) -> ReferencePoint:
-    """The reference at q (n,) [rad], v (n,) [rad/s] by the chain rule: H = h' c (p, n), drift = h''
-    Theta'^2."""
+    """The reference at q (n,) [rad], v (n,) [rad/s], by the chain rule.
+
+    H = h' c (p, n) multiplies q''; drift = h'' Theta'^2 (p,) is the rest of q_d''.
+    """
     theta, dtheta = float(k.c.dot(q)), float(k.c.dot(v))
     h, dh, ddh = path(k, theta)
     return ReferencePoint(h, dh * dtheta, dtheta**2 * ddh, dh[:, np.newaxis] * k.c)

@@ -113,8 +113,10 @@ class Margin(NamedTuple):
 
 
 def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
-    """All limits; the model at Theta' = 0 and 1 rad/s gives both coefficients, since it is affine in
-    Theta'^2."""
+    """All limits of the domain.
+
+    The model is affine in Theta'^2, so its values at Theta' = 0 and 1 rad/s give both coefficients.
+    """
     zero = orbits.zero
     rest, moving = ([zero.dynamics(k, rate) for k in range(len(zero.theta))] for rate in (0.0, 1.0))
     u_0, u_1 = (np.array([found[1] for found in rows]) for rows in (rest, moving))

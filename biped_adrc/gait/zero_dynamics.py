@@ -76,8 +76,10 @@ class ZeroDynamicsOrbit:
 
 @dataclass(frozen=True)
 class ZeroDynamics:
-    """The model along one constraint at K Gauss nodes, and what follows from it by quadrature. Make it by
-    `of`."""
+    """The model along one constraint at K Gauss nodes, and what follows from it by quadrature.
+
+    Make it by `of`.
+    """
 
     biped: Biped
     constraint: VirtualConstraint

@@ -116,8 +116,7 @@ class ZeroOrbits:
 
     @cached_property
     def v_max(self) -> float:
-        """V_max = max V_zero >= 0 [kg^2 m^4/s^2], which sigma+^2 / 2 must exceed for the step to be
-        finished."""
+        """V_max = max V_zero >= 0 [kg^2 m^4/s^2]; a step is finished if sigma+^2 / 2 exceeds it."""
         return max(0.0, float(self.potential(self.theta_max)))
 
     @property
@@ -278,7 +277,8 @@ def _check_phase(inertia: Legendre, theta: Array) -> None:
 
 def _highest(potential: Legendre, theta: Array) -> float:
     """The phase [rad] at which V_zero is largest: an end of theta (K,), or a zero of its slope beside the
-    largest value on that grid."""
+    largest value on that grid.
+    """
     k = int(np.argmax(potential(theta)))
     slope = potential.deriv()
     for one, other in ((theta[max(k - 1, 0)], theta[k]), (theta[k], theta[min(k + 1, _GRID - 1)])):

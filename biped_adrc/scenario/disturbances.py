@@ -166,7 +166,8 @@ def disturbance(
 
 def taken(s: Scenario) -> set[str]:
     """Names of own values that the push takes; arguments that come from the scenario's fields are not among
-    them."""
+    them.
+    """
     if s.push == "none":
         return set()
     return set(takes(find("disturbance", s.push).load())) - BY_ITSELF

@@ -69,7 +69,8 @@ def step_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
 
 def _edges(disturbance: Disturbance) -> dict[int, list[float]]:
     """Times [s] of the edges by number of the single support, from its start; under 0 from the start of the
-    walk."""
+    walk.
+    """
     edges: dict[int, list[float]] = {}
     for step, s in disturbance.switches:
         edges.setdefault(step, []).append(s)

@@ -65,8 +65,10 @@ class Outcome:
 
 
 def outcome_of(made: Walk) -> Outcome:
-    """The outcome of a scenario's walk. The mean of squared errors is over time, by quadrature between
-    nodes."""
+    """The outcome of a scenario's walk.
+
+    The mean of squared errors is over time, by quadrature between nodes.
+    """
     assert made.scenario is not None
     trajectory, s = made.trajectory, made.signals
     events = trajectory.events(FOOT_STRIKE)

@@ -53,7 +53,8 @@ def _nothing(t: float) -> tuple[Array, Array, Array]:
 @dataclass(frozen=True)
 class Walk:
     """A finished walk: the walker, the gait it was to follow, the trajectory, and the scenario that asked for
-    it."""
+    it.
+    """
 
     walker: Walker
     gait: Gait | None
@@ -89,8 +90,7 @@ class Walk:
 
     @cached_property
     def certificates(self) -> tuple[Certificate, ...]:
-        """What each finished step would have asked of a real robot: friction, torque, foot clearance,
-        energy."""
+        """What each finished step would have asked of a real robot: friction, torque, clearance, energy."""
         return self.certified()
 
     def certified(self, limits: Limits | None = None) -> tuple[Certificate, ...]:
@@ -130,7 +130,8 @@ class Walk:
     @property
     def remarks(self) -> tuple[str, ...]:
         """Sentences to know before using its numbers: a push that an impact cut off, too long a step at an
-        edge."""
+        edge.
+        """
         walker, trajectory = self.walker, self.trajectory
         return (*self.said, *edge_remarks(walker, trajectory), *step_remarks(walker, trajectory))
 

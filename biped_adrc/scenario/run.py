@@ -59,7 +59,8 @@ SETTLES = 1e-9
 
 def method_of(s: Scenario, walker: Walker) -> OneStepMethod:
     """The integration method of a scenario, with its step or tolerance; the walker's default where none is
-    given."""
+    given.
+    """
     if s.method in FREE:
         return METHODS[s.method](s.tolerance, s.tolerance)
     method = default_method(walker) if s.method is None else METHODS[s.method]()

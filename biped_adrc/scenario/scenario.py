@@ -220,7 +220,8 @@ class Scenario:
     @model_validator(mode="after")
     def _effective(self) -> Scenario:
         """Raise ValueError for a value that would have no effect, or a step given to a method that chooses its
-        own."""
+        own.
+        """
         found = [what for what, is_so in self._idle().items() if is_so]
         if found:
             raise ValueError(f"{'; '.join(found)}: this would do nothing, leave one of them out")

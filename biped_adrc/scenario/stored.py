@@ -45,8 +45,10 @@ _V = TypeVar("_V")
 
 
 class AbsentController(MissingPart, Controller):
-    """Stand-in for the controller of a stored walk whose class is not at hand. Raises InputError when
-    called."""
+    """Stand-in for the controller of a stored walk whose class is not at hand.
+
+    Raises InputError when called.
+    """
 
     def output(self, s: Array, m: Measurement) -> Array:
         raise InputError(f"the walk cannot go on without its controller: {self.why}")
@@ -220,8 +222,10 @@ def values_of_0_1(record: Mapping[str, _V]) -> dict[str, _V]:
 
 
 def load_walks(paths: Sequence[Path]) -> dict[str, Walk]:
-    """The walks in run files, by a name for each: its controller, with the file or a number where names
-    repeat."""
+    """The walks in run files, by a name for each.
+
+    The name is that of the controller, with the file or a number where names repeat.
+    """
     found = [(path, load_walk(path)) for path in paths]
     names = [walk.controller_name for _, walk in found]
     if len(set(names)) < len(names):

@@ -93,7 +93,8 @@ def reason(error: Exception, known: Iterable[str] = ()) -> str:
 
 def unknown(name: str, known: Iterable[str], near_by: Iterable[str] = ()) -> str:
     """The message for a name that does not exist: the nearest names of `known` and `near_by`, or all known
-    ones."""
+    ones.
+    """
     near = get_close_matches(name, [*known, *near_by], 3, 0.6)
     hint = f"did you mean {' or '.join(map(repr, near))}?" if near else f"choose from {list(known)}"
     return f"unknown parameter; {hint}" if known else "unknown parameter; leave it out"

@@ -170,8 +170,10 @@ def _later(progress: Progress, done: int, t: float, events: int) -> None:
 
 
 def _joined(runs: Sequence[Trajectory]) -> Trajectory:
-    """One trajectory of runs that follow one another; settings["method"] says which single supports each
-    took."""
+    """One trajectory of runs that follow one another.
+
+    Its settings["method"] says which single supports each method took.
+    """
     last = runs[-1]
     if len(runs) == 1:
         return last

@@ -106,7 +106,8 @@ class Writer:
 
     def plain(self, x: object) -> object:
         """The value as JSON has it; {kind: ...} for arrays, tuples, enums and paths, {"part": place} for
-        objects."""
+        objects.
+        """
         if x is None or (isinstance(x, bool | int | float | str) and not isinstance(x, Enum)):
             return x
         if isinstance(x, np.generic):
@@ -147,8 +148,7 @@ class Writer:
         return {"class": home, "values": values, "source": source_hash(kind)}
 
     def _carried(self, x: MissingPart) -> PartRecord:
-        """The record that a missing part was read from, so that a walk can be stored again without its
-        class."""
+        """The record that a missing part was read from: a walk can be stored again without its class."""
         record: PartRecord = {
             "class": x.home,
             "values": {k: self.plain(y) for k, y in x.values.items()},

@@ -87,7 +87,8 @@ def gait_cycle(s: Scenario, observer_states: bool = True, slope: float | None = 
 
 def gait_map(s: Scenario, observer_states: bool = True) -> Cycle:
     """Return map of a scenario by its own integration method, without its pushes; the guess is the gait's
-    orbit."""
+    orbit.
+    """
     scene = RobotAndGait.of(s)
     walker = build(replace(s, pushes=()), scene)
     P = ReturnMap(walker, method_of(s, walker), observer_states)
@@ -118,8 +119,10 @@ def find_cycle(
 
 
 def cycle_of(s: Scenario, observer_states: bool = True, slope: float | None = None) -> Cycle:
-    """The cycle of a scenario, without its pushes, on its own or another slope [rad]. Raises as
-    `find_cycle`."""
+    """The cycle of a scenario, without its pushes, on its own or another slope [rad].
+
+    Raises as `find_cycle`.
+    """
     scene = RobotAndGait.of(s)
     if scene.gait:
         return gait_cycle(s, observer_states, slope)

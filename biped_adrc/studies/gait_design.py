@@ -213,8 +213,10 @@ class GaitLibrary:
 
     @classmethod
     def load(cls, folder: Path | str, biped: Biped) -> GaitLibrary:
-        """The gaits of a folder that are of this robot and preset. Raises GaitError for none, or a damaged
-        file."""
+        """The gaits of a folder that are of this robot and preset.
+
+        Raises GaitError for none, or a damaged file.
+        """
         gaits = {}
         for path in sorted(Path(folder).glob(f"*-{biped.preset}.json")):
             if _robot_of(path) == biped.description.name:

@@ -167,8 +167,11 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
 
 
 def _objective(k: SymbolicStep) -> ca.MX:
-    """The cost, scaled to about 1. Objectives other than torque have a little torque squared added (CALM),
-    since they leave the torque undetermined where it costs nothing."""
+    """The cost, scaled to about 1.
+
+    Objectives other than torque have a little torque squared added (CALM), since they leave the torque
+    undetermined where it costs nothing.
+    """
     u = k.node.u / k.limits.torque
     calm = ca.sum2(ca.sum1(u**2) * k.dt) / k.length * np.sqrt(k.leg * k.gravity)
     match k.request.objective:

@@ -67,8 +67,10 @@ class Audited(NamedTuple):
 
 
 def audited(biped: Biped, gait: Gait, nodes: int = NODES) -> Audited:
-    """Evaluate the periodic step of a gait at so many nodes. Raises GaitError where it has no periodic
-    orbit."""
+    """Evaluate the periodic step of a gait at so many nodes.
+
+    Raises GaitError where it has no periodic orbit.
+    """
     zero = ZeroDynamics.of(biped, gait.constraint, nodes)
     o = zero.cycle
     along, out = ground_axes(gait.slope)

@@ -135,7 +135,7 @@ def bezier_through(
 def cold_start(
     biped: Biped, request: GaitRequest, limits: RobotLimits
 ) -> tuple[float, dict[str, Array]]:
-    """Sign of Theta' and a first guess of the unknowns, by the names and in the units of `step.Unknowns`.
+    """Sign of Theta' and a first guess of the unknowns, such as q (n,) [rad], by the names of `step.Unknowns`.
 
     The rate |Theta'| is constant over the step: the span of Theta over the duration that speed and step give.
     Raises GaitError for a speed or a step that legs of this length cannot walk.

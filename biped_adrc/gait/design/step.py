@@ -70,7 +70,7 @@ class Unknowns(NamedTuple):
         return ca.vertcat(*(ca.vec(part) for part in self))
 
     def parts(self, x: Array) -> dict[str, Array]:
-        """The numbers in a decision vector x, by name, in the shapes of the symbols."""
+        """The numbers in a decision vector x (nx,), by name, in shapes such as (n, 1) and (p, M + 1)."""
         sizes = [part.numel() for part in self]
         cuts = np.split(np.asarray(x).ravel(), np.cumsum(sizes)[:-1])
         named = zip(self._fields, cuts, self, strict=True)

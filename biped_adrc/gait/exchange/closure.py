@@ -45,8 +45,7 @@ def check(record: GaitRecord, biped: Biped | None = None, slopes: bool = True) -
 
 
 def closing_conventions(record: GaitRecord, biped: Biped | None = None) -> tuple[str, ...]:
-    """Names of the conventions in which the same numbers would be a gait that closes; slopes are not
-    compared."""
+    """Names of the conventions in which the same numbers would be a gait that closes, slopes aside."""
     closing = []
     for name in CONVENTIONS:
         try:
@@ -69,8 +68,7 @@ def _error(record: GaitRecord, m: Misfit, biped: Biped | None) -> GaitError:
 
 
 def _hint(record: GaitRecord, biped: Biped | None) -> str:
-    """End of a message that names the other conventions in which the gait would close; empty where none
-    would."""
+    """End of a message: the other conventions in which the gait would close; empty where none would."""
     others = [name for name in closing_conventions(record, biped) if name != record.convention]
     if not others:
         return ""
@@ -130,7 +128,10 @@ def _checks(
 
 
 def _radians(record: GaitRecord) -> Misfit | None:
-    """The rows are angles in radians: none above LARGEST at the start, middle and end of the step."""
+    """The rows are angles in radians: none above LARGEST at the start, middle and end of the step.
+
+    Two turns are more than any joint of a walker makes, while a hip near half a turn is 180 in degrees.
+    """
     values = np.array([record.curve_of_rows(s)[0] for s in (0.0, 0.5, 1.0)])
     largest = np.max(np.abs(values), axis=0)
     row = int(np.argmax(largest))
@@ -147,7 +148,7 @@ def _radians(record: GaitRecord) -> Misfit | None:
 
 
 def _fits(along: Coordinates, biped: Biped) -> Misfit | None:
-    """The gait has the numbers of joints and coordinates of the robot."""
+    """The gait has as many joints and coordinates as the robot; otherwise no other check would make sense."""
     n = len(along.phase)
     if (n - 1, n) == (biped.p, biped.n):
         return None

@@ -117,8 +117,10 @@ class GaitRecord:
         return GaitError(f"gait '{self.name}' in convention '{self.convention}': {text}")
 
     def _known(self, knees: bool) -> Convention:
-        """The convention of the record, for a robot with knees or without. Raises GaitError for an unknown
-        name."""
+        """The convention of the record, for a robot with knees or without.
+
+        Raises GaitError for an unknown name.
+        """
         if self.convention not in CONVENTIONS:
             raise GaitError(
                 f"gait '{self.name}': there is no angle convention '{self.convention}'; choose one of "
@@ -146,8 +148,10 @@ class GaitRecord:
         return self.error(f"coefficients have {rows} joints (rows), expected {expected}; {cause}")
 
     def _array(self, key: str, value: object, dimensions: int) -> Array:
-        """An entry as a read-only real array of so many dimensions. Raises GaitError that says what is
-        wrong."""
+        """An entry as a read-only real array of so many dimensions.
+
+        Raises GaitError that says what is wrong.
+        """
         try:
             a = np.array(value)
             if np.iscomplexobj(a):
@@ -172,8 +176,10 @@ class GaitRecord:
         return a
 
     def _check_phase_range(self) -> None:
-        """Make the scalar entries floats. Raises GaitError for one that is not finite or a range without
-        extent."""
+        """Make the scalar entries floats.
+
+        Raises GaitError for one that is not finite or a range without extent.
+        """
         for key in ("theta_plus", "theta_minus", "period", "slope"):
             value = getattr(self, key)
             if key == "period" and value is None:
