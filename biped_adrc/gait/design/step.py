@@ -157,8 +157,10 @@ def pose_function(tree: PlanarTree) -> ca.Function:
     """
     n, K = len(tree.A), tree.K
     q = ca.SX.sym("q", n)
-    x, rest = each(q), np.zeros(n, dtype=object)
-    t, (D, _) = turned(tree, x), inertia_and_bias(tree, K, x, rest)
+    x = each(q)
+    rest: Symbols = np.zeros(n, dtype=object)
+    t = turned(tree, x)
+    D, _ = inertia_and_bias(tree, K, x, rest)
     J_m, J_2 = jacobian(tree, t, K.w_re, K.w_im), jacobian(tree, t, K.foot_re, K.foot_im)
     foot = ca.vertcat(*point(t, K.foot_re, K.foot_im))
     return ca.Function("pose", [q], [*map(together, (D, J_m, J_2)), foot])
