@@ -12,7 +12,7 @@ from scipy.integrate import DOP853
 
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.paper.plan import BOTH, Plan, headline, pushed_run
-from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.build import RobotAndGait, build
 
 WITHIN = 0.005
 """Relative difference of two peaks that are the same."""
@@ -50,7 +50,7 @@ def test_the_peak_under_the_push(preset, controller):
     found, _ = headline(run)
     step = run.pushes[0].step
     arc = next(arc for arc in found.trajectory.arcs if arc.mode.step == step)
-    scene = Scene.of(run)
+    scene = RobotAndGait.of(run)
     walker, gait = build(run, scene), scene.walked
     mode = Mode(*arc.mode)
     longest = LONGEST if controller == "ADRC" else np.inf

@@ -36,7 +36,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.pair import CONTROLLERS
-from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.run import walk_scenario
@@ -109,7 +109,7 @@ class HipCase:
 
     def parts(self) -> Parts:
         """Robot, gait and controller; the gains of the PI are those of the triple pole."""
-        scene = Scene.of(self.scenario(0.0))
+        scene = RobotAndGait.of(self.scenario(0.0))
         walker = build(self.scenario(0.0), scene)
         return Parts(scene.biped, scene.walked, walker.controller)
 

@@ -18,7 +18,7 @@ from biped_adrc.engine.batch import BatchWalk, Case, run_case  # noqa: E402
 from biped_adrc.engine.run import simulate_by  # noqa: E402
 from biped_adrc.hybrid.integrators import OneStepMethod  # noqa: E402
 from biped_adrc.paper.plan import PAPER_PUSH  # noqa: E402
-from biped_adrc.scenario.build import Scene, build  # noqa: E402
+from biped_adrc.scenario.build import RobotAndGait, build  # noqa: E402
 from biped_adrc.scenario.scenario import Scenario  # noqa: E402
 
 simulate = partial(simulate_by, "compiled")
@@ -51,14 +51,14 @@ class Setting(NamedTuple):
 def paper(controller: str = "ADRC", period: float | None = None, push: bool = True) -> Setting:
     """The paper's run; period [s] of sampled control, or continuous time."""
     run = Scenario(controller, period=period, pushes=(PAPER_PUSH,) if push else ())
-    scene = Scene.of(run)
+    scene = RobotAndGait.of(run)
     return Setting(build(run, scene), scene.walked)
 
 
 def with_observer(order: int, bandwidth: float, period: float | None) -> Setting:
     """ADRC with the observer of that order, all poles at -bandwidth [rad/s], no push."""
     run = Scenario("ADRC", period=period, bandwidth=bandwidth, order=order)
-    scene = Scene.of(run)
+    scene = RobotAndGait.of(run)
     return Setting(build(run, scene), scene.walked)
 
 

@@ -22,7 +22,7 @@ from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.engine.batch import Case
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import InputError
-from biped_adrc.scenario.build import Scene, build, start
+from biped_adrc.scenario.build import RobotAndGait, build, start
 from biped_adrc.scenario.registry import find, is_own, source_hash
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
@@ -75,7 +75,7 @@ Stamp = tuple[tuple[str, int, int], ...]
 """Of each file: path, time of the last change [ns] and size [bytes]; another stamp means to load it again."""
 
 
-def scene_of(s: Scenario) -> Scene:
+def scene_of(s: Scenario) -> RobotAndGait:
     """The robot and gait of a scenario, loaded once per process and again when one of their files has changed.
 
     Raises InputError where there is none.
@@ -89,10 +89,10 @@ def scene_of(s: Scenario) -> Scene:
 @lru_cache(maxsize=16)
 def _scene(
     robot: str, preset: str | None, gait: str, friction: bool, continued: bool, stamp: Stamp
-) -> Scene:
+) -> RobotAndGait:
     """The cached part of `scene_of`: the fields that robot and gait depend on, and the stamp of their files."""
     alone = Scenario(robot=robot, preset=preset, gait=gait, friction=friction, continued=continued)
-    return Scene.of(alone)
+    return RobotAndGait.of(alone)
 
 
 def case(s: Scenario) -> Case:

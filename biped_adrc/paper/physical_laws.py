@@ -35,7 +35,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.contact import Impact, LinkMotion
 from biped_adrc.model.reduction import reduce
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
-from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import walk_scenario
@@ -218,7 +218,7 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
     of a robot without rotors.
     """
     run = Scenario("ADRC", preset=preset, poles=tuple(factor * pole for pole in TABLE_I))
-    scene = Scene.of(run)
+    scene = RobotAndGait.of(run)
     walker = build(run, scene)
     x0 = walker.initial_state(*scene.walked.start(scene.biped))
 

@@ -38,18 +38,18 @@ from biped_adrc.paper.claims.evidence import claim_tasks
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.push_map import PATTERNS, push_map, pushes
-from biped_adrc.scenario.build import Scene
+from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.push import Push, joints_push
+from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import poincare_twice, return_map_samples
 
 MOTORS = ("q1", "q2", "q3", "q4")
 """The actuated joints."""
-PAPER_PUSH = joints_push(30.0, MOTORS, step=19, start=0.1, stop=0.3)
+PAPER_PUSH = Push(dict.fromkeys(MOTORS, 30.0), step=19, start=0.1, stop=0.3)
 """The push of figures 4 to 6: 30 N m on all joints for 0.2 s in step 19. The paper prints no amplitude."""
-SINE = joints_push(40.0, MOTORS, step=19, start=0.05, stop=0.3, kind="sine", frequency=5.0)
+SINE = Push(dict.fromkeys(MOTORS, 40.0), 19, 0.05, 0.3, kind="sine", frequency=5.0)
 """A disturbance of 5 Hz on all joints [N m]."""
 TORSO = Push({"q5": 20.0}, step=19, start=0.1, stop=0.3)
 """A push on the torso, which no motor drives [N m]."""
@@ -262,7 +262,7 @@ def recipe_result(preset: str, controller: str) -> RecipeResult:
     """
     run = replace(stepped(Scenario(controller, preset=preset, gait="recipe", impacts=8)), fine=None)
     run = replace(run, engine=COMPILED)
-    biped = Scene.of(run).biped
+    biped = RobotAndGait.of(run).biped
     record: RecipeRecord = {}
     found = None
     try:

@@ -24,7 +24,7 @@ from biped_adrc.paper.convergence import MULTIPLIER_ROUND_OFF, convergence_check
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.paper.plan import Plan
 from biped_adrc.paper.results import Results
-from biped_adrc.scenario.build import Scene
+from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.types import Array
 
@@ -158,7 +158,7 @@ def engine_checks(r: Results) -> list[Check]:
         other = one.half
         assert other is not None
         same = one.x_minus.shape == other.x_minus.shape and len(one.x_minus) > 0
-        n = Scene.of(one.run).biped.n
+        n = RobotAndGait.of(one.run).biped.n
         gap = np.abs(one.x_minus - other.x_minus)[:, : 2 * n] if same else np.array([np.inf])
         name = f"{c} over the pushed step: compiled against Pinocchio, (q, q') at the impact [rad, rad/s]"
         checks.append(at_most(name, "law", float(np.max(gap)), 1e-6))

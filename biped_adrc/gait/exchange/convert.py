@@ -8,6 +8,9 @@ Koditschek, IEEE TAC 48(1), 2003)
     q'(s) = [H0; c']^-1 [y(s); theta+ + s (theta- - theta+)]
 
 and the last row is a curve too, so every coordinate is.
+
+`coordinates` brings a record into the paper's coordinates (called by `closure.check`), `record_of` takes a gait
+to another convention (called by `importing.export_gait`). Both keep kind and degree of the curves.
 """
 
 from __future__ import annotations
@@ -25,7 +28,8 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.types import Array
 
 _TURN = 2.0 * np.pi
-_PARALLEL = 1e-12  # relative, of two phase rows
+_PARALLEL = 1e-12
+"""Largest relative difference of two phase rows that count as parallel."""
 
 
 class Coordinates(NamedTuple):
@@ -36,7 +40,9 @@ class Coordinates(NamedTuple):
     phase: Array
     """c (n,), Theta = c q."""
     theta_plus: float
+    """Theta at s = 0, after impact [rad]."""
     theta_minus: float
+    """Theta at s = 1, before the next impact [rad]."""
     virtual_leg: bool
     """Whether c is this paper's own row."""
     turns: Array
@@ -60,7 +66,10 @@ def mapped(curve: Curve, A: Array, b: Array) -> Curve:
 
 
 def reversed_curve(curve: Curve) -> Curve:
-    """The curve h(1 - s), of the same kind and degree."""
+    """The curve h(1 - s), of the same kind and degree.
+
+    Bezier coefficients change their order; for power coefficients (1 - s)^k is expanded.
+    """
     a = curve.coefficients
     if isinstance(curve, Bezier):
         return Bezier(a[:, ::-1])
@@ -73,7 +82,12 @@ def reversed_curve(curve: Curve) -> Curve:
 
 
 def coordinates(record: GaitRecord) -> Coordinates:
-    """All coordinates of this paper along the step. Raises GaitError when the rows do not determine them."""
+    """All coordinates of this paper along the step of a record.
+
+    Reverses the curve where the record says so, completes the coordinates by the phase, maps the angles, scales
+    the phase to the paper's own row where it is parallel to it, and adds whole turns. Raises GaitError when the
+    rows do not determine the coordinates.
+    """
     layout = record.layout
     c = layout.phase if record.phase is None else record.phase
     curve = record.curve_of_rows
@@ -98,7 +112,10 @@ def coordinates(record: GaitRecord) -> Coordinates:
 
 
 def _completed(record: GaitRecord, curve: Curve, c: Array) -> Curve:
-    """q'(s) from the outputs and the phase."""
+    """q'(s), all n coordinates, from the outputs y(s) and the phase row c (n,) by [H0; c] q' = [y; theta].
+
+    Raises GaitError where outputs and phase together are not n independent rows.
+    """
     layout = record.layout
     outputs = layout.outputs if record.outputs is None else record.outputs
     H = np.vstack((outputs, c))
@@ -117,7 +134,10 @@ def _completed(record: GaitRecord, curve: Curve, c: Array) -> Curve:
 
 
 def _whole_turns(curve: Curve) -> Array:
-    """Turns (n,) to add so that the middle of hips lies in (0, 2 pi), of knees and torso in (-pi, pi)."""
+    """Whole turns (n,) to add so that at s = 0.5 hips lie in (0, 2 pi), knees and torso in (-pi, pi) [rad].
+
+    Angles that differ by whole turns are the same pose, but not the same phase c q.
+    """
     middle = curve(0.5)[0]
     centre = np.zeros(len(middle))
     centre[:2] = np.pi
@@ -125,7 +145,10 @@ def _whole_turns(curve: Curve) -> Array:
 
 
 def state_to_paper(record: GaitRecord, turns: Array) -> tuple[Array, Array] | None:
-    """(q-, q'-) of the record in this paper's coordinates, each (n,), or None when it has none."""
+    """(q-, q'-) of the record in this paper's coordinates, each (n,) [rad, rad/s]; None when it has none.
+
+    turns: (n,), those that `coordinates` added to the curve.
+    """
     if record.q_minus is None or record.v_minus is None:
         return None
     to_paper = record.layout.to_paper
@@ -134,7 +157,10 @@ def state_to_paper(record: GaitRecord, turns: Array) -> tuple[Array, Array] | No
 
 
 def record_of(gait: Gait, to: str = "paper") -> GaitRecord:
-    """The gait in the words of another convention, with that convention's outputs and sense of the phase."""
+    """The gait as a record in another convention, with that convention's outputs and sense of the phase.
+
+    Raises InputError for a convention that there is not.
+    """
     constraint = gait.constraint
     n = len(constraint.phase)
     other = convention(to, knees=n == 5)

@@ -1,4 +1,10 @@
-"""From records of gaits to gaits of this package, and back: `import_gait`, `export_gait`."""
+"""Import and export of gaits: `import_gait` and `export_gait`, the two functions a user calls.
+
+An import reads a file or takes a `GaitRecord`, converts it to the paper's coordinates, checks that it closes
+(`closure`), completes what is missing (state before impact, period) from the zero dynamics, and ends with the
+same `Gait.check` that stored gaits pass. Robots with a URDF of the user's own are refused: the conventions
+describe the angles of the packaged robots only.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +25,7 @@ from biped_adrc.robots.robot_toml import robot_names
 
 
 def import_constraint(record: GaitRecord) -> VirtualConstraint:
-    """The virtual constraint of a record that closes, without a robot. Raises GaitError."""
+    """The virtual constraint of a record, without a robot. Raises GaitError where it does not close."""
     return check(record).constraint
 
 
@@ -32,10 +38,14 @@ def import_gait(
 ) -> Gait:
     """A gait from arrays, or from a .json or .mat file in any angle convention.
 
-    convention: of a file that does not say its own. names: the file's names of its entries where they are
-    not ours, such as {"coefficients": "alpha"}. slopes: also ask that the slopes close through the impact of
-    this robot; False accepts constraints that are not hybrid-invariant. Without q_minus, v_minus or period
-    these come from the zero dynamics.
+    convention: of a file that does not state its own. names: the file's names of entries that are called
+    differently there, such as {"coefficients": "alpha"}. slopes: also ask that the slopes close through the
+    impact of this robot; False accepts constraints that are not hybrid-invariant. Without q_minus, v_minus or
+    period these come from the zero dynamics.
+
+        gait = ba.import_gait("ames.mat", biped, convention="frost", names={"coefficients": "alpha"})
+
+    The gait is named by the record ("imported" where it has no name) and can be walked and saved as any other.
 
     Raises GaitError that names the joint, what was found, what was expected, the likely cause and what to
     try; InputError for a file that cannot be read.
@@ -50,7 +60,7 @@ def import_gait(
         own = Gait.of_cycle(record.name, ZeroDynamics.of(biped, constraint), {})
         period = own.period
         state = (own.q_minus, own.v_minus) if state is None else state
-    provenance = dict(record.provenance) or {
+    provenance: dict[str, object] = dict(record.provenance) or {
         "method": f"imported from convention '{record.convention}'",
         "source": "arrays" if isinstance(gait, GaitRecord) else Path(gait).name,
     }
@@ -72,7 +82,7 @@ def export_gait(gait: Gait, path: Path | str, convention: str = "paper") -> None
 
 
 def _check_angles(robot: str) -> None:
-    """Raises GaitError for a robot whose angles are its own, so that no convention says what they are."""
+    """Raise GaitError for a robot of the user's own, whose angles are in none of the conventions."""
     if robot and robot not in robot_names():
         raise GaitError(
             f"the angles of robot '{robot}' are those of its own URDF, which are in none of the conventions "

@@ -21,7 +21,7 @@ from typing import Any
 
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.resources import packaged
-from biped_adrc.scenario.push import Push, joints_push
+from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.scenario import Scenario
 
 
@@ -65,8 +65,8 @@ class Member:
         """The push, in the step that the file declares."""
         k = declared()["push"]
         stop = round(self.onset + k["duration"], 9)
-        window = {"step": k["step"], "start": self.onset, "stop": stop, "rise": self.rise}
-        return joints_push(self.amplitude, self.joints, **window)
+        torque = dict.fromkeys(self.joints, self.amplitude)
+        return Push(torque, k["step"], self.onset, stop, rise=self.rise)
 
     def run(self, controller: str, h: float, impacts: int = 1) -> Scenario:
         """The walk from the pushed step on, on the compiled engine; h: integration step [s]."""

@@ -30,7 +30,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.paper.claims.admissible import Member, declared
 from biped_adrc.paper.claims.tally import AtTwoSteps
 from biped_adrc.paper.pair import CONTROLLERS
-from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import watched
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
@@ -119,7 +119,7 @@ class Prepared(NamedTuple):
 @lru_cache(maxsize=16)
 def nominal(preset: str | None, gait: str) -> tuple[Biped, Gait]:
     """RABBIT in a preset and one of its gaits, shared and read-only."""
-    scene = Scene.of(Scenario(preset=preset, gait=gait))
+    scene = RobotAndGait.of(Scenario(preset=preset, gait=gait))
     biped, found = scene.biped, scene.walked
     for shared in (found.q_minus, found.v_minus):
         shared.flags.writeable = False
@@ -133,7 +133,7 @@ def prepared(run: Scenario, zero: bool = False, speed: float = 1.0) -> Prepared:
     which keeps the state on the constraint and takes it off the orbit.
     """
     biped, gait = nominal(run.preset, run.gait)
-    walker = build(run, Scene(biped, gait))
+    walker = build(run, RobotAndGait(biped, gait))
     q, v = gait.start(biped)
     x = walker.initial_state(q, speed * v, Mode(run.first_step))
     if zero and run.controller == "ADRC":
