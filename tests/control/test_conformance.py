@@ -28,6 +28,7 @@ ROWS = {
         "PD": lambda make, h: [make(h), make(h, JointGains([1e3, 2e3, 3e3, 4e3], 50.0))],
         "NPD": lambda make, h: [make(h), make(h, solve_theta=False)],
         "NPID": lambda make, h: [make(h), make.like_adrc(h)],
+        "super twisting": lambda make, h: [make(h)],
         "ADRC": lambda make, h: [make(h)],
         "ADRC output": lambda make, h: [make(h, SLOW, reset=ba.ResetPolicy.MEASURED)],
         "LESO": lambda make, h: [make(h, ba.GPIObserver.from_bandwidth(500.0))],
