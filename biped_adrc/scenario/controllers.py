@@ -45,8 +45,8 @@ SOURCES = {name: name for name in FIELDS} | {
     "bandwidth": "bandwidth, of noise frequency,",
 }
 """By the name that a constructor has, the value of the scenario that it comes from."""
-MAKERS = ("from_poles", "from_bandwidth", "from_epsilon")
-"""Of an observer, beside its constructor."""
+MAKER = "from_"
+"""How the methods begin that make an observer, beside its constructor."""
 
 
 @dataclass
@@ -127,7 +127,7 @@ class Maker:
         """By the way that takes most of what there is; None where the controller's own default holds."""
         usual = _default(make)
         kind = type(usual) if self.s.observer is None else find("observer", self.s.observer).load()
-        makers = [*(getattr(kind, name) for name in MAKERS if hasattr(kind, name)), kind]
+        makers = [*(getattr(kind, name) for name in _ways(kind)), kind]
         offered = {name: told[name] for name in ("poles", "bandwidth", "order") if name in told}
         mine = self._own(BY_ITSELF)
         offered |= mine | ({"m": told["order"]} if "order" in told else {})
@@ -139,6 +139,12 @@ class Maker:
         self._seen(best, offered, mine)
         self.used |= {"order"} if "m" in takes(best) else set()
         return construct(f"the observer of {what}", best, offered, Observer)
+
+
+def _ways(kind: Any) -> list[str]:
+    """Names of the methods `from_...` of a class and those above it, in the order they are written."""
+    classes = getattr(kind, "__mro__", ())
+    return list(dict.fromkeys(x for cls in classes for x in vars(cls) if x.startswith(MAKER)))
 
 
 def _default(make: Callable[..., Any]) -> Observer:
