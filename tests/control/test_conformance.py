@@ -46,6 +46,7 @@ ROWS = {
     "observer": {
         "GPI": lambda make: [make.from_poles(), make.from_bandwidth(300.0, 0)],
         "high gain": lambda make: [make.from_epsilon(0.002), make.from_epsilon(0.01, m=2)],
+        "Kalman": lambda make: [make.from_noise(100.0, 1e-5), make.from_noise(1e3, 1e-4, m=2)],
         "momentum": lambda make: [
             make.from_bandwidth(9.0, 3),
             make.from_poles((-90.0, -60 + 20j, -60 - 20j)),
