@@ -17,9 +17,6 @@ from biped_adrc.scenario.registry import construct, find, takes
 from biped_adrc.scenario.scenario import DEFAULTS, Scenario, drawn
 from biped_adrc.types import Array
 
-OVER_STEPS = ("sine", "noise")
-"""Pushes that go on over steps, from the time at which the gait would be there."""
-
 BY_ITSELF = {
     "step",
     "start",
@@ -71,12 +68,12 @@ def push(s: Scenario, biped: Biped, gait: Gait, plant: Biped) -> Disturbance | N
 
 
 def window(s: Scenario, gait: Gait) -> dict[str, Any]:
-    """When a push acts: a pulse ends with its step at the latest, those in `OVER_STEPS` go on."""
+    """When a push acts: within its step, or `over_steps` from the time at which the gait would be there."""
     begin = s.onset
     if begin is None:
         last = max(gait.period - s.duration, 0.0)
         begin = float(np.random.default_rng(drawn(s, "onset")).uniform(0.0, last))
-    over = s.push in OVER_STEPS
+    over = find("disturbance", s.push).over_steps
     late = (s.pushed_step - s.first_step) * gait.period if over else 0.0
     return {
         "step": None if over else s.pushed_step,

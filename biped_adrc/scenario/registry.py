@@ -37,6 +37,8 @@ class Entry:
     home: str
     words: str = ""
     defaults: Mapping[str, Any] = field(default_factory=dict)
+    over_steps: bool = False
+    """Of a disturbance that goes on over the end of a step."""
     given: Callable[..., Any] | None = None
     """Where it was handed over and not named."""
 

@@ -3,9 +3,13 @@
 `conforms(thing)` runs it over one thing, of the package (rows of test_conformance.py) or of one's own.
 """
 
+import atexit
 import ctypes
+import shutil
 from dataclasses import replace
 from functools import cache, singledispatch
+from pathlib import Path
+from tempfile import mkdtemp
 
 import numpy as np
 import pytest
@@ -38,6 +42,14 @@ def robot():
 @cache
 def gait():
     return ba.load_gait("published", robot())
+
+
+def written(text, name="given.csv"):
+    """The path of a file with this text."""
+    folder = mkdtemp()
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    (path := Path(folder) / name).write_text(text)
+    return path
 
 
 def outputs(h):
