@@ -18,7 +18,7 @@ from biped_adrc.gait.curves import CURVES, Curve
 from biped_adrc.observers.base import Estimate
 from biped_adrc.scenario.registry import find, names
 
-from .conforms import PERIOD, SLOW, conforms, gait, outputs, robot
+from .conforms import PERIOD, SLOW, conforms, gait, outputs, robot, written
 
 A = [30.0, -20.0, 5.0, 0.0, 1.0]
 
@@ -63,6 +63,7 @@ ROWS = {
         "noise": lambda make: [
             make(A, step=2, start=0.1, stop=0.3, bandwidth=10.0, seed=1, sines=4)
         ],
+        "recorded": lambda make: [make(written("t,q1,q5\n0,1,2\n.1,3,-4\n.7,0,0"), robot(), 2)],
         "hip force": lambda make: [make(robot(), (-3.0, 1.0), steps=(2, 3))],
     },
     "curve": {
