@@ -15,13 +15,14 @@ from biped_adrc.gait.published import PassiveCycle, passive_cycle
 from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.hardware.meter import Meter
 from biped_adrc.hardware.motors import Motors
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.robots.robot_toml import ENDS, Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances, taken
-from biped_adrc.scenario.registry import construct, own
+from biped_adrc.scenario.registry import construct, find, own, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
@@ -89,7 +90,7 @@ def build(s: Scenario, scene: Scene | None = None, metered: bool = False) -> Wal
     gain = impact_error(drawn(s, "impact"), s.impact_error, biped.n if s.impact_error else 0)
     return Walker(
         plant,
-        controller(s, gait, biped, taken(s)),
+        controller(s, gait, biped, taken(s) | taken_by_sensor(s)),
         disturbances(s, biped, gait, plant),
         ContinuousTime()
         if s.period is None
@@ -155,13 +156,28 @@ def plant_of(s: Scenario, biped: Biped) -> Biped:
     return plant
 
 
-def sensors(s: Scenario) -> Sensors | None:
-    """None where all is exact."""
+def sensors(s: Scenario) -> Sensor | None:
+    """Encoders, and the one that is named; None where all is exact."""
+    encoders = _encoders(s)
+    if s.sensor is None:
+        return encoders
+    entry = find("sensor", s.sensor)
+    given = {**s.own, "seed": drawn(s, "sensors"), **entry.defaults}
+    named: Sensor = construct(f"sensor '{s.sensor}'", entry.load(), given, Sensor)
+    return named if encoders is None else encoders + named
+
+
+def _encoders(s: Scenario) -> Sensors | None:
     exact = s.counts is None and s.velocity == "measured"
     if exact and s.noise == s.pitch_noise == s.rate_noise == 0.0:
         return None
     noise = (s.noise, s.pitch_noise, s.rate_noise)
     return Sensors(s.counts, None, *noise, s.velocity, s.filter_time, drawn(s, "sensors"))
+
+
+def taken_by_sensor(s: Scenario) -> set[str]:
+    """Names of own values that the sensor takes."""
+    return set() if s.sensor is None else set(takes(find("sensor", s.sensor).load())) - {"seed"}
 
 
 def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:

@@ -36,13 +36,18 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "engine": ("pinocchio", "compiled"),
 }
 """By field."""
-NAMED = {"controller": "controller", "observer": "observer", "push": "disturbance"}
+NAMED = {
+    "controller": "controller",
+    "observer": "observer",
+    "sensor": "sensor",
+    "push": "disturbance",
+}
 """Fields that name a thing of the registry, and its kind."""
 OF_PUSH = ("on", "direction", "onset", "duration", "frequency")
 """Values of the push named by `push`."""
 OF_SAMPLING = (
     *("delay", "delay_known", "counts", "noise", "pitch_noise", "rate_noise"),
-    *("velocity", "filter_time", "rate_limit", "lag"),
+    *("velocity", "filter_time", "sensor", "rate_limit", "lag"),
 )
 """Values that are there in sampled time only."""
 FREE = ("adaptive", "stiff")
@@ -88,6 +93,7 @@ class Scenario:
     rate_noise: float = 0.0
     velocity: str = "measured"
     filter_time: float = 0.0
+    sensor: str | None = None
     torque_limit: float | None = None
     rate_limit: float | None = None
     lag: float = 0.0

@@ -5,6 +5,7 @@
 
 import atexit
 import ctypes
+import pickle
 import shutil
 from dataclasses import replace
 from functools import cache, singledispatch
@@ -26,6 +27,7 @@ from biped_adrc.engine.machine import ModuleText, load_or_compile
 from biped_adrc.engine.program import Program
 from biped_adrc.engine.symbols import Tracer, Vector, column, floats, run
 from biped_adrc.gait.curves import Curve
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.observers.base import Estimate, observer_laws
 from biped_adrc.observers.momentum import MomentumChain
 
@@ -110,6 +112,30 @@ def _(disturbance: ba.Disturbance):
             assert disturbance.resultant(*at[:3]).shape == (2,)
             torque_compiles(disturbance, at)
     assert np.any(seen), "it never does anything in the first three single supports"
+
+
+@conforms.register
+def _(sensor: Sensor):
+    """Pure, of the size that it says, at ticks and impacts, in Python, as laws and in the loop."""
+    laws, random = sensor.laws(5, 4, PERIOD), np.random.default_rng(6)
+    k, (q, v, dv) = laws.parameters, random.normal(size=(3, 5))
+    w = sensor.start(k, q, v)
+    assert w.shape == (laws.size,)
+    assert np.array_equal(w, sensor.start(k, q, v))
+    for _ in range(5):
+        kept, at = (w.copy(), q.copy(), v.copy()), (k, w, q, v)
+        after = [agree(laws.sense, *at), agree(laws.impact, *at, v + dv)]
+        assert np.array_equal(after[0], laws.sense(*at))
+        assert all(x.shape == w.shape and np.all(np.isfinite(x)) for x in after)
+        sight = agree(laws.seen, *at)
+        assert [x.shape for x in sight] == [(5,), (5,)]
+        assert all(np.array_equal(a, b) for a, b in zip(kept, (w, q, v), strict=True))
+        w, q, v = after[0], q + 0.01 * v, v + 0.1 * dv
+    timing = ba.SampledTime(PERIOD)
+    walker = ba.Walker(heavy(), ba.NPDController(gait().constraint), timing=timing, sensors=sensor)
+    loop_compiles(replace(walker, model=robot()))
+    assert walker.held.sizes.sensors == laws.size
+    assert pickle.loads(pickle.dumps(walker)).sensors == sensor
 
 
 @conforms.register

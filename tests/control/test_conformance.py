@@ -15,6 +15,7 @@ import biped_adrc as ba
 from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN
 from biped_adrc.gait.curves import CURVES, Curve
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.observers.base import Estimate
 from biped_adrc.scenario.registry import find, names
 
@@ -52,6 +53,12 @@ ROWS = {
             make.from_poles((-90.0, -60 + 20j, -60 - 20j)),
         ],
     },
+    "sensor": {
+        "encoders": lambda make: [
+            make(8192.0, noise=5e-5, rate_noise=0.01, filter_time=2e-3, seed=3),
+            make(64.0, velocity="gyro") + make(velocity="measured", pitch_noise=1e-3, seed=4),
+        ],
+    },
     "disturbance": {
         "pulse": lambda make: [
             make(A, step=2, start=0.1, stop=0.2),
@@ -76,6 +83,7 @@ BASES = {
     ba.Controller: ("control", {"OuterLoop", "ObservingController"}),
     ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
     ba.Disturbance: ("disturbances", {"Windowed", "WindowedTorque"}),
+    Sensor: ("hardware", set()),
     Curve: ("gait", set()),
 }
 """Where leaves are, and what is only a part of them."""
