@@ -54,6 +54,10 @@ ROWS = {
         ],
     },
     "sensor": {
+        "pitch sensor": lambda make: [
+            make(0.01, -0.02),
+            ba.Sensors(512) + make(noise=1e-3, seed=2),
+        ],
         "encoders": lambda make: [
             make(8192.0, noise=5e-5, rate_noise=0.01, filter_time=2e-3, seed=3),
             make(64.0, velocity="gyro") + make(velocity="measured", pitch_noise=1e-3, seed=4),
