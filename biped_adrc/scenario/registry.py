@@ -54,7 +54,7 @@ def _read() -> dict[str, dict[str, Entry]]:
     }
 
 
-REGISTRY = {**_read(), "curve": {}, "robot": {}, "gait": {}}
+REGISTRY = {**_read(), "robot": {}, "gait": {}}
 """By kind and name, from registry.toml and `register`; `names` has curves and files of robots and gaits too."""
 
 
@@ -64,10 +64,6 @@ def names(kind: str) -> tuple[str, ...]:
 
 
 def _stored(kind: str) -> Iterable[str]:
-    if kind == "curve":
-        from biped_adrc.gait.curves import CURVES
-
-        return CURVES
     if kind == "robot":
         return sorted(path.parent.name for path in data_folder("urdf").glob("*/robot.toml"))
     return sorted({p.stem for p in data_folder("gaits").glob("*/*.json")}) if kind == "gait" else ()
@@ -93,7 +89,7 @@ def register(kind: str, name: str, thing: Callable[..., Any], words: str = "") -
     if kind == "curve":
         from biped_adrc.gait.curves import CURVES
 
-        CURVES[name] = thing  # type: ignore[assignment]
+        CURVES[name] = thing
 
 
 def registered(home: str) -> Callable[..., Any] | None:

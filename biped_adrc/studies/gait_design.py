@@ -95,12 +95,14 @@ def design_gait(
     degree: int = 6,
     nodes: int = 24,
     limits: StepLimits | None = None,
+    curve: str = "bezier",
     progress: Progress | None = None,
 ) -> DesignedGait:
     """The periodic, hybrid-invariant gait of least objective, certified by simulating it.
 
     speed [m/s] along the ground, step [m] between the feet; what is left out is free. through: (q-, q'-) that
-    the orbit has to pass instead. Raises GaitError naming what could not be met.
+    the orbit has to pass instead. curve: by name, one that lies between its ends. Raises GaitError naming what
+    could not be met.
     """
     biped = robot if isinstance(robot, Biped) else Biped.load(robot, preset)
     request = GaitRequest(
@@ -112,6 +114,7 @@ def design_gait(
         nodes,
         limits or StepLimits(),
         None if through is None else tuple(float(x) for x in np.concatenate(through)),
+        curve,
     )
     return certify(biped, request, optimise(biped, request, progress))
 

@@ -151,6 +151,9 @@ def _(curve: Curve):
             slope = (ahead[k] - behind[k]) / (2.0 * d)
             assert np.max(np.abs(slope - (dh, ddh)[k])) <= 1e-2 * scale
         assert np.max(np.abs(ahead[2] - behind[2])) <= 1e-2 * scale
+    for s in curve.pieces[0]:
+        for before, after in zip(curve(float(s - 1e-10)), curve(float(s + 1e-10)), strict=True):
+            assert np.max(np.abs(after - before)) <= 1e-6 * scale
     c = gait().constraint
     h = ba.VirtualConstraint(curve, c.phase, c.theta_plus, c.theta_minus)
     for constraint in (h, ba.continued(h)):

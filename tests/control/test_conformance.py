@@ -14,7 +14,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN
-from biped_adrc.gait.curves import CURVES, Curve
+from biped_adrc.gait.curves import Curve
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.observers.base import Estimate
 from biped_adrc.scenario.registry import find, names
@@ -88,7 +88,7 @@ BASES = {
     ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
     ba.Disturbance: ("disturbances", {"Windowed", "WindowedTorque"}),
     Sensor: ("hardware", set()),
-    Curve: ("gait", set()),
+    Curve: ("gait", {"ControlledCurve"}),
 }
 """Where leaves are, and what is only a part of them."""
 
@@ -96,8 +96,7 @@ BASES = {
 def made(kind, name):
     """The things of a row."""
     given = (gait().constraint,) if kind == "controller" else ()
-    make = CURVES[name] if kind == "curve" else find(kind, name).load()
-    return ROWS[kind][name](make, *given)
+    return ROWS[kind][name](find(kind, name).load(), *given)
 
 
 @pytest.mark.parametrize(("kind", "name"), EACH)
@@ -117,7 +116,7 @@ def test_every_leaf_has_a_row_and_a_name():
     assert "published-identified" in names("gait")
     for kind, rows in ROWS.items():
         assert set(rows) == set(names(kind))
-        assert kind == "curve" or all(find(kind, name).words for name in rows)
+        assert all(find(kind, name).words for name in rows)
     things = [thing for each in EACH for thing in made(*each)]
     listed = {type(thing) for thing in things}
     listed |= {type(x.sampled(PERIOD)) for x in things if isinstance(x, ba.Observer)}

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
-from biped_adrc.gait.curves import Bezier
+from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.zero_dynamics import gauss_nodes
 from biped_adrc.ground import ground_axes
@@ -75,9 +75,9 @@ class Node(NamedTuple):
     q: Any
 
 
-def bernstein(degree: int, s: Array) -> tuple[Array, Array, Array]:
-    """Values, first and second derivatives of the Bernstein polynomials, each (M + 1, K)."""
-    basis = Bezier(np.eye(degree + 1))
+def functions(kind: type[ControlledCurve], degree: int, s: Array) -> tuple[Array, Array, Array]:
+    """Values, first and second derivatives of the curve's basis at s (K,), each (M + 1, K)."""
+    basis = kind(np.eye(degree + 1))
     values, first, second = (np.array(rows).T for rows in zip(*map(basis, s), strict=True))
     return values, first, second
 
@@ -179,7 +179,7 @@ class Step:
         """Node at the shares s (K,) of the step, with |Theta'| (1, K)."""
         count, p, x = len(s), self.p, self.x
         columns = ca.repmat(ca.vec(x.alpha), 1, count), ca.repmat(x.theta, 1, count)
-        basis = bernstein(self.request.degree, s)
+        basis = functions(self.request.kind, self.request.degree, s)
         stacked = self.function.map(count)(*columns, s[np.newaxis], *basis, rates)
         sizes = (1, 1, p, p, 2, 2, self.n)
         return Node(*ca.vertsplit(stacked, [0, *np.cumsum(sizes).tolist()]))
