@@ -79,6 +79,9 @@ ROWS = {
     },
     "curve": {
         "bezier": lambda make: [make(np.random.default_rng(1).normal(size=(4, 6)))],
+        "bspline": lambda make: [
+            make(np.random.default_rng(k).normal(size=(4, k))) for k in (4, 9)
+        ],
         "polynomial": lambda make: [make(np.random.default_rng(1).normal(size=(4, 6)))],
     },
 }
