@@ -180,7 +180,7 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
         ({"controller": "stride PI", "own": {"inner": "stride pi"}}, "around an inner controller"),
         ({"controller": "passive"}, "does not fit robot 'rabbit' with 4 motors"),
         ({"robot": "compass"}, "'ADRC' does not fit robot 'compass' with 0 motors"),
-        ({"observer": "kalman"}, "observer 'kalman' is unknown"),
+        ({"observer": "luenberger"}, "observer 'luenberger' is unknown"),
         ({"push": "gust"}, "disturbance 'gust' is unknown"),
         ({"push": "pulse", "force": 3.0}, "write on = 'link NAME'"),
     ],
