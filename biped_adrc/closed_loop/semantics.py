@@ -37,7 +37,6 @@ from biped_adrc.hardware.sample_hold import (
     read,
     written,
 )
-from biped_adrc.hardware.sensors import sense
 from biped_adrc.linear import solve_positive
 from biped_adrc.model.reduction import BodyTerms, Reduction, unknown_force
 from biped_adrc.observers.base import Estimate
@@ -295,15 +294,21 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     assert k is not None
-    h, n = read(k.sizes, tail), k.sizes.n
-    w = sense(k.sensors, h.w, q, v) if k.sizes.sensors > 0 else h.w
-    seen = (w[:n], w[n : 2 * n]) if k.sizes.sensors > 0 else (q, v)
+    h = read(k.sizes, tail)
+    w = k.sensors.sense(k.sensors.parameters, h.w, q, v) if k.sizes.sensors > 0 else h.w
+    seen = as_seen(k, w, q, v)
     m = loop.measure(t, *seen, mode)
     (s, line), g = decided(loop, k, s, m, h.line), h.g
     if k.sizes.meter > 0:
         terms = loop.nominal.reduction(q, v) if k.sizes.sensors > 0 else m.terms
         g = measured_by_meter(loop, t, g, q, v, line, terms, mode)
     return np.concatenate((q, v, s, written(Held(w, g, line, h.own))))
+
+
+def as_seen(k: HeldParameters, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+    """(q, v) as the sensors in their state w show it, each (n,)."""
+    sight: tuple[Array, Array] = q, v
+    return k.sensors.seen(k.sensors.parameters, w, q, v) if k.sizes.sensors > 0 else sight
 
 
 def asked(loop: Loop, s: Array, m: Measurement) -> tuple[Array, Array]:
@@ -391,14 +396,13 @@ def landed(
     (q, v, s, tail), k = parts(loop, x), loop.held
     seen = q_plus, v_plus
     if k is not None:
-        h, n, expected, hit = read(k.sizes, tail), k.sizes.n, v_plus, None
+        h, expected, hit = read(k.sizes, tail), v_plus, None
         if k.sizes.sensors > 0:
-            expected = loop.nominal.impact(h.w[:n], h.w[n : 2 * n]).v
+            expected = loop.nominal.impact(*as_seen(k, h.w, q, v)).v
         if k.sizes.meter > 0:
             hit = Hit(t, after.step - 1.0, loop.plant.momentum(q, v), impulse)
         h = after_impact(k, h, loop.swap, q, q_plus, v_plus, expected, hit)
-        if k.sizes.sensors > 0:
-            seen = h.w[:n], h.w[n : 2 * n]
+        seen = as_seen(k, h.w, q_plus, v_plus)
         tail = written(h)
     s = loop.law.jump(s, loop.measure(t, *seen, after), loop.swap)
     return np.concatenate((q_plus, v_plus, s, tail))

@@ -31,7 +31,7 @@ from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.hardware.motors import Motors
-from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import Record, RunOptions
 from biped_adrc.hybrid.system import FoundEvent, Mover
@@ -60,7 +60,7 @@ class SteppingLoop(ClosedLoop[Any]):
     timing: SampledTime
     disturbance: Disturbance | None = None
     torque_limit: float | None = None
-    sensors: Sensors | None = None
+    sensors: Sensor | None = None
     motors: Motors | None = None
 
     def __post_init__(self) -> None:

@@ -28,7 +28,7 @@ from biped_adrc.hardware import sample_hold as held
 from biped_adrc.hardware.meter import MeterParameters, Outside
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import Held, HeldParameters
-from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.system import Clock, HybridSystem
 from biped_adrc.model.reduction import disturbance_parts
 from biped_adrc.timing import ContinuousTime, SampledTime, check_timing
@@ -52,7 +52,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
     """Continuous, or sampled with a period [s]."""
     model: P | None
     """What the controller knows; None where it knows the plant."""
-    sensors: Sensors | None = None
+    sensors: Sensor | None = None
     """Between plant and controller, in sampled time; None for exact measurements."""
     motors: Motors | None = None
     """Between controller and plant, in sampled time; None for ideal ones."""
@@ -98,6 +98,10 @@ class ClosedLoop(HybridSystem, Generic[P]):
             return None
         given = (self.sensors, self.motors, self.metering(time), self.own)
         return held.held_parameters(n, p, time, *given)
+
+    def __getstate__(self) -> dict[str, object]:
+        """Without what is made again where it is needed."""
+        return {name: value for name, value in vars(self).items() if name != "held"}
 
     @property
     def own(self) -> int:

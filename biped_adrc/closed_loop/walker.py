@@ -29,7 +29,7 @@ from biped_adrc.ground import StepDown, StepUp, check_slope
 from biped_adrc.hardware.meter import Meter, MeterParameters, Outside
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import check_parts
-from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Guard, Split
 from biped_adrc.model.biped import Biped
@@ -75,7 +75,7 @@ class Walker(ClosedLoop[Biped]):
     max_step_time: float = 2.0
     slope: float = 0.0
     ground_steps: tuple[StepDown | StepUp, ...] = ()
-    sensors: Sensors | None = None
+    sensors: Sensor | None = None
     motors: Motors | None = None
     meter: Meter | None = None
     impact_gain: tuple[float, ...] = ()

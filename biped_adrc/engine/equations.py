@@ -163,6 +163,11 @@ STATE_LAWS = ("flow", "jump", "correct", "predict")
 """Those that give the controller's state or its slope."""
 
 
+def traced_sensors(trace: Tracer, held: HeldParameters) -> HeldParameters:
+    """With the laws of the sensors for symbols."""
+    return held._replace(sensors=held.sensors.traced(trace)) if held.sensors else held
+
+
 class SymbolicLoop(NamedTuple):
     """A `semantics.Loop` of symbols; zeta (n,) [N m] and `given` (OUTSIDE,), for the meter, are inputs."""
 
@@ -261,7 +266,7 @@ class Equations:
             nominal=PlanarRobot.of(make.robot, model),
             exact=K.model is None and not K.friction,
             law=laws_on(trace, make.laws, K.k, make.robot.p, make.size),
-            held=K.held or None,
+            held=traced_sensors(trace, K.held) if K.held else None,
             swap=make.robot.swap,
             gain=K.impact_gain,
             limit=K.torque_limit,

@@ -22,7 +22,7 @@ import numpy as np
 from biped_adrc.errors import GaitError, check_positive
 from biped_adrc.files import output_path, reading, write_text
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import CURVES
+from biped_adrc.gait.curves import curve_kind
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.resources import data_folder
@@ -260,8 +260,6 @@ def _from_record(record: GaitFile) -> Gait:
     """The gait in a file that was read. Raises GaitError, or KeyError and TypeError for damaged entries."""
     if record["format"] != FORMAT:
         raise GaitError(f"format is '{record['format']}', expected '{FORMAT}'")
-    if record["curve"] not in CURVES:
-        raise GaitError(f"curve is '{record['curve']}', expected one of {sorted(CURVES)}")
     n = len(record["phase"])
     q, v, phase = (finite_vector(record, key, n) for key in ("q_minus", "v_minus", "phase"))
     return Gait(
@@ -269,7 +267,7 @@ def _from_record(record: GaitFile) -> Gait:
         record["robot"],
         record["preset"],
         VirtualConstraint(
-            CURVES[record["curve"]](np.array(record["coefficients"], dtype=float)),
+            curve_kind(record["curve"])(np.array(record["coefficients"], dtype=float)),
             phase,
             float(record["theta_plus"]),
             float(record["theta_minus"]),

@@ -28,7 +28,6 @@ import numpy as np
 
 from biped_adrc.errors import GaitError, InputError, NotFiniteError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import Bezier, Polynomial, ramp
 from biped_adrc.types import Array, read_only
 
 _SLOPE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0
@@ -85,8 +84,8 @@ class LinearOutputs(Outputs):
         return OutputPoint(self.H0 @ q - r.q_d, self.H0 @ v - r.dq_d, self.H0 - r.H, -r.drift)
 
     def as_virtual_constraint(self) -> VirtualConstraint:
-        """The virtual constraint q_b = h(Theta) whose configurations are those of y = 0, a Bezier curve where
-        h_d is.
+        """The virtual constraint q_b = h(Theta) whose configurations are those of y = 0, by a curve of the kind
+        of h_d.
 
         Zero dynamics and gaits are written for virtual constraints, so this brings linear outputs to them.
 
@@ -101,10 +100,8 @@ class LinearOutputs(Outputs):
                 f"phase only when it is square and of rank {n}. Choose outputs independent of the phase"
             )
         curve = d.curve
-        if not isinstance(curve, Bezier):
-            curve = Polynomial(curve.power_coefficients)
         kind = type(curve)
-        phase = ramp(kind, curve.degree, d.theta_plus, d.theta_minus)
+        phase = kind.ramp(curve.degree, d.theta_plus, d.theta_minus)
         a: Array = np.asarray(np.linalg.solve(M, np.vstack((curve.coefficients, phase))))
         return VirtualConstraint(kind(a[:p]), d.phase, d.theta_plus, d.theta_minus)
 

@@ -23,7 +23,7 @@ from scipy.optimize import brentq, least_squares
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import Bezier, bezier_between
+from biped_adrc.gait.curves import Bezier
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
@@ -151,7 +151,7 @@ def _problem(biped: Biped, q: Array, v: Array, degree: int, limits: GaitLimits) 
     slopes = impact.v[:p] / rate_plus * span, v[:p] / rate_minus * span
     return _Problem(
         biped,
-        bezier_between(impact.q[:p], *slopes, q[:p], degree),
+        Bezier.between(impact.q[:p], *slopes, q[:p], degree),
         c,
         theta_plus,
         theta_minus,

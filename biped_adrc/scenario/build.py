@@ -23,13 +23,14 @@ from biped_adrc.gait.published import PassiveCycle, passive_cycle
 from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.hardware.meter import Meter
 from biped_adrc.hardware.motors import Motors
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.robots.robot_toml import ENDS, Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances, taken
-from biped_adrc.scenario.registry import construct, own
+from biped_adrc.scenario.registry import construct, find, own, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
@@ -111,7 +112,7 @@ def build(s: Scenario, scene: RobotAndGait | None = None, metered: bool = False)
     gain = impact_error(drawn(s, "impact"), s.impact_error, biped.n if s.impact_error else 0)
     return Walker(
         plant,
-        controller(s, gait, biped, taken(s)),
+        controller(s, gait, biped, taken(s) | taken_by_sensor(s)),
         disturbances(s, biped, gait, plant),
         ContinuousTime()
         if s.period is None
@@ -190,8 +191,20 @@ def plant_of(s: Scenario, biped: Biped) -> Biped:
     return plant
 
 
-def sensors(s: Scenario) -> Sensors | None:
-    """The sensors of a scenario; None where all measurements are exact.
+def sensors(s: Scenario) -> Sensor | None:
+    """The sensors of a scenario: encoders, then the one that is named; None where all is measured exactly."""
+    encoders = _encoders(s)
+    if s.sensor is None:
+        return encoders
+    entry = find("sensor", s.sensor)
+    given = {**s.own, "seed": drawn(s, "sensors"), **entry.defaults}
+    what = f"sensor '{s.sensor}'"
+    named = construct(what, entry.load(), given, Sensor)  # type: ignore[type-abstract]
+    return named if encoders is None else encoders + named
+
+
+def _encoders(s: Scenario) -> Sensors | None:
+    """Encoders with their noise; None where angles and rates are measured exactly.
 
     Exact means: no encoder counts, rates that are measured, and no noise. Noise has its own stream of random
     numbers.
@@ -201,6 +214,11 @@ def sensors(s: Scenario) -> Sensors | None:
         return None
     noise = (s.noise, s.pitch_noise, s.rate_noise)
     return Sensors(s.counts, None, *noise, s.velocity, s.filter_time, drawn(s, "sensors"))
+
+
+def taken_by_sensor(s: Scenario) -> set[str]:
+    """Names of own values that the sensor takes."""
+    return set() if s.sensor is None else set(takes(find("sensor", s.sensor).load())) - {"seed"}
 
 
 def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:

@@ -51,8 +51,8 @@ SOURCES = {name: name for name in FIELDS} | {
     "bandwidth": "bandwidth, of noise frequency,",
 }
 """For an argument of a constructor, the field of the scenario that it comes from, for messages."""
-MAKERS = ("from_poles", "from_bandwidth", "from_epsilon")
-"""Class methods of observers that make one, besides the constructor."""
+MAKER = "from_"
+"""How the names of the class methods begin that make an observer, besides its constructor."""
 
 
 @dataclass
@@ -153,7 +153,7 @@ class ControllerMaker:
         """
         usual = _default(make)
         kind = type(usual) if self.s.observer is None else find("observer", self.s.observer).load()
-        makers = [*(getattr(kind, name) for name in MAKERS if hasattr(kind, name)), kind]
+        makers = [*(getattr(kind, name) for name in _ways(kind)), kind]
         offered = {name: told[name] for name in ("poles", "bandwidth", "order") if name in told}
         mine = self._own(BY_ITSELF)
         offered |= mine | ({"m": told["order"]} if "order" in told else {})
@@ -165,6 +165,12 @@ class ControllerMaker:
         self._seen(best, offered, mine)
         self.used |= {"order"} if "m" in takes(best) else set()
         return construct(f"the observer of {what}", best, offered, Observer)
+
+
+def _ways(kind: object) -> list[str]:
+    """Names of the methods `from_...` of a class and those above it, in the order they are written."""
+    classes = getattr(kind, "__mro__", ())
+    return list(dict.fromkeys(x for cls in classes for x in vars(cls) if x.startswith(MAKER)))
 
 
 def _default(make: Callable[..., object]) -> Observer:

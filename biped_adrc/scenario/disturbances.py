@@ -30,10 +30,6 @@ from biped_adrc.scenario.registry import construct, find, takes
 from biped_adrc.scenario.scenario import DEFAULTS, Scenario, drawn
 from biped_adrc.types import Array
 
-OVER_STEPS = ("sine", "noise")
-"""Kinds that go on over impacts: their window is in time of the walk, counted from where the nominal gait would
-begin `pushed_step`, not from the start of that step."""
-
 BY_ITSELF = {
     "step",
     "start",
@@ -96,14 +92,15 @@ def push(s: Scenario, biped: Biped, gait: Gait, plant: Biped) -> Disturbance | N
 def window(s: Scenario, gait: Gait) -> dict[str, object]:
     """When a push acts: step number, start and stop [s], frequency [Hz] and the seed of noise.
 
-    A pulse counts from the start of its single support and ends with it at the latest; kinds in `OVER_STEPS` go
-    on. An onset that is not given is drawn so that the push fits into the gait's period.
+    A pulse counts from the start of its single support and ends with it at the latest; kinds that go on over
+    impacts (`Entry.over_steps`) count from the time at which the nominal gait would begin `pushed_step`. An
+    onset that is not given is drawn so that the push fits into the gait's period.
     """
     begin = s.onset
     if begin is None:
         last = max(gait.period - s.duration, 0.0)
         begin = float(np.random.default_rng(drawn(s, "onset")).uniform(0.0, last))
-    over = s.push in OVER_STEPS
+    over = find("disturbance", s.push).over_steps
     late = (s.pushed_step - s.first_step) * gait.period if over else 0.0
     return {
         "step": None if over else s.pushed_step,

@@ -49,6 +49,8 @@ class Entry:
     """A description for a reader."""
     defaults: Mapping[str, float] = field(default_factory=dict)
     """Values of a scenario that it takes where the scenario has none."""
+    over_steps: bool = False
+    """Of a disturbance: whether it goes on over impacts, with its window in time of the walk."""
     given: Callable[..., object] | None = None
     """The object itself, where `register` was given it; None: it is imported from `home`."""
 
@@ -60,7 +62,7 @@ class Entry:
 REGISTRY: dict[str, dict[str, Entry]] = {
     kind: {name: Entry(**values) for name, values in entries.items()}
     for kind, entries in packaged("biped_adrc.scenario", "registry.toml").items()
-} | {"curve": {}, "robot": {}, "gait": {}}
+} | {"robot": {}, "gait": {}}
 """By kind and name, from registry.toml and `register`; `names` has curves and files of robots and gaits too."""
 
 
@@ -70,11 +72,7 @@ def names(kind: str) -> tuple[str, ...]:
 
 
 def _stored(kind: str) -> Iterable[str]:
-    """Names that are no lines of registry.toml: kinds of curves, folders of robots, files of gaits."""
-    if kind == "curve":
-        from biped_adrc.gait.curves import CURVES
-
-        return CURVES
+    """Names that are no lines of registry.toml: folders of robots, files of gaits."""
     if kind == "robot":
         return sorted(path.parent.name for path in data_folder("urdf").glob("*/robot.toml"))
     return sorted({p.stem for p in data_folder("gaits").glob("*/*.json")}) if kind == "gait" else ()
@@ -105,7 +103,7 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
     if kind == "curve":
         from biped_adrc.gait.curves import CURVES
 
-        CURVES[name] = thing  # type: ignore[assignment]
+        CURVES[name] = thing
 
 
 def registered(home: str) -> Callable[..., object] | None:

@@ -59,13 +59,18 @@ stiff: Radau IIA of order 5, implicit.
 engine: compiled runs machine code made from the laws; pinocchio runs the Python methods, with Pinocchio's
 model.
 """
-NAMED = {"controller": "controller", "observer": "observer", "push": "disturbance"}
+NAMED = {
+    "controller": "controller",
+    "observer": "observer",
+    "sensor": "sensor",
+    "push": "disturbance",
+}
 """Fields whose value is a name of the registry, and its kind there."""
 OF_PUSH = ("on", "direction", "onset", "duration", "frequency")
 """Fields that describe the push named by `push`, without which they have no effect."""
 OF_SAMPLING = (
     *("delay", "delay_known", "counts", "noise", "pitch_noise", "rate_noise"),
-    *("velocity", "filter_time", "rate_limit", "lag"),
+    *("velocity", "filter_time", "sensor", "rate_limit", "lag"),
 )
 """Fields that have an effect in sampled time only."""
 FREE = ("adaptive", "stiff")
@@ -122,6 +127,7 @@ class Scenario:
     rate_noise: float = 0.0
     velocity: str = "measured"
     filter_time: float = 0.0
+    sensor: str | None = None
     torque_limit: float | None = None
     rate_limit: float | None = None
     lag: float = 0.0

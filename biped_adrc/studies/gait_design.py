@@ -103,15 +103,16 @@ def design_gait(
     degree: int = 6,
     nodes: int = 24,
     limits: StepLimits | None = None,
+    curve: str = "bezier",
     progress: IpoptProgress | None = None,
 ) -> DesignedGait:
     """The periodic, hybrid-invariant gait of least objective, proved by a simulated walk.
 
     robot: a robot, its name or the path of its robot.toml. speed: along the ground [m/s]. step: between the
     feet [m]; one of the two may be left out and is then free. slope: [rad], positive downhill. through: (q-,
-    q'-), each (n,) [rad, rad/s], which the orbit has to pass in place of speed and step. degree: of the Bezier
-    curves. nodes: at which limits are kept. progress: called after each iteration of IPOPT. Raises GaitError
-    naming what could not be met.
+    q'-), each (n,) [rad, rad/s], which the orbit has to pass in place of speed and step. curve: its kind by
+    name, one that lies between its ends. degree: of the curves. nodes: at which limits are kept. progress:
+    called after each iteration of IPOPT. Raises GaitError naming what could not be met.
     """
     biped = robot if isinstance(robot, Biped) else Biped.load(robot, preset)
     request = GaitRequest(
@@ -123,6 +124,7 @@ def design_gait(
         nodes,
         limits or StepLimits(),
         None if through is None else tuple(float(x) for x in np.concatenate(through)),
+        curve,
     )
     return certify(biped, request, optimise(biped, request, progress))
 

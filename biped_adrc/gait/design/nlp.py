@@ -89,13 +89,14 @@ def _equalities(k: SymbolicStep) -> tuple[Bounded, ...]:
     sigma_minus = k.sigma(x.q, k.dq) * x.rate
     sigma_plus = k.sigma(k.q_plus, k.v_plus) * x.rate
     sigma2 = (k.node.inertia * x.rates / k.sigma_scale) ** 2
+    reach = float(k.request.kind.abscissae(M)[1])
     begin, end = x.alpha[:, 1] - x.alpha[:, 0], x.alpha[:, M] - x.alpha[:, M - 1]
     zero: list[tuple[str, ca.MX] | tuple[str, ca.MX, str]] = [
         ("the swing foot on the ground", k.out @ k.foot / k.leg),
         ("the constraint before impact", x.alpha[:, M] - x.q[:p]),
-        ("the slope before impact", M * end - k.span * x.slope),
+        ("the slope before impact", end / reach - k.span * x.slope),
         ("the constraint after impact", x.alpha[:, 0] - k.q_plus[:p]),
-        ("the slope after impact", M * begin * (k.phase @ k.v_plus) - k.span * k.v_plus[:p]),
+        ("the slope after impact", begin / reach * (k.phase @ k.v_plus) - k.span * k.v_plus[:p]),
         ("the phase", x.theta - ca.vertcat(k.phase @ k.q_plus, k.phase @ x.q)),
         ("the impact", k.impact()),
         ("the zero dynamics", sigma2 - sigma_plus**2 - 2.0 * k.until / k.sigma_scale**2),

@@ -30,11 +30,10 @@ import numpy as np
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import Bezier
 from biped_adrc.gait.design.ipopt import IpoptProgress, IpoptResult, relaxed, solve
 from biped_adrc.gait.design.nlp import transcribe
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
-from biped_adrc.gait.design.start import bezier_through, cold_start
+from biped_adrc.gait.design.start import cold_start, curve_through
 from biped_adrc.gait.design.step import Unknowns
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.through_state import onto_section
@@ -300,14 +299,14 @@ def exact_gait(
     q = onto_section(biped, x["q"].ravel(), request.slope)
     slope = x["slope"].ravel()
     dq = np.append(slope, (1.0 - c[:p] @ slope) / c[p])
-    _, theta_plus, theta_minus, alpha = bezier_through(biped, q, dq, M)
+    _, theta_plus, theta_minus, alpha = curve_through(request.kind, biped, q, dq, M)
     alpha[:, 2:-2] = x["alpha"][:, 2:-2]
-    constraint = VirtualConstraint(Bezier(alpha), c, theta_plus, theta_minus)
+    constraint = VirtualConstraint(request.kind(alpha), c, theta_plus, theta_minus)
     zero = ZeroDynamics.of(biped, constraint, NODES)
     gait = Gait.of_cycle(request.name(), zero, {}, request.slope)
     step = float(np.hypot(*biped.swing_foot(gait.q_minus)))
     provenance = {
-        "method": "direct optimisation on the zero dynamics, hybrid-invariant Bezier curves, IPOPT",
+        "method": "direct optimisation on the zero dynamics, hybrid-invariant curves, IPOPT",
         "asked": request.in_words(),
         "minimised": request.objective.value,
         "limits": ", ".join(f"{k} {v}" for k, v in vars(limits).items()),

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 
 from biped_adrc.errors import GaitError, check_positive
+from biped_adrc.gait.curves import ControlledCurve, curve_kind
 from biped_adrc.model.biped import Biped
 
 MOST_NODES = 100
@@ -128,12 +129,19 @@ class GaitRequest:
     """[rad], positive downhill."""
     objective: Objective = Objective.TORQUE
     degree: int = 6
-    """Of the Bezier curves."""
+    """Of the curves: one less than they have coefficients."""
     nodes: int = 24
     """Gauss nodes at which the limits are kept; twice as many where that does not do."""
     limits: StepLimits = StepLimits()
     through: tuple[float, ...] | None = None
     """Pre-impact state (q-, q'-) (2 n,) through which the orbit has to pass, in place of speed and step."""
+    curve: str = "bezier"
+    """By name, one that lies between its ends."""
+
+    @property
+    def kind(self) -> type[ControlledCurve]:
+        """The class of the curves."""
+        return curve_kind(self.curve)  # type: ignore[return-value]
 
     def __post_init__(self) -> None:
         given = [x for x in (self.speed, self.step) if x is not None]
@@ -150,6 +158,8 @@ class GaitRequest:
                 check_positive(value, f"the {name} is {value}", error=GaitError)
         if not abs(self.slope) < 0.5:
             raise GaitError(f"the slope is {self.slope} rad, expected less than 0.5 rad either way")
+        if not issubclass(curve_kind(self.curve), ControlledCurve):
+            raise GaitError(f"gaits are not designed of a {self.curve} curve; take bezier")
         if not 4 <= self.degree <= 12:
             raise GaitError(f"the degree is {self.degree}, expected 4 to 12")
         if not 8 <= self.nodes <= 2 * MOST_NODES:
@@ -197,6 +207,7 @@ class GaitRequest:
             "slope": self.slope or None,
             "minimise": self.objective.value,
             "degree": self.degree,
+            **({} if self.curve == "bezier" else {"curve": self.curve}),
             "nodes": self.nodes,
             "torque": limits.torque,
             "friction": limits.friction,

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.curves import bezier_between
+from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.through_state import onto_section
 from biped_adrc.ground import ground_axes
@@ -118,8 +118,8 @@ def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array
     return q, state[n:]
 
 
-def bezier_through(
-    biped: Biped, q: Array, dq: Array, degree: int
+def curve_through(
+    kind: type[ControlledCurve], biped: Biped, q: Array, dq: Array, degree: int
 ) -> tuple[Impact, float, float, Array]:
     """The Bezier curves that are hybrid-invariant for an impact from (q, dq), with evenly spaced inner points.
 
@@ -129,7 +129,7 @@ def bezier_through(
     p, c, impact = biped.p, biped.phase, biped.impact(q, dq)
     plus, minus = float(c @ impact.q), float(c @ q)
     slopes = impact.v[:p] / float(c @ impact.v) * (minus - plus), dq[:p] * (minus - plus)
-    return impact, plus, minus, bezier_between(impact.q[:p], *slopes, q[:p], degree)
+    return impact, plus, minus, kind.between(impact.q[:p], *slopes, q[:p], degree)
 
 
 def cold_start(
@@ -163,7 +163,7 @@ def cold_start(
     else:
         q, v = _given_state(biped, np.array(request.through), request.slope)
         dq, rate = v / float(c @ v), abs(float(c @ v))
-    impact, plus, minus, alpha = bezier_through(biped, q, dq, M)
+    impact, plus, minus, alpha = curve_through(request.kind, biped, q, dq, M)
     guess = {
         "q": q,
         "slope": dq[:p],

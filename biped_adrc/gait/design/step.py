@@ -21,7 +21,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.gait.curves import Bezier
+from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.zero_dynamics import gauss_nodes
 from biped_adrc.ground import ground_axes
@@ -96,12 +96,14 @@ class Node(NamedTuple):
     """Configuration (n, K) [rad]."""
 
 
-def bernstein(degree: int, s: Array) -> tuple[Array, Array, Array]:
-    """Bernstein polynomials at s (K,) in [0, 1], their first and second derivatives, each (M + 1, K).
+def basis_functions(
+    kind: type[ControlledCurve], degree: int, s: Array
+) -> tuple[Array, Array, Array]:
+    """The basis of a kind of curve at s (K,) in [0, 1], its first and second derivatives, each (M + 1, K).
 
-    They are the Bezier curve whose coefficients are the identity matrix.
+    It is the curve whose coefficients are the identity matrix.
     """
-    basis = Bezier(np.eye(degree + 1))
+    basis = kind(np.eye(degree + 1))
     values, first, second = (np.array(rows).T for rows in zip(*map(basis, s), strict=True))
     return values, first, second
 
@@ -222,7 +224,7 @@ class SymbolicStep:
         """The model at the normalised phases s (K,), where |Theta'| is `rates` (1, K) [rad/s]."""
         count, p, x = len(s), self.p, self.x
         columns = ca.repmat(ca.vec(x.alpha), 1, count), ca.repmat(x.theta, 1, count)
-        basis = bernstein(self.request.degree, s)
+        basis = basis_functions(self.request.kind, self.request.degree, s)
         stacked = self.function.map(count)(*columns, s[np.newaxis], *basis, rates)
         sizes = (1, 1, p, p, 2, 2, self.n)
         return Node(*ca.vertsplit(stacked, [0, *np.cumsum(sizes).tolist()]))

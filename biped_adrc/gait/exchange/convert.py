@@ -15,14 +15,13 @@ to another convention (called by `importing.export_gait`). Both keep kind and de
 
 from __future__ import annotations
 
-from math import comb
 from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import AngleMap, convention
-from biped_adrc.gait.curves import Bezier, Curve, ramp
+from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import Gait
 from biped_adrc.types import Array
@@ -57,28 +56,8 @@ class Coordinates(NamedTuple):
 
 def mapped(curve: Curve, A: Array, b: Array) -> Curve:
     """The curve A h(s) + b, of the same kind and degree; A (rows, p), b (rows,) [rad]."""
-    a = A @ curve.coefficients
-    if isinstance(curve, Bezier):
-        a = a + b[:, np.newaxis]
-    else:
-        a[:, 0] += b
-    return type(curve)(a)
-
-
-def reversed_curve(curve: Curve) -> Curve:
-    """The curve h(1 - s), of the same kind and degree.
-
-    Bezier coefficients change their order; for power coefficients (1 - s)^k is expanded.
-    """
-    a = curve.coefficients
-    if isinstance(curve, Bezier):
-        return Bezier(a[:, ::-1])
-    degree = curve.degree
-    T = [
-        [comb(k, j) * (-1.0) ** j if j <= k else 0.0 for j in range(degree + 1)]
-        for k in range(degree + 1)
-    ]
-    return type(curve)(a @ np.array(T))
+    turned = type(curve)(A @ curve.coefficients)
+    return type(curve)(turned.shifted(b))
 
 
 def coordinates(record: GaitRecord) -> Coordinates:
@@ -92,7 +71,7 @@ def coordinates(record: GaitRecord) -> Coordinates:
     c = layout.phase if record.phase is None else record.phase
     curve = record.curve_of_rows
     if record.reverse:
-        curve = reversed_curve(curve)
+        curve = curve.reversed()
     if not record.of_all_coordinates:
         curve = _completed(record, curve, c)
     to_paper = layout.to_paper
@@ -126,7 +105,7 @@ def _completed(record: GaitRecord, curve: Curve, c: Array) -> Curve:
             f"{np.linalg.matrix_rank(H)}, expected {layout.n} independent ones; give a phase that moves "
             "with the coordinate that has no row, or one row per coordinate"
         )
-    phase = ramp(type(curve), curve.degree, record.theta_plus, record.theta_minus)
+    phase = type(curve).ramp(curve.degree, record.theta_plus, record.theta_minus)
     q: Array = np.asarray(
         np.linalg.solve(H, np.vstack((curve.coefficients, phase))), dtype=np.float64
     )

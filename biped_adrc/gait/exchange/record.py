@@ -17,7 +17,7 @@ import numpy as np
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.conventions import CONVENTIONS, Convention, convention
-from biped_adrc.gait.curves import CURVES, Curve
+from biped_adrc.gait.curves import CURVES, Curve, curve_kind
 from biped_adrc.types import Array, read_only
 
 _COORDINATES = {5: True, 3: False}
@@ -110,7 +110,7 @@ class GaitRecord:
     @property
     def curve_of_rows(self) -> Curve:
         """The curve y(s) of the rows [rad]."""
-        return CURVES[self.curve](self.coefficients)
+        return curve_kind(self.curve)(self.coefficients)
 
     def error(self, text: str) -> GaitError:
         """An error that names the gait and its convention."""
