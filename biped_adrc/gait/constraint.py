@@ -60,12 +60,12 @@ def path(k: ConstraintParameters, theta: float) -> tuple[Array, Array, Array]:
     inside = s if len(k.fade) == 0 else np.minimum(np.maximum(s, 0.0), 1.0)
     h, dh, ddh = curve(k.curve, inside)
     if len(k.fade) > 0:
-        y, l = s - inside, k.fade[0]  # noqa: E741
+        y, l = (s - inside) / k.rate, k.fade[0] / abs(k.rate)  # noqa: E741
         left = np.exp(-abs(y) / l)
         h = h + y * dh + (l * abs(y) - l * l * (1.0 - left)) * ddh
         dh = dh + np.sign(y) * l * (1.0 - left) * ddh
         ddh = left * ddh
-    return h, k.rate * dh, k.rate * k.rate * ddh
+    return h, dh, ddh
 
 
 def virtual_constraint(k: ConstraintParameters, q: Array, v: Array) -> ReferencePoint:
@@ -124,7 +124,11 @@ class VirtualConstraint(Reference):
             self,
             "_parameters",
             ConstraintParameters(
-                self.curve.parameters, c, float(self.theta_plus), float(1.0 / span), fade
+                self.curve.parameters_over(float(1.0 / span)),
+                c,
+                float(self.theta_plus),
+                float(1.0 / span),
+                fade,
             ),
         )
 

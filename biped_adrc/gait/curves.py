@@ -101,13 +101,19 @@ class Curve(ABC):
 
     @cached_property
     def parameters(self) -> CurveParameters:
-        """What the law `curve` needs."""
+        """The numbers that the law `curve` takes."""
+        return self.parameters_over(1.0)
+
+    def parameters_over(self, rate: float) -> CurveParameters:
+        """The same for derivatives by Theta: h' and h'' are multiplied by ds/dTheta = rate [1/rad], and its
+        square.
+        """
         breaks, a = self.pieces
         k = np.arange(a.shape[2])
         first, second = np.zeros_like(a), np.zeros_like(a)
         first[..., :-1] = a[..., 1:] * k[1:]
         second[..., :-2] = a[..., 2:] * k[2:] * (k[2:] - 1.0)
-        stacked = np.concatenate((a, first, second), axis=1)
+        stacked = np.concatenate((a, rate * first, rate * rate * second), axis=1)
         return CurveParameters(stacked[0].copy(), k, breaks, stacked[1:].copy())
 
     def __call__(self, s: float) -> tuple[Array, Array, Array]:
