@@ -6,6 +6,8 @@ import pytest
 
 import biped_adrc as ba
 
+from .preloaded import Preloaded
+
 PRESETS = ("identified", "identified-bare", "tac2003")
 
 
@@ -32,6 +34,16 @@ def bare():
 @pytest.fixture(scope="session")
 def published(bare):
     return ba.load_gait("published", bare)
+
+
+@pytest.fixture(scope="session")
+def preloaded():
+    """One process for all commands that this worker runs, with figures drawn into files."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("MPLBACKEND", "agg")
+        process = Preloaded()
+        yield process
+        process.close()
 
 
 @pytest.hookimpl(tryfirst=True)

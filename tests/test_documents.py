@@ -157,16 +157,6 @@ def execute(
         )
 
 
-@pytest.fixture(scope="session")
-def preloaded():
-    """One process for all commands that this worker runs, with figures drawn into files."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("MPLBACKEND", "agg")
-        process = Preloaded()
-        yield process
-        process.close()
-
-
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_every_block_runs(document, tmp_path, monkeypatch, preloaded):
     (tmp_path / "tests").symlink_to(ROOT / "tests")
