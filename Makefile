@@ -7,7 +7,7 @@ BIN := .venv/bin
 BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine/batches engine/growth \
   engine/compiling engine/continued peers/plant peers/closed_loop bench/studies bench/metering \
   pinocchio_calls
-PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
+PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
 .PHONY: reproduce test docs pictures comparison results verification dev lint format types imports bench clean
 

@@ -1,7 +1,8 @@
 """Commands run by forks of one process that has imported the package already: it imports once, not per command.
 
-As a script, this file is that process; `Preloaded` starts it and asks it for commands. It imports only: it
-computes nothing and starts no thread, so that each fork is what a fresh interpreter is after its imports.
+As a script, this file is that process; `Preloaded` starts it and asks it for commands. It imports, and loads the
+compiled loops as an import would be: it computes nothing and starts no thread, so that each fork is what a fresh
+interpreter is after its imports.
 """
 
 from __future__ import annotations
@@ -100,6 +101,7 @@ def preload() -> None:
             importlib.import_module(module.name)
     for name in IMPORTED_LATE:
         importlib.import_module(name)
+    importlib.import_module("biped_adrc.engine.kernels.load").kernels()
     gc.freeze()  # nothing imported is garbage, and a fork that looks copies every page
     threads = len(os.listdir("/proc/self/task")) if os.path.isdir("/proc/self/task") else 1
     assert threads == 1, f"the imports have started {threads - 1} threads, which no fork has"
