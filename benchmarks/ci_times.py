@@ -85,7 +85,8 @@ def lines(files: dict[str, tuple[float, float]], before: dict[str, list[float]])
     """The table: CPU and wall time [s] of the largest files, and before."""
     rows = [f"{'file':<44}{'CPU [s]':>9}{'wall [s]':>9}{'before':>9}"]
     names = sorted(
-        {*files, *before}, key=lambda name: -max(files.get(name, (0,))[0], before.get(name, (0,))[0])
+        {*files, *before},
+        key=lambda name: -max(files.get(name, (0,))[0], before.get(name, (0,))[0]),
     )
     for name in names[:LARGEST]:
         cpu, wall = files.get(name, (0.0, 0.0))

@@ -48,7 +48,8 @@ def preloaded():
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """A file is run by one worker, which makes its fixtures once; every document is a file of its own."""
+    """A file is run by one worker, which makes its fixtures once; documents and examples by any."""
+    alone = ("test_every_block_runs", "test_every_example_runs")
     for item in items:
-        document = item.name.startswith("test_every_block_runs")
-        item.add_marker(pytest.mark.xdist_group(item.nodeid if document else str(item.path)))
+        group = item.nodeid if item.name.startswith(alone) else str(item.path)
+        item.add_marker(pytest.mark.xdist_group(group))

@@ -1,8 +1,8 @@
 """Commands run by forks of one process that has imported the package already: it imports once, not per command.
 
-As a script, this file is that process; `Preloaded` starts it and asks it for commands. It imports, and loads the
-compiled loops as an import would be: it computes nothing and starts no thread, so that each fork is what a fresh
-interpreter is after its imports.
+As a script, this file is that process; `Preloaded` starts it and asks it for commands. It imports, and loads
+the compiled loops: it computes nothing and starts no thread, so that each fork is what a fresh interpreter is
+after its imports.
 """
 
 from __future__ import annotations

@@ -136,7 +136,9 @@ def at_work(process, within):
     """Whether each of its workers has computed for a second before so many have passed."""
     deadline = time.monotonic() + within
     while time.monotonic() < deadline:
-        workers = [p for p in psutil.Process(process).children(recursive=True) if p.ppid() != process]
+        workers = [
+            p for p in psutil.Process(process).children(recursive=True) if p.ppid() != process
+        ]
         if len(workers) >= 2 and all(sum(p.cpu_times()[:2]) > 1.0 for p in workers):
             return True
         time.sleep(0.1)

@@ -37,6 +37,7 @@ PAGES = sorted(
     path for path in (ROOT / "docs").rglob("*.md") if not BUILT & set(path.relative_to(ROOT).parts)
 )
 DOCUMENTS = [ROOT / "README.md", *PAGES]
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 
 RUN_BY_CI = {  # documented command: what has to stand in .ci/run
     "make reproduce": "make reproduce",
@@ -172,6 +173,12 @@ def test_every_block_runs(document, tmp_path, monkeypatch, preloaded):
             origin = getattr(sys.modules[module], "__file__", None) or ""
             if origin.startswith(str(tmp_path)):  # a file the document wrote
                 del sys.modules[module]
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.name)
+def test_every_example_runs(example, tmp_path, preloaded):
+    ended = preloaded.run(example, [str(tmp_path / "out")], tmp_path, strict=False)
+    assert ended.code == 0, ended.stderr[-2000:]
 
 
 def test_blocks_are_found():
