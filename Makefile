@@ -14,6 +14,8 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-com
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
 
+# as many processes as cores: threads of linear algebra would only wait for each other
+test: export OPENBLAS_NUM_THREADS ?= 1
 test: .venv/.test
 	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadgroup
 
