@@ -28,6 +28,15 @@ ret void
 """
 
 
+@pytest.fixture(scope="module", autouse=True)
+def cache(tmp_path_factory):
+    """A folder of these tests' own, as they damage what is in it; all others share one."""
+    with pytest.MonkeyPatch.context() as patch:
+        folder = tmp_path_factory.mktemp("cache")
+        patch.setenv(VARIABLE, str(folder))
+        yield folder
+
+
 def result(code):
     import ctypes
 
