@@ -115,7 +115,7 @@ def test_a_cluster_that_loses_all_its_workers_ends_the_study_and_keeps_what_was_
     def retire(p):
         if p.fresh >= 20:
             with Client(address, set_as_default=False) as client:
-                client.retire_workers()
+                client.retire_workers(close_workers=True)
 
     with pytest.raises(SimulationError, match="has had no worker for"):
         run(path, records(400, 5e-3), Cluster(address, timeout=1.0), chunk=4, progress=retire)
