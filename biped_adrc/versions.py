@@ -9,6 +9,8 @@ from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from biped_adrc import __version__
+
 SHOWN = ("biped-adrc", "pin", "numpy", "scipy", "meshcat", "matplotlib")
 NUMERICAL = (
     "biped-adrc",
@@ -37,11 +39,11 @@ NEVER_TRACED = (
 
 
 def packages(names: Iterable[str]) -> dict[str, str]:
-    """The version of each package, "none" for one that is not there."""
+    """The version of each package, "none" for one that is not there; this one's is its `__version__`."""
     found = {}
     for name in names:
         try:
-            found[name] = version(name)
+            found[name] = __version__ if name == "biped-adrc" else version(name)
         except PackageNotFoundError:
             found[name] = "none"
     return found

@@ -19,6 +19,7 @@ from rich.progress import (
     TimeElapsedColumn,
 )
 
+import biped_adrc
 from biped_adrc.files import keep_inputs, output_path
 
 EXIT_CHECK_FAILED, EXIT_FELL, EXIT_INTERRUPTED = 1, 4, 130
@@ -28,6 +29,7 @@ app = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
     help="Underactuated walking with active disturbance rejection control (ADRC with a GPI observer).\n\n"
     "Exit codes: 0 all is well, 1 a check of 'reproduce' or 'robot check' does not hold, 2 wrong command "
     "line, 3 bad input, 4 the robot fell, 5 cannot write, 130 interrupted.",
@@ -36,6 +38,24 @@ gait_app = typer.Typer(
     no_args_is_help=True, rich_markup_mode=None, help="Design, show, import and export gaits."
 )
 app.add_typer(gait_app, name="gait")
+
+
+def _say_version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"biped-adrc {biped_adrc.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _of_every_command(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_say_version, is_eager=True, help="Print the version."),
+    ] = False,
+) -> None:
+    """Options of the command itself."""
+
+
 console = Console()
 
 Preset = Annotated[
