@@ -7,6 +7,7 @@ The public names are those of `__init__.pyi`. They are imported when they are fi
 from __future__ import annotations
 
 import re
+from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -24,7 +25,9 @@ __all__ = tuple(_HOMES)
 
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
-        raise AttributeError(f"module 'biped_adrc' has no attribute '{name}'")
+        near = get_close_matches(name, _HOMES, 1)
+        meant = f"; did you mean '{near[0]}'?" if near else ""
+        raise AttributeError(f"module 'biped_adrc' has no attribute '{name}'{meant}")
     return getattr(import_module(f"biped_adrc.{_HOMES[name]}"), name)
 
 

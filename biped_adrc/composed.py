@@ -11,6 +11,8 @@ from collections.abc import Callable
 from functools import cached_property, partial
 from typing import Any, ClassVar
 
+from biped_adrc.parts import check_fields
+
 
 def written_over(part: Any, given: str, methods: frozenset[str]) -> str:
     """The first of `methods` that a class below that with `given` writes anew; empty for none."""
@@ -29,6 +31,10 @@ class Composed(ABC):
     """What it is, in a word."""
     _methods: ClassVar[frozenset[str]]
     """Names of the methods that its laws stand for."""
+
+    def __post_init__(self) -> None:
+        """Raises InputError for a field that is not what its annotation says."""
+        check_fields(self)
 
     @property
     @abstractmethod

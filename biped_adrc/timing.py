@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from biped_adrc.errors import InputError
+from biped_adrc.parts import check_fields
 
 LONGEST_PERIOD = 0.1
 """[s]. A body whose hip is l = 0.8 m high falls over its foot in sqrt(l / g) = 0.29 s: a torque that is held
@@ -38,6 +39,7 @@ class SampledTime:
     delay_known: bool = False
 
     def __post_init__(self) -> None:
+        check_fields(self)
         if not (math.isfinite(self.period) and 0.0 < self.period <= LONGEST_PERIOD):
             raise InputError(
                 f"the sampling period is {self.period} s, expected a positive number, at most "

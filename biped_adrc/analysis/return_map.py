@@ -27,6 +27,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.linear import solve
+from biped_adrc.parts import check_fields
 from biped_adrc.types import Array, ComplexArray
 
 if TYPE_CHECKING:
@@ -73,6 +74,7 @@ class ReturnMap:
     engine: str = COMPILED
 
     def __post_init__(self) -> None:
+        check_fields(self)
         check_engine(self.engine)
         w = self.walker
         noisy = w.sensors is not None and w.sensors.noisy

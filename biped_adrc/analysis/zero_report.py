@@ -22,6 +22,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration
 from biped_adrc.gait.zero_orbits import UNLIMITED, Bound, Domain, Limits, ZeroOrbits, domain, grid
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_part
 
 CLOSENESS = 1e-3
 """Share of zeta* within which a walk counts as settled."""
@@ -141,6 +142,7 @@ def zero_report(
     Raises GaitError when Theta is no phase, when no periodic orbit exists or it is not stable, and when the
     curve does not end on the ground or the next step does not begin where it begins.
     """
+    check_part(biped, "biped", Biped)
     limits = Limits(biped.description.friction_coefficient) if limits is None else limits
     orbits = ZeroOrbits.of(ZeroDynamics.of(biped, constraint))
     _check_ends(biped, constraint, limits.slope)

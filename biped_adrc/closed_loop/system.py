@@ -15,7 +15,8 @@ import numpy as np
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.semantics import Instant, Loop, Mode, Plant, instant, unknown
 from biped_adrc.control.base import Controller, Measurement, check_output, check_state, misshapen
-from biped_adrc.errors import InputError, NotFiniteError, SimulationError
+from biped_adrc.control.tracking import Gains
+from biped_adrc.errors import BipedError, InputError, NotFiniteError, SimulationError
 from biped_adrc.gait.reference import Reference, ReferencePoint, check_point
 from biped_adrc.hardware import sample_hold as held
 from biped_adrc.hardware.meter import MeterParameters, Outside
@@ -24,6 +25,7 @@ from biped_adrc.hardware.sample_hold import Held, HeldParameters
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hybrid.system import Clock, HybridSystem
 from biped_adrc.model.reduction import disturbance_parts
+from biped_adrc.parts import check_fields
 from biped_adrc.timing import ContinuousTime, SampledTime, check_timing
 from biped_adrc.types import Array
 
@@ -41,8 +43,9 @@ class ClosedLoop(HybridSystem, Generic[P]):
     motors: Motors | None = None
 
     def check(self) -> None:
-        """Raise InputError for a timing that is none, or a model with another number of coordinates."""
+        """Raise InputError for a part that is none, or a model with another number of coordinates."""
         check_timing(self.timing)
+        check_fields(self)
         if self.nominal.n != self.plant.n:
             raise InputError(
                 f"the model has {self.nominal.n} coordinates, the plant {self.plant.n}; they must agree"
@@ -141,8 +144,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
         """x at the start of single support in (q, v). Raises InputError for a controller that does not fit."""
         mode = Mode() if mode is None else mode
         m = self.measure(mode.start, np.asarray(q, dtype=float), np.asarray(v, dtype=float), mode)
-        for reference in _references(self.law):
-            check_point(reference, reference(m.t, m.q, m.v), self.plant.p, self.plant.n)
+        for part in _with_inner(self.law):
+            _check_tracking(part, m, self.plant.p)
         s, k = self.law.initial_state(m), self.held
         u = np.asarray(self.law.output(s, m))
         check_output(self.controller, u, self.plant.p)
@@ -195,13 +198,31 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return (control, Clock("motors", time.period, self._release, time.restart, after))
 
 
-def _references(controller: Controller | None) -> Iterator[Reference]:
-    """What a controller and those inside it track."""
+def _with_inner(controller: Controller | None) -> Iterator[Controller]:
+    """A controller, and those inside it."""
     while controller is not None:
-        reference = getattr(controller, "reference", None)
-        if isinstance(reference, Reference):
-            yield reference
+        yield controller
         controller = getattr(controller, "inner", None)
+
+
+def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
+    """Raise InputError for a reference or gains of a robot with other joints than p motors, len(m.q) in all."""
+    gains, reference = (getattr(controller, name, None) for name in ("gains", "reference"))
+    if isinstance(gains, Gains):
+        gains.check(p)
+    if not isinstance(reference, Reference):
+        return
+    try:
+        point = reference(m.t, m.q, m.v)
+    except BipedError:
+        raise
+    except (ValueError, IndexError, TypeError) as error:
+        raise InputError(
+            f"the {type(reference).__name__} of {type(controller).__name__} cannot be evaluated at the "
+            f"{len(m.q)} coordinates of this robot: {error}; expected one of this robot, such as the "
+            "constraint of a gait that was designed for it"
+        ) from error
+    check_point(reference, point, p, len(m.q))
 
 
 class Reading(NamedTuple):

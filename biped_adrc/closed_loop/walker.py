@@ -64,11 +64,11 @@ class Walker(ClosedLoop[Biped]):
     impact_gain: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
+        self.check()
         check_slope(self.slope)
         limit = self.torque_limit
         if limit is not None and not (math.isfinite(limit) and limit > 0):
             raise InputError(f"the torque limit is {limit} N m, expected a positive number or None")
-        self.check()
         check_ends(self.max_step_time, self.fall_height)
         parts = (self.sensors, self.motors, self.meter)
         check_parts(self.plant.n, self.timing, *parts, self.impact_gain)

@@ -125,6 +125,7 @@ class CLFQPController(Controller):
     relaxation: float = 1e4
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         limits = ("torque_limit", "friction", "least_force")
         for name in ("epsilon", "relaxation", *limits):
             value = getattr(self, name)

@@ -27,6 +27,7 @@ from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
+from biped_adrc.parts import check_fields
 from biped_adrc.types import Array
 
 AHEAD = 4
@@ -45,6 +46,10 @@ class Case:
     method: OneStepMethod
     impacts: int = 25
     mode: Mode = Mode()  # noqa: RUF009
+
+    def __post_init__(self) -> None:
+        """Raises InputError for a part that is none."""
+        check_fields(self)
 
     @property
     def t_end(self) -> float:

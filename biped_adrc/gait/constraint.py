@@ -34,6 +34,7 @@ import numpy as np
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.curves import Curve, CurveParameters, curve
 from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint
+from biped_adrc.parts import check_part
 from biped_adrc.types import Array, read_only
 
 
@@ -131,7 +132,11 @@ class VirtualConstraint(Reference):
 
 
 def continued(h: VirtualConstraint) -> VirtualConstraint:
-    """h between Theta+ and Theta-, and outside going on smoothly, as a step that ends late needs it."""
+    """h between Theta+ and Theta-, and outside going on smoothly, as a step that ends late needs it.
+
+    Raises InputError for what is no constraint.
+    """
+    check_part(h, "what is to go on", VirtualConstraint)
     return replace(h, fade=FADE)
 
 

@@ -20,6 +20,7 @@ from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import CURVES
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_part
 from biped_adrc.resources import data_folder
 from biped_adrc.types import Array
 
@@ -170,6 +171,8 @@ def load_gait(gait: str | Path, biped: Biped) -> Gait:
 
     Raises GaitError that names the file, the key, what was found and what was expected.
     """
+    check_part(gait, "gait", str, Path)
+    check_part(biped, "biped", Biped)
     path = Path(gait)
     if path.suffix.lower() != ".json":
         robot, preset = biped.description.name, biped.preset

@@ -25,6 +25,7 @@ from numpy.polynomial import legendre
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_part
 from biped_adrc.types import Array
 
 NODES = 40
@@ -85,7 +86,9 @@ class ZeroDynamics:
 
     @classmethod
     def of(cls, biped: Biped, constraint: VirtualConstraint, nodes: int = NODES) -> ZeroDynamics:
-        """Evaluate the model along the constraint."""
+        """Evaluate the model along the constraint. Raises InputError for what is no robot or no constraint."""
+        check_part(biped, "biped", Biped)
+        check_part(constraint, "constraint", VirtualConstraint)
         s, w, C = gauss_nodes(nodes)
         span = constraint.theta_minus - constraint.theta_plus
         theta = constraint.theta_plus + span * s

@@ -14,6 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from types import NoneType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ from biped_adrc.model.contact import FloatingDynamics, Impact
 from biped_adrc.model.physical import check_numbers, check_planar
 from biped_adrc.model.pinned import PinnedDynamics, finite_angles, reroot
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
+from biped_adrc.parts import check_part
 from biped_adrc.robots.robot_toml import RobotDescription, load_description
 from biped_adrc.robots.symmetry import absolute_angles, relabelling
 from biped_adrc.robots.urdf import Inertial, Tree
@@ -284,6 +286,8 @@ class Biped:
         `mass` alone leaves the inertias about the COM as they are. Raises ModelError for an unknown
         body or a factor that is not positive.
         """
+        check_part(mass, "mass", Mapping, NoneType)
+        check_part(inertia, "inertia", Mapping, NoneType)
         factors = {"mass": mass or {}, "inertia": inertia or {}}
         for kind, by_body in factors.items():
             for body, factor in by_body.items():

@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 
 from biped_adrc.errors import InputError, ModelError, check_positive
 from biped_adrc.files import reading
+from biped_adrc.parts import check_part
 from biped_adrc.resources import data_folder
 from biped_adrc.robots.urdf import Inertial, Tree
 from biped_adrc.robots.urdf_reader import load_tree
@@ -140,7 +141,13 @@ def load_description(robot: str | Path) -> RobotDescription:
 
     Raises ModelError that names the robot or the key, what was found and what was expected.
     """
+    check_part(robot, "robot", str, Path)
     path = Path(robot)
+    if path.suffix.lower() == ".urdf":
+        raise ModelError(
+            f"robot '{robot}' is a URDF, expected a name or a robot.toml; biped_from_urdf('{robot}') "
+            "takes a URDF, and 'biped-adrc robot new' makes a robot.toml of it"
+        )
     if path.suffix != ".toml":
         if str(robot) not in robot_names():
             raise ModelError(

@@ -35,6 +35,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_part
 from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.build import Scene, build
 from biped_adrc.scenario.outcome import Outcome
@@ -113,6 +114,7 @@ def cycle_stability(
     written without. Raises InputError for a number of samples that is no walk, SimulationError when no fixed
     point is found.
     """
+    check_part(cycle, "cycle", Cycle)
     if samples != 0 and samples < 3:
         raise InputError(f"{samples} samples for the regression, expected 0 or at least 3")
     P, t = cycle.P, Tolerances() if tolerances is None else tolerances

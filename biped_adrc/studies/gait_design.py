@@ -28,6 +28,7 @@ from biped_adrc.gait.recipe import RecipeParameters, design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4, Adaptive
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_part
 from biped_adrc.robots.robot_toml import KnownLimits
 from biped_adrc.scenario.walk import walk
 from biped_adrc.types import Array
@@ -102,6 +103,7 @@ def design_gait(
     speed [m/s] along the ground, step [m] between the feet; what is left out is free. through: (q-, q'-) that
     the orbit has to pass instead. Raises GaitError naming what could not be met.
     """
+    check_part(robot, "robot", Biped, str, Path)
     biped = robot if isinstance(robot, Biped) else Biped.load(robot, preset)
     request = GaitRequest(
         speed,

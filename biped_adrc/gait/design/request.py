@@ -9,6 +9,7 @@ from enum import Enum
 
 from biped_adrc.errors import GaitError
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_fields
 
 MOST_NODES = 100
 
@@ -72,6 +73,7 @@ class StepLimits:
         return RobotLimits(**{**vars(self), **own})
 
     def __post_init__(self) -> None:
+        check_fields(self)
         for name in (f.name for f in fields(self) if f.name != "ranges"):
             value = getattr(self, name)
             if value is not None and not value >= 0.0:
@@ -120,6 +122,7 @@ class GaitRequest:
     """Pre-impact state (q-, q'-) (2 n,) through which the orbit has to pass, in place of speed and step."""
 
     def __post_init__(self) -> None:
+        check_fields(self)
         given = [x for x in (self.speed, self.step) if x is not None]
         if self.through is not None and given:
             raise GaitError(

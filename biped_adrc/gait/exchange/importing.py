@@ -15,6 +15,7 @@ from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_part
 from biped_adrc.robots.robot_toml import robot_names
 
 
@@ -67,6 +68,7 @@ def export_gait(gait: Gait, path: Path | str, convention: str = "paper") -> None
 
     `import_gait` gives it back. Raises InputError for another suffix or convention, and OutputError.
     """
+    check_part(gait, "gait", Gait)
     _check_angles(gait.robot)
     write_record(record_of(gait, convention), path)
 
