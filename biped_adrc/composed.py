@@ -12,6 +12,7 @@ from functools import cached_property, partial
 from typing import Any, ClassVar
 
 from biped_adrc.parts import check_fields
+from biped_adrc.shown import Shown
 
 
 def written_over(part: Any, given: str, methods: frozenset[str]) -> str:
@@ -24,7 +25,7 @@ def written_over(part: Any, given: str, methods: frozenset[str]) -> str:
     return ""
 
 
-class Composed(ABC):
+class Composed(Shown, ABC):
     """Base of what has laws: controllers, observers, references, disturbances."""
 
     _kind: ClassVar[str]

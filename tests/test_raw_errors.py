@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.control.clf_qp import CLFQPController
+from biped_adrc.gait.design.request import GaitRequest
 
 
 @pytest.fixture(scope="module")
@@ -173,6 +174,35 @@ def test_a_mistake_is_one_sentence(case, biped, gait, three):
         mistake(Parts(biped, gait, three))
     assert said in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("command", [["animate"], ["plot"], ["plot", "--with"]])
+def test_the_settings_beside_a_run_are_no_run(command, biped, gait, tmp_path):
+    walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1)
+    walk.save(tmp_path / "run.npz")
+    if "--with" in command:
+        command = ["plot", str(tmp_path / "run.npz"), "--with"]
+    done = CliRunner().invoke(app, [*command, str(tmp_path / "run.json")])
+    assert isinstance(done.exception, ba.BipedError)
+    assert f"it is no run, expected a .npz file; take '{tmp_path / 'run.npz'}'" in str(
+        done.exception
+    )
+    assert "pickle" not in str(done.exception)
+
+
+def test_a_run_that_does_not_begin_as_one_is_damaged(tmp_path):
+    (tmp_path / "run.npz").write_text("hello")
+    with pytest.raises(ba.BipedError, match="is damaged and cannot be read") as caught:
+        ba.load_walk(tmp_path / "run.npz")
+    assert "pickle" not in str(caught.value)
+
+
+def test_the_clearance_of_a_design_says_which_part_of_the_step_it_is_of(biped, gait):
+    """The least between 3 and 97 % of the step, and the text says so."""
+    c = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1).certificates[0]
+    request = GaitRequest(speed=1.0)
+    text = ba.DesignedGait(gait, request, 1.0, c, 0.5, 0.0, 1, 0.0).text()
+    assert f"{1e3 * c.clearance:.1f} mm, between the first and the last 3 % of the step" in text
 
 
 @pytest.mark.parametrize(("name", "near"), [("PDController", "NPDController"), ("wlak", "walk")])

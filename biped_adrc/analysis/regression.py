@@ -14,11 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from biped_adrc.errors import InputError
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)
-class Regression:
+class Regression(Shown):
     """Phi (n, n), |eigenvalues| sorted, and what the data can bear."""
 
     Phi: Array

@@ -28,6 +28,7 @@ from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.linear import solve
 from biped_adrc.parts import check_fields
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ Mapper = Callable[[Callable[[Any], Array], Iterable[Any]], Iterable[Array]]
 
 
 @dataclass(frozen=True)
-class PeriodicOrbit:
+class PeriodicOrbit(Shown):
     """A fixed point of the return map."""
 
     x_minus: Array
@@ -58,7 +59,7 @@ class PeriodicOrbit:
 
 
 @dataclass(frozen=True)
-class ReturnMap:
+class ReturnMap(Shown):
     """P in section coordinates s for a walker and a method.
 
     controller_states: keep the controller's states as coordinates; False starts the controller anew at

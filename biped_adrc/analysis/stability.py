@@ -29,6 +29,7 @@ from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray
 
 
@@ -42,7 +43,7 @@ class Method(Enum):
 
 
 @dataclass(frozen=True)
-class Tolerances:
+class Tolerances(Shown):
     """Two multipliers agree within `relative` of the larger one or within `absolute`.
 
     flow: the largest StepDerivative.flow_residual with which the variational equation is trusted.
@@ -68,7 +69,7 @@ class Tolerances:
 
 
 @dataclass(frozen=True)
-class MethodRow:
+class MethodRow(Shown):
     """Multipliers by one method, the largest magnitude first.
 
     uncertainty: how far the method itself says that each may be off (central differences: what the
@@ -88,7 +89,7 @@ class MethodRow:
 
 
 @dataclass(frozen=True)
-class StabilityTable:
+class StabilityTable(Shown):
     """Rows by method; `verdict` says whether they agree within `tolerances` and which to trust."""
 
     rows: tuple[MethodRow, ...]

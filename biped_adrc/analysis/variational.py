@@ -47,6 +47,7 @@ from biped_adrc.model.derivatives import (
     impact_derivatives,
     torque_derivatives,
 )
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray
 
 DIFFERENCE = 2e-4
@@ -241,7 +242,7 @@ class VariationalSystem(HybridSystem):
 
 # -- one step --------------------------------------------------------------------------------------
 @dataclass(frozen=True)
-class StepDerivative:
+class StepDerivative(Shown):
     """The return map and its derivative at one point; 2 n states, 2 n - 1 section coordinates."""
 
     s: Array

@@ -23,6 +23,7 @@ from biped_adrc.gait.zero_orbits import UNLIMITED, Bound, Domain, Limits, ZeroOr
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
+from biped_adrc.shown import Shown
 
 CLOSENESS = 1e-3
 """Share of zeta* within which a walk counts as settled."""
@@ -30,7 +31,7 @@ UNIT = "kg^2 m^4/s^2"
 
 
 @dataclass(frozen=True)
-class ZeroDynamicsReport:
+class ZeroDynamicsReport(Shown):
     """The orbit, its domain and the margins; `text()` is all of it with units."""
 
     orbits: ZeroOrbits

@@ -27,6 +27,7 @@ from biped_adrc.campaign.store_open import open_store, read_store
 from biped_adrc.campaign.workers import Workers, workers_of
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.values import reason
+from biped_adrc.shown import Shown
 from biped_adrc.versions import numerical_versions
 
 RESULTS = "results.sqlite"
@@ -36,7 +37,7 @@ PARAMETER = "parameter."
 
 
 @dataclass(frozen=True)
-class Table:
+class Table(Shown):
     """Columns (N,) by name: floats, with NaN for none, where all values are numbers; else objects."""
 
     columns: Mapping[str, NDArray[Any]]
@@ -64,7 +65,7 @@ class Table:
 
 
 @dataclass(frozen=True)
-class Sweep:
+class Sweep(Shown):
     """The results of a study, in its file; they are read when they are asked for."""
 
     path: Path

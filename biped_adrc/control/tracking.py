@@ -28,6 +28,7 @@ from biped_adrc.linear import solve
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate
 from biped_adrc.parts import numbers
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 
@@ -40,7 +41,7 @@ class TrackingParameters(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Gains:
+class Gains(Shown):
     """K_p [1/s^2] and K_d [1/s] of Table II, one number for all joints or one per joint."""
 
     K_p: Array | float = 5000.0

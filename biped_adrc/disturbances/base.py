@@ -15,6 +15,7 @@ import numpy as np
 from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.parts import numbers
+from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
 GAUSS = 0.5773502691896257
@@ -40,6 +41,9 @@ class DisturbanceLaw(NamedTuple):
     def acts(self, t: float, step: int, t_start: float) -> bool:
         """Whether torque and resultant act."""
         return self.active is None or self.active(self.parameters, t, step, t_start) > 0
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 class Disturbance(Composed):

@@ -28,6 +28,7 @@ from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
 from biped_adrc.parts import check_fields
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 AHEAD = 4
@@ -37,7 +38,7 @@ STORE = 1_000_000
 
 
 @dataclass(frozen=True)
-class Case:
+class Case(Shown):
     """One walk to be made: from (q, v) (n,) at the start of single support `mode.step`, for some strikes."""
 
     walker: Walker
@@ -64,7 +65,7 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Walked:
+class Walked(Shown):
     """What one walk of a batch leaves; M impacts, states of nx numbers."""
 
     status: Status

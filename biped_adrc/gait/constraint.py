@@ -93,6 +93,12 @@ class VirtualConstraint(Reference):
     theta_minus: float
     fade: float | None = None
 
+    def __repr__(self) -> str:
+        ends = f"Theta from {self.theta_plus:.4g} to {self.theta_minus:.4g} rad"
+        return (
+            f"VirtualConstraint({self.curve!r}, {ends}{'' if self.fade is None else ', continued'})"
+        )
+
     def __post_init__(self) -> None:
         c = read_only(self.phase)
         span = self.theta_minus - self.theta_plus

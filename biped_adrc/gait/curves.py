@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.errors import GaitError
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, read_only
 
 
@@ -36,7 +37,7 @@ def curve(c: CurveParameters, s: float) -> tuple[Array, Array, Array]:
 
 
 @dataclass(frozen=True)
-class Curve(ABC):
+class Curve(Shown, ABC):
     """Coefficients (p, M + 1), one row per joint [rad]. Raises GaitError when not finite or not 2-D."""
 
     coefficients: Array

@@ -22,6 +22,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
 from biped_adrc.resources import data_folder
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 FORMAT = "biped_adrc gait 1"
@@ -30,7 +31,7 @@ CLOSES = 1e-3
 
 
 @dataclass(frozen=True)
-class Gait:
+class Gait(Shown):
     """`q_minus`, `v_minus` (n,): the pre-impact state of the periodic orbit [rad, rad/s]."""
 
     name: str
@@ -43,6 +44,10 @@ class Gait:
     provenance: Mapping[str, Any]
     slope: float = 0.0
     """Of the ground it walks on [rad], positive downhill."""
+
+    def __repr__(self) -> str:
+        about = f"Gait('{self.name}', robot '{self.robot}', preset '{self.preset}', period {self.period:.4g} s"
+        return about + (f", slope {self.slope:.4g} rad)" if self.slope else ")")
 
     def start(self, biped: Biped) -> tuple[Array, Array]:
         """(q+, q'+) after the impact of the periodic orbit on this robot, each (n,)."""

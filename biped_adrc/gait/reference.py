@@ -16,6 +16,7 @@ import numpy as np
 
 from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError
+from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
 
@@ -31,6 +32,9 @@ class ReferencePoint(NamedTuple):
     H: Array
     """(p, n), q_d'' = drift + H q''."""
 
+    def __repr__(self) -> str:
+        return one_line(self)
+
 
 class ReferenceLaws(NamedTuple):
     """The pure function behind a reference."""
@@ -41,6 +45,9 @@ class ReferenceLaws(NamedTuple):
     """point(k, t, q, v) -> q_d, q_d' and q_d''."""
     obstacle: str = ""
     """Why it runs in Python only; empty where it compiles."""
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 class Reference(Composed):

@@ -26,6 +26,7 @@ from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 NODES = 40
@@ -44,7 +45,7 @@ def gauss_nodes(count: int) -> tuple[Array, Array, Array]:
 
 
 @dataclass(frozen=True)
-class ZeroDynamicsOrbit:
+class ZeroDynamicsOrbit(Shown):
     """One step of the zero dynamics at the nodes; K nodes, n coordinates, p motors."""
 
     theta: Array
@@ -68,7 +69,7 @@ class ZeroDynamicsOrbit:
 
 
 @dataclass(frozen=True)
-class ZeroDynamics:
+class ZeroDynamics(Shown):
     """Quadratures of one constraint; arrays are taken at the Gauss nodes."""
 
     biped: Biped

@@ -44,6 +44,7 @@ from scipy.optimize import brentq, minimize_scalar
 from biped_adrc.errors import GaitError, InputError, check_positive
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
 from biped_adrc.ground import ground_axes
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 _GRID = 401  # points among which signs and extremes are looked for; zeros are then solved for
@@ -67,7 +68,7 @@ def grid(zero: ZeroDynamics) -> Array:
 
 
 @dataclass(frozen=True)
-class ZeroOrbits:
+class ZeroOrbits(Shown):
     """The restricted return map rho of one constraint, its fixed point and its domain. Make it with `of`.
 
     zeta is always sigma-^2 / 2 before an impact [kg^2 m^4/s^2].
@@ -275,7 +276,7 @@ UNLIMITED = "no limit"
 
 
 @dataclass(frozen=True)
-class Limits:
+class Limits(Shown):
     """friction: mu, largest |F_T| / F_N. torque: largest |u_i| [N m]; None leaves a limit out.
 
     slope [rad]: of the ground, positive downhill.

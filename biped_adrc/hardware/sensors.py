@@ -29,6 +29,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from biped_adrc.errors import InputError
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 
@@ -82,7 +83,7 @@ def sensed_impact(k: SensorParameters, w: Array, q: Array, v: Array, v_model: Ar
 
 
 @dataclass(frozen=True)
-class Sensors:
+class Sensors(Shown):
     """counts: of the joints' encoders per revolution, None for exact angles.
 
     pitch_resolution [rad]: of the unactuated pitch; None: as the joints'.

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 Mode = Any
@@ -56,7 +57,7 @@ class Direction(Enum):
 
 
 @dataclass(frozen=True)
-class Guard:
+class Guard(Shown):
     """A named zero crossing of witness(t, x) over (t0, t1].
 
     `reset(t, x)` returns (x+, mode+), or None to let the crossing pass as no event. A guard with a
@@ -71,7 +72,7 @@ class Guard:
 
 
 @dataclass(frozen=True)
-class Clock:
+class Clock(Shown):
     """Ticks at t0 + k * period [s]; `update(t, x, mode)` returns x+.
 
     t0 is `offset` [s] after the start of the arc, or of the run when `restart` is False.
@@ -85,7 +86,7 @@ class Clock:
 
 
 @dataclass(frozen=True)
-class Split:
+class Split(Shown):
     """Coordinates x -> (p, E) in which the stiff part is linear: E' = A E + N_E, p' = N_p.
 
     E has shape (k, c) and A (k, k); `to` and `back` are inverse to each other; `remainder(t, p, E)`
@@ -99,7 +100,7 @@ class Split:
     node: Callable[[float, Array, Array], tuple[tuple[Array, Array], Array, Array]] | None = None
 
 
-class HybridSystem:
+class HybridSystem(Shown):
     """A hybrid system; see the module for the equations."""
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:

@@ -11,11 +11,12 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.status import Status
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)
-class Event:
+class Event(Shown):
     """A guard that fired at `t` [s], with the state before and after; x_plus is None if terminal."""
 
     guard: str
@@ -25,7 +26,7 @@ class Event:
 
 
 @dataclass(frozen=True)
-class Arc:
+class Arc(Shown):
     """One flow between events: t (K,), x (K, n), dx (K, n); ticks and switches repeat their time.
 
     read: what was recorded at the nodes because it cannot be computed again from the states, K rows of each.
@@ -76,7 +77,7 @@ def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, 
 
 
 @dataclass(frozen=True)
-class Trajectory:
+class Trajectory(Shown):
     """Arcs in order of time. Call it with t [s] for the state.
 
     viewer: makes the walk that a trajectory is of, which draws it; given by the layer that knows the robot, not
@@ -88,6 +89,13 @@ class Trajectory:
     detail: str = ""
     settings: dict[str, Any] = field(default_factory=dict)
     viewer: Callable[[Trajectory], Any] | None = field(default=None, compare=False, repr=False)
+
+    def __repr__(self) -> str:
+        first, nodes = self.arcs[0], sum(len(arc.t) for arc in self.arcs)
+        return (
+            f"Trajectory({self.status.name}, {self.t_start:.4g} to {self.t_end:.4g} s: {len(self.arcs)} arcs, "
+            f"{nodes} nodes of {first.x.shape[1]} numbers)"
+        )
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "viewer": None}

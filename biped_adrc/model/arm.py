@@ -26,6 +26,7 @@ from biped_adrc.model.reduction import Reduction, reduce
 from biped_adrc.robots.robot_toml import GRAVITY
 from biped_adrc.robots.urdf import Vector
 from biped_adrc.robots.urdf_reader import numbers, parse, place_of, straightened
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 UR5 = ("ur_description/urdf/ur5_robot.urdf", "tool0")
@@ -43,7 +44,7 @@ class Payload(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Arm:
+class Arm(Shown):
     """An arm with what it carries. Make it with `Arm.load`; use one Arm per thread, as with a Biped."""
 
     source: str

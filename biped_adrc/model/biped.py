@@ -28,13 +28,14 @@ from biped_adrc.parts import check_part
 from biped_adrc.robots.robot_toml import RobotDescription, load_description
 from biped_adrc.robots.symmetry import absolute_angles, relabelling
 from biped_adrc.robots.urdf import Inertial, Tree
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 STICTION_SPEED = 0.05  # [rad/s], width of the smoothed sign of static friction
 
 
 @dataclass(frozen=True)
-class Biped:
+class Biped(Shown):
     """A robot with one set of parameters. Make it with `Biped.load`.
 
     Pinocchio's work data inside is overwritten by every call: use one Biped per thread.
@@ -45,6 +46,10 @@ class Biped:
     preset: str
     armature: float
     friction: bool = False
+
+    def __repr__(self) -> str:
+        name, parts = self.description.name, f"n = {self.n}, p = {self.p}, {self.mass:.4g} kg"
+        return f"Biped('{name}', preset '{self.preset}': {parts}{', friction' if self.friction else ''})"
 
     @classmethod
     def load(

@@ -18,13 +18,14 @@ import numpy as np
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.model.biped import Biped
 from biped_adrc.robots.symmetry import twins
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 KINDS = ("mass", "com", "inertia", "friction")
 
 
 @dataclass(frozen=True)
-class ModelErrors:
+class ModelErrors(Shown):
     """Relative errors: mass, com, inertia by body or link, friction by joint; 0.1 is ten per cent more.
 
     Raises InputError for an error that is not finite, or that leaves no mass or inertia, or negative friction.

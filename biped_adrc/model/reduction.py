@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.linear import solve_positive
+from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
 
@@ -39,6 +40,9 @@ class Reduction(NamedTuple):
     a_N: Array
     """-D22^-1 Omega2 (n - p,) [rad/s^2]."""
 
+    def __repr__(self) -> str:
+        return one_line(self)
+
 
 class BodyTerms(NamedTuple):
     """What few controllers need of the whole robot at one state, besides its `Reduction`.
@@ -55,6 +59,9 @@ class BodyTerms(NamedTuple):
     """(2, n) [N s^2]."""
     F_0: Array
     """(2,) [N]."""
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 @lru_cache(maxsize=16)

@@ -25,6 +25,7 @@ from biped_adrc.parts import check_part
 from biped_adrc.resources import data_folder
 from biped_adrc.robots.urdf import Inertial, Tree
 from biped_adrc.robots.urdf_reader import load_tree
+from biped_adrc.shown import Shown
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ class Preset:
 
 
 @dataclass(frozen=True)
-class RobotDescription:
+class RobotDescription(Shown):
     """What `robot.toml` says; lengths [m], torques [N m], angles [rad]."""
 
     name: str
@@ -262,7 +263,7 @@ class KnownLimits(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Limits:
+class Limits(Shown):
     """friction: mu of the ground; torque [N m]: of every motor; None is what the robot's record says.
 
     window [s]: over which the force of the ground is averaged. Raises InputError for a friction that is not

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import ModelError
+from biped_adrc.shown import Shown
 
 Vector = tuple[float, float, float]
 
@@ -74,7 +75,7 @@ class Joint:
 
 
 @dataclass(frozen=True)
-class Tree:
+class Tree(Shown):
     """A robot as read from URDF: links by name, joints in the order of the file."""
 
     name: str

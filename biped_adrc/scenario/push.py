@@ -14,6 +14,7 @@ from pydantic.dataclasses import dataclass
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.values import clear
+from biped_adrc.shown import Shown
 
 if TYPE_CHECKING:
     from biped_adrc.disturbances.base import Disturbance
@@ -27,7 +28,7 @@ _PUSH = re.compile(
 
 @clear()
 @dataclass(frozen=True, config=ConfigDict(extra="forbid"))
-class Push:
+class Push(Shown):
     """A disturbance by name: torques [N m] on joints in single support `step`, [start, stop) s.
 
     kind: of the registry, such as pulse (with edges of `rise` [s]), sine (with `frequency` [Hz]) or step (from

@@ -21,6 +21,7 @@ from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
 from biped_adrc.scenario.plain import Missing
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def _nothing(t: float) -> tuple[Array, Array, Array]:
 
 
 @dataclass(frozen=True)
-class Walk:
+class Walk(Shown):
     """A walker, the gait it was asked to follow, what it did, and the scenario that asked for it.
 
     gait: None for a robot without motors. scenario: None for a walker made in Python.
@@ -48,6 +49,12 @@ class Walk:
     """Of a stored walk whose controller is not there."""
     said: tuple[str, ...] = ()
     """What to know of it beside `remarks`."""
+
+    def __repr__(self) -> str:
+        run = self.trajectory
+        impacts = len(run.events(FOOT_STRIKE))
+        made = f"{impacts} impact{'' if impacts == 1 else 's'} in {run.t_end - run.t_start:.4g} s"
+        return f"Walk({self.note}: {made}, {run.status.name})"
 
     @property
     def reference(self) -> Reference:

@@ -21,6 +21,7 @@ from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import Push, parse_push
 from biped_adrc.scenario.registry import find, portable, spelled
 from biped_adrc.scenario.values import clear, described
+from biped_adrc.shown import Shown
 
 HARDWARE: dict[str, dict[str, Any]] = packaged("biped_adrc.scenario", "hardware.toml")
 """Continuous time; exact at 1 kHz; and sampling, encoders, torque and friction published for RABBIT
@@ -52,7 +53,7 @@ FREE = ("adaptive", "stiff")
 @clear(lambda values: HARDWARE.get(str(values.get("hardware", "none")), {}))
 @dataclass(frozen=True, config=ConfigDict(extra="forbid", allow_inf_nan=False))
 @described("scenario.toml")
-class Scenario:
+class Scenario(Shown):
     """One walk. `hardware` fills in what is not given of sampling, sensors and motors.
 
     Raises InputError for an unknown name, a value out of its range, and one that would do nothing.

@@ -42,6 +42,7 @@ from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.run import SETTLES, Cycle, known_cycle, method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import default_method
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 DIFFERENCE = 1e-4  # [rad, rad/s], of differences that are extrapolated
@@ -49,7 +50,7 @@ BESIDE = 1e-3  # how much faster than on the cycle the regression's walk starts,
 
 
 @dataclass(frozen=True)
-class CycleStability:
+class CycleStability(Shown):
     """The fixed point and its multipliers by every method."""
 
     cycle: Cycle
@@ -176,7 +177,7 @@ def walk_beside(P: ReturnMap, x_star: Array, impacts: int) -> Array:
 
 
 @dataclass(frozen=True)
-class PoincareResult:
+class PoincareResult(Shown):
     """A fixed point and its multipliers; `with_states` says whether the controller's states count."""
 
     controller: str

@@ -29,8 +29,9 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4, Adaptive
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
-from biped_adrc.robots.robot_toml import KnownLimits
+from biped_adrc.robots.robot_toml import ENDS, KnownLimits
 from biped_adrc.scenario.walk import walk
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 RETURNS = 1e-6
@@ -39,7 +40,7 @@ STEPS = 2
 
 
 @dataclass(frozen=True)
-class DesignedGait:
+class DesignedGait(Shown):
     """A gait with the certificate of its simulated step."""
 
     gait: Gait
@@ -75,7 +76,7 @@ class DesignedGait:
             ("least F_N", f"{c.least_normal_force:.1f} N"),
             (
                 "foot clearance",
-                f"{1e3 * c.clearance:.1f} mm, between the first and the last 3 % of the step",
+                f"{1e3 * c.clearance:.1f} mm, between the first and the last {100.0 * ENDS:g} % of the step",
             ),
             ("cost of transport", f"{c.cost_of_transport:.4f}"),
             (f"walked {STEPS} steps under NPD, back within {self.gap:.1e}",),
@@ -157,7 +158,7 @@ MOST_SPEEDS = 1000
 
 
 @dataclass(frozen=True)
-class GaitLibrary:
+class GaitLibrary(Shown):
     """Gaits of one robot by speed [m/s], slowest first."""
 
     gaits: Mapping[float, Gait]

@@ -10,6 +10,7 @@ from enum import Enum
 from biped_adrc.errors import GaitError
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_fields
+from biped_adrc.shown import Shown
 
 MOST_NODES = 100
 
@@ -26,7 +27,7 @@ class Objective(Enum):
 
 
 @dataclass(frozen=True)
-class StepLimits:
+class StepLimits(Shown):
     """Limits of one step; None takes the robot's own from its record."""
 
     friction: float | None = None
@@ -103,7 +104,7 @@ class RobotLimits(StepLimits):
 
 
 @dataclass(frozen=True)
-class GaitRequest:
+class GaitRequest(Shown):
     """At least one of speed and step has to be given; the other is then free."""
 
     speed: float | None = None

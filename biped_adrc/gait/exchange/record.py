@@ -17,13 +17,14 @@ import numpy as np
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.conventions import CONVENTIONS, Convention, convention
 from biped_adrc.gait.curves import CURVES, Curve
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, read_only
 
 _COORDINATES = {5: True, 3: False}  # with knees, without
 
 
 @dataclass(frozen=True)
-class GaitRecord:
+class GaitRecord(Shown):
     """Coefficients (rows, M + 1) [rad] and the phase, in convention `convention`; n coordinates.
 
     Raises GaitError that names the entry, what was found, what was expected and what to try.
