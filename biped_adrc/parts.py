@@ -80,9 +80,9 @@ def _members(hint: Any) -> tuple[Any, ...]:
 
 
 def _looked_at(kind: Any) -> bool:
-    """Whether an annotation is a class of this package, a float, or None."""
+    """Whether an annotation is a class of this package and no protocol, a float, or None."""
     own = isinstance(kind, type) and kind.__module__.startswith("biped_adrc.")
-    return own or kind in (float, NoneType)
+    return (own and not getattr(kind, "_is_protocol", False)) or kind in (float, NoneType)
 
 
 def _is_number(value: object) -> bool:
