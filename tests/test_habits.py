@@ -105,3 +105,14 @@ def test_hooks_are_the_checks_of_the_makefile():
     for check, entry in zip(checks, entries, strict=True):
         tool = check.replace("$(BIN)", ".venv/bin").removesuffix(" .").removesuffix(" --check")
         assert entry.startswith(tool)
+
+
+@pytest.mark.parametrize(
+    "page", sorted((ROOT / "docs" / "extend").glob("*.md")), ids=lambda p: p.stem
+)
+def test_what_a_page_of_extensions_names_is_public(page):
+    text = page.read_text(encoding="utf-8")
+    assert re.findall(r"^from biped_adrc.*", text, re.M) == []
+    named = set(re.findall(r"\bba\.([A-Za-z_]\w*)", text))
+    assert named
+    assert named <= {*ba.__all__}

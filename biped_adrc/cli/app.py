@@ -94,8 +94,8 @@ def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
 
     if out is None:
         return None
-    path = output_path(out, (".npz", ".mat"), default=True)
-    if path.suffix.lower() == ".mat":
+    path = output_path(out, (".npz", ".mat", ".csv"), default=True)
+    if path.suffix.lower() != ".npz":
         keep_inputs((path,), read)
         return path
     path, beside = run_files(path)

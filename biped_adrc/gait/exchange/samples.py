@@ -11,6 +11,8 @@ The orbit and its period then come from the zero dynamics of the robot.
 
 from __future__ import annotations
 
+import csv
+import re
 from pathlib import Path
 from typing import NamedTuple
 
@@ -225,22 +227,25 @@ def _check_period(s: Samples, gait: Gait, biped: Biped) -> None:
 def read_csv(path: Path) -> dict[str, Array]:
     """t (K,), q (K, n) and, where there are such columns, v (K, n) of a CSV file with a first line of names.
 
-    Columns are t, q1 .. qn and v1 .. vn; others are left alone. Raises InputError.
+    Columns are t, q1 .. qn and v1 .. vn, with or without units behind a space; others are left alone. Raises
+    InputError.
     """
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-        names = [name.strip().strip('"').split(" ")[0] for name in lines[0].split(",")]
-        table = np.array([[float(word) for word in line.split(",")] for line in lines[1:] if line])
-    except (OSError, IndexError, ValueError) as error:
+        with open(path, newline="", encoding="utf-8") as file:
+            header, *rows = csv.reader(file)
+        names = [name.strip().partition(" ")[0] for name in header]
+        wanted = {"t": ["t"]}
+        for letter in "qv":
+            numbered = [name for name in names if re.fullmatch(letter + "[1-9][0-9]*", name)]
+            wanted |= {letter: sorted(numbered, key=lambda name: int(name[1:]))} if numbered else {}
+        places = {key: [names.index(name) for name in of] for key, of in wanted.items()}
+        found = {
+            key: np.array([[float(row[i]) for i in at] for row in rows if row])
+            for key, at in places.items()
+        }
+        return {"t": found.pop("t")[:, 0], "q": found.pop("q"), **found}
+    except (OSError, LookupError, ValueError) as error:
         raise InputError(
-            f"samples '{path}' cannot be read: {error}; expected a line of names t, q1, q2, ... and "
-            "numbers below"
+            f"samples '{path}' cannot be read: {error}; expected a first line of names t, q1, q2, ... and "
+            "perhaps v1, v2, ..., and numbers below"
         ) from error
-    found = {"t": [name for name in names if name == "t"]}
-    for letter in "qv":
-        numbered = [name for name in names if name[:1] == letter and name[1:].isdecimal()]
-        found[letter] = sorted(numbered, key=lambda name: int(name[1:]))
-    if not found["t"] or not found["q"] or table.ndim != 2:
-        raise InputError(f"samples '{path}' have the columns {names}, expected t, q1, q2, ...")
-    columns = {key: table[:, [names.index(name) for name in of]] for key, of in found.items() if of}
-    return columns | {"t": columns["t"][:, 0]}
