@@ -1,7 +1,11 @@
 """biped_adrc: rigid-body dynamics and control research on underactuated walking.
 
-The public names are those of `__init__.pyi`. They are imported when they are first used, so that
-`import biped_adrc` is quick.
+`import biped_adrc as ba` gives the public names, such as `ba.Biped`, `ba.Walker`, `ba.simulate`.
+They are listed once, in `__init__.pyi`: a type checker reads that file as it is, and at run time
+this module reads it for the home of each name.
+
+A module is imported when one of its names is first used. Pinocchio, CasADi, numba and matplotlib
+take seconds to load, and most programs need only some of them.
 """
 
 from __future__ import annotations
@@ -10,7 +14,6 @@ import re
 from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 __version__ = "0.2.0"
 
@@ -19,11 +22,15 @@ _HOMES = {
     name: module
     for module, name in re.findall(r"^from biped_adrc\.(\S+) import (\w+)", _STUB, re.M)
 }
-"""Public names and their modules."""
+"""Public name -> the module below `biped_adrc` that defines it, read from the stub."""
 __all__ = tuple(_HOMES)
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
+    """A public name, imported now; Python calls this for names that the module does not have yet (PEP 562).
+
+    Raises AttributeError for what is no public name.
+    """
     if name not in _HOMES:
         near = get_close_matches(name, _HOMES, 1)
         meant = f"; did you mean '{near[0]}'?" if near else ""
@@ -32,4 +39,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
+    """What `dir(biped_adrc)` lists: names that are loaded and those that would be on first use."""
     return sorted([*globals(), *_HOMES])

@@ -1,7 +1,16 @@
-"""What is asserted: a value that was computed, a limit, and whether it holds.
+"""Checks: a value that was computed, the limit it has to keep, and whether it does.
 
-kind: "law" (physics and numerics), "consistency" (what was built in, such as a gait that was designed to close
-on x*), "reproduced" (what could have failed).
+The reproduction writes its checks into summary.json and the report, `biped-adrc robot check` prints
+those of a URDF. The verdict is stored beside value and limit, so that a reader of the file need not
+parse the limit. Each check is of one kind:
+
+    law            physics and numerics that hold whatever a paper says, such as conservation of
+    energy
+    consistency    what was built in has to come out, such as a gait designed to close on x*
+    reproduced     a claim of the paper, which could have failed
+
+Make a check with `at_most`, `at_least`, `below` or `between`; they write the limit as text and
+compare, and a value of NaN never holds.
 """
 
 from __future__ import annotations
@@ -9,11 +18,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 KINDS = ("law", "consistency", "reproduced")
+"""The kinds of a check, in the order of the list above."""
 
 
 @dataclass(frozen=True)
 class Check:
-    """One assertion; `limit` is a text such as "<= 0.01"."""
+    """One check that was carried out.
+
+    name: what was computed, with its unit. kind: one of `KINDS`. value: the number found. limit:
+    its bound as text, such as "<= 0.01". holds: whether the value keeps it.
+    """
 
     name: str
     kind: str
@@ -22,24 +36,27 @@ class Check:
     holds: bool
 
     def __str__(self) -> str:
+        """One line, such as "residual of the orbit: 3.1e-12 <= 1e-09"; "is not" before a limit that is
+        broken.
+        """
         return f"{self.name}: {self.value:.1e} {'' if self.holds else 'is not '}{self.limit}"
 
 
 def at_most(name: str, kind: str, value: float, limit: float) -> Check:
-    """value <= limit; NaN does not hold."""
+    """The check value <= limit, both in the unit that `name` states; NaN does not hold."""
     return Check(name, kind, float(value), f"<= {limit:g}", bool(value <= limit))
 
 
 def at_least(name: str, kind: str, value: float, limit: float) -> Check:
-    """value >= limit; NaN does not hold."""
+    """The check value >= limit, both in the unit that `name` states; NaN does not hold."""
     return Check(name, kind, float(value), f">= {limit:g}", bool(value >= limit))
 
 
 def below(name: str, kind: str, value: float, limit: float) -> Check:
-    """value < limit; NaN does not hold."""
+    """The check value < limit, strictly, both in the unit that `name` states; NaN does not hold."""
     return Check(name, kind, float(value), f"< {limit:g}", bool(value < limit))
 
 
 def between(name: str, kind: str, value: float, low: float, high: float) -> Check:
-    """low <= value <= high."""
+    """The check low <= value <= high, all in the unit that `name` states; NaN does not hold."""
     return Check(name, kind, float(value), f"in [{low:g}, {high:g}]", bool(low <= value <= high))

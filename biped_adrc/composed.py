@@ -1,7 +1,15 @@
-"""What is written as laws: a NamedTuple of parameters k and of pure functions whose first argument is k.
+"""Base of controllers, observers, references and disturbances: parts that are written as laws.
 
-A class that gives `laws` needs no methods: those of its base call the laws. A class that writes methods needs
-no laws, and then runs in Python only.
+A law is a pure function of arrays whose first argument k holds the numbers (gains, poles,
+amplitudes). A part gives all its laws and k together as one NamedTuple, its property `laws`. From
+it both engines work:
+
+    Python       the methods of the base class call the laws with k filled in (`Composed._law`)
+    compiled     `engine` traces the laws into machine code; k stays data, so new gains compile
+    nothing
+
+A class that gives `laws` therefore writes no methods. A class that writes methods in place of laws
+is allowed: its walks run in Python, and `_obstacle` is the sentence that tells the user why.
 """
 
 from __future__ import annotations
@@ -15,8 +23,14 @@ from biped_adrc.parts import check_fields
 from biped_adrc.shown import Shown
 
 
-def written_over(part: Any, given: str, methods: frozenset[str]) -> str:
-    """The first of `methods` that a class below that with `given` writes anew; empty for none."""
+def written_over(part: object, given: str, methods: frozenset[str]) -> str:
+    """Name of a method that a subclass writes anew below the class that defines `given`; empty for none.
+
+    A subclass that overrides `output` and inherits `laws` would run its own method in Python and
+    its parent's law when compiled. Such a part must not be compiled, and this finds it: the classes
+    of `part` are searched from the most derived one to the one that defines `given`, the first
+    alphabetically of a class is returned.
+    """
     for cls in type(part).__mro__:
         if given in vars(cls):
             break
@@ -26,12 +40,12 @@ def written_over(part: Any, given: str, methods: frozenset[str]) -> str:
 
 
 class Composed(Shown, ABC):
-    """Base of what has laws: controllers, observers, references, disturbances."""
+    """Base class of what has laws. A subclass states its kind, the methods its laws replace, and `laws`."""
 
     _kind: ClassVar[str]
-    """What it is, in a word."""
+    """What it is, in a word for messages, such as "controller"."""
     _methods: ClassVar[frozenset[str]]
-    """Names of the methods that its laws stand for."""
+    """Names of the methods that call the laws; one of them written anew by a subclass is an obstacle."""
 
     def __post_init__(self) -> None:
         """Raises InputError for a field that is not what its annotation says."""
@@ -40,26 +54,31 @@ class Composed(Shown, ABC):
     @property
     @abstractmethod
     def laws(self) -> Any:
-        """A NamedTuple with `parameters` and functions; None without."""
+        """A NamedTuple with the field `parameters` and a field for each law; None for a part without laws."""
 
     @cached_property
     def _laws(self) -> Any:
+        """`laws`, made once for each object: a walk calls them at every stage of every time step."""
         return self.laws
 
     def _law(self, name: str) -> Callable[..., Any] | None:
-        """The law of this name with its parameters filled in; None without."""
+        """The law of this name with its parameters k filled in; None where there is none of that name."""
         law = getattr(self._laws, name, None)
         return None if law is None else partial(law, self._laws.parameters)
 
     @property
     def _obstacle(self) -> str:
-        """Why laws do not say all that it does: there are none, or a subclass writes a method over them."""
+        """Why the laws do not say all that this part does, as a sentence; empty where they do.
+
+        Either there are no laws, or a subclass writes a method over those it inherits (see
+        `written_over`).
+        """
         name = f"{self._kind} {type(self).__name__}"
         if self._laws is None:
             return f"{name} has no laws of arrays"
         written = written_over(self, "laws", self._methods)
         return f"{name} writes {written} over the laws that it inherits" if written else ""
 
-    def __getstate__(self) -> dict[str, Any]:
-        """Without what is made again where it is needed."""
+    def __getstate__(self) -> dict[str, object]:
+        """What is pickled for a worker process: all fields but the cached laws, which are made again there."""
         return {name: value for name, value in vars(self).items() if name != "_laws"}

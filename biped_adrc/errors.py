@@ -1,6 +1,13 @@
-"""Errors: one base class, and the exit code of the command for each kind; and checks that many share.
+"""Errors with the exit codes of the command, and checks of input that many modules share.
 
-A message says what was asked, what was found, what was expected and what to try.
+Every error raised on purpose derives from `BipedError`; the command prints its text as one line and
+ends with its `exit_code`, without a traceback. Each class also derives from the builtin error that
+a Python user would catch, such as ValueError. A message says what was asked, what was found, what
+was expected and what to try.
+
+A function here that begins with `check_` returns nothing and raises. Its argument `what` is the
+first half of the sentence, which names the value and says what was found; the function adds what
+was expected.
 """
 
 from __future__ import annotations
@@ -13,6 +20,7 @@ class BipedError(Exception):
     """Base of every error this package raises on purpose."""
 
     exit_code = 3
+    """Exit code of the command that ends with this error; 3 for bad input."""
 
 
 class InputError(BipedError, ValueError):
@@ -50,13 +58,19 @@ class OutputError(BipedError, OSError):
 
 
 def check_count(count: object, what: str) -> None:
-    """Raise InputError, beginning with `what`, unless `count` is a whole number from 1 on; True is none."""
+    """Raise InputError unless `count` is a whole number from 1 on; numpy's integers count, True does not.
+
+    what: how the message begins, with the value found.
+    """
     if isinstance(count, bool) or not isinstance(count, Integral) or int(count) < 1:
         raise InputError(f"{what}, expected a whole number, at least 1")
 
 
 def check_whole(value: object, what: str, least: int = 0) -> None:
-    """Raise InputError, beginning with `what`, unless `value` is an int from `least` on; True is none."""
+    """Raise InputError unless `value` is an int, at least `least`; True is no number here.
+
+    what: how the message begins, with the value found.
+    """
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise InputError(f"{what}, expected a whole number >= {least}")
 
@@ -64,6 +78,10 @@ def check_whole(value: object, what: str, least: int = 0) -> None:
 def check_positive(
     value: float, what: str, hint: str = "", error: type[BipedError] = InputError
 ) -> None:
-    """Raise `error`, beginning with `what` and ending with `hint`, unless `value` is finite and above 0."""
+    """Raise `error` unless `value` is finite and above 0, so NaN and infinity are refused too.
+
+    what: how the message begins, with the value found. hint: how it ends, such as what to use
+    instead.
+    """
     if not (math.isfinite(value) and value > 0):
         raise error(f"{what}, expected a positive number{hint}")

@@ -1,4 +1,14 @@
-"""Files: their names, JSON that is read, plain values for JSON, and writing whole or not at all."""
+"""Files: names of outputs, JSON that is read, values made plain for JSON, and writing whole or not at all.
+
+Used by every module that touches the file system, so that all of them refuse the same things with
+the same sentences. Three rules stand behind it:
+
+    A name is checked before anything is computed (`output_path`, `keep_inputs`): an hour of
+    walking is not lost to a typing error.
+    An error while a file is read names the file and what it should be (`reading`).
+    A file is replaced in one step (`replacing`): after a kill or a full disk the old file is
+    still there.
+"""
 
 from __future__ import annotations
 
@@ -24,10 +34,11 @@ _KIND = re.compile(r"\.[A-Za-z]\w*")
 
 
 def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False) -> Path:
-    """The file that a name asks for: as it is given where it ends in one of `suffixes`.
+    """The path of a file to write, checked; it has to end in one of `suffixes`, such as (".png", ".svg").
 
-    default: a name that says no kind, such as 'push_0.1', has the first of `suffixes` put behind it. Raises
-    InputError for another kind or what is no name, and OutputError for a folder or a device.
+    default: a name that says no kind, such as 'push_0.1', has the first of `suffixes` put behind
+    it. Raises InputError for another kind and for what is no name of a file, and OutputError for a
+    folder or a device.
     """
     path = _named(path)
     try:
@@ -59,7 +70,10 @@ def _named(path: object) -> Path:
 
 
 def keep_inputs(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
-    """Raises InputError where a file that is to be written is one of those that are read."""
+    """Raise InputError where a file that is to be written is also one that is read.
+
+    Links are followed: another name of the same file is refused too.
+    """
     outputs, inputs = tuple(outputs), tuple(inputs)
     for read in inputs:
         if any(_same(read, written) for written in outputs):
@@ -70,7 +84,7 @@ def keep_inputs(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
 
 
 def _same(a: Path, b: Path) -> bool:
-    """Whether two names are of one file, or would be."""
+    """Whether two paths are one file; of files that do not exist yet, whether they would be."""
     try:
         return os.path.samefile(a, b)
     except OSError:
@@ -79,9 +93,11 @@ def _same(a: Path, b: Path) -> bool:
 
 @contextmanager
 def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[None]:
-    """Raises `error`, which names the file and what it is, for whatever goes wrong while it is read.
+    """Context in which a file is read: whatever goes wrong is raised as `error`, which names the file.
 
-    Errors that are raised on purpose keep their text behind the name of the file.
+    what: what the file is, such as "gait file". Missing files, wrong JSON or TOML, missing keys and
+    values of a wrong type or shape are covered. An error of this package, raised on purpose inside,
+    keeps its text behind the name of the file.
     """
     where, kind = f"{what} '{path}'", Path(path).suffix[1:].upper()
     try:
@@ -99,13 +115,21 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
 
 
 def read_json(path: Path, what: str, error: type[BipedError] = InputError) -> Any:
-    """What a file holds. Raises `error`, which says `what` the file should be, where it cannot be read."""
+    """The content of a JSON file, as dict, list, text, number or None.
+
+    what: what the file should be, for the message. Raises `error` where it cannot be read or is no
+    JSON.
+    """
     with reading(what, path, error):
         return json.loads(path.read_text(encoding="utf-8"))
 
 
-def plain(value: Any) -> Any:
-    """As JSON has it: records by their fields, arrays as lists, a number that is not finite as text."""
+def plain(value: object) -> Any:
+    """A value as JSON can hold it, recursively.
+
+    Dataclasses and NamedTuples become dicts by field, arrays and tuples become lists. JSON has no
+    infinity and no NaN: such a number becomes the text "inf", "-inf" or "nan".
+    """
     if is_dataclass(value):
         value = {field.name: getattr(value, field.name) for field in fields(value)}
     elif hasattr(value, "_asdict"):
@@ -120,19 +144,25 @@ def plain(value: Any) -> Any:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a file whole or not at all: temporary file, fsync, rename. Raises OutputError."""
+    """Write a text file (UTF-8) whole or not at all. Raises OutputError."""
     write_bytes(path, text.encode("utf-8"))
 
 
 def write_bytes(path: Path, data: bytes) -> None:
-    """As `write_text`, for bytes."""
+    """Write a binary file whole or not at all. Raises OutputError."""
     with replacing(path) as temporary:
         temporary.write_bytes(data)
 
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """A temporary file beside `path`, which takes its place when all is in it. Raises OutputError."""
+    """Context that gives a temporary file beside `path` to write to, and moves it to `path` at the end.
+
+    The content is flushed to the disk (fsync) before the rename, and a rename within one folder is
+    atomic, so `path` is at any time either the old file or the new one. Missing folders are made.
+    Permissions are those of a new file under the user's umask, not the private ones of mkstemp.
+    Raises OutputError; after any error the temporary file is removed and `path` is as it was.
+    """
     temporary = None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,11 @@
-"""The ground: the axes of a slope, and where it is lower or higher, by steps in numbers of single supports."""
+"""The ground: axes along and out of a slope, steps down and up, and random uneven ground.
+
+The slope is constant and tilts the whole ground; a positive one goes downhill in the walking
+direction. Steps are counted in single supports from 1: `StepDown(3, 0.02)` lowers the ground on
+which the third single support ends by 20 mm, and all that comes after it. `Walker` holds the slope
+and the tuple of steps; an impact is where the height of the swing foot over that ground comes down
+to zero.
+"""
 
 from __future__ import annotations
 
@@ -13,25 +20,32 @@ from biped_adrc.types import Array
 
 
 def ground_axes(slope: float) -> tuple[Array, Array]:
-    """Unit vectors (x, z) along the ground, downhill for a positive slope [rad], and out of it."""
+    """Unit vectors (x, z), each (2,), along the ground and out of it, for a slope [rad], positive downhill.
+
+    A ground force F (2,) in the world has tangential part F @ along and normal part F @ out [N].
+    """
     along = np.array([math.cos(slope), -math.sin(slope)])
     return along, np.array([math.sin(slope), math.cos(slope)])
 
 
 def check_slope(slope: float) -> None:
-    """Raise InputError for a slope [rad] that is no ground."""
+    """Raise InputError unless the slope [rad] is less than a right angle either way."""
     if not abs(slope) < 0.5 * math.pi:
         raise InputError(f"the slope is {slope} rad, expected less than a right angle")
 
 
 @dataclass(frozen=True)
 class GroundStep:
-    """What a step down and a step up share."""
+    """What a step down and a step up share: the single support that ends on it, and a height [m] > 0."""
 
     step: int
+    """Number of the single support, from 1, that ends on the changed ground."""
     height: float
+    """[m], positive whichever way the step goes."""
     way: ClassVar[str]
+    """The word for it in messages, "down" or "up"."""
     other: ClassVar[str]
+    """The other way, which a message names for a height with the wrong sign."""
 
     def __post_init__(self) -> None:
         way, height = self.way, self.height
@@ -43,7 +57,9 @@ class GroundStep:
 
     @property
     def drop(self) -> float:
-        """How far the ground lies below the stance foot [m], negative for a step up."""
+        """How far the ground lies below the stance foot where this single support ends [m]; negative
+        for a step up.
+        """
         return self.height if self.way == "down" else -self.height
 
 
@@ -59,7 +75,10 @@ class StepDown(GroundStep):
 class StepUp(GroundStep):
     """The ground on which single support `step` (from 1) ends lies `height` [m] above its stance foot.
 
-    The swing foot strikes it once it has been above; whether it clears the edge is not modelled.
+    The swing foot starts below that level; impact is where it comes down on it after it has been
+    above. The edge of the step is not part of the model, so whether the foot clears it is not
+    checked.
+
     Raises InputError for a height that is not positive; a step down is a `StepDown`.
     """
 
@@ -67,11 +86,14 @@ class StepUp(GroundStep):
 
 
 def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp, ...]:
-    """Footholds at heights of mean zero and root mean square `rms` [m], for single supports 1 to `steps`.
+    """Steps up and down whose footholds have heights of mean zero and root mean square `rms` [m].
 
-    The heights h_1, h_2, ... are normally distributed and independent, the first stance foot is at h_0 = 0, and
-    single support k ends h_(k-1) - h_k lower than it began; after `steps` the ground is level.
-    Raises InputError for a negative rms, a seed or a number of steps that is no whole number >= 0.
+    The heights h_1, h_2, ... are independent and normally distributed. The first stance foot is at
+    h_0 = 0, and single support k, for k = 1 to `steps`, ends h_(k-1) - h_k lower than it began.
+    After that the ground is level. The same seed gives the same ground.
+
+    Raises InputError for a negative rms, and for a seed or a number of steps that is no whole
+    number >= 0.
     """
     if not (math.isfinite(rms) and rms >= 0.0):
         raise InputError(f"the rms of uneven ground is {rms} m, expected a number >= 0")

@@ -1,4 +1,9 @@
-"""Small dense linear systems, without the overhead of `numpy.linalg` for matrices of a few rows."""
+"""Small dense linear systems A X = B, solved by LAPACK directly.
+
+For matrices of a few rows `numpy.linalg.solve` spends most of its time on checks; dgesv (LU factors
+with partial pivoting) is called without them. Laws call these two functions by name: the tracer of
+the engine knows them and generates unrolled code in their place.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +15,10 @@ from biped_adrc.types import Array
 
 
 def solve(A: Array, B: Array, what: str) -> Array:
-    """X with A X = B, for A (k, k) and B (k,) or (k, c).
+    """X (k,) or (k, c) with A X = B, for A (k, k) and B of the shape of X.
 
-    Raises SingularError that names `what` when A is singular.
+    what: names A in the message, such as "the decoupling matrix". Raises SingularError when a pivot
+    is exactly zero; a badly conditioned A is solved without a word.
     """
     if len(A) == 0:
         return np.zeros_like(B)
@@ -23,5 +29,9 @@ def solve(A: Array, B: Array, what: str) -> Array:
 
 
 def solve_positive(A: Array, B: Array, what: str) -> Array:
-    """`solve` for a symmetric positive definite A, which needs no pivots where code is generated for it."""
+    """X (k,) or (k, c) with A X = B, for A (k, k) symmetric and positive definite, such as an inertia matrix.
+
+    In Python this is `solve`. The engine generates the factors A = L d L' for it, whose pivots d
+    are all positive: compiled code then has no search for pivots, hence no branch.
+    """
     return solve(A, B, what)

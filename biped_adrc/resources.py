@@ -1,4 +1,9 @@
-"""Data: robots (`urdf/`) and gaits (`gaits/`), in the wheel or beside the package in a checkout, and tables."""
+"""Data that comes with the package: robots (`urdf/`), gaits (`gaits/`), and tables in TOML files.
+
+In a checkout the data folders lie beside the package; in an installed wheel they are copied to
+`_data` inside it. Texts, options, columns and registries are TOML files in the folder of the module
+that uses them.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +17,7 @@ _PACKAGE = Path(__file__).resolve().parent
 
 
 def data_folder(kind: str) -> Path:
-    """Folder `kind` ("urdf" or "gaits").
+    """The folder of this kind of data, "urdf" or "gaits".
 
     Raises FileNotFoundError when neither the wheel nor the checkout has it.
     """
@@ -27,5 +32,8 @@ def data_folder(kind: str) -> Path:
 
 @cache
 def packaged(package: str, name: str) -> dict[str, Any]:
-    """The tables of a TOML file that lies in a package."""
+    """The content of the TOML file `name` in the folder of `package`, such as "biped_adrc.viz"; read once.
+
+    The dict is shared by all callers and must not be changed.
+    """
     return tomllib.loads(files(package).joinpath(name).read_text("utf-8"))

@@ -1,4 +1,10 @@
-"""When the controller acts: at every instant, or at ticks."""
+"""Time base of the controller: it acts at every instant, or at sample instants with a zero-order hold.
+
+`ContinuousTime` is the paper's setting: torque is a function of the state at every stage of the
+integrator. `SampledTime` is a computer: it measures at sample instants (ticks), its torque begins
+to act after a computation delay and is then held until the next one arrives. Timing is a field of
+`Walker` and `Arm`; leaves of `control` and `observers` have laws for either base.
+"""
 
 from __future__ import annotations
 
@@ -9,28 +15,38 @@ from biped_adrc.errors import InputError
 from biped_adrc.parts import check_fields
 
 LONGEST_PERIOD = 0.1
-"""[s]. A body whose hip is l = 0.8 m high falls over its foot in sqrt(l / g) = 0.29 s: a torque that is held
-for more than a third of that is no feedback, and a longer period a mistake of units."""
+"""Largest sampling period accepted [s].
+
+A body whose hip is l = 0.8 m high falls over its foot with the time constant sqrt(l / g) = 0.29 s:
+a torque that is held for more than a third of that is no feedback, and a longer period is a mistake
+of units.
+"""
 LONGEST_DELAY = 100
-"""Periods; more torques on their way than this are a mistake of units."""
+"""Largest computation delay accepted, in periods; more torques on their way are a mistake of units."""
 
 
 @dataclass(frozen=True)
 class ContinuousTime:
-    """The controller acts at every instant."""
+    """The controller acts at every instant: u(t) is a function of the state at t, without sampling or delay."""
 
 
 @dataclass(frozen=True)
 class SampledTime:
-    """The controller acts at ticks every `period` [s] and its torque is held in between.
+    """The controller acts at sample instants every `period` [s], and its torque is held in between.
 
-    restart: the clock restarts at impact. A free-running clock makes the return map depend on its phase, and a
-    discrete observer takes what it is reset to at impact for its prediction of the next tick.
-    delay [s]: from a tick to the instant at which its torque begins to act, for the computation. A clock that
-    restarts at impact ticks there early; what is on its way is then up to one period sooner.
-    delay_known: the controller's observer is fed with the torque that acts until the next tick, instead of the
-    one just asked for. Raises InputError for a period that is not positive or longer than `LONGEST_PERIOD`, and
-    for a delay that is negative.
+    period [s]: time between two sample instants.
+    restart: the sampling clock restarts at impact. A free-running clock makes the return map depend
+    on the phase of the clock at impact, so it has no fixed point in general. With a restart, a
+    discrete observer takes what it is reset to at impact for its prediction of the next sample
+    instant.
+    delay [s]: from a sample instant to the instant at which its torque begins to act, the time of
+    computation. It may be longer than a period. A clock that restarts at impact samples early
+    there; torque that is on its way then acts up to one period sooner.
+    delay_known: the controller's observer is fed with the torque that acts until the next sample
+    instant (known delay), instead of the one just computed (unknown delay).
+
+    Raises InputError for a period that is not positive or longer than `LONGEST_PERIOD`, and for a
+    delay that is negative or longer than `LONGEST_DELAY` periods.
     """
 
     period: float
@@ -53,7 +69,10 @@ class SampledTime:
 
 
 def check_timing(timing: object) -> None:
-    """Raise InputError for what is no timing, such as a period alone."""
+    """Raise InputError for what is neither `ContinuousTime` nor `SampledTime`.
+
+    A number alone, the usual mistake, gets a message that shows how to write it as a period.
+    """
     if isinstance(timing, ContinuousTime | SampledTime):
         return
     number = isinstance(timing, int | float) and not isinstance(timing, bool)
@@ -62,7 +81,11 @@ def check_timing(timing: object) -> None:
 
 
 def check_ends(max_step_time: float, fall_height: float) -> None:
-    """Raise InputError for a longest single support [s] or a height of a fall that are none, NaN among them."""
+    """Raise InputError for limits that end no run: NaN, a time that is not positive, a height of 1 or more.
+
+    max_step_time [s]: the longest single support before the walk counts as stalled. fall_height
+    [1]: the robot counts as fallen when its hip is lower than this fraction of |p_hip| at q = 0.
+    """
     if not (max_step_time > 0.0 and fall_height < 1.0):
         raise InputError(
             f"max_step_time is {max_step_time} s and fall_height {fall_height}, expected a positive time and a "

@@ -1,6 +1,9 @@
-"""Array types shared by all modules."""
+"""Types that all modules share: arrays, and records of plain values."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,9 +14,18 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 """Complex array, for eigenvalues and transfer functions."""
 
+PlainRecord = Mapping[str, Any]
+"""Values by name as JSON and TOML have them: text, numbers, truth values, None, lists, records.
+
+For summaries, stored rows and TOML tables, whose keys are stated where they are written. Inside the
+package a dataclass or a NamedTuple is preferred.
+"""
+
 
 def read_only(values: ArrayLike) -> Array:
-    """A copy as numbers that cannot be changed, for frozen records."""
+    """A copy in float64 that cannot be written to, of the shape of `values`, (K,) or (K, n); for
+    frozen records.
+    """
     array = np.array(values, dtype=float)
     array.setflags(write=False)
     return array

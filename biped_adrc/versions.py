@@ -1,4 +1,11 @@
-"""Versions of what the numbers depend on: Python, packages, and the source of this one, edited or not."""
+"""Versions of all that decides the numbers of a run: Python, packages, and this package's own source.
+
+Three uses: a report lists versions for the reader (`versions`); a store of results refuses to mix
+runs of different versions (`numerical_versions`, `differences`); the cache of compiled code is
+discarded when what it was generated from changes (`source_text`, called by `engine.fingerprint`). A
+version number alone is not enough for the last two, as a checkout is edited between releases: the
+source is hashed.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +19,7 @@ from pathlib import Path
 from biped_adrc import __version__
 
 SHOWN = ("biped-adrc", "pin", "numpy", "scipy", "meshcat", "matplotlib")
+"""Packages that a report lists."""
 NUMERICAL = (
     "biped-adrc",
     "pin",
@@ -23,7 +31,9 @@ NUMERICAL = (
     "qpsolvers",
     "daqp",
 )
+"""Packages on which the digits of a run depend."""
 SOURCE = "source of biped-adrc"
+"""Name under which the hash of this package's source stands among the versions."""
 NEVER_TRACED = (
     "analysis",
     "bench",
@@ -35,11 +45,18 @@ NEVER_TRACED = (
     "studies",
     "viz",
 )
-"""Rooms above the engine: code that is made can reach nothing in them but laws that it is given."""
+"""Folders whose source has no part in compiled code, as the engine can reach nothing in them.
+
+They are the rooms above the engine. An edit there keeps the cache of compiled code. Laws that a
+user passes in are hashed on their own.
+"""
 
 
 def packages(names: Iterable[str]) -> dict[str, str]:
-    """The version of each package, "none" for one that is not there; this one's is its `__version__`."""
+    """Installed version by name of package; "none" for one that is not installed.
+
+    That of this package is its `__version__`.
+    """
     found = {}
     for name in names:
         try:
@@ -50,28 +67,35 @@ def packages(names: Iterable[str]) -> dict[str, str]:
 
 
 def differences(found: Mapping[str, str], expected: Mapping[str, str]) -> str:
-    """Which versions differ, in words; empty when none does."""
+    """How two sets of versions differ, in words: "there" is `found`, "here" is `expected`; empty if equal."""
     names = sorted({*found, *expected})
     pairs = [(name, found.get(name), expected.get(name)) for name in names]
     return "; ".join(f"{name} {a} there, {b} here" for name, a, b in pairs if a != b)
 
 
 def versions() -> dict[str, str]:
-    """For records: of Python, the platform and what the numbers depend on."""
+    """Versions for the reader of a report: Python, platform, and the packages `SHOWN`."""
     found = {"python": platform.python_version(), "platform": platform.platform()}
     return found | packages(SHOWN)
 
 
 @lru_cache(maxsize=1)
 def numerical_versions() -> Mapping[str, str]:
-    """Of all that decides the numbers of a run, with a hash of this package's own lines."""
+    """Versions of all that decides the digits of a run, with a hash of the source of this package.
+
+    Two runs with equal values of this mapping, on any machine of the same architecture, are
+    comparable. Computed once for each process.
+    """
     source = source_text(Path(__file__).parent)[:12]
     found = {"python": platform.python_version(), "machine": platform.machine(), SOURCE: source}
     return found | packages(NUMERICAL)
 
 
 def source_text(root: Path, without: tuple[str, ...] = ()) -> str:
-    """A hash of every module below `root`, but for those of the folders `without`."""
+    """SHA-256 in hexadecimal digits over names and contents of all Python files below `root`, in sorted order.
+
+    without: names of folders directly below `root` that are left out.
+    """
     digest = hashlib.sha256()
     for path in sorted(root.rglob("*.py")):
         name = path.relative_to(root)

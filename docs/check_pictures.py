@@ -26,7 +26,7 @@ import write_results
 
 from biped_adrc.bench.compare_study import figures
 from biped_adrc.errors import BipedError
-from biped_adrc.viz.numbers import Numbers, differences, numbers_of
+from biped_adrc.viz.figure_numbers import Numbers, differences, numbers_of
 from biped_adrc.viz.plots.push_map import push_map_figure
 
 DOCS = Path(__file__).resolve().parent

@@ -18,7 +18,7 @@ from biped_adrc.bench.run import run_trials
 from biped_adrc.bench.study_file import load_study
 from biped_adrc.bench.sweep import Sweep, sweep
 from biped_adrc.files import write_bytes, write_text
-from biped_adrc.viz.numbers import Numbers, as_text
+from biped_adrc.viz.figure_numbers import Numbers, as_text
 from biped_adrc.viz.plots.sweep_maps import Maps
 from biped_adrc.viz.style import render
 

@@ -21,11 +21,11 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.paper.figures import draw, push_window
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import load_walks
+from biped_adrc.viz.figure_numbers import SHARES, Numbers, as_text, numbers_of, rounded
 from biped_adrc.viz.from_the_side.gif import write_gif
 from biped_adrc.viz.from_the_side.moving_parts import Motion
 from biped_adrc.viz.from_the_side.side_view import SideView
-from biped_adrc.viz.numbers import SHARES, Numbers, as_text, numbers_of, rounded
-from biped_adrc.viz.placement import Scene
+from biped_adrc.viz.placement import WalkScene
 from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
 from biped_adrc.viz.style import render
 
@@ -71,7 +71,7 @@ def animated(walks: Walks) -> Numbers:
     times = start + np.array(SHARES) * (stop - start)
     error, hip, push = {}, {}, {}
     for name, walk in walks.items():
-        s, view = walk.signals, SideView(Scene.of(walk))
+        s, view = walk.signals, SideView(WalkScene.of(walk))
         rows = (s.t >= start) & (s.t <= stop)
         sizes = np.max(np.abs(s.error[rows]), axis=1)
         found = np.interp(times, s.t[rows], sizes)

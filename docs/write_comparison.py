@@ -36,7 +36,7 @@ from biped_adrc.viz.comparison_text import (
     said,
     share_texts,
 )
-from biped_adrc.viz.numbers import as_text, numbers_of
+from biped_adrc.viz.figure_numbers import as_text, numbers_of
 from biped_adrc.viz.pages import captions
 from biped_adrc.viz.style import render
 

@@ -20,7 +20,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.paper.push_map import WORDS, Fate, PushCell, apart, certain, counts, settings_of
-from biped_adrc.viz.numbers import as_text, numbers_of
+from biped_adrc.viz.figure_numbers import as_text, numbers_of
 from biped_adrc.viz.plots.push_map import push_map_figure
 from biped_adrc.viz.style import render
 

@@ -14,9 +14,9 @@ from biped_adrc.control.delayed import Delayed, line_flow, line_output, line_sta
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.motors import IDEAL, Line, acting, sent, whole_and_part
 from biped_adrc.observer_design.observer_choice import Hardware, OnHardware, count_error, recommend
-from biped_adrc.observer_design.observer_design import observer_report
 from biped_adrc.observer_design.observer_impact import impact_peak, orbit_impact
 from biped_adrc.observer_design.observer_loop import conditioning, observer_loop
+from biped_adrc.observer_design.observer_report import observer_report
 from biped_adrc.observer_design.observer_sampled import (
     FORMS,
     covariance,

@@ -14,6 +14,7 @@ from biped_adrc.cli import app
 from biped_adrc.errors import GaitError, InputError, OutputError
 from biped_adrc.files import keep_inputs, output_path
 from biped_adrc.hybrid.storage import load, save
+from biped_adrc.resources import data_folder
 
 RUNS = (".npz", ".mat")
 WALK = ("simulate", "--engine", "compiled", "--controller", "NPD", "--impacts", "1")
@@ -41,7 +42,7 @@ def folder(tmp_path, monkeypatch, gait, walked):
     Path("link.json").symlink_to("keep.json")
     save(walked, "run.npz")
     Path("run.html").write_bytes(Path("run.npz").read_bytes())
-    shutil.copytree(ba.model.robots.data_folder("urdf") / "rabbit", "own")
+    shutil.copytree(data_folder("urdf") / "rabbit", "own")
     return tmp_path
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from biped_adrc.bench.compare_study import figures
 from biped_adrc.paper.plan import BOTH
-from biped_adrc.viz.numbers import as_text, differences, numbers_of
+from biped_adrc.viz.figure_numbers import as_text, differences, numbers_of
 from biped_adrc.viz.plots.push_map import push_map_figure
 
 ROOT = Path(__file__).resolve().parents[1]

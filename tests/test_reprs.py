@@ -89,12 +89,13 @@ def things(biped, gait):
             ba.ModelErrors(),
             ba.Limits(),
         ),
-        *(ba.StepLimits(), cycle, cycle.P, ba.cycle_stability(cycle, samples=0)),
+        *(ba.StepLimits(), cycle, cycle.P, ba.cycle_stability(cycle, samples=0), ba.GaitLimits()),
     ]
     record = ba.GaitRecord(
         "paper", h.curve.coefficients, h.theta_plus, h.theta_minus, phase=h.phase
     )
-    return [*found, record]
+    samples = ba.Samples(walk.signals.t, walk.signals.q, walk.signals.v)
+    return [*found, record, samples]
 
 
 ELSEWHERE = {
@@ -120,8 +121,9 @@ def test_everything_fits_a_line(things):
 def test_no_public_class_is_left_out(things):
     seen = {type(thing).__name__ for thing in things}
     classes = {name for name in ba.__all__ if inspect.isclass(getattr(ba, name))}
-    abstract = {"Controller", "Disturbance", "Observer", "Outputs", "Reference"}
-    assert classes - abstract - ELSEWHERE <= seen
+    bases = {"Controller", "Disturbance", "Observer", "Outputs", "Reference"}
+    bases |= {"ObservingController", "WindowedTorque"}
+    assert classes - bases - ELSEWHERE <= seen
     assert all(
         issubclass(getattr(ba, name), Shown) for name in ("Arm", "ArmSystem", "DesignedGait")
     )

@@ -13,7 +13,12 @@ from scipy.integrate import solve_ivp
 
 import biped_adrc as ba
 from biped_adrc.analysis.return_map import ReturnMap, newton_step, sorted_eigenvalues
-from biped_adrc.analysis.stability import Method, Tolerances, central_row, zero_dynamics_row
+from biped_adrc.analysis.stability import (
+    StabilityMethod,
+    Tolerances,
+    central_row,
+    zero_dynamics_row,
+)
 from biped_adrc.analysis.variational import (
     StepDerivative,
     periodic_orbit,
@@ -59,9 +64,9 @@ def solved(cycle: Cycle, tolerance: float = 1e-10) -> StepDerivative:
 def test_table_of_a_passive_robot(robot: str) -> None:
     found = cycle_stability(find_cycle(robot))
     assert [row.method for row in found.table.rows] == [
-        Method.VARIATIONAL,
-        Method.CENTRAL,
-        Method.REGRESSION,
+        StabilityMethod.VARIATIONAL,
+        StabilityMethod.CENTRAL,
+        StabilityMethod.REGRESSION,
     ]
     check(*(row.multipliers for row in found.table.rows[:2]))
     assert found.table.agree
@@ -205,7 +210,10 @@ def test_multipliers_of_the_three_link_walker() -> None:
     """The impact leaves its constraint, so that there is no delta^2."""
     cycle = three_link()
     table = cycle_stability(cycle, samples=0).table
-    assert [row.method for row in table.rows] == [Method.VARIATIONAL, Method.CENTRAL]
+    assert [row.method for row in table.rows] == [
+        StabilityMethod.VARIATIONAL,
+        StabilityMethod.CENTRAL,
+    ]
     check(*(row.multipliers for row in table.rows))
     assert table.agree
     assert table.stable
@@ -222,7 +230,7 @@ def test_a_law_of_ones_own_is_not_taken_for_npd(biped: ba.Biped, gait: ba.Gait) 
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     halved = replace(walker, controller=Halved(gait.constraint))
     x = np.concatenate((gait.q_minus, 1.1 * gait.v_minus))
-    one, other = (torque_derivative(w, 0.0, x, ba.Mode()) for w in (walker, halved))
+    one, other = (torque_derivative(w, w.instant(0.0, x, ba.Mode())) for w in (walker, halved))
     np.testing.assert_allclose(other, 0.5 * one, rtol=0.0, atol=1e-9 * np.max(np.abs(one)))
     pushed = replace(walker, disturbance=ba.TorqueStep([1.0, 0, 0, 0, 0], step=1, start=0.1))
     assert zero_dynamics_row(walker, Tolerances()) is not None
@@ -241,7 +249,10 @@ def test_cycles_that_cannot_be_found(biped: ba.Biped) -> None:
     with pytest.raises(InputError, match="expected 0 or at least 3"):
         cycle_stability(compass, samples=2)
     table = cycle_stability(compass, samples=0).table
-    assert [row.method for row in table.rows] == [Method.VARIATIONAL, Method.CENTRAL]
+    assert [row.method for row in table.rows] == [
+        StabilityMethod.VARIATIONAL,
+        StabilityMethod.CENTRAL,
+    ]
     with pytest.raises(SimulationError, match="ended before"):
         walk_beside(compass.P, compass.guess * [1.0, 1.0, 1.5, 1.5], 25)
 

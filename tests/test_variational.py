@@ -9,8 +9,8 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.regression import Regression, regress_multipliers
 from biped_adrc.analysis.stability import (
-    Method,
     MethodRow,
+    StabilityMethod,
     StabilityTable,
     Tolerances,
     invariance_gap,
@@ -170,10 +170,10 @@ def test_derivative_of_the_flow(any_biped):
     for name, walker in loops(any_biped).items():
         for q, v, _ in states(any_biped, 3, size=0.1):
             x = np.concatenate((q, v))
-            A = flow_derivative(walker, 0.0, x, FIRST)
+            A = flow_derivative(walker, walker.instant(0.0, x, FIRST))
             close(A, difference(lambda y, w=walker: w.flow(0.0, y, FIRST), x, 2e-4), 1e-7)
             if name == "NPD, limited":
-                du = torque_derivative(walker, 0.0, x, FIRST)
+                du = torque_derivative(walker, walker.instant(0.0, x, FIRST))
                 cut = np.abs(walker.instant(0.0, x, FIRST).u) >= 500.0
                 saturated += int(np.sum(cut))
                 assert np.all(du[cut] == 0.0)
@@ -186,7 +186,7 @@ def test_differences_of_a_law_are_of_order_four_and_end_at_round_off(any_biped):
     walker = npd(any_biped)
     q, v, _ = next(states(any_biped, size=0.1))
     i = walker.instant(0.0, np.concatenate((q, v)), FIRST)
-    exact = torque_derivative(walker, 0.0, np.concatenate((q, v)), FIRST)
+    exact = torque_derivative(walker, walker.instant(0.0, np.concatenate((q, v)), FIRST))
     size = np.max(np.abs(exact))
 
     def error(*width):
@@ -391,8 +391,8 @@ def test_table_of_the_published_gait(published, biped, gait):
         "foot_strike"
     )
     table = stability_table(P, step, regress_multipliers(pushed, pre_impact(biped)))
-    assert [row.method for row in table.rows] == list(Method)
-    assert table.trusted.method is Method.VARIATIONAL
+    assert [row.method for row in table.rows] == list(StabilityMethod)
+    assert table.trusted.method is StabilityMethod.VARIATIONAL
     assert table.agree
     assert table.stable
     assert table.verdict.count("agrees within") == 2
@@ -405,11 +405,11 @@ def test_table_of_the_published_gait(published, biped, gait):
     assert lines[0].split()[2] == f"{step.multipliers[0].real:.6e}"
 
 
-def rows_of(*sizes, method=Method.CENTRAL, **more):
+def rows_of(*sizes, method=StabilityMethod.CENTRAL, **more):
     return MethodRow(method, np.array(sizes, dtype=complex), **more)
 
 
-EQUATION = rows_of(0.7, 1e-3, method=Method.VARIATIONAL)
+EQUATION = rows_of(0.7, 1e-3, method=StabilityMethod.VARIATIONAL)
 
 
 def table_of(*rows, **tolerances):
@@ -442,12 +442,12 @@ def test_verdict_on_differences():
 
 
 def test_complex_pairs_are_compared_as_pairs_in_any_order():
-    pair = MethodRow(Method.VARIATIONAL, np.array([0.5 + 0.1j, 0.5 - 0.1j]))
+    pair = MethodRow(StabilityMethod.VARIATIONAL, np.array([0.5 + 0.1j, 0.5 - 0.1j]))
     assert table_of(
-        pair, replace(pair, method=Method.CENTRAL, multipliers=pair.multipliers[::-1])
+        pair, replace(pair, method=StabilityMethod.CENTRAL, multipliers=pair.multipliers[::-1])
     ).agree
     turned = MethodRow(
-        Method.CENTRAL, abs(pair.multipliers[0]) * np.array([1.0, 1.0], dtype=complex)
+        StabilityMethod.CENTRAL, abs(pair.multipliers[0]) * np.array([1.0, 1.0], dtype=complex)
     )
     assert turned.magnitudes == pytest.approx(pair.magnitudes)
     assert not table_of(pair, turned).agree
@@ -455,9 +455,9 @@ def test_complex_pairs_are_compared_as_pairs_in_any_order():
 
 def test_verdict_on_the_zero_dynamics_and_the_regression():
     """delta^2 is one of the multipliers, whichever it is."""
-    near = table_of(EQUATION, rows_of(1e-3, method=Method.ZERO_DYNAMICS))
+    near = table_of(EQUATION, rows_of(1e-3, method=StabilityMethod.ZERO_DYNAMICS))
     assert near.agree
-    far = table_of(EQUATION, rows_of(0.71, method=Method.ZERO_DYNAMICS))
+    far = table_of(EQUATION, rows_of(0.71, method=StabilityMethod.ZERO_DYNAMICS))
     assert not far.agree
     assert "does not keep to the zero dynamics" in far.verdict
     Phi = np.diag([0.7, 1e-3])
@@ -478,10 +478,10 @@ def test_a_wrong_equation_hands_the_trust_over(published):
     assert "expected" in variational_row(replace(step, flow_residual=math.nan), Tolerances()).doubt
     assert variational_row(step, Tolerances()).doubt == ""
     table = table_of(row, rows_of(1.2, 1e-3))
-    assert table.trusted.method is Method.CENTRAL
+    assert table.trusted.method is StabilityMethod.CENTRAL
     assert "Trust the central differences: the cycle is not stable" in table.verdict
     with pytest.raises(InputError, match="no method of this table"):
-        _ = table_of(row, rows_of(0.7, method=Method.ZERO_DYNAMICS)).verdict
+        _ = table_of(row, rows_of(0.7, method=StabilityMethod.ZERO_DYNAMICS)).verdict
 
 
 def test_tables_that_cannot_be(published):
@@ -523,7 +523,7 @@ def test_recipe_gait_without_invariance(biped):
     P = ba.ReturnMap(walker, ba.RK4(1e-3))
     orbit, step = periodic_orbit(P, np.concatenate((gait.q_minus, gait.v_minus)))
     table = stability_table(P, step, differences=False)
-    assert [row.method for row in table.rows] == [Method.VARIATIONAL]
+    assert [row.method for row in table.rows] == [StabilityMethod.VARIATIONAL]
     assert table.stable
     assert orbit.stable
     values, vectors = np.linalg.eig(step.jacobian)

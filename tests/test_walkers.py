@@ -14,7 +14,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.errors import InputError, ModelError, SimulationError
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.viz.placement import Scene
+from biped_adrc.viz.placement import WalkScene
 
 METHOD = ba.Adaptive()
 
@@ -154,7 +154,7 @@ def test_a_wheel_is_drawn_on_its_slope() -> None:
     walker = ba.Walker(biped, ba.Passive(), slope=slope, max_step_time=10.0)
     start = np.array([math.pi - slope + math.pi / 8])
     rolled = walk(walker, start, np.array([-2.0]), 3)
-    scene = Scene.of(
+    scene = WalkScene.of(
         type("Recorded", (), {"walker": walker, "trajectory": rolled, "recorded": None})
     )
     along = 2.0 * math.sin(math.pi / 8) * np.arange(3.0)

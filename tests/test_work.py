@@ -51,7 +51,7 @@ def work_and_loss(walker: Walker, x: Array) -> tuple[float, float]:
     """Joint work from the impact at x to the next, and the kinetic energy that one takes [J]."""
     P, n, plant = ReturnMap(walker, TIGHT), walker.plant.n, walker.plant
     start, mode = after_impact(walker, 0.0, x, Mode())
-    end = P.next_strike(Worked(walker), np.append(start, 0.0), mode).x_minus
+    end = P.next_impact(Worked(walker), np.append(start, 0.0), mode).x_minus
     q, v = end[:n], end[n : 2 * n]
     after = plant.impact(q, v)
     return end[-1], plant.kinetic_energy(q, v) - plant.kinetic_energy(after.q, after.v)

@@ -15,7 +15,12 @@ from dataclasses import replace
 import numpy as np
 
 from biped_adrc.analysis.return_map import ReturnMap
-from biped_adrc.analysis.stability import Method, Tolerances, invariance_gap, stability_table
+from biped_adrc.analysis.stability import (
+    StabilityMethod,
+    Tolerances,
+    invariance_gap,
+    stability_table,
+)
 from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
@@ -113,7 +118,7 @@ def robot_rows(robot: str) -> tuple[Row, ...]:
     table = stability_table(cycle.P, step)
     exact, central = (
         next(row for row in table.rows if row.method is method)
-        for method in (Method.VARIATIONAL, Method.CENTRAL)
+        for method in (StabilityMethod.VARIATIONAL, StabilityMethod.CENTRAL)
     )
     one, other = (float(row.magnitudes[0]) for row in (central, exact))
     t, count = table.tolerances, len(exact.multipliers)

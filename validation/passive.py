@@ -104,7 +104,7 @@ def started_at(cycle: Cycle, theta: float, rate: float) -> Cycle:
     unit = math.sqrt(walker.plant.description.gravity)
     q = np.array([-2.0 * theta, math.pi - walker.slope + theta])
     v = np.array([-(1.0 - math.cos(2.0 * theta)) * rate, rate]) * unit
-    strike = cycle.P.next_strike(walker, walker.initial_state(q, v), Mode())
+    strike = cycle.P.next_impact(walker, walker.initial_state(q, v), Mode())
     return replace(cycle, guess=strike.x_minus)
 
 

@@ -1,18 +1,19 @@
 """The certificate of a step: what a real robot on dry ground would have needed for it.
 
-A planar model pinned at its foot cannot slip or lift off, so that is looked up afterwards: F_N and friction
-|F_T| / F_N at every instant and in the mean over a window, the same ratio of the impulses at impact, whether
-the old foot lifts off, scuffing of the swing foot, torque, and the joint work against the energy lost at
-impact. On a periodic gait on level ground these two are equal. Forces are those on the plant, along and across
-its ground. A step is legal within the `Limits`: by the mean of the force, not by an instant, and not by the
-impulse.
+A planar model pinned at its foot cannot slip or lift off, so feasibility is checked afterwards: F_N
+and friction |F_T| / F_N at every instant and in the mean over a window, the same ratio of the
+impulses at impact, whether the old foot lifts off, scuffing of the swing foot, torque, and the
+joint work against the energy lost at impact. On a periodic gait on level ground these two are
+equal. Forces are those on the plant, along and perpendicular to its ground. A step is legal within
+the `Limits`: by the mean of the force, not by an instant, and not by the impulse.
+
+`certificates` and `supports` read the `Signals` of a walk; `legality` sums them up for the walk.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,47 +24,49 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.errors import InputError
 from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.robots.robot_toml import ENDS, ROUND_OFF, KnownLimits, Limits
+from biped_adrc.robots.robot_toml import ENDS, ROUND_OFF, KnownLimits, Limits, completed
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 REASONS = ("normal_force", "friction", "torque", "scuffing")
-"""Why a single support is not legal."""
+"""Why a single support is not legal: keys of `Support.illegal`."""
 
 
 @dataclass(frozen=True)
 class Support(Shown):
-    """One single support, as far as it went. A friction is infinite where the ground never pushed."""
+    """One single support, also an unfinished one. A friction is infinite where the ground never pushed."""
 
     step: int
+    """Number of the single support, from 1."""
     duration: float
     """[s]."""
     least_normal_force: float
     """F_N at any instant [N]."""
     friction: float
-    """Largest |F_T| / F_N of the instants with F_N > 0."""
+    """Largest |F_T| / F_N of the instants with F_N > 0, dimensionless."""
     share_outside: float
-    """Share of the time in which the force is outside the friction cone."""
+    """Share of the time in which the force is outside the friction cone, from 0 to 1."""
     mean_normal_force: float
     """Least F_N averaged over the window [N]."""
     mean_friction: float
-    """Largest |F_T| / F_N of the forces averaged over the window, of those with F_N > 0."""
+    """Largest |F_T| / F_N of the forces averaged over the window, of those with F_N > 0, dimensionless."""
     scuffing: float
     """How deep the swing foot is below the lower of the footholds, away from the ends of the step [m]."""
     peak_torque: float
-    """[N m]."""
+    """Largest |u_i| [N m]."""
     friction_limit: float
-    """mu of the cone that `share_outside` is of."""
+    """mu of the friction cone that `share_outside` refers to."""
     torque_limit: float
-    """[N m]."""
+    """Limit of every motor [N m]."""
     window: float
-    """Of the means [s]."""
+    """Length of the window of the means [s]."""
 
     def illegal(self, limits: Limits | KnownLimits | None = None) -> dict[str, str]:
-        """What is not within the limits, by the names in `REASONS`, in words; empty for a legal step.
+        """What is not within the limits, in words, by the names in `REASONS`; empty for a legal step.
 
-        None takes the limits that this was made with, as an open `Limits` does. Raises InputError for limits
-        with another window.
+        limits: None takes those that this was made with; a None inside `Limits` does so, too.
+        Raises InputError for limits with another window, since the means would have to be computed
+        anew.
         """
         k = self._known(limits)
         over = f"over {1e3 * k.window:g} ms"
@@ -83,6 +86,7 @@ class Support(Shown):
         return found
 
     def _known(self, limits: Limits | KnownLimits | None) -> KnownLimits:
+        """The limits with every number known. Raises InputError for another window."""
         own = KnownLimits(self.friction_limit, self.torque_limit, self.window)
         if limits is None:
             return own
@@ -91,14 +95,10 @@ class Support(Shown):
                 f"the certificate is of forces averaged over {self.window:g} s, the limits ask for "
                 f"{limits.window:g} s; take the certificates anew, with walk.certified(limits)"
             )
-        return KnownLimits(
-            own.friction if limits.friction is None else limits.friction,
-            own.torque if limits.torque is None else limits.torque,
-            own.window,
-        )
+        return completed(limits, own)
 
     def record(self) -> dict[str, float]:
-        """As a dictionary of numbers."""
+        """All fields as a dictionary of numbers."""
         return asdict(self)
 
 
@@ -107,28 +107,31 @@ class Certificate(Support):
     """One single support and the impact that ends it."""
 
     step_length: float
-    """Along the ground [m]."""
+    """Distance of the footholds along the ground [m]."""
     impulse_ratio: float
-    """|F_T| / F_N of the impact; infinite where the ground would have had to pull."""
+    """|F_T| / F_N of the impulses at impact; infinite where the ground would have had to pull."""
     old_foot_velocity: float
-    """Vertical velocity of the old stance foot after impact [m/s]; positive when it lifts off."""
+    """Velocity of the old stance foot after impact, perpendicular to the ground [m/s]; positive when
+    it lifts off.
+    """
     clearance: float
-    """Least height of the swing foot above the ground on which the step ends, over the inner part of the step
-    alone: without its first and last 3 % [m]. Negative when it scuffs."""
+    """Least height [m] of the swing foot above the ground on which the step ends, without the first
+    and last 3 % of the step. Negative when it scuffs.
+    """
     joint_work: float
-    """int u' q_b' dt [J]."""
+    """int u' q_b' dt, the net work of the motors [J]."""
     energy_lost: float
     """Kinetic energy lost at impact [J]."""
     cost_of_transport: float
-    """int |u_i q_i'| dt over m g times step length, summed over motors."""
+    """int |u_i q_i'| dt, summed over motors, over m g times step length; dimensionless."""
 
     def violations(
         self, limits: Limits | KnownLimits | None = None, clearance: bool = True
     ) -> tuple[str, ...]:
-        """What a robot within these limits could not have done; empty when all holds.
+        """What a robot within these limits could not have done, in words; empty when all holds.
 
-        As `illegal`, and that the old foot has to lift off. The impulse ratio is reported without a limit;
-        scuffing counts unless `clearance` is False.
+        As `illegal`, and in addition the old foot has to lift off. The impulse ratio is reported
+        without a limit; scuffing counts unless `clearance` is False.
         """
         illegal = self.illegal(limits)
         found = [text for name, text in illegal.items() if clearance or name != "scuffing"]
@@ -138,14 +141,14 @@ class Certificate(Support):
 
 
 def ratio_text(ratio: float) -> str:
-    """A friction in words."""
+    """A friction ratio as text; "no contact" where it is infinite."""
     return f"{ratio:.3f}" if math.isfinite(ratio) else "no contact"
 
 
 def certificates(
     walker: Walker, trajectory: Trajectory, signals: Signals, limits: Limits | None = None
 ) -> tuple[Certificate, ...]:
-    """One certificate for every single support that ended in an impact; `limits` as in `supports`."""
+    """One certificate for every single support that ended in an impact; None takes the robot's limits."""
     k = (limits or Limits()).of(walker.plant.description)
     return tuple(
         _certificate(walker, signals.of_step(arc.mode.step), arc.event.x_minus, k)
@@ -157,33 +160,57 @@ def certificates(
 def supports(
     walker: Walker, trajectory: Trajectory, signals: Signals, limits: Limits | None = None
 ) -> tuple[Support, ...]:
-    """What every single support needed, the last unfinished one too; without limits, those of the robot."""
+    """What every single support needed, the last unfinished one included; None takes the robot's limits."""
     k = (limits or Limits()).of(walker.plant.description)
     return tuple(
-        support(walker, signals.of_step(arc.mode.step), k, struck(arc)) for arc in trajectory.arcs
+        support(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc))
+        for arc in trajectory.arcs
     )
 
 
 def support(walker: Walker, s: Signals, k: KnownLimits, finished: bool = True) -> Support:
-    """What the single support in s needed; `finished` where it ended in a foot strike."""
-    return Support(**_needs(walker, s, k, finished))
+    """What the single support in s needed; `finished` where it ended in an impact.
+
+    s: the signals of this single support alone; k: the limits, for the window and the friction
+    cone.
+    """
+    F = forces(walker, s)
+    duration = float(s.t[-1] - s.t[0])
+    _, means = window_means(s.t, F, k.window)
+    out = outside(F, k.friction).astype(float)
+    share = float(np.trapezoid(out, s.t)) / duration if duration > 0.0 else float(out[-1])
+    return Support(
+        step=int(s.step[0]),
+        duration=duration,
+        least_normal_force=float(np.min(F[:, 1])),
+        friction=largest_ratio(F),
+        share_outside=share,
+        mean_normal_force=float(np.min(means[:, 1])),
+        mean_friction=largest_ratio(means),
+        scuffing=float(np.max(depths(walker, s, finished))),
+        peak_torque=float(np.max(np.abs(s.u), initial=0.0)),
+        friction_limit=k.friction,
+        torque_limit=k.torque,
+        window=k.window,
+    )
 
 
-def struck(arc: Arc) -> bool:
-    """Whether a single support ended in a foot strike."""
+def ended_in_impact(arc: Arc) -> bool:
+    """Whether a single support ended in an impact of the swing foot."""
     return arc.event is not None and arc.event.guard == FOOT_STRIKE
 
 
 def forces(walker: Walker, s: Signals) -> Array:
-    """(F_T, F_N) (K, 2) along the ground and out of it [N]."""
+    """(F_T, F_N) (K, 2) [N], along the ground and perpendicular to it."""
     return s.ground_reaction @ np.array(ground_axes(walker.slope)).T
 
 
 def depths(walker: Walker, s: Signals, finished: bool) -> Array:
-    """(K,) how far the swing foot is in the ground, 0 near the ends of the step [m].
+    """How far the swing foot is below the ground (K,) [m], 0 near the ends of the step.
 
-    The ground is level with the lower of the two footholds. It counts once the foot has been above it, since
-    it may come from lower ground. Of a step that is not finished the end counts.
+    The ground is taken at the height of the lower of the two footholds. It counts once the foot has
+    been above it, since it may come from lower ground. The end of a step that is not finished
+    counts.
     """
     height = _height(walker, s) + max(walker.drop(int(s.step[0])), 0.0)
     counts = inner(s.t, finished) & np.logical_or.accumulate(height > 0.0)
@@ -191,46 +218,29 @@ def depths(walker: Walker, s: Signals, finished: bool) -> Array:
 
 
 def inner(t: Array, finished: bool = True) -> NDArray[np.bool_]:
-    """(K,) whether a node is away from the ends of the step."""
+    """Whether a node is away from the ends of the step (K,), for the times t (K,) [s].
+
+    The share ENDS of the step is left out at the begin, and at the end where it is finished.
+    """
     since, last = t - t[0], t[-1] - t[0]
     found: NDArray[np.bool_] = since > ENDS * last
     return found & (since < (1.0 - ENDS) * last) if finished else found
 
 
 def _height(walker: Walker, s: Signals) -> Array:
-    """(K,) of the swing foot above the line of the ground through the stance foot, along the vertical [m]."""
+    """Height (K,) [m] of the swing foot above the line of the ground through the stance foot, measured
+    vertically.
+    """
     return s.swing_foot[:, 1] + math.tan(walker.slope) * s.swing_foot[:, 0]
 
 
-def _needs(walker: Walker, s: Signals, k: KnownLimits, finished: bool) -> dict[str, Any]:
-    F = forces(walker, s)
-    duration = float(s.t[-1] - s.t[0])
-    _, means = window_means(s.t, F, k.window)
-    out = outside(F, k.friction).astype(float)
-    share = float(np.trapezoid(out, s.t)) / duration if duration > 0.0 else float(out[-1])
-    return {
-        "step": int(s.step[0]),
-        "duration": duration,
-        "least_normal_force": float(np.min(F[:, 1])),
-        "friction": largest_ratio(F),
-        "share_outside": share,
-        "mean_normal_force": float(np.min(means[:, 1])),
-        "mean_friction": largest_ratio(means),
-        "scuffing": float(np.max(depths(walker, s, finished))),
-        "peak_torque": float(np.max(np.abs(s.u), initial=0.0)),
-        "friction_limit": k.friction,
-        "torque_limit": k.torque,
-        "window": k.window,
-    }
-
-
 def outside(F: Array, mu: float) -> NDArray[np.bool_]:
-    """(K,) whether (F_T, F_N) (K, 2) is outside the friction cone; a force that is no number is."""
+    """Whether (F_T, F_N) (K, 2) [N] is outside the friction cone (K,); a force with NaN is."""
     return ~((F[:, 1] > 0.0) & (np.abs(F[:, 0]) <= (1.0 + ROUND_OFF) * mu * F[:, 1]))
 
 
 def largest_ratio(F: Array) -> float:
-    """Largest |F_T| / F_N of the rows of F (K, 2) with F_N > 0; infinite without any."""
+    """Largest |F_T| / F_N of the rows of F (K, 2) [N] with F_N > 0; infinite if there is none."""
     pushes = F[F[:, 1] > 0.0]
     if len(pushes) == 0:
         return math.inf
@@ -238,6 +248,7 @@ def largest_ratio(F: Array) -> float:
 
 
 def _certificate(walker: Walker, s: Signals, x_minus: Array, k: KnownLimits) -> Certificate:
+    """The certificate of a step that ended in an impact at x- = (q, q', ...)."""
     b, n, p = walker.plant, walker.plant.n, walker.plant.p
     q, v = x_minus[:n], x_minus[n : 2 * n]
     impact = b.impact(q, v)
@@ -248,7 +259,7 @@ def _certificate(walker: Walker, s: Signals, x_minus: Array, k: KnownLimits) -> 
     length = float(b.swing_foot(q)[0]) / math.cos(walker.slope)
     after = b.kinetic_energy(impact.q, impact.v)
     return Certificate(
-        **_needs(walker, s, k, True),
+        **vars(support(walker, s, k)),
         step_length=length,
         impulse_ratio=float(abs(impact.impulse @ along)) / normal if normal > 0.0 else math.inf,
         old_foot_velocity=float(impact.old_foot_velocity @ across),

@@ -1,16 +1,19 @@
 """A walk under a constant horizontal force on the hip, step by step, by quadrature.
 
-F_x [N] at the hip of height z_hip enters the unactuated row, sigma' = -G_N - z_hip F_x. With exact tracking
+How large a constant force stops a gait, if tracking were perfect? F_x [N] at the hip of height
+z_hip enters the unactuated row, sigma' = -G_N - z_hip F_x. With exact tracking
 
     sigma^2 / 2 + V_F = const in a step,   V_F(Theta) = int_{Theta+}^{Theta} (G_N + z_hip F_x) I dTheta
 
-so that, with zeta = sigma-^2 / 2 before an impact and delta = sigma+ / sigma- across it, the step after it is
+so that, with zeta = sigma-^2 / 2 before an impact and delta = sigma+ / sigma- across it, the step
+after it is
 
     zeta  ->  delta^2 zeta - V_F(Theta-),   T = int |I| / sqrt(2 (delta^2 zeta - V_F)) dTheta,
 
-and is finished if delta^2 zeta > max V_F. The force changes no impact: delta is that of the gait. With F_x = 0
-these are the zero dynamics of Westervelt, Grizzle, Koditschek, IEEE TAC 48(1), 2003. Around them the PI of
-`control.stride` sets beta from step to step. No tracking law appears: what stops this walk stops it under any.
+and is finished if delta^2 zeta > max V_F. The force changes no impact: delta is that of the gait.
+With F_x = 0 these are the zero dynamics of Westervelt, Grizzle, Koditschek, IEEE TAC 48(1), 2003.
+Around them the PI of `control.stride` sets beta from step to step. No tracking law appears: what
+stops this walk stops it under any controller that tracks the same constraint.
 """
 
 from __future__ import annotations
@@ -31,35 +34,39 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 
 NODES = 400
-"""Gauss nodes of T; a step that nearly comes to rest needs more of them than V_F does."""
+"""Number of Gauss nodes of T; a step that nearly comes to rest needs more of them than V_F does."""
 LARGEST = 1e3
-"""[N]: where the search for a force that stops a walk gives up."""
+"""Force at which the search for one that stops a walk gives up [N]."""
 RESOLUTION = 1e-3
-"""[N]."""
+"""Accuracy of that search [N]."""
 
 
 class ForcedStep(NamedTuple):
-    """One finished step."""
+    """One finished step: its mean speed, the correction and the energy-like state at its end."""
 
     speed: float
-    """L / T [m/s]."""
+    """Mean speed L / T [m/s]."""
     beta: float
-    """Correction in force during it [rad]."""
+    """Correction of the PI during the step [rad]."""
     zeta: float
     """sigma-^2 / 2 at its end [kg^2 m^4/s^2]."""
 
 
 class ForcedCurve(NamedTuple):
-    """|I|, V_F (NODES,) at Gauss nodes with weights in |Theta|, and V_F(Theta-)."""
+    """The integrand of one step under a force, at Gauss nodes along Theta."""
 
     inertia: Array
+    """|I(Theta)| (NODES,) [kg m^2], with dTheta/dt = sigma / I."""
     potential: Array
+    """V_F(Theta) (NODES,) [kg^2 m^4/s^2]."""
     end: float
+    """V_F(Theta-) [kg^2 m^4/s^2]."""
     weights: Array
+    """Weights of the quadrature in |Theta| (NODES,) [rad]."""
 
     @classmethod
     def of(cls, biped: Biped, h: VirtualConstraint, force: float) -> ForcedCurve:
-        """V_F of one constraint under F_x = force [N]."""
+        """V_F of one virtual constraint under F_x = force [N]."""
         zero = ZeroDynamics.of(biped, h)
         height = np.array([biped.hip(q)[1] for q in zero.q])
         slope = series(zero, (zero.gravity + force * height) * zero.inertia)
@@ -70,7 +77,7 @@ class ForcedCurve(NamedTuple):
         return cls(inertia, V(theta), float(V(h.theta_minus)), abs(span) * w)
 
     def duration(self, begin: float) -> float:
-        """T [s] of the step with sigma+^2 / 2 = begin; infinite where it is not finished."""
+        """T [s] of the step with sigma+^2 / 2 = begin [kg^2 m^4/s^2]; infinite where it is not finished."""
         square = 2.0 * (begin - self.potential)
         if not min(float(np.min(square)), begin - self.end) > 0.0:
             return math.inf
@@ -85,10 +92,11 @@ def forced_walk(
     stride: StridePI | None = None,
     longest: float = 2.0,
 ) -> tuple[ForcedStep, ...]:
-    """The finished steps, at most `steps`, from the orbit of a gait on, under F_x = force [N] from the start.
+    """The finished steps, at most `steps`, from the gait's orbit on, under F_x = force [N] from the start.
 
-    stride: the loop around the steps; its inner law plays no part. longest [s]: a longer step stops the walk.
-    Raises InputError for values that cannot be used, GaitError where the gait has no orbit.
+    stride: the PI from step to step; the controller inside it plays no part. longest [s]: a longer
+    step stops the walk. Raises InputError for values that cannot be used, GaitError where the gait
+    has no periodic orbit.
     """
     _check(gait, force, steps, longest)
     zero = ZeroDynamics.of(biped, gait.constraint)
@@ -111,9 +119,10 @@ def forced_walk(
 
 
 def stopping_force(gait: Gait, biped: Biped, steps: int, stride: StridePI | None = None) -> float:
-    """The smallest rearward force -F_x [N] that stops the walk within `steps`, to RESOLUTION.
+    """The smallest rearward force -F_x [N] that stops the walk within `steps` steps, to RESOLUTION.
 
-    Raises as `forced_walk`, and GaitError where the gait alone or the largest force does not do as expected.
+    Raises as `forced_walk`, and GaitError where the gait fails without a force, or survives the
+    largest.
     """
 
     def walks(force: float) -> bool:
@@ -138,6 +147,7 @@ def stopping_force(gait: Gait, biped: Biped, steps: int, stride: StridePI | None
 
 
 def _check(gait: Gait, force: float, steps: int, longest: float) -> None:
+    """Raise InputError for a force, number of steps or duration that is impossible, and for a slope."""
     if not math.isfinite(force):
         raise InputError(f"the force on the hip is {force} N, expected a finite number")
     if steps < 1:

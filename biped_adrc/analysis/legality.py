@@ -1,11 +1,17 @@
-"""Whether a walk was legal, step by step, and where it first was not."""
+"""Whether a walk was legal, step by step, and where it first was not.
+
+`certificate` says what every single support needed. Here the walk is judged by it: an outcome in
+one word, the reasons in words, and the extreme numbers over all steps (`Legality`). `until_illegal`
+cuts a walk at its first violation, for studies that count legal steps only. `scenario.walk` calls
+both.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,10 +19,10 @@ from biped_adrc.analysis.certificate import (
     Certificate,
     Support,
     depths,
+    ended_in_impact,
     forces,
     largest_ratio,
     outside,
-    struck,
 )
 from biped_adrc.analysis.quadrature import window_means
 from biped_adrc.analysis.signals import Signals
@@ -33,7 +39,7 @@ OUTCOMES = {
     "made": "it made all steps, not all of them legally",
     "legal": "it made all steps legally",
 }
-"""Of a walk, in words."""
+"""Outcome of a walk: word in records, and its meaning in reports."""
 NUMBERS = (
     "share_outside",
     "least_normal_force",
@@ -44,7 +50,7 @@ NUMBERS = (
     "impulse_ratio",
     "peak_torque",
 )
-"""Of `Legality`, in its record."""
+"""Numbers of `Legality` that its record holds."""
 
 
 def outcome_of(status: Status, legal: bool) -> str:
@@ -57,7 +63,11 @@ def outcome_of(status: Status, legal: bool) -> str:
 
 
 def _over_steps(worst: Callable[[list[float]], float], name: str, text: str) -> property:
-    """The least or largest of a number of the single supports: NumPy's, since Python's pass over a NaN."""
+    """A property: the least or largest value of one number over the single supports.
+
+    By NumPy's functions, since a NaN has to show in the result, which Python's `min` and `max` may
+    drop.
+    """
 
     def found(legality: Legality) -> float:
         return float(worst([getattr(s, name) for s in legality.supports]))
@@ -67,17 +77,23 @@ def _over_steps(worst: Callable[[list[float]], float], name: str, text: str) -> 
 
 @dataclass(frozen=True)
 class Legality(Shown):
-    """What the single supports of a walk needed, the last unfinished one too, held against limits."""
+    """What the single supports of a walk needed, the last unfinished one included, compared with limits.
+
+    The numbers below are extremes over all single supports, with the units of `Support`.
+    """
 
     status: Status
+    """How the simulation ended."""
     supports: tuple[Support, ...]
+    """In order, finished ones as certificates."""
     impulse_ratio: float
     """Largest |F_T| / F_N of the impacts, 0 without one; it makes no step illegal."""
     limits: KnownLimits
+    """The limits that `reasons` refers to."""
 
     @property
     def reasons(self) -> dict[str, str]:
-        """Why it is not legal: the first text of each of the names in `REASONS`, with its step."""
+        """Why it is not legal: for each name in `REASONS` the first text, with the number of its step."""
         found: dict[str, str] = {}
         for s in self.supports:
             for name, text in s.illegal().items():
@@ -91,7 +107,7 @@ class Legality(Shown):
 
     @property
     def legal_impacts(self) -> int:
-        """Impacts before the first step that is not legal, at most those made."""
+        """Number of impacts before the first step that is not legal."""
         legal = 0
         for s in self.supports:
             if s.illegal() or not isinstance(s, Certificate):
@@ -110,12 +126,14 @@ class Legality(Shown):
 
     @property
     def share_outside(self) -> float:
-        """Share of the time outside the friction cone."""
+        """Share of the time of the whole walk outside the friction cone, from 0 to 1."""
         time, share = zip(*((s.duration, s.share_outside) for s in self.supports), strict=True)
         return float(np.average(share, weights=time) if any(time) else np.max(share))
 
-    def record(self) -> dict[str, Any]:
-        """All of it as plain values; None where a number is not finite, as a friction without contact is."""
+    def record(self) -> dict[str, object]:
+        """Outcome, numbers and reasons as plain values; None where a number is not finite, such as a
+        friction without contact.
+        """
         numbers = {name: float(getattr(self, name)) for name in NUMBERS}
         return {
             "outcome": self.outcome,
@@ -125,7 +143,7 @@ class Legality(Shown):
         }
 
     def text(self) -> str:
-        """In words, with the reasons."""
+        """The outcome in words, with the reasons and the impulse ratio."""
         words = f"{OUTCOMES[self.outcome]} ({self.outcome})"
         reasons = "; ".join(self.reasons.values())
         ratio = self.impulse_ratio
@@ -135,16 +153,21 @@ class Legality(Shown):
 
 
 class Violation(NamedTuple):
-    """The first in a single support: when [s], and what in words."""
+    """The first violation in a single support."""
 
     t: float
+    """[s]."""
     what: str
+    """In words."""
 
 
 def first_violation(
     walker: Walker, s: Signals, k: KnownLimits, finished: bool = True
 ) -> Violation | None:
-    """The first node, or end of a window of the mean force, at which a single support is illegal."""
+    """The first node, or end of a window of the mean force, at which a single support is illegal; or None.
+
+    s: the signals of this single support alone; finished: whether it ended in an impact.
+    """
     ends, means = window_means(s.t, forces(walker, s), k.window)
     found: list[Violation] = []
     bad = np.flatnonzero(outside(means, k.friction))
@@ -162,6 +185,7 @@ def first_violation(
 
 
 def _first(t: Array, x: Array, limit: float, text: str) -> list[Violation]:
+    """The first time t (K,) [s] at which x (K,) is above its limit or NaN, with its text; empty or one."""
     beyond = np.flatnonzero(~(x <= limit))
     return [Violation(float(t[i]), text.format(x[i])) for i in beyond[:1]]
 
@@ -171,11 +195,12 @@ def until_illegal(
 ) -> Trajectory:
     """The trajectory up to its first violation, with the status ILLEGAL; itself where there is none.
 
-    What was before it is as it was; the arc ends at the last node that is not after the violation.
+    Everything before the violation is unchanged; the arc ends at the last node that is not after
+    it.
     """
     k = (limits or Limits()).of(walker.plant.description)
     for number, arc in enumerate(trajectory.arcs):
-        found = first_violation(walker, signals.of_step(arc.mode.step), k, struck(arc))
+        found = first_violation(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc))
         if found is None:
             continue
         kept = max(1, int(np.searchsorted(arc.t, found.t, side="right")))

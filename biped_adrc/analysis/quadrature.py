@@ -1,4 +1,9 @@
-"""Integrals, peaks and means over a window, from the nodes of a walk, piece by piece between jumps."""
+"""Integrals, peaks and means over a window, from the stored nodes of a walk.
+
+Nodes are unevenly spaced, and a repeated time marks a jump, at an impact or a sample instant: the
+signal has a left and a right value there. So the functions work piece by piece between jumps.
+`signals`, `certificate` and the metrics of a scenario use them.
+"""
 
 from __future__ import annotations
 
@@ -12,10 +17,11 @@ from biped_adrc.types import Array
 
 
 def integrate(t: Array, y: Array) -> float:
-    """Integral of y (K,) over t (K,); a repeated time separates smooth pieces.
+    """Integral of y (K,) over t (K,) [s]; a repeated time separates smooth pieces.
 
-    Cubic splines, of order 4 in the distance of the nodes; the trapezoidal rule where a piece has fewer
-    than four nodes. Infinite where y is not finite, as in a walk that diverges.
+    Cubic splines, of order 4 in the distance of the nodes; the trapezoidal rule where a piece has
+    fewer than four nodes. Infinite where y is not finite, as in a walk that diverges. The result
+    has the unit of y times [s].
     """
     if not np.all(np.isfinite(y)):
         return math.inf
@@ -30,11 +36,11 @@ def integrate(t: Array, y: Array) -> float:
 
 
 def largest(t: Array, y: Array, dy: Array) -> float:
-    """max |y| over [t_0, t_K] for y (K, p) with slopes dy (K, p): at the nodes and between them.
+    """max |y| over [t_0, t_K] [s] for y (K, p) with slopes dy (K, p): at the nodes and between them.
 
-    Between two nodes y is the cubic through both with their slopes, which has the order of the method's steps;
-    its extrema are where its derivative a s^2 + b s + c is zero. A repeated time is a jump: both sides count.
-    Infinite where y is not finite.
+    Between two nodes y is the cubic through both with their slopes, which has the order of the
+    integration method; its extrema are where its derivative a s^2 + b s + c is zero, s from 0 to 1.
+    A repeated time is a jump: both sides count. Infinite where y is not finite.
     """
     if not (np.all(np.isfinite(y)) and np.all(np.isfinite(dy))):
         return math.inf
@@ -55,11 +61,12 @@ def largest(t: Array, y: Array, dy: Array) -> float:
 
 
 def window_means(t: Array, y: Array, window: float) -> tuple[Array, Array]:
-    """Means of y (K, m) over [s - window, s] within t (K,): the ends s in order (M,), and the means (M, m).
+    """Means of y (K, m) over windows [s - window, s] [s] within t (K,): the ends s in order (M,), and
+    the means (M, m).
 
-    y is taken as linear between nodes; a repeated time is a jump with both its sides. The windows are those
-    that begin or end at a node; the mean of one between them may be more extreme by what y changes from node to
-    node. What is shorter than the window is averaged as a whole.
+    y is taken as linear between nodes; a repeated time is a jump with both its sides. Only windows
+    that begin or end at a node are taken; the mean over one between them may be more extreme by
+    what y changes from node to node. A walk shorter than the window is averaged as a whole.
     """
     duration = t[-1] - t[0]
     if duration <= 0.0:
@@ -71,7 +78,7 @@ def window_means(t: Array, y: Array, window: float) -> tuple[Array, Array]:
 
 
 def integral(t: Array, y: Array, s: Array) -> Array:
-    """The integral of y (K, m), linear between nodes, from t[0] to each of the times s (M,): (M, m)."""
+    """Integral of y (K, m), linear between nodes, from t[0] to each of the times s (M,) [s]: (M, m)."""
     h = np.diff(t)
     whole = cumulative_trapezoid(y, t, axis=0, initial=0.0)
     i = np.clip(np.searchsorted(t, s, side="right") - 1, 0, len(t) - 2)

@@ -2,9 +2,11 @@
 
     x-(k + 1) - x* = Phi (x-(k) - x*)
 
-Ten states are regressed on a section of nine dimensions, and a walk that converges along one direction
-excites one direction: Phi is not determined by such data. So rank and condition are returned with the
-eigenvalues, and the text says what they are worth.
+x-(k) is the state before impact k of one walk. Ten states are regressed on a section of nine
+dimensions, and a walk that converges along one direction excites one direction: Phi is not
+determined by such data. So rank and condition number are returned with the eigenvalues, and
+`warning` says what they are worth. `stability.regression_row` puts it beside the methods that can
+be trusted.
 """
 
 from __future__ import annotations
@@ -20,17 +22,22 @@ from biped_adrc.types import Array
 
 @dataclass(frozen=True)
 class Regression(Shown):
-    """Phi (n, n), |eigenvalues| sorted, and what the data can bear."""
+    """Phi of (27), its eigenvalues, and how well the data determine it."""
 
     Phi: Array
+    """(n, n), mixed units of the states."""
     magnitudes: Array
+    """|eigenvalues| (n,), the largest first."""
     rank: int
+    """Number of directions that the samples span."""
     condition: float
+    """Condition number of the samples; infinite if they do not span all directions."""
     samples: int
+    """Number of states before impact."""
 
     @property
     def warning(self) -> str:
-        """Empty when the data determine Phi."""
+        """Why Phi is not to be trusted, in words; empty when the data determine it."""
         n = self.Phi.shape[0]
         if self.rank >= n and self.condition < 1e8:
             return ""
@@ -42,10 +49,10 @@ class Regression(Shown):
 
 
 def regress_multipliers(x_minus: Array, x_star: Array, tolerance: float = 1e-8) -> Regression:
-    """(27) from states before impact (k, n) and the fixed point (n,).
+    """(27) from states before impact (k, n) [rad, rad/s] and the fixed point (n,).
 
-    `tolerance` is the relative size below which a direction does not count for the rank.
-    Raises InputError for fewer than three samples.
+    `tolerance` is the relative size below which a direction does not count for the rank. Raises
+    InputError for fewer than three samples.
     """
     if x_minus.ndim != 2 or x_minus.shape[0] < 3:
         raise InputError(f"found samples of shape {x_minus.shape}, expected (k, n) with k >= 3")

@@ -2,10 +2,14 @@
 
     P: x-(k) -> x-(k + 1),   P(x*) = x*
 
-On the section the swing foot is on the ground, so the ten numbers of (q, q') have nine degrees of freedom.
-Section coordinates drop q_N, which the height of the swing foot gives back. The controller's states
-are coordinates too: without them the map of a closed loop with an observer is that of another system,
-except when the reset at impact forgets them.
+P takes a state just before impact through the impact and one single support to the next impact. On
+the section the swing foot is on the ground, so the ten numbers of (q, q') of RABBIT have nine
+degrees of freedom. Section coordinates s drop q_N, which the height of the swing foot gives back.
+The controller's states are coordinates too: without them the map of a closed loop with an observer
+is that of another system, except when the reset at impact forgets them.
+
+P runs in compiled code, several points in parallel, or step by step with Pinocchio where a part of
+the walker cannot be compiled. dP/ds is by differences here; `variational` has it without.
 """
 
 from __future__ import annotations
@@ -14,7 +18,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import tan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -36,8 +40,10 @@ if TYPE_CHECKING:
 
 _CHORD = 0.1  # the residual must fall by this factor with the old dP/ds, else it is taken anew
 
-Mapper = Callable[[Callable[[Any], Array], Iterable[Any]], Iterable[Array]]
-"""Like `map`; a parallel one evaluates the differences at once."""
+AfterImpact = tuple[Array, Mode]
+"""State (2 n + c,) [rad, rad/s] just after an impact, and its mode."""
+Mapper = Callable[[Callable[[AfterImpact], Array], Iterable[AfterImpact]], Iterable[Array]]
+"""A function like `map`; a parallel one evaluates the differences of dP/ds at once."""
 
 
 @dataclass(frozen=True)
@@ -45,12 +51,13 @@ class PeriodicOrbit(Shown):
     """A fixed point of the return map."""
 
     x_minus: Array
-    """State before impact [rad, rad/s, controller states]."""
+    """State before impact (2 n + c,): q [rad], q' [rad/s], then the c states of the controller."""
     multipliers: ComplexArray
-    """Eigenvalues of dP/ds, the largest magnitude first."""
+    """Eigenvalues of dP/ds, the largest magnitude first; dimensionless."""
     residual: float
-    """max |P(s) - s|."""
+    """max |P(s) - s| [rad, rad/s]."""
     iterations: int
+    """Steps of Newton's method."""
 
     @property
     def stable(self) -> bool:
@@ -60,19 +67,23 @@ class PeriodicOrbit(Shown):
 
 @dataclass(frozen=True)
 class ReturnMap(Shown):
-    """P in section coordinates s for a walker and a method.
+    """The map P in section coordinates s, for a walker and an integration method.
 
-    controller_states: keep the controller's states as coordinates; False starts the controller anew at
-    each passage. difference: half width of the central differences [rad, rad/s]. pitch: where the search for
-    q_N starts [rad]. engine: "compiled", or "pinocchio", which also steps in where a part has no compiled form.
+    Raises InputError for a walker with noise or a meter, whose state never returns.
     """
 
     walker: Walker
+    """The closed loop."""
     method: OneStepMethod
+    """Integration method of the flow."""
     controller_states: bool = True
+    """Keep the controller's states as coordinates; False starts the controller anew at each passage."""
     difference: float = 1e-5
+    """Half width of the central differences [rad, rad/s]."""
     pitch: float = 0.0
+    """Where the search for q_N starts [rad]."""
     engine: str = COMPILED
+    """Either "compiled" or "pinocchio", which also replaces it where a part has no compiled form."""
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -87,15 +98,20 @@ class ReturnMap(Shown):
 
     @property
     def _dropped(self) -> int:
+        """Index of q_N in the state."""
         return self.walker.plant.n - 1
 
     def project(self, x: Array) -> Array:
-        """Section coordinates of a pre-impact state."""
+        """Section coordinates s (2 n - 1 + c,) of a state x before impact (2 n + c,) [rad, rad/s]."""
         end = len(x) if self.controller_states else 2 * self.walker.plant.n
         return np.delete(x[:end], self._dropped)
 
     def lift(self, s: Array) -> Array:
-        """The pre-impact state of section coordinates: q_N puts the swing foot on the ground."""
+        """The state before impact (2 n + c,) of section coordinates s (2 n - 1 + c,) [rad, rad/s].
+
+        q_N is found by Newton's method, such that the swing foot is on the ground. Raises
+        SimulationError where no pitch does that.
+        """
         x = np.insert(s, self._dropped, self.pitch)
         plant, n = self.walker.plant, self.walker.plant.n
         for _ in range(50):
@@ -111,15 +127,20 @@ class ReturnMap(Shown):
         return x
 
     def __call__(self, s: Array) -> Array:
-        """P(s). Raises SimulationError, with the status, when the walker does not come back."""
+        """P(s) (2 n - 1 + c,) [rad, rad/s].
+
+        Raises SimulationError, with the status, when the walker does not come back.
+        """
         return self.images([s])[0]
 
     def images(self, points: Sequence[Array], mapper: Mapper = map) -> list[Array]:
-        """P of several points, in parallel threads where it is compiled, by `mapper` otherwise. Raises as P."""
+        """P of several points s (2 n - 1 + c,) [rad, rad/s], in parallel threads where it is compiled,
+        by `mapper` otherwise. Raises as P.
+        """
         starts = [after_impact(self.walker, 0.0, self.lift(s), Mode()) for s in points]
         compiled = self._compiled(len(starts[0][0]))
         if compiled is None:
-            strikes = mapper(lambda start: self.next_strike(self.walker, *start).x_minus, starts)
+            strikes = mapper(lambda start: self.next_impact(self.walker, *start).x_minus, starts)
             return [self.project(x) for x in strikes]
         made = compiled(starts)
         for walked in made:
@@ -136,6 +157,7 @@ class ReturnMap(Shown):
         )
 
     def _compiled(self, states: int) -> Strides | None:
+        """The compiled map for walkers with `states` numbers, or None where there is no compiled form."""
         if self.engine != COMPILED:
             return None
         from biped_adrc.engine.batch import Strides
@@ -149,8 +171,8 @@ class ReturnMap(Shown):
             return None
         return Strides(walker, 2.0 * self.walker.max_step_time)
 
-    def next_strike(self, system: HybridSystem, x: Array, mode: Mode) -> Event:
-        """The next foot strike of the walker, or of a system that carries it along, from x after impact.
+    def next_impact(self, system: HybridSystem, x: Array, mode: Mode) -> Event:
+        """The next impact of the walker, or of a system that carries it along, from x (2 n + c,) after impact.
 
         Raises SimulationError, with the status, when there is none.
         """
@@ -161,7 +183,7 @@ class ReturnMap(Shown):
         return run.events(FOOT_STRIKE)[-1]
 
     def jacobian(self, s: Array, mapper: Mapper = map) -> Array:
-        """dP/ds by central differences."""
+        """dP/ds (2 n - 1 + c, 2 n - 1 + c) by central differences of width `difference` [rad, rad/s]."""
         d = self.difference
         points = [s + sign * d * e for e in np.eye(len(s)) for sign in (1.0, -1.0)]
         images = self.images(points, mapper)
@@ -174,10 +196,12 @@ class ReturnMap(Shown):
         max_iterations: int = 12,
         mapper: Mapper = map,
     ) -> PeriodicOrbit:
-        """Newton on P(s) - s from a pre-impact state `guess`; dP/ds is kept while it serves.
+        """Newton's method on P(s) - s from a state before impact `guess` (2 n + c,) [rad, rad/s].
 
-        Raises SimulationError when it does not converge or the walker does not come back, SingularError
-        when a multiplier is 1.
+        dP/ds is kept from iteration to iteration while the residual falls fast enough, since it
+        costs 2 returns per coordinate; it is taken anew at the fixed point. Raises SimulationError
+        when the iteration does not converge or the walker does not come back, SingularError when a
+        multiplier is 1.
         """
         s = self.project(np.asarray(guess, dtype=float))
         J, s_J, previous = self.jacobian(s, mapper), s, np.inf
@@ -195,11 +219,15 @@ class ReturnMap(Shown):
 
 
 def _no_return(status: Status, detail: str) -> SimulationError:
+    """The error of a walk that ended before the next impact."""
     return SimulationError(f"no return to the section: {status.name}, {status.value} {detail}")
 
 
 def after_impact(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array, Mode]:
-    """x+ and its mode after the impact at x-. Raises SimulationError where it is none."""
+    """State x+ and its mode after the impact at x (2 n + c,) [rad, rad/s], t [s].
+
+    Raises SimulationError where the swing foot is behind the stance foot.
+    """
     struck = walker.strike(t, x, mode)
     if struck is None:
         raise SimulationError("the swing foot is behind the stance foot: not an impact")
@@ -207,18 +235,21 @@ def after_impact(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array,
 
 
 def newton_step(J: Array, gap: Array) -> Array:
-    """ds with (1 - J) ds = P(s) - s. Raises SingularError when 1 is a multiplier."""
+    """ds (k,) with (1 - J) ds = P(s) - s, for J (k, k) and the gap (k,) [rad, rad/s].
+
+    Raises SingularError when 1 is a multiplier.
+    """
     return solve(np.eye(len(gap)) - J, gap, "1 - dP/ds, by which Newton looks for the cycle,")
 
 
 def sorted_eigenvalues(matrix: Array) -> ComplexArray:
-    """Eigenvalues, the largest magnitude first."""
+    """Eigenvalues (k,) of a matrix (k, k), the largest magnitude first."""
     values = np.linalg.eigvals(matrix).astype(complex)
     return values[np.argsort(-np.abs(values))]
 
 
 def not_converged(iterations: int, residual: float, tolerance: float) -> SimulationError:
-    """What Newton says when it gives up."""
+    """The error of Newton's method when it gives up."""
     return SimulationError(
         f"Newton on the return map did not converge in {iterations} iterations: "
         f"residual {residual:.3g}, expected below {tolerance:g}; start nearer to the orbit"

@@ -1,6 +1,9 @@
-"""Everything that can be read off a walk afterwards: references, errors, torques, estimates, forces.
+"""All signals of a walk: references, errors, torques, estimates, energies, contact forces.
 
-Controllers have no hidden state, so the signals are computed again from the stored states.
+A trajectory stores states only. Controllers have no hidden state, so every other signal is computed
+again from the stored states, at the stored nodes, by the same closed loop (`closed_loop.system`)
+that made them; compiled where the walk was. Plots, metrics, certificates and exports read
+`Signals`.
 """
 
 from __future__ import annotations
@@ -21,17 +24,19 @@ from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 LONG = 2000
-"""Nodes from which on compiling pays off."""
+"""Number of nodes from which on compiling is faster than NumPy."""
 
 
 @dataclass(frozen=True)
 class Signals(Shown):
-    """Rows are the stored nodes (K,); impacts and ticks repeat their time, before and after."""
+    """All signals of a walk; rows are the K stored nodes. Impacts and sample instants repeat their
+    time, with the values before and after.
+    """
 
     t: Array
     """(K,) [s]."""
     step: Array
-    """(K,) single support, from 1."""
+    """Number of the single support (K,), from 1."""
     q: Array
     """(K, n) [rad]."""
     v: Array
@@ -43,9 +48,9 @@ class Signals(Shown):
     dtheta: Array
     """(K,) Theta' [rad/s]."""
     q_d: Array
-    """(K, p) references [rad]."""
+    """References of the actuated joints (K, p) [rad]."""
     dq_d: Array
-    """(K, p) [rad/s]."""
+    """Their rates (K, p) [rad/s]."""
     error: Array
     """(K, p) q_b - q_d [rad]."""
     u: Array
@@ -62,7 +67,7 @@ class Signals(Shown):
     xi_matched: Array
     """(K, p) kappa xi~_b, the matched part of it, with xi~ of (11): what a motor could cancel [rad/s^2]."""
     xi_nominal: Array
-    """(K, p) (14) without xi~: the part of xi the nominal model knows [rad/s^2]."""
+    """(K, p) (14) without xi~: the part of xi that the nominal model knows [rad/s^2]."""
     zeta_estimate: Array
     """(K, p) kappa^-1 (xi^ - xi_nominal): the joint torque the estimate amounts to beyond the nominal
     model [N m]; NaN without an observer."""
@@ -87,12 +92,12 @@ class Signals(Shown):
 
     @property
     def xi_unmatched(self) -> Array:
-        """(K, p) the rest of `xi_external`: what comes through the unactuated row of (12) [rad/s^2]."""
+        """(K, p) the rest of `xi_external`: it enters through the unactuated row of (12) [rad/s^2]."""
         return self.xi_external - self.xi_matched
 
     @property
     def peak_error(self) -> float:
-        """max |q_b - q_d| [rad], between the nodes too."""
+        """max |q_b - q_d| [rad], also between the nodes."""
         return largest(self.t, self.error, self.v[:, : self.error.shape[1]] - self.dq_d)
 
     def of_step(self, step: int) -> Signals:
@@ -102,10 +107,10 @@ class Signals(Shown):
 
 
 def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Signals:
-    """Compute the signals of a walk; `reference` gives q_d (the controller's own, usually).
+    """The signals of a walk; `reference` gives q_d (usually the controller's own).
 
-    Where outer loops correct the reference, q_d is the corrected one. Of a compiled run, and of a long one,
-    they are computed in compiled code where that can be had.
+    Where outer loops correct the reference, q_d is the corrected one. For a compiled run, and for a
+    long one, they are computed in compiled code where that is possible.
     """
     nodes = sum(len(arc.t) for arc in trajectory.arcs)
     if trajectory.settings.get("engine") == "compiled" or nodes >= LONG:
@@ -118,7 +123,7 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
 
 
 def readings(walker: Walker, trajectory: Trajectory, reference: Reference) -> Reading:
-    """At all nodes of a walk, in NumPy."""
+    """What is read off the closed loop at all nodes of a walk, in NumPy; arrays (K, ...)."""
 
     def tracked(s: Array, m: Measurement) -> ReferencePoint:
         law = walker.law
@@ -134,7 +139,7 @@ def readings(walker: Walker, trajectory: Trajectory, reference: Reference) -> Re
 
 
 def signals_of(walker: Walker, trajectory: Trajectory, r: Reading) -> Signals:
-    """The signals from what is read off at the nodes."""
+    """The signals from the readings at the nodes: adds what follows from the states and the footholds."""
     arcs, n, p = trajectory.arcs, walker.plant.n, walker.plant.p
     x = np.vstack([arc.x for arc in arcs])
     q, v = x[:, :n], x[:, n : 2 * n]
@@ -159,7 +164,7 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: Reading) -> Signals:
 
 
 def _footholds(walker: Walker, arcs: Sequence[Arc]) -> Iterator[tuple[Arc, Array]]:
-    """Arcs, and where the stance foot is in the world during each (2,) [m]."""
+    """Every arc with the place (x, z) of its stance foot in the world (2,) [m]."""
     foot = np.zeros(2)
     for arc in arcs:
         yield arc, foot

@@ -1,4 +1,4 @@
-"""The multipliers of one walking cycle by every method beside each other, and which of them to trust.
+"""The multipliers of one walking cycle by every method side by side, and which of them to trust.
 
     variational             eigenvalues of dP/ds by the variational equation, no differences
     central differences     eigenvalues of dP/ds by differences of the return map at two widths d and d / 2,
@@ -7,8 +7,9 @@
                             where the constraint is hybrid invariant and tracked exactly
     regression              (26), (27) of the paper, on samples of a walk
 
-Two sets of multipliers are compared one to one, in the pairing that makes the sum of their distances, in units
-of the tolerance, least.
+The methods find dP/ds in independent ways, so their agreement is evidence. A method that doubts its
+own result says why (`MethodRow.doubt`). Two sets of multipliers are compared one to one, in the
+pairing that makes the sum of their distances, in units of the tolerance, least.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray
 
 
-class Method(Enum):
+class StabilityMethod(Enum):
     """How multipliers were found; the values are the names in the table."""
 
     VARIATIONAL = "variational equation"
@@ -44,25 +45,25 @@ class Method(Enum):
 
 @dataclass(frozen=True)
 class Tolerances(Shown):
-    """Two multipliers agree within `relative` of the larger one or within `absolute`.
-
-    flow: the largest StepDerivative.flow_residual with which the variational equation is trusted.
-    invariance: the largest gap of `invariance_gap` with which a constraint counts as hybrid invariant
-    [rad, rad/s]. cycle: the largest |P(s) - s| of a step whose eigenvalues count as multipliers [rad, rad/s].
-    """
+    """Two multipliers agree within `relative` of the larger one or within `absolute`; dimensionless."""
 
     relative: float = 1e-6
     absolute: float = 1e-7
     flow: float = 1e-5
+    """The largest `StepDerivative.flow_residual` with which the variational equation is trusted."""
     invariance: float = 1e-6
+    """The largest `invariance_gap` with which a constraint counts as hybrid invariant [rad, rad/s]."""
     cycle: float = 1e-8
+    """The largest |P(s) - s| of a step whose eigenvalues count as multipliers [rad, rad/s]."""
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
             check_positive(value, f"tolerance '{name}' is {value}")
 
     def distance(self, one: ComplexArray, other: ComplexArray) -> Array:
-        """|one_i - other_j| in units of what is allowed (len(one), len(other)); at most 1 where they agree."""
+        """|one_i - other_j| (k, l) in units of what is allowed, for k and l multipliers; at most 1
+        where they agree.
+        """
         a, b = one[:, np.newaxis], other[np.newaxis]
         allowed = np.maximum(self.absolute, self.relative * np.maximum(np.abs(a), np.abs(b)))
         return np.abs(a - b) / allowed
@@ -70,27 +71,32 @@ class Tolerances(Shown):
 
 @dataclass(frozen=True)
 class MethodRow(Shown):
-    """Multipliers by one method, the largest magnitude first.
+    """Multipliers by one method."""
 
-    uncertainty: how far the method itself says that each may be off (central differences: what the
-    extrapolation changes), 0 where it says nothing. doubt: why the method is not to be trusted; empty
-    when it is.
-    """
-
-    method: Method
+    method: StabilityMethod
+    """How they were found."""
     multipliers: ComplexArray
+    """(k,), the largest magnitude first."""
     uncertainty: float = 0.0
+    """How far the method itself says that each may be off (central differences: what the extrapolation
+    changes); 0 where it says nothing.
+    """
     doubt: str = ""
+    """Why the method is not to be trusted; empty when it is."""
 
     @property
     def magnitudes(self) -> Array:
-        """|lambda|, the largest first."""
+        """|lambda| (k,), the largest first."""
         return np.abs(self.multipliers)
 
 
 @dataclass(frozen=True)
 class StabilityTable(Shown):
-    """Rows by method; `verdict` says whether they agree within `tolerances` and which to trust."""
+    """One row per method; `verdict` says whether they agree within `tolerances` and which to trust.
+
+    Raises InputError without rows, for two rows of one method, and for multipliers that are not
+    finite.
+    """
 
     rows: tuple[MethodRow, ...]
     tolerances: Tolerances
@@ -110,10 +116,10 @@ class StabilityTable(Shown):
     def trusted(self) -> MethodRow:
         """The variational equation, or central differences where that is in doubt.
 
-        delta^2 is one multiplier of all, and the regression none of them for certain. Raises InputError
-        when no row is left.
+        delta^2 is only one of the multipliers, and the regression gives none of them for certain.
+        Raises InputError when no row is left.
         """
-        for method in (Method.VARIATIONAL, Method.CENTRAL):
+        for method in (StabilityMethod.VARIATIONAL, StabilityMethod.CENTRAL):
             for row in self.rows:
                 if row.method is method and not row.doubt:
                     return row
@@ -144,7 +150,7 @@ class StabilityTable(Shown):
         multipliers.
         """
         ratio = self.tolerances.distance(row.multipliers, self.trusted.multipliers)
-        if row.method is Method.ZERO_DYNAMICS:
+        if row.method is StabilityMethod.ZERO_DYNAMICS:
             return float(np.min(ratio))
         if ratio.shape[0] != ratio.shape[1]:
             return float("inf")
@@ -161,6 +167,7 @@ class StabilityTable(Shown):
         return " ".join(said)
 
     def _sentence(self, row: MethodRow) -> str:
+        """What one row says relative to the trusted one."""
         name = row.method.value[:1].upper() + row.method.value[1:]
         if row.doubt:
             return f"{name}: not to be trusted, {row.doubt}."
@@ -178,9 +185,9 @@ class StabilityTable(Shown):
 
     def _limit(self, row: MethodRow) -> str:
         """What a disagreement comes from, as far as the rows say."""
-        if row.method is Method.ZERO_DYNAMICS:
+        if row.method is StabilityMethod.ZERO_DYNAMICS:
             return "; the closed loop does not keep to the zero dynamics, or the step is too long"
-        if row.method is not Method.CENTRAL or row.uncertainty == 0.0:
+        if row.method is not StabilityMethod.CENTRAL or row.uncertainty == 0.0:
             return ""
         distance = _farthest(np.abs(row.multipliers[:, np.newaxis] - self.trusted.multipliers))
         if distance <= 2.0 * row.uncertainty:
@@ -203,44 +210,48 @@ class StabilityTable(Shown):
 
 
 def _farthest(cost: Array) -> float:
-    """The largest cost in the pairing of least total cost."""
+    """The largest entry of `cost` (k, k) in the pairing of least total cost."""
     return float(np.max(cost[linear_sum_assignment(cost)]))
 
 
 # -- rows ------------------------------------------------------------------------------------------
 def variational_row(step: StepDerivative, tolerances: Tolerances) -> MethodRow:
-    """Doubted when Phi does not carry the flow along, see StepDerivative.flow_residual."""
+    """The row of the variational equation.
+
+    Doubted when Phi does not carry the flow along, see `StepDerivative.flow_residual`.
+    """
     doubt = ""
     if not step.flow_residual <= tolerances.flow:
         doubt = (
             f"its Phi carries the flow along to {step.flow_residual:.1e} only, expected "
             f"{tolerances.flow:g}: take a shorter step, or look whether the flow depends on time"
         )
-    return MethodRow(Method.VARIATIONAL, step.multipliers, doubt=doubt)
+    return MethodRow(StabilityMethod.VARIATIONAL, step.multipliers, doubt=doubt)
 
 
 def central_row(P: ReturnMap, s: Array) -> MethodRow:
-    """Central differences at s with P.difference and half of it, extrapolated.
+    """Central differences at s (k,) [rad, rad/s] with P.difference and half of it, extrapolated.
 
-    The uncertainty is the distance to the half's own, which shows the error d^2 as well as round-off.
+    The uncertainty is the distance to the half's own multipliers, which shows the error d^2 as well
+    as round-off.
     """
     wide, narrow = P.jacobian(s), replace(P, difference=0.5 * P.difference).jacobian(s)
     best, half = sorted_eigenvalues((4.0 * narrow - wide) / 3.0), sorted_eigenvalues(narrow)
-    return MethodRow(Method.CENTRAL, best, _farthest(np.abs(best[:, np.newaxis] - half)))
+    return MethodRow(StabilityMethod.CENTRAL, best, _farthest(np.abs(best[:, np.newaxis] - half)))
 
 
 def regression_row(regression: Regression) -> MethodRow:
-    """Doubted when the data do not determine Phi, see Regression.warning."""
+    """The row of the regression. Doubted when the data do not determine Phi, see `Regression.warning`."""
     values = sorted_eigenvalues(regression.Phi)
-    return MethodRow(Method.REGRESSION, values, doubt=regression.warning)
+    return MethodRow(StabilityMethod.REGRESSION, values, doubt=regression.warning)
 
 
 def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> MethodRow | None:
-    """delta^2, or None where it is no multiplier of the closed loop.
+    """The row delta^2, or None where it is no multiplier of this closed loop.
 
-    It is one under NPD with the loop through Theta'' solved, in continuous time on even ground, without torque
-    limit, friction, disturbance or model error, on a constraint that ends on the ground and that the impact
-    does not leave.
+    It is one under NPD with the loop through Theta'' solved, in continuous time on even ground,
+    without torque limit, friction, disturbance or model error, on a constraint that ends on the
+    ground and that the impact does not leave.
     """
     law, h = walker.controller, getattr(walker.controller, "reference", None)
     if type(law) is not NPDController or type(h) is not VirtualConstraint or not law.solve_theta:
@@ -257,12 +268,15 @@ def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> MethodRow | Non
     if abs(walker.clearance(zero.end_state(1.0)[0])) > tolerances.invariance:
         return None
     delta = zero.delta
-    return MethodRow(Method.ZERO_DYNAMICS, np.array([delta**2], dtype=complex))
+    return MethodRow(StabilityMethod.ZERO_DYNAMICS, np.array([delta**2], dtype=complex))
 
 
 def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
-    """How far the impact at the end of the constraint leaves it: the larger of max |q_b+ - h(Theta+)| [rad]
-    and max |q_b'+ - h' Theta'+| [rad/s] at |Theta'-| = 1 rad/s. Zero for a hybrid invariant one."""
+    """How far the impact at the end of the constraint leaves it; zero for a hybrid invariant one.
+
+    The larger of max |q_b+ - h(Theta+)| [rad] and max |q_b'+ - h' Theta'+| [rad/s] at |Theta'-| = 1
+    rad/s.
+    """
     zero = ZeroDynamics.of(biped, constraint)
     q, v = zero.end_state(1.0)
     c, p = constraint.phase, biped.p
@@ -283,7 +297,8 @@ def stability_table(
     """The table at the fixed point of `step`, as `variational.periodic_orbit` finds it.
 
     differences: also take central differences of P, which cost 4 returns per coordinate. Raises
-    InputError when |P(s) - s| of the step is above `tolerances.cycle`: its eigenvalues are then no multipliers.
+    InputError when |P(s) - s| of the step is above `tolerances.cycle`: its eigenvalues are then no
+    multipliers.
     """
     t = Tolerances() if tolerances is None else tolerances
     gap = float(np.max(np.abs(step.image - step.s)))

@@ -1,8 +1,10 @@
-"""What a number of walks says: shares, medians, pairs of walks with the same seed, and tests of both.
+"""Statistics over many walks: shares, medians, pairs of walks with the same seed, and tests of both.
 
-Shares have Wilson's interval (J. Am. Stat. Assoc. 22, 1927), medians the percentile bootstrap (Efron, 1979)
-with a fixed seed. Tests are exact: the sign test, McNemar's (Psychometrika 12, 1947) for shares of the same
-seeds, and Holm's correction (Scand. J. Statistics 6, 1979) over all that is asked in one family.
+Shares have Wilson's interval (J. Am. Stat. Assoc. 22, 1927), medians the percentile bootstrap
+(Efron, 1979) with a fixed seed. Tests are exact: the sign test, McNemar's (Psychometrika 12, 1947)
+for shares of the same seeds, and Holm's correction (Scand. J. Statistics 6, 1979) over all that is
+asked in one family. Comparisons of controllers pair the walks by seed, because one disturbance may
+be harder than another for all of them. The comparison study in `bench` calls this module.
 """
 
 from __future__ import annotations
@@ -15,7 +17,9 @@ import numpy as np
 from scipy import stats
 
 CONFIDENCE = 0.95
+"""Of every interval."""
 RESAMPLES = 2000
+"""Number of bootstrap samples of a median."""
 
 
 class Interval(NamedTuple):
@@ -30,18 +34,21 @@ class Tested(NamedTuple):
     """Median over pairs with its interval, and the p-value of an exact test of it."""
 
     pairs: int
+    """Number of pairs."""
     value: Interval
+    """Median with its interval."""
     p: float
+    """p-value of the exact test."""
 
 
 def share(successes: int, count: int) -> Interval:
-    """Of `count` walks, at least one."""
+    """Share of `successes` among `count` walks, at least one, with Wilson's interval."""
     found = stats.binomtest(successes, count).proportion_ci(CONFIDENCE, method="wilson")
     return Interval(successes / count, float(found.low), float(found.high))
 
 
 def median(values: Sequence[float | None]) -> Interval | None:
-    """Of those that are numbers; None without any."""
+    """Median of the values that are finite numbers, with its interval; None if there are none."""
     x = np.array([v for v in values if v is not None and math.isfinite(v)])
     if len(x) == 0:
         return None
@@ -52,7 +59,7 @@ def median(values: Sequence[float | None]) -> Interval | None:
 
 
 def paired_ratio(a: Sequence[float], b: Sequence[float], margin: float) -> Tested | None:
-    """Median of a_i/b_i (positive numbers) by its logarithm; None without pairs.
+    """Median of a_i / b_i (positive numbers) by its logarithm; None without pairs.
 
     The p-value is that of two one-sided sign tests of "within a factor `margin` of 1", doubled.
     """
@@ -66,7 +73,7 @@ def paired_ratio(a: Sequence[float], b: Sequence[float], margin: float) -> Teste
 
 
 def median_ratio(ratios: Sequence[float]) -> Interval:
-    """Median of positive numbers, at least one, by their logarithms."""
+    """Median of positive numbers, at least one, by their logarithms: 2 and 1/2 are equally far from 1."""
     found = median([math.log(x) for x in ratios])
     assert found is not None
     return Interval(*(math.exp(x) for x in found))
@@ -82,24 +89,25 @@ def paired_equal(a: Sequence[float], b: Sequence[float], margin: float) -> Teste
 
 
 def _more_than_half(so: Sequence[bool]) -> float:
+    """One-sided p-value of the sign test that more than half of all cases hold."""
     return float(stats.binomtest(sum(so), len(so), 0.5, alternative="greater").pvalue)
 
 
 def sign_test(larger: int, smaller: int) -> float:
-    """p-value, two-sided, without ties; 1 where there are only ties."""
+    """Two-sided p-value of the sign test without ties; 1 where there are only ties."""
     if larger + smaller == 0:
         return 1.0
     return float(stats.binomtest(larger, larger + smaller, 0.5).pvalue)
 
 
 def mcnemar(a: Sequence[bool], b: Sequence[bool]) -> float:
-    """p-value of "as often one without the other as the other without the one", for paired a_i, b_i."""
+    """McNemar's p-value for paired a_i, b_i: that "a without b" is as frequent as "b without a"."""
     pairs = list(zip(a, b, strict=True))
     return sign_test(sum(x and not y for x, y in pairs), sum(y and not x for x, y in pairs))
 
 
 def holm(p: Sequence[float]) -> list[float]:
-    """The p-values of one family, each corrected for all of them."""
+    """The p-values of one family, each corrected for all of them by Holm's method, in the given order."""
     out, worst = [0.0] * len(p), 0.0
     for rank, i in enumerate(sorted(range(len(p)), key=lambda i: p[i])):
         worst = max(worst, min(1.0, (len(p) - rank) * p[i]))

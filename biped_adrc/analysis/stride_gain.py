@@ -1,25 +1,29 @@
-"""Gains of the stride's PI from the zero dynamics, and which joints to bend for its correction.
+"""Gains of the PI from step to step, from the zero dynamics, and which joints to bend for its
+correction.
 
-With exact tracking, z_k = sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k of
+With exact tracking, z_k = sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k
+of
 
     z_(k+1) = a z_k + b beta_k,   v_k = c z_k + d beta_k,
     a = delta^2,  b = 2 dW/dbeta,  c = dv/dz,  d = dv/dbeta
 
-are deviations from the cycle; W, delta and T are the quadratures of the zero dynamics, differenced in beta
-and z. With the PI of `control.stride` the poles of the loop are the roots of
+are deviations from the cycle; W, delta and T are the quadratures of the zero dynamics, differenced
+in beta and z. With the PI of `control.stride` the poles of the loop are the roots of
 
     lambda (lambda - 1) (lambda - a) + (K_P (lambda - 1) + K_I lambda) (d (lambda - a) + c b) = 0.
 
-At lambda = -mu, mu = (c b - d a) / d, the gains drop out, so a triple pole r, the quickest there is, has
+At lambda = -mu, mu = (c b - d a) / d, the gains drop out, so a triple pole r, the quickest there
+is, has
 
     (r + mu)^3 = mu (mu + 1) (mu + a),   K_P = r^3 / (d mu),   K_P + K_I = (1 + a - 3 r) / d.
 
-The static gain g = dv/dbeta [m/s per rad] of a direction is what the correction does to the speed in the long
-run. What it costs is the change of the motors' torque along the periodic orbit,
+The static gain g = dv/dbeta [m/s per rad] of a direction is what the correction does to the speed
+in the long run. What it costs is the change of the motors' torque along the periodic orbit,
 
     U = max over the step and the motors of |du/dbeta|   [N m per rad],
 
 and |g| / U [m/s per N m] does not change when the direction is scaled, so it compares directions.
+`stride_pi` makes the controller of `control.stride` with these gains; nothing is tuned by hand.
 """
 
 from __future__ import annotations
@@ -42,7 +46,9 @@ from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray
 
 BUMP = 64.0 * np.array([0.0, 0.0, 0.0, 1.0, -3.0, 3.0, -1.0])
-"""Coefficients of b(s) = 64 s^3 (1 - s)^3 in powers of s."""
+"""Coefficients (7,) of b(s) = 64 s^3 (1 - s)^3 in powers of s: zero with two derivatives at both ends,
+so that the correction changes neither begin nor end of a step.
+"""
 DIFFERENCE = 1e-3
 """Half width of the central differences: in beta [rad], and relative in z."""
 
@@ -58,15 +64,15 @@ DIRECTIONS: Mapping[str, tuple[float, ...]] = {
     "stance knee": STANCE_KNEE,
     "swing knee": (0.0, 0.0, 0.0, 1.0),
 }
-"""By name, for a robot with RABBIT's joints."""
+"""Directions d (p,) by name, for a robot with RABBIT's joints."""
 
 
 @dataclass(frozen=True)
 class StrideResponse(Shown):
-    """The linear map from step to step."""
+    """The linear map from step to step of one gait and one direction."""
 
     a: float
-    """Multiplier of the walking cycle."""
+    """delta^2, multiplier of the walking cycle, dimensionless."""
     b: float
     """[kg^2 m^4/s^2 per rad]."""
     c: float
@@ -80,7 +86,7 @@ class StrideResponse(Shown):
         return self.d + self.c * self.b / (1.0 - self.a)
 
     def poles(self, gains: StrideGains) -> ComplexArray:
-        """The poles of the loop, the largest magnitude first."""
+        """The three poles of the loop (3,), dimensionless, the largest magnitude first."""
         walk, plant = [1.0, -self.a], [self.d, self.c * self.b - self.d * self.a]
         law = [gains.K_P + gains.K_I, -gains.K_P]
         equation = np.polyadd(np.polymul([1.0, -1.0, 0.0], walk), np.polymul(law, plant))
@@ -88,7 +94,10 @@ class StrideResponse(Shown):
         return roots[np.argsort(-np.abs(roots))]
 
     def gains(self, limit: float = 0.3) -> StrideGains:
-        """K_P and K_I of the triple pole. Raises InputError where it is not inside the unit circle."""
+        """K_P and K_I of the triple pole; limit: bound on |beta| [rad].
+
+        Raises InputError where the pole is not inside the unit circle.
+        """
         zero = self.c * self.b - self.d * self.a
         mu = zero / self.d if self.d else math.inf
         r = float(np.cbrt(mu * (mu + 1.0) * (mu + self.a))) - mu
@@ -108,9 +117,10 @@ def stride_pi(
     direction: Sequence[float] = TORSO_LEAN,
     limit: float = 0.3,
 ) -> StridePI:
-    """The PI from step to step around `inner`, with the gains of the triple pole.
+    """The PI from step to step around the controller `inner`, with the gains of the triple pole.
 
-    direction: d (p,). limit: bound on |beta| [rad]. Raises as `stride_response` and `StrideResponse.gains`.
+    direction: d (p,), dimensionless. limit: bound on |beta| [rad]. Raises as `stride_response` and
+    `StrideResponse.gains`.
     """
     along = tuple(float(d) for d in direction)
     gains = stride_response(gait, biped, along).gains(limit)
@@ -131,7 +141,8 @@ def stride_response(
 ) -> StrideResponse:
     """The response of a gait whose constraint is hybrid invariant, or made so by ReferenceReset.
 
-    Raises InputError for a direction of the wrong length, GaitError where the zero dynamics have no cycle.
+    direction: d (p,), dimensionless. Raises InputError for a direction of the wrong length,
+    GaitError where the zero dynamics have no stable cycle.
     """
     h, shift = gait.constraint, DIFFERENCE * np.array(direction, dtype=float)
     if len(shift) != biped.p:
@@ -156,25 +167,29 @@ def stride_response(
 
 @dataclass(frozen=True)
 class DirectionMerit(Shown):
-    """One direction d (p,) of the correction."""
+    """What one direction d (p,) of the correction gains and costs."""
 
     name: str
     direction: tuple[float, ...]
+    """d (p,), dimensionless."""
     static_gain: float
-    """g [m/s per rad]."""
+    """g, speed per correction [m/s per rad]."""
     torque: float
-    """U [N m per rad]."""
+    """U, torque per correction [N m per rad]."""
 
     @property
     def merit(self) -> float:
-        """|g| / U [m/s per N m]."""
+        """|g| / U, speed per torque [m/s per N m]."""
         return abs(self.static_gain) / self.torque
 
 
 def direction_merits(
     gait: Gait, biped: Biped, directions: Mapping[str, tuple[float, ...]] = DIRECTIONS
 ) -> tuple[DirectionMerit, ...]:
-    """Every direction, the best first. Raises InputError without one, and as `stride_response`."""
+    """Merits of all directions, the best first.
+
+    Raises InputError without a direction, and as `stride_response`.
+    """
     if not directions:
         raise InputError("no direction of the stride's correction was given, expected at least one")
     found = [_merit(gait, biped, name, d) for name, d in directions.items()]
@@ -182,6 +197,7 @@ def direction_merits(
 
 
 def _merit(gait: Gait, biped: Biped, name: str, d: tuple[float, ...]) -> DirectionMerit:
+    """Merit of one direction. Raises InputError for a direction that bends no joint."""
     gain = stride_response(gait, biped, d).static_gain
 
     def torque(beta: float) -> Array:

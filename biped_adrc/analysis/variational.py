@@ -1,21 +1,24 @@
-"""Multipliers of a walking cycle by the variational equation and the saltation matrix of foot strike.
+"""Multipliers of a walking cycle by the variational equation and the saltation matrix of the impact.
 
     x' = f(x),            Phi' = A(x) Phi,   A = df/dx         in single support
-    x+ = Delta(x-),       Phi+ = Xi Phi-                       at foot strike, h(x-) = 0
+    x+ = Delta(x-),       Phi+ = Xi Phi-                       at impact, h(x-) = 0
     Xi = D Delta + (f+ - D Delta f-) dh / (dh f-)
 
-x = (q, q'), h the height of the swing foot over the ground, dh its row of derivatives, f- and f+ the flow
-before and after impact (Aizerman, Gantmacher, 1958; Leine, Nijmeijer, 2004). The return map (24) is not
-differenced: A comes from the derivatives of ABA, D Delta from those of the impact map.
+x = (q, q'), h the height of the swing foot over the ground, dh its row of derivatives, f- and f+
+the flow before and after impact (Aizerman, Gantmacher, 1958; Leine, Nijmeijer, 2004). The return
+map (24) is not differenced: A comes from the derivatives of ABA, D Delta from those of the impact
+map (`model.derivatives`). The result is exact up to the error of the integration method.
 
 On the section, with E the matrix that drops q_N and L = ds -> dx the tangent that keeps h = 0,
 
     dP/ds = E Pi Phi D Delta L,   Pi = 1 - f- dh / (dh f-),
 
-since Xi L = D Delta L. Xi Phi has the same multipliers and the 1 of a flow that does not depend on time.
+since Xi L = D Delta L. Xi Phi has the same multipliers and the 1 of a flow that does not depend on
+time.
 
-The derivative of the torque is found by differentiating the law of NPD on a virtual constraint; for any other
-controller without states it is a difference quotient of fourth order of the torque alone (`DIFFERENCE`).
+The derivative of the torque is found by differentiating the law of NPD on a virtual constraint; for
+any other controller without states it is a difference quotient of fourth order of the torque alone
+(`DIFFERENCE`). Controllers with states, sampled time and disturbances are refused.
 """
 
 from __future__ import annotations
@@ -51,16 +54,16 @@ from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray
 
 DIFFERENCE = 2e-4
-"""[rad, rad/s]: where the quotient of NPD's torque is within 1e-10 of its derivative, relative to it."""
+"""Width of the quotient of the torque [rad, rad/s]; NPD's is within 1e-10 of its derivative, relatively."""
 
 
 # -- the torque ------------------------------------------------------------------------------------
-def torque_derivative(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
-    """du/dx (p, 2 n) of the torque applied; the rows of saturated motors are zero."""
-    return _torque_derivative(walker, walker.instant(t, x, mode))
+def torque_derivative(walker: Walker, i: Instant) -> Array:
+    """du/dx (p, 2 n) [N m/rad, N m s/rad] of the applied torque at an instant of the walk.
 
-
-def _torque_derivative(walker: Walker, i: Instant) -> Array:
+    Zero for passive walkers and in the rows of saturated motors, exact for NPD, by differences for
+    other controllers.
+    """
     law = walker.law
     if type(law) is Passive:
         return np.zeros((walker.plant.p, 2 * walker.plant.n))
@@ -75,12 +78,14 @@ def _torque_derivative(walker: Walker, i: Instant) -> Array:
 
 
 def npd_derivative(walker: Walker, law: NPDController, h: VirtualConstraint, i: Instant) -> Array:
-    """du/dx (p, 2 n) of (28), from the two equations that hold for the torque u and the acceleration a
-    it asks of the nominal model:
+    """du/dx (p, 2 n) [N m/rad, N m s/rad] of (28), from two equations.
+
+    They hold for the torque u and the acceleration a that it demands of the nominal model:
 
         D a + Omega - B u = 0,   a_b - H a - drift - f = 0
 
-    (H a is absent where h' Theta'' is dropped, as printed). Both are differentiated at fixed (a, u).
+    (H a is absent where h' Theta'' is dropped, as printed). Both are differentiated at fixed (a,
+    u).
     """
     m, n, p = i.measurement, walker.plant.n, walker.plant.p
     B, H = walker.nominal.B, law.reference(m.t, m.q, m.v).H
@@ -97,7 +102,7 @@ def npd_derivative(walker: Walker, law: NPDController, h: VirtualConstraint, i: 
 def _wanted_derivative(
     h: VirtualConstraint, gains: Gains, q: Array, v: Array, rate2: float
 ) -> Array:
-    """d/dx (p, 2 n) of h' Theta'' + drift + f at fixed Theta'' = rate2 [rad/s^2]."""
+    """d/dx (p, 2 n) of h' Theta'' + drift + f at fixed Theta'' = rate2 [rad/s^2], q, v (n,) [rad, rad/s]."""
     c, p = h.phase, h.curve.coefficients.shape[0]
     theta, rate = float(c @ q), float(c @ v)
     _, h1, h2 = h.h(theta)
@@ -111,7 +116,7 @@ def _wanted_derivative(
 
 
 def third_derivative(h: VirtualConstraint, theta: float) -> Array:
-    """d3h/dTheta3 (p,) at theta [rad]."""
+    """d3h/dTheta3 (p,) [1/rad^2] at theta [rad], from the power coefficients of the curve."""
     k = h.parameters
     s = k.rate * (theta - k.theta_plus)
     second = k.curve.stacked[-(k.curve.stacked.shape[0] // 3) :, 1:]
@@ -120,7 +125,10 @@ def third_derivative(h: VirtualConstraint, theta: float) -> Array:
 
 
 def differenced_torque(walker: Walker, i: Instant, difference: float = DIFFERENCE) -> Array:
-    """du/dx (p, 2 n) of any law without states, by differences of fourth order before saturation."""
+    """du/dx (p, 2 n) of any law without states, by differences of fourth order, before saturation.
+
+    difference: their width [rad, rad/s].
+    """
     m, n, d = i.measurement, walker.plant.n, difference
     mode = Mode(m.step, m.t - m.t_step)
 
@@ -135,30 +143,28 @@ def differenced_torque(walker: Walker, i: Instant, difference: float = DIFFERENC
 
 
 # -- the flow and the impact -----------------------------------------------------------------------
-def flow_derivative(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
-    """A = df/dx (2 n, 2 n) of single support."""
-    return _flow_derivative(walker, walker.instant(t, x, mode))
-
-
-def _flow_derivative(walker: Walker, i: Instant) -> Array:
+def flow_derivative(walker: Walker, i: Instant) -> Array:
+    """A = df/dx (2 n, 2 n) of single support at an instant, from its torque and force; x in [rad, rad/s]."""
     n, m = walker.plant.n, i.measurement
     plant = acceleration_derivatives(walker.plant, m.q, m.v, i.force)
     A = np.zeros((2 * n, 2 * n))
     A[:n, n:] = np.eye(n)
     A[n:, :n], A[n:, n:] = plant.dq, plant.dv
-    A[n:] += plant.dforce @ (walker.plant.B @ _torque_derivative(walker, i))
+    A[n:] += plant.dforce @ (walker.plant.B @ torque_derivative(walker, i))
     return A
 
 
 def height_derivative(walker: Walker, x: Array) -> Array:
-    """dh/dx (2 n,) of the height of the swing foot over the ground."""
+    """dh/dx (2 n,) [m/rad] of the height of the swing foot over the ground; zero for rates."""
     n = walker.plant.n
     d_x, d_z = walker.plant.swing_foot_jacobian(x[:n])
     return np.concatenate((d_z + math.tan(walker.slope) * d_x, np.zeros(n)))
 
 
 def saltation(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
-    """Xi (2 n, 2 n) of foot strike at x-. Raises SimulationError when it is no transversal impact."""
+    """Xi (2 n, 2 n) of the impact at x- (2 n,) [rad, rad/s]. Raises SimulationError unless it is
+    transversal.
+    """
     struck = after_impact(walker, t, x, mode)
     n = walker.plant.n
     D = impact_derivatives(walker.plant, x[:n], x[n:]).matrix
@@ -168,7 +174,10 @@ def saltation(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
 
 
 def _descent(dh: Array, f: Array) -> float:
-    """dh f [m/s]. Raises SimulationError unless the foot comes down on the ground."""
+    """dh f [m/s], the vertical velocity of the foot at the ground.
+
+    Raises SimulationError unless the foot comes down: a grazing foot leaves no derivative.
+    """
     rate = float(dh @ f)
     if not rate < 0.0:
         raise SimulationError(
@@ -179,7 +188,7 @@ def _descent(dh: Array, f: Array) -> float:
 
 
 def split_matrix(y: Array) -> tuple[Array, Array]:
-    """x (k,) and Phi (k, k) of y = (x, Phi) (k + k^2,)."""
+    """x (k,) and Phi (k, k) of y = (x, Phi) (k + k^2,), x in [rad, rad/s]."""
     k = math.isqrt(len(y))
     return y[:k], y[k:].reshape(k, k)
 
@@ -188,7 +197,8 @@ def split_matrix(y: Array) -> tuple[Array, Array]:
 class VariationalSystem(HybridSystem):
     """Walker and fundamental matrix together: state y = (x, Phi), Phi (2 n, 2 n) row by row.
 
-    Raises InputError for a walker with states besides (q, q'), held torques or disturbances.
+    A hybrid system of its own, so the ordinary simulator integrates it. Raises InputError for a
+    walker with states besides (q, q'), held torques or disturbances.
     """
 
     walker: Walker
@@ -206,7 +216,10 @@ class VariationalSystem(HybridSystem):
             )
 
     def start(self, x: Array) -> Array:
-        """y of x with Phi = 1. Raises InputError for a controller with states."""
+        """y (2 n + 4 n^2,) of x (2 n,) [rad, rad/s] with Phi = 1.
+
+        Raises InputError for a controller with states.
+        """
         size = 2 * self.walker.plant.n
         if len(x) != size:
             raise InputError(
@@ -216,15 +229,21 @@ class VariationalSystem(HybridSystem):
         return np.concatenate((x, np.eye(size).ravel()))
 
     def flow(self, t: float, y: Array, mode: Mode) -> Array:
+        """Time derivative (2 n + 4 n^2,) of y = (x, Phi): the walker's flow [rad/s, rad/s^2], and A
+        Phi.
+        """
         x, Phi = split_matrix(y)
         i = self.walker.instant(t, x, mode)
-        A = _flow_derivative(self.walker, i)
+        A = flow_derivative(self.walker, i)
         return np.concatenate((i.measurement.v, i.a, (A @ Phi).ravel()))
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
+        """The walker's event functions on x, with Phi reset by the saltation matrix."""
         return tuple(self._lifted(guard, mode) for guard in self.walker.guards(mode))
 
     def _lifted(self, guard: Guard, mode: Mode) -> Guard:
+        """One event of the walker as an event of y."""
+
         def reset(t: float, y: Array) -> tuple[Array, Mode] | None:
             x, Phi = split_matrix(y)
             struck = self.walker.strike(t, x, mode)
@@ -246,27 +265,27 @@ class StepDerivative(Shown):
     """The return map and its derivative at one point; 2 n states, 2 n - 1 section coordinates."""
 
     s: Array
-    """The point."""
+    """The point (2 n - 1,) [rad, rad/s]."""
     image: Array
-    """P(s)."""
+    """P(s) (2 n - 1,) [rad, rad/s]."""
     jacobian: Array
-    """dP/ds."""
+    """dP/ds (2 n - 1, 2 n - 1)."""
     monodromy: Array
     """Xi Phi (2 n, 2 n), from the state after one impact to the state after the next."""
     duration: float
-    """[s]."""
+    """Of the single support [s]."""
     flow_residual: float
     """max |Phi f(0) - f-| / max |f-|: zero for the exact Phi of a flow that does not depend on time, so it
     shows a wrong A, a reference in time, and the error of the method."""
 
     @property
     def multipliers(self) -> ComplexArray:
-        """Eigenvalues of dP/ds, the largest magnitude first; those of the cycle when P(s) = s."""
+        """Eigenvalues of dP/ds (2 n - 1,), the largest magnitude first; those of the cycle when P(s) = s."""
         return sorted_eigenvalues(self.jacobian)
 
 
 def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
-    """P(s) and dP/ds along one single support, with the walker and the method of P.
+    """P(s) and dP/ds at s (2 n - 1,) [rad, rad/s] along one single support, with P's walker and method.
 
     Raises SimulationError, with the status, when the walker does not come back; InputError as
     VariationalSystem does.
@@ -288,12 +307,14 @@ def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
 
 
 def _single_support(P: ReturnMap, x: Array) -> tuple[tuple[Array, Mode], Event]:
-    """Impact at x, and the single support after it with its fundamental matrix: x+ and its mode, the strike."""
+    """Impact at x (2 n,), and the single support after it with its fundamental matrix: x+ with its
+    mode, and the event of the next impact.
+    """
     system = VariationalSystem(P.walker)
     y0 = system.start(x)
     struck = after_impact(P.walker, 0.0, x, Mode())
     y0[: len(x)] = struck[0]
-    return struck, P.next_strike(system, y0, struck[1])
+    return struck, P.next_impact(system, y0, struck[1])
 
 
 def section_tangent(walker: Walker, x: Array) -> Array:
@@ -307,10 +328,10 @@ def section_tangent(walker: Walker, x: Array) -> Array:
 def periodic_orbit(
     P: ReturnMap, guess: Array, tolerance: float = 1e-11, max_iterations: int = 12
 ) -> tuple[PeriodicOrbit, StepDerivative]:
-    """Newton on P(s) - s from a pre-impact state `guess`, with dP/ds by the variational equation.
+    """Newton's method on P(s) - s from a state before impact (2 n,) [rad, rad/s], with the exact dP/ds.
 
-    Raises SimulationError when it does not converge or the walker does not come back, SingularError when a
-    multiplier is 1.
+    Converges quadratically. Raises SimulationError when it does not converge or the walker does not
+    come back, SingularError when a multiplier is 1.
     """
     s = P.project(np.asarray(guess, dtype=float))
     for iteration in range(1, max_iterations + 1):

@@ -1,8 +1,8 @@
 """What the zero dynamics say of a gait before any simulation: does it walk, from where, how fast.
 
-Numbers of `biped_adrc.gait.zero_orbits` and `biped_adrc.gait.zero_orbits` with their units. They hold for the
-closed loop as far as it keeps to the constraint: exactly for a constraint that the impact does not leave
-(hybrid invariant), tracked without error.
+The numbers of `gait.zero_dynamics` and `gait.zero_orbits` with their units, as text. They hold for
+the closed loop as far as it keeps to the constraint: exactly for a constraint that the impact does
+not leave (hybrid invariant), tracked without error. Where that is in doubt the report says so.
 """
 
 from __future__ import annotations
@@ -26,21 +26,25 @@ from biped_adrc.parts import check_part
 from biped_adrc.shown import Shown
 
 CLOSENESS = 1e-3
-"""Share of zeta* within which a walk counts as settled."""
+"""Distance from zeta*, relative to it, within which a walk counts as settled."""
 UNIT = "kg^2 m^4/s^2"
+"""Of zeta and V_zero."""
 
 
 @dataclass(frozen=True)
 class ZeroDynamicsReport(Shown):
-    """The orbit, its domain and the margins; `text()` is all of it with units."""
+    """The periodic orbit, the range of speeds around it and the margins; `text()` is all of it with units."""
 
     orbits: ZeroOrbits
+    """Quadratures of the zero dynamics, and what follows from them."""
     limits: Limits
+    """Friction, torque and slope that the domain respects."""
     domain: Domain
+    """The range of zeta in which a step keeps the limits."""
     zeta_star: float
     """sigma-^2 / 2 of the periodic orbit [kg^2 m^4/s^2]."""
     impulse_ratio: float
-    """|F_T| / F_N of the impact, the same at every speed."""
+    """|F_T| / F_N of the impulses at impact, the same at every speed."""
     invariance: float
     """How far the impact leaves the constraint [rad, rad/s at |Theta'-| = 1 rad/s]."""
 
@@ -51,7 +55,7 @@ class ZeroDynamicsReport(Shown):
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """Average speed [m/s] of a step at either end of the domain; inf where it has none."""
+        """Mean speed [m/s] of a step at either end of the domain; inf where it has none."""
         return self._at_ends(self.orbits.speed)
 
     @property
@@ -60,6 +64,7 @@ class ZeroDynamicsReport(Shown):
         return self._at_ends(self.orbits.kinetic_energy)
 
     def _at_ends(self, f: Callable[[float], float]) -> tuple[float, float]:
+        """f(zeta) at both ends of the domain; inf where the domain has no end."""
         low, high = (f(b.zeta) if math.isfinite(b.zeta) else math.inf for b in self.domain)
         return low, high
 
@@ -79,6 +84,7 @@ class ZeroDynamicsReport(Shown):
         ]
 
     def _numbers(self) -> list[tuple[str, ...]]:
+        """Rows of the report about the periodic orbit itself."""
         o, z = self.orbits, self.zeta_star
         inertia = o.inertia(grid(o.zero))
         return [
@@ -94,6 +100,7 @@ class ZeroDynamicsReport(Shown):
         ]
 
     def _range(self) -> list[tuple[str, ...]]:
+        """Rows about the domain: its ends and why, speeds, energies, steps until it has settled."""
         if self.domain.empty:
             return [("domain", f"empty: no speed keeps {_show(self.limits)} all along the step")]
         (v_0, v_1), (E_0, E_1) = self.speeds, self.energies
@@ -117,6 +124,7 @@ class ZeroDynamicsReport(Shown):
         return found
 
     def _doubts(self) -> list[tuple[str, ...]]:
+        """Lines that say where these numbers do not hold for the closed loop."""
         found: list[tuple[str, ...]] = []
         if not self.walkable:
             found.append(
@@ -138,10 +146,10 @@ class ZeroDynamicsReport(Shown):
 def zero_report(
     biped: Biped, constraint: VirtualConstraint, limits: Limits | None = None
 ) -> ZeroDynamicsReport:
-    """The report of a constraint; limits: by default the friction of the robot's record, on level ground.
+    """The report of a constraint; limits None: the friction of the robot's record, on level ground.
 
-    Raises GaitError when Theta is no phase, when no periodic orbit exists or it is not stable, and when the
-    curve does not end on the ground or the next step does not begin where it begins.
+    Raises GaitError when Theta is no phase, when no periodic orbit exists or it is not stable, and
+    when the curve does not end on the ground or the next step does not begin where it begins.
     """
     check_part(biped, "biped", Biped)
     limits = Limits(biped.description.friction_coefficient) if limits is None else limits
@@ -158,6 +166,7 @@ def zero_report(
 
 
 def _check_ends(biped: Biped, constraint: VirtualConstraint, slope: float) -> None:
+    """Raise GaitError unless the curve ends on the ground and the impact leads back to its begin."""
     q = configuration(constraint, constraint.theta_minus)[0]
     x, z = biped.swing_foot(q)
     height = float(z + math.tan(slope) * x)
@@ -175,6 +184,7 @@ def _check_ends(biped: Biped, constraint: VirtualConstraint, slope: float) -> No
 
 
 def _because(bound: Bound) -> str:
+    """What bounds the domain at one end."""
     if bound.cause == UNLIMITED:
         return UNLIMITED
     return f"{bound.cause} at Theta = {bound.theta:.4f} rad"

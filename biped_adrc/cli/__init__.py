@@ -1,8 +1,13 @@
 """The command `biped-adrc`.
 
-Exit codes: 0 all is well (for `reproduce`: every check holds); 1 a check of `reproduce` or `robot check` does
-not hold; 2 the command line is wrong; 3 bad input (robot, gait, poles, duration, file); 4 the robot fell or
-did not come back; 5 a result cannot be written; 130 interrupted with Ctrl-C.
+Each module of this folder adds its commands to the one typer app of `cli.app`; a command reads its
+options, checks the names of its outputs, calls one function of `studies`, `scenario`, `bench` or
+`paper`, and prints or writes what comes back. No number is computed here. `main` is the entry
+point: it turns errors of the package into one line of text and an exit code.
+
+Exit codes: 0 all is well (for `reproduce`: every check holds); 1 a check of `reproduce` or `robot
+check` does not hold; 2 the command line is wrong; 3 bad input (robot, gait, poles, duration, file);
+4 the robot fell or did not come back; 5 a result cannot be written; 130 interrupted with Ctrl-C.
 """
 
 from __future__ import annotations
@@ -25,11 +30,16 @@ for _module in COMMANDS:
 
 
 def _say_interrupted() -> None:
+    """Say after Ctrl-C that no half-written file is left."""
     Console(stderr=True).print("interrupted; what was already written is complete")
 
 
 def main() -> None:
-    """Entry point: errors become one message and an exit code."""
+    """Entry point: run the command; an error becomes one message and an exit code.
+
+    A reader that closes the pipe early, such as `head`, is no error: the rest of the output goes to
+    nowhere.
+    """
     try:
         app(standalone_mode=True)
     except BipedError as error:

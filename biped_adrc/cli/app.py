@@ -1,4 +1,10 @@
-"""What the commands share: the app, the progress bar, and names of files, looked at before any computing."""
+"""What the commands share: the typer app, the console, the progress bar, and checks of file names.
+
+Names of inputs and outputs are looked at before anything is computed, so that a mistake costs no
+time. Modules of the package that take long to load (Pinocchio, CasADi, numba, matplotlib) are
+imported inside the functions that use them, in all of `cli`: `biped-adrc --help` is printed at
+once.
+"""
 
 from __future__ import annotations
 
@@ -23,6 +29,7 @@ import biped_adrc
 from biped_adrc.files import keep_inputs, output_path
 
 EXIT_CHECK_FAILED, EXIT_FELL, EXIT_INTERRUPTED = 1, 4, 130
+"""Exit codes beside those of the errors: a check does not hold, the robot fell, Ctrl-C."""
 
 app = typer.Typer(
     add_completion=False,
@@ -57,19 +64,19 @@ def _of_every_command(
 
 
 console = Console()
+"""Where all commands print; rich fits tables to the terminal."""
 
-Preset = Annotated[
-    str, typer.Option(help="Parameters of RABBIT: identified, identified-bare or tac2003.")
-]
 FIGURES, GAITS = (".png", ".svg"), (".json",)
+"""Suffixes of figures and of gaits."""
 
 
 def command() -> str:
-    """The command as a shell takes it."""
+    """The command line as a shell takes it, for reports and summaries: the reader can repeat it."""
     return shlex.join(["biped-adrc", *sys.argv[1:]])
 
 
 def bar() -> Progress:
+    """A progress bar of this command: what is done, how far, and for how long."""
     return Progress(
         SpinnerColumn(),
         TextColumn("{task.description:<44.44}"),
@@ -81,7 +88,10 @@ def bar() -> Progress:
 
 
 def inputs(robot: str, *others: str) -> tuple[Path, ...]:
-    """The files that a robot and gaits are read from; none for names. Raises ModelError."""
+    """The files that a robot and gaits are read from, so that no output may take their place; none for names.
+
+    Raises ModelError for an unknown robot.
+    """
     from biped_adrc.robots.robot_toml import load_description
 
     files = tuple(path for path in map(Path, (robot, *others)) if path.is_file())
@@ -89,7 +99,11 @@ def inputs(robot: str, *others: str) -> tuple[Path, ...]:
 
 
 def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
-    """Where a run goes. Raises InputError for a name that is no run's or that is read, and OutputError."""
+    """The path that a run is written to, checked before the walk; None for none.
+
+    Raises InputError for a name that is no run's or that is read, and OutputError for what cannot
+    be written.
+    """
     from biped_adrc.hybrid.storage import check_beside, run_files
 
     if out is None:
@@ -105,11 +119,11 @@ def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
 
 
 def say(text: str) -> None:
-    """As it is, neither wrapped nor coloured."""
+    """Print a text as it is, neither wrapped nor coloured, so that it can be searched and copied."""
     console.print(text, markup=False, highlight=False, soft_wrap=True)
 
 
 def say_written(path: Path | None) -> None:
-    """The name of a file."""
+    """Say which file was written; nothing for None."""
     if path is not None:
         say(f"written to {path}")

@@ -1,51 +1,34 @@
-"""`biped-adrc compare`."""
+"""`biped-adrc compare`: the comparison of controllers over conditions and seeds.
+
+It checks the names, starts workers as `sweep` does, and leaves the walks, figures, page and summary
+to `bench.compare_study.run_comparison`. What is printed is made from the summary alone, so it can
+be had again from summary.json.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
 
-import typer
 from rich.table import Table
 
-from biped_adrc.cli.app import app, command, console
-from biped_adrc.cli.sweep import (
-    InThreads,
-    Number,
-    OtherVersions,
-    Scheduler,
-    carried_out,
-    say,
-    study_workers,
-)
+from biped_adrc.cli.app import app, command, console, say
+from biped_adrc.cli.options import texts
+from biped_adrc.cli.sweep import carried_out, study_workers
+from biped_adrc.types import PlainRecord
 
 
 @app.command()
+@texts("compare")
 def compare(
-    out: Annotated[
-        Path,
-        typer.Option("--out", "-o", help="Folder of results, figures and page; goes on there."),
-    ] = Path("comparison"),
-    controllers: Annotated[
-        str | None,
-        typer.Option(
-            help="Comma separated, your own as package.module:Class; those of the tables if not given."
-        ),
-    ] = None,
-    conditions: Annotated[
-        str | None, typer.Option(help="Comma separated; all of them if not given.")
-    ] = None,
-    seeds: Annotated[int, typer.Option(help="Walks in each cell of the table.")] = 20,
-    pushes: Annotated[
-        bool,
-        typer.Option(
-            help="Look by bisection for the largest push walked legally, and with all steps made."
-        ),
-    ] = True,
-    workers: Number = None,
-    threads: InThreads = False,
-    scheduler: Scheduler = None,
-    other_versions: OtherVersions = False,
+    out: Path = Path("comparison"),
+    controllers: str | None = None,
+    conditions: str | None = None,
+    seeds: int = 20,
+    pushes: bool = True,
+    workers: int | None = None,
+    threads: bool = False,
+    scheduler: str | None = None,
+    other_versions: bool = False,
 ) -> None:
     """Which controller walks legally under what: controllers x conditions x seeds, with intervals and tests."""
     from biped_adrc.bench.compare_study import RESULTS, run_comparison
@@ -62,11 +45,14 @@ def compare(
 
 
 def _names(text: str | None, every: tuple[str, ...]) -> tuple[str, ...]:
+    """The names in a text between commas; all of `every` where none is given."""
     return every if text is None else tuple(name.strip() for name in text.split(","))
 
 
-def _print(summary: dict[str, Any]) -> None:
-    """The share of walks that are legal, and of those that make all steps, in brackets."""
+def _print(summary: PlainRecord) -> None:
+    """The table of the share of walks that are legal, in brackets of those that make all steps, and
+    all sentences.
+    """
     from biped_adrc.viz.comparison_text import nominal_text
 
     controllers = list(summary["controllers"])
@@ -81,5 +67,5 @@ def _print(summary: dict[str, Any]) -> None:
         say(line)
 
 
-def _shares(cell: dict[str, Any]) -> str:
+def _shares(cell: PlainRecord) -> str:
     return f"{100 * cell['legal'][0]:.0f} ({100 * cell['survived'][0]:.0f})"

@@ -1,4 +1,9 @@
-"""`biped-adrc gait design` and `gait library`."""
+"""`biped-adrc gait design` and `gait library`: gaits found by optimisation.
+
+Both call `studies.gait_design.design_gait`, which solves the programme with IPOPT and certifies the
+gait by walking it; `library` repeats that for a range of speeds and stores each gait that was
+found. The line that moves while IPOPT runs is fed by its iterations.
+"""
 
 from __future__ import annotations
 
@@ -106,6 +111,8 @@ def gait_library(
 
 
 def _progress(shown: Status) -> Progress:
+    """Shows the iterations of IPOPT: number, objective, and how far the constraints are missed."""
+
     def say(iteration: int, objective: float, missed: float) -> None:
         shown.update(f"iteration {iteration}, objective {objective:.4g}, missed by {missed:.1e}")
 
@@ -113,7 +120,10 @@ def _progress(shown: Status) -> Progress:
 
 
 def _state(text: str, n: int) -> tuple[Array, Array]:
-    """(q-, q'-) from 2 n numbers. Raises InputError."""
+    """(q-, q'-), each (n,) [rad], [rad/s], from a text of 2 n numbers between commas.
+
+    Raises InputError for what is no number, and for too many or too few.
+    """
     import numpy as np
 
     try:

@@ -1,15 +1,24 @@
-"""`biped-adrc gait`, but for `design` and `library`."""
+"""`biped-adrc gait` for gaits that are there: published, recipe, show, export, import, zero.
+
+Each command checks the name of its output first, then loads robot and gait and calls one function:
+`gait.published` and `studies.gait_design` for the paper's gaits (a) and (b), `gait.exchange` for
+files of other programs, `analysis.zero_report` for the zero dynamics. The commands that design
+gaits are in `cli.design`.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from biped_adrc.cli.app import FIGURES, GAITS, console, gait_app, inputs, say, say_written
 from biped_adrc.cli.options import texts
 from biped_adrc.errors import InputError
 from biped_adrc.files import keep_inputs, output_path
+
+if TYPE_CHECKING:
+    from biped_adrc.gait.gait import Gait
 
 
 @gait_app.command("published")
@@ -57,7 +66,10 @@ def gait_show(gait: str = "published", robot: str = "rabbit", preset: str | None
     )
 
 
-def _save(gait: Any, out: Path | None, read: Iterable[Path] = ()) -> None:
+def _save(gait: Gait, out: Path | None, read: Iterable[Path] = ()) -> None:
+    """Write a gait, by default under its own name, and say its period [s]; refuses to write over what
+    was read.
+    """
     path = out or Path(gait.file_name)
     keep_inputs((path,), read)
     gait.save(path)

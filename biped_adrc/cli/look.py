@@ -1,4 +1,9 @@
-"""`biped-adrc animate` and `plot`."""
+"""`biped-adrc animate` and `plot`: pictures of runs that were stored by `simulate` or `reproduce`.
+
+`animate` draws the robot (`viz.export` for files, `viz.meshcat.live` with --live), `plot` its
+signals (`paper.figures`). Runs are read as they are, without walking again, also runs of a user's
+own controller that is not at hand.
+"""
 
 from __future__ import annotations
 

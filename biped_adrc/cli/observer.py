@@ -1,4 +1,9 @@
-"""`biped-adrc observer`."""
+"""`biped-adrc observer`: what an observer asks of encoders, clock and motors, and which one a robot allows.
+
+The report is that of `observer_design.observer_report`, from the linear loop of one joint;
+--confirm walks with a late torque and with encoders (`studies.observer_check`) and prints whether
+the robot agrees.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +23,7 @@ if TYPE_CHECKING:
     from biped_adrc.control.tracking import Gains
     from biped_adrc.gait.gait import Gait
     from biped_adrc.model.biped import Biped
-    from biped_adrc.observer_design.observer_design import ObserverReport
+    from biped_adrc.observer_design.observer_report import ObserverReport
     from biped_adrc.observers.gpi import GPIObserver
     from biped_adrc.studies.observer_check import DelayCheck, Walked
 
@@ -45,7 +50,7 @@ def observer_command(
     from biped_adrc.control.tracking import Gains
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.model.biped import Biped
-    from biped_adrc.observer_design.observer_design import observer_report
+    from biped_adrc.observer_design.observer_report import observer_report
 
     chosen, gains = _observer(poles, bandwidth, order), Gains(k_p, k_d)
     path = None if out is None else output_path(out, FIGURES)
@@ -66,6 +71,7 @@ def observer_command(
 
 
 def _print_report(report: ObserverReport) -> None:
+    """Print the verdict, and the sections of the report as tables."""
     say(report.verdict)
     for section in report.sections:
         header = (escape(name) for name in section.header)
@@ -76,6 +82,10 @@ def _print_report(report: ObserverReport) -> None:
 
 
 def _observer(poles: str | None, bandwidth: float | None, order: int | None) -> GPIObserver:
+    """The observer that the options describe; Table I of the paper where they say nothing.
+
+    Raises InputError where poles and a bandwidth are both given, or a pole is no number.
+    """
     from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 
     if poles is not None and bandwidth is not None:
@@ -100,14 +110,20 @@ def _confirm(
     gains: Gains,
     clock: tuple[float, float, float, bool],
 ) -> None:
+    """Walk at the delay margin with unknown and known delay, then without and with encoders, and print
+    the walks.
+
+    clock: period [s], counts of an encoder per turn, delay [s], and whether the observer knows the
+    delay.
+    """
     from biped_adrc.studies.observer_check import DelayCase, check_delay, check_encoders
 
     period, counts, delay, known = clock
     with bar() as progress:
         task = progress.add_task("walks with a late torque, then with encoders", total=4)
         checks = []
-        for told in (False, True):
-            checks.append(check_delay(DelayCase(biped, gait, observer, gains, told)))
+        for aware in (False, True):
+            checks.append(check_delay(DelayCase(biped, gait, observer, gains, aware)))
             progress.advance(task)
         walks = []
         for seen in (None, counts):
@@ -128,6 +144,7 @@ def _confirm(
 
 
 def _print_walks(checks: list[DelayCheck], walks: list[Walked]) -> None:
+    """Print how each walk ended and whether its errors stay, and the delay margins in [us]."""
     header = ("walk", "status", "errors stay", escape("error of later steps [rad]"))
     table = Table(*header, title="Confirmed by walking", title_justify="left")
     rows = [walked for check in checks for walked in (check.below, check.above, check.limited)]

@@ -1,4 +1,15 @@
-"""Options of commands: their texts from options.toml; those that are fields of a scenario from the record."""
+"""Options of commands, without writing each of them out in every command.
+
+Two decorators change the signature that typer reads:
+
+    texts          puts the help texts of options.toml on the parameters of a command
+    of_scenario    puts options in front for fields of `Scenario`, with the field's own type,
+    unit and text
+
+A new field of a scenario is an option of `simulate` by one name in a list. `values_of` joins what
+was on the command line, pushes and --set NAME=VALUE to the values of a scenario. --set reads values
+with units, as in the file of a study.
+"""
 
 from __future__ import annotations
 
@@ -14,28 +25,20 @@ from biped_adrc.errors import InputError
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import parse_push
 from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, UNITS
+from biped_adrc.types import PlainRecord
 
-Pushes = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--push",
-        help="Torque [N m] on joints in one single support, JOINTS=TORQUE@STEP:START-STOP [s]; e.g. "
-        "'q1,q2=30@19:0.1-0.3'. End with ':sine=5' for a sine of 5 Hz, ':rise=0.01' for edges of 10 ms, or "
-        "give 'START-' for one that stays. "
-        "Joints are q1..q5 or names of the URDF; q5 is the unactuated torso. May be repeated; "
-        "several joints with different torques: 'q1=30,q3=-20@19:0.1-0.3'.",
-    ),
-]
 TEXTS = packaged("biped_adrc.cli", "options.toml")
+"""The content of options.toml."""
 Command = Callable[..., None]
 
 
 def texts(name: str) -> Callable[[Command], Command]:
     """Options and arguments with the texts that options.toml has under this name, such as "gait.design"."""
-    table: dict[str, Any] = reduce(dict.__getitem__, name.split("."), TEXTS)
-    said = TEXTS["every"] | table
+    said = dict(TEXTS["every"])
+    said |= reduce(lambda table, part: table[part], name.split("."), TEXTS)
 
     def decorate(command: Command) -> Command:
+        """Give typer a signature in which the parameters that have a text are annotated with it."""
         plain = signature(command, eval_str=True)
         told = [
             p.replace(annotation=Annotated[p.annotation, _shown(said[p.name])])
@@ -50,8 +53,8 @@ def texts(name: str) -> Callable[[Command], Command]:
     return decorate
 
 
-def _shown(text: Any) -> Any:
-    """An option, or an argument, as options.toml has it."""
+def _shown(text: str | PlainRecord) -> object:
+    """An option, or an argument, for typer from its entry in options.toml: a text, or a table with flags."""
     entry = {"help": text} if isinstance(text, str) else text
     if "argument" in entry:
         return typer.Argument(help=entry["argument"])
@@ -61,16 +64,23 @@ def _shown(text: Any) -> Any:
 def of_scenario(
     *names: str, controller: str = "ADRC", **flags: str
 ) -> Callable[[Command], Command]:
-    """Options for fields by name, or by a flag of another name, put in front of a command's own.
+    """Decorator: options for fields of a scenario, put in front of a command's own.
 
-    The command gets as `given` those that are on the command line. controller: what it takes by default.
+    names: fields whose option is called as they are. flags: field=flag for others. controller: what
+    the command takes by default, for the help.
+
+    The command gets as `given` the values that are on the command line, and no defaults: whether a
+    value was asked for decides, for instance, whether it may be given by --set too.
     """
     usual = {"controller": f"{controller}; passive for a robot without motors"}
     shown = {**{name: "--" + name.replace("_", "-") for name in names}, **flags}
 
     def decorate(command: Command) -> Command:
+        """Give typer a signature with the fields of the scenario in front of the command's own parameters."""
+
         @wraps(command)
-        def with_given(context: typer.Context, **values: Any) -> None:
+        def with_given(context: typer.Context, **values: object) -> None:
+            """What typer calls: gathers the options that were on the command line, and calls the command."""
             given = {name: values.pop(name) for name in shown}
             command({name: x for name, x in given.items() if _told(context, name)}, **values)
 
@@ -92,6 +102,7 @@ def of_scenario(
 
 
 def _option(name: str, flag: str, usual: str | bool) -> Parameter:
+    """The parameter, for typer, of one field; usual: what the help shows as its default."""
     field, default = FIELDS[name], DEFAULTS[name]
     kinds = [
         kind
@@ -107,15 +118,17 @@ def _option(name: str, flag: str, usual: str | bool) -> Parameter:
 
 
 def _told(context: typer.Context, name: str) -> bool:
-    """Whether an option was on the command line."""
+    """Whether an option was on the command line, and not taken from its default."""
     source = context.get_parameter_source(name)
     return source is not None and source.name == "COMMANDLINE"
 
 
-def values_of(
-    given: dict[str, Any], push: list[str] | None, sets: list[str] | None
-) -> dict[str, Any]:
-    """The values of a scenario that options, pushes and --set name. Raises InputError."""
+def values_of(given: PlainRecord, push: list[str] | None, sets: list[str] | None) -> PlainRecord:
+    """The values of a scenario that options, pushes and --set name, as its constructor takes them.
+
+    A name that is no field goes to the controller's own parameters. Raises InputError for a text
+    that cannot be read, and for a value that is given twice.
+    """
     from biped_adrc.bench.parameters import TABLES, Refused, nested, read
 
     values = dict(given)
@@ -137,8 +150,12 @@ def values_of(
     return nested(values)
 
 
-def _plain(name: str, text: str) -> Any:
-    """A number, a truth value or a list where the text is one; lists of numbers without brackets too."""
+def _plain(name: str, text: str) -> object:
+    """The text of --set as a value: a number, truth value or list where it is one, also a list without
+    brackets.
+
+    Texts of fields with units stay texts, as `bench.parameters.read` reads those.
+    """
     if not name.startswith("own.") and DEFAULTS.get(name) not in (True, False):
         return text
     for candidate in (text, f"[{text}]"):

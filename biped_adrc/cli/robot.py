@@ -1,4 +1,9 @@
-"""`biped-adrc robot`."""
+"""`biped-adrc robot`: the robots that come with the package, and robots from a user's own URDF.
+
+`check` and `new` derive a biped from a URDF (`robot_import.derive`): what the file does not say is
+guessed, each guess is printed, and the model is checked against laws of mechanics. `list` and
+`show` print the records (robot.toml).
+"""
 
 from __future__ import annotations
 
@@ -122,6 +127,7 @@ def _hints(
     gravity: float,
     tip: str | None,
 ) -> Hints:
+    """What the options say about the robot, so that it need not be guessed."""
     from biped_adrc.robot_import.import_robot import Hints
 
     place = None if tip is None else _place(tip)
@@ -130,7 +136,7 @@ def _hints(
 
 
 def _place(text: str) -> tuple[float, float, float]:
-    """Three numbers between commas. Raises InputError."""
+    """Three numbers x, y, z [m] between commas. Raises InputError."""
     try:
         x, y, z = (float(word) for word in text.split(","))
     except ValueError as error:
@@ -139,17 +145,19 @@ def _place(text: str) -> tuple[float, float, float]:
 
 
 def _names(text: str | None) -> tuple[str, ...] | None:
-    """Names between commas; an empty text is no name."""
+    """Names between commas; an empty text is no name, None leaves them to be guessed."""
     if text is None:
         return None
     return tuple(name.strip() for name in text.split(",") if name.strip())
 
 
 def _complain(text: str) -> None:
+    """Print a sentence to the error stream, neither wrapped nor coloured."""
     Console(stderr=True).print(text, markup=False, highlight=False, soft_wrap=True)
 
 
 def _explain(derived: Derived) -> None:
+    """Print the robot, what was guessed about it, and whether each law holds."""
     _describe(derived.biped)
     for sentence in derived.said:
         say(f"guessed  {sentence}")
@@ -158,6 +166,7 @@ def _explain(derived: Derived) -> None:
 
 
 def _describe(biped: Biped) -> None:
+    """Print coordinates and their joints, Theta, feet, section, limits, and mass and inertia of the links."""
     d = biped.description
     say(f"n = {biped.n} coordinates, p = {biped.p} motors, {biped.mass:.6g} kg")
     for i, joint in enumerate(d.joints):

@@ -1,4 +1,9 @@
-"""`biped-adrc sweep`."""
+"""`biped-adrc sweep`: every point of a study, on all cores or a cluster; what is finished is never lost.
+
+The study is a TOML file (`bench.study_file`); `bench.sweep` walks its points and stores each result
+as it comes. The options of workers, the progress bar and the way Ctrl-C is met are shared with
+`compare`.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +11,13 @@ import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console
+from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console, say
+from biped_adrc.cli.options import texts
 from biped_adrc.errors import InputError
 
 if TYPE_CHECKING:
@@ -22,42 +28,19 @@ if TYPE_CHECKING:
     from biped_adrc.viz.plots.sweep_maps import Maps
 
 
-Number = Annotated[int | None, typer.Option(help="Processes or threads; by default one per core.")]
-InThreads = Annotated[bool, typer.Option("--threads", help="Threads in place of processes.")]
-Scheduler = Annotated[
-    str | None, typer.Option(help="Address of a Dask scheduler, such as tcp://host:8786.")
-]
-OtherVersions = Annotated[
-    bool, typer.Option("--other-versions", help="Go on with results of other versions.")
-]
-
-
 @app.command()
+@texts("sweep")
 def sweep(
-    study: Annotated[Path, typer.Argument(help="The study, a TOML file.")],
-    out: Annotated[
-        Path, typer.Option("--out", "-o", help="Folder of the results; a study goes on there.")
-    ],
-    workers: Number = None,
-    threads: InThreads = False,
-    scheduler: Scheduler = None,
-    export: Annotated[
-        list[str] | None, typer.Option(help="Write the results as csv or parquet too.")
-    ] = None,
-    plot: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="Draw a map, X,Y or X,Y,PANEL of what is varied, such as 'bandwidth,period'; end with "
-            "':COLUMN' for another result than the share of walks that make all steps. May be repeated."
-        ),
-    ] = None,
-    dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Check the study and count its walks, no more.")
-    ] = False,
-    no_run: Annotated[
-        bool, typer.Option("--no-run", help="Export and draw what is finished, walk nothing.")
-    ] = False,
-    other_versions: OtherVersions = False,
+    study: Path,
+    out: Path,
+    workers: int | None = None,
+    threads: bool = False,
+    scheduler: str | None = None,
+    export: list[str] | None = None,
+    plot: list[str] | None = None,
+    dry_run: bool = False,
+    no_run: bool = False,
+    other_versions: bool = False,
 ) -> None:
     """Walk every point of a study, on all cores or a cluster; what is finished is never lost."""
     from biped_adrc.bench.export import check_kind, write_map
@@ -103,12 +86,8 @@ def _finished(study: Study, out: Path) -> Sweep:
     return done
 
 
-def say(text: str) -> None:
-    """As it is."""
-    console.print(text, markup=False, highlight=False, soft_wrap=True)
-
-
 def _print_statuses(done: Sweep) -> None:
+    """Print how many walks ended in each way, and why some could not be walked."""
     counts = ", ".join(f"{count} {status}" for status, count in done.statuses().items())
     say(f"{done.path}: {counts or 'nothing is finished'}")
     for status, detail in done.no_walks().items():
@@ -116,7 +95,7 @@ def _print_statuses(done: Sweep) -> None:
 
 
 def interrupted(results: Path) -> typer.Exit:
-    """Say what to do after Ctrl-C, of which once is enough."""
+    """Say what to do after Ctrl-C, and give the exit to raise; a second Ctrl-C meanwhile is ignored."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if results.exists():
         say(f"what is finished is in {results.parent}; the same command goes on from there")
@@ -129,7 +108,11 @@ def interrupted(results: Path) -> typer.Exit:
 def carried_out(
     name: str, results: Path, total: int | None, left: Callable[[float], str]
 ) -> Iterator[Callable[[Done], None]]:
-    """A bar of the walks of a study, to be told how far it is; left: in words, of seconds."""
+    """Context with a progress bar of the walks of a study; it gives the function that is told how far it is.
+
+    results: file that is there once something is finished. total: number of walks, None if not
+    known. left: seconds to go, in words. On Ctrl-C it says how to go on and raises the exit.
+    """
     text = TextColumn("{task.description:<24.24}", markup=False)
     told = TextColumn("{task.fields[left]}")
     columns = (text, BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), told)
@@ -150,11 +133,17 @@ def carried_out(
 
 
 def _clock(seconds: float) -> str:
+    """Seconds to go as "h:mm:ss left"."""
     minutes, rest = divmod(round(seconds), 60)
     return f"{minutes // 60}:{minutes % 60:02}:{rest:02} left"
 
 
 def study_workers(number: int | None, threads: bool, scheduler: str | None) -> Workers:
+    """The workers that the options ask for: processes, threads, or a Dask cluster.
+
+    Raises InputError for a scheduler together with a number or threads: a cluster brings its own
+    workers.
+    """
     from biped_adrc.campaign.workers import Processes, Threads
 
     if scheduler is None:
@@ -167,7 +156,10 @@ def study_workers(number: int | None, threads: bool, scheduler: str | None) -> W
 
 
 def _maps(text: str, study: Study) -> Maps:
-    """What a text of --plot asks for. Raises InputError."""
+    """What a text of --plot asks for, X,Y or X,Y,PANEL and perhaps :COLUMN.
+
+    Raises InputError for what the study does not vary or have as a result, before any walk.
+    """
     from biped_adrc.bench.parameters import unit
     from biped_adrc.bench.study import CASE
     from biped_adrc.viz.plots.sweep_maps import Maps
@@ -211,6 +203,7 @@ def _check_map(text: str, study: Study, value: str, panels: list[str]) -> None:
 
 
 def _print_study(study: Study) -> None:
+    """Print what a study varies, the number of its points, and the first of them."""
     say(f"{study.name}: {study.count} points, over {', '.join(study.varied) or 'nothing'}")
     first = next(study.points())
     say(f"the first of them: {dict(first.at)}")

@@ -1,17 +1,24 @@
-"""`biped-adrc simulate` and `poincare`."""
+"""`biped-adrc simulate` and `poincare`: one walk, and the stability of one gait under a controller.
+
+Both make a `Scenario` of the options. `simulate` walks it with `scenario.run`, once more at half
+the step to say how far the numbers can be trusted, judges every step (`analysis.legality`) and
+stores the run. `poincare` finds the fixed point of the return map and its multipliers
+(`studies.cycle_stability`).
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import typer
 from rich.markup import escape
 from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
-from biped_adrc.cli.options import Pushes, of_scenario, texts, values_of
+from biped_adrc.cli.options import of_scenario, texts, values_of
+from biped_adrc.types import PlainRecord
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
@@ -25,17 +32,21 @@ WHY = {
     "compiled": "generated from Pinocchio's model and checked against it",
     "pinocchio": "as asked for",
 }
+"""Why the engine is the one it is, where the run itself gives no reason."""
 COMMON = ("controller", "gait", "robot", "preset", "impacts", "seed", "hardware", "period")
+"""Fields of a scenario that are options of `simulate`: what walks."""
 LAW = ("torque_limit", "K_p", "K_d", "observer", "poles", "bandwidth", "order", "reset")
+"""Those of the controller."""
 NUMERICS = ("friction", "slope", "method", "engine", "friction_limit", "force_window")
+"""Those of ground, method and limits."""
 
 
 @app.command()
 @of_scenario(*COMMON, *LAW, *NUMERICS, h="--step")
 @texts("simulate")
 def simulate(
-    given: dict[str, Any],
-    push: Pushes = None,
+    given: PlainRecord,
+    push: list[str] | None = None,
     sets: list[str] | None = None,
     as_printed: bool = False,
     end_illegal: bool = False,
@@ -45,16 +56,15 @@ def simulate(
     from biped_adrc.scenario.build import limits
     from biped_adrc.scenario.scenario import Scenario
 
-    values = {"controller": usual(given)} | values_of(given, push, sets)
-    if as_printed:
-        values["solve_theta"] = False
+    printed = {"solve_theta": False} if as_printed else {}
+    values = {"controller": usual(given), **values_of(given, push, sets), **printed}
     s = Scenario(**values)
     read = inputs(s.robot, s.gait)
     _walk(s, limits(s), end_illegal, run_path(out, read))
 
 
-def usual(given: dict[str, Any], motors: str = "ADRC") -> str:
-    """The controller where none is given; `motors` for a robot that has some."""
+def usual(given: PlainRecord, motors: str = "ADRC") -> str:
+    """The controller where none is given: `motors` for a robot that has some, else "passive"."""
     from biped_adrc.robots.robot_toml import load_description
     from biped_adrc.scenario.registry import is_own
 
@@ -63,7 +73,10 @@ def usual(given: dict[str, Any], motors: str = "ADRC") -> str:
 
 
 def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> None:
-    """Carry out a scenario, print it, and write it where it is asked for."""
+    """Carry out a scenario, print it, and write it where it is asked for; raises the exit if the robot fell.
+
+    A walk with motors is carried out again at half the step; only the first one is stored.
+    """
     from biped_adrc.scenario.run import halved, walk_scenario
 
     with bar() as shown:
@@ -93,6 +106,7 @@ def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> N
 
 
 def _print_steps(o: Outcome, legality: Legality) -> None:
+    """Print what every step needed of ground and motors, a row each, and below how the walk ended."""
     from biped_adrc.analysis.certificate import Certificate, ratio_text
     from biped_adrc.paper.convergence import error_text
 
@@ -124,7 +138,7 @@ def _print_steps(o: Outcome, legality: Legality) -> None:
 
 
 def _print_passive(walk: Walk, limits: Limits) -> None:
-    """The steps of a robot without motors."""
+    """Print the steps of a robot without motors, with the energy that each impact loses."""
     from biped_adrc.analysis.certificate import ratio_text
     from biped_adrc.closed_loop.walker import FOOT_STRIKE
 
@@ -153,7 +167,7 @@ def _print_passive(walk: Walk, limits: Limits) -> None:
 
 
 def _instants(needed: Legality | Certificate) -> str:
-    """What no mean hides."""
+    """What no mean hides: the least normal force, and how long the force is outside the friction cone."""
     return (
         f"at an instant F_N is {needed.least_normal_force:.1f} N at least, and the force is outside the "
         f"friction cone for {100.0 * needed.share_outside:.2g} % of the time"
@@ -161,7 +175,7 @@ def _instants(needed: Legality | Certificate) -> str:
 
 
 def _nominal(c: Certificate) -> str:
-    """What the step of a cycle needs, in a line."""
+    """What the step of a cycle needs of ground and motors, and whether it is legal, in a sentence."""
     from biped_adrc.analysis.certificate import ratio_text
 
     missed = "; ".join(c.illegal().values())
@@ -178,7 +192,7 @@ def _nominal(c: Certificate) -> str:
 @of_scenario("robot", "preset", "gait", "controller", controller="NPD")
 @texts("poincare")
 def poincare(
-    given: dict[str, Any],
+    given: PlainRecord,
     slope: float | None = None,
     sets: list[str] | None = None,
     observer_states: bool = True,
@@ -192,7 +206,7 @@ def poincare(
         nominal_step,
     )
 
-    s = Scenario(**{"controller": usual(given, "NPD")} | values_of(given, None, sets))
+    s = Scenario(**{"controller": usual(given, "NPD"), **values_of(given, None, sets)})
     cycle = cycle_of(s, observer_states, slope)
     with console.status("Newton on the return map"):
         found = cycle_stability(cycle, samples)

@@ -155,6 +155,7 @@ class Between:
 
 # -- without hardware ------------------------------------------------------------------------------
 _TERMS, _POINT = partial(tuple.__new__, Reduction), partial(tuple.__new__, ReferencePoint)
+_MEASUREMENT = partial(tuple.__new__, Measurement)
 _HOLD = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)
 
 
@@ -213,18 +214,20 @@ class Bare(HybridSystem):
             count += 1
         told, (step, began) = self.told.point or Unasked(), mode
         due = origin + count * period
-        hold, at = seen.hold, seen.at
+        hold, at, output, saturate = seen.hold, seen.at, law.output, walker.saturate
         for q, v, terms, point, following in seen:
             told.now = q, v, point
             if t == due:
                 B = None if body is None else body(q, v)
-                m = Measurement(t, step, t - began, q, v, terms, B)
-                s, u = asked(walker, s, m)
-                torque[:] = u
-                s = law.predict(s, m, u)
+                m = _MEASUREMENT((t, step, t - began, q, v, terms, B))
                 count += 1
                 due = origin + count * period
-                if size:
+                if not size:
+                    torque[:] = saturate(output(s, m))
+                else:
+                    s, u = asked(walker, s, m)
+                    torque[:] = u
+                    s = law.predict(s, m, u)
                     states.append(s)
                     ends.append(int(run[layout.COUNT]))
             run[END] = t = due if due < until else until

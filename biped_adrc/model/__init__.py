@@ -1,1 +1,14 @@
-"""The robot: URDF, Pinocchio dynamics in the paper's coordinates, impact, the split (11)-(15)."""
+"""Dynamics of the plant: inertia, bias, impact and their derivatives, all in the paper's coordinates.
+
+- `biped`       the planar biped, made of a robot's record and its two Pinocchio models
+- `pinned`      single support: the tree pinned at the stance foot, D_s and Omega of (1)
+- `contact`     double support: the floating tree and the plastic impact (2)-(9)
+- `reduction`   kappa and xi of the actuated joints (11)-(15)
+- `planar`      the same dynamics in closed form, for numbers and for symbols
+- `derivatives` of accelerations and of the impact with respect to the state
+- `physical`    checks that a robot read from a file can be computed with
+- `model_errors` relative errors of masses, COMs, inertias and friction
+- `arm`         a fully actuated arm on a fixed base, for the same controllers
+
+Nothing here knows of time, controllers or simulation; `closed_loop` and `engine` build on it.
+"""

@@ -1,9 +1,12 @@
-"""A fully actuated arm on a fixed base: every joint has a motor, so p = n and nothing is left over.
+"""A fully actuated arm on a fixed base: every joint has a motor, so p = n and no row is unactuated.
 
     D(q) q'' + Omega(q, q') = u + zeta,   q'' = kappa u + xi,   kappa = D^-1,   xi = -D^-1 Omega
 
-which is (11)-(15) with no unactuated rows. The URDF may be any tree of revolute and prismatic joints; it is
-read as strictly as a biped's. What the hand carries is a ball fixed to the tool.
+This is (11)-(15) with p = n, so the controllers of the biped run on an arm unchanged
+(`closed_loop.arm` closes the loop). The URDF may be any tree of revolute and prismatic joints; it
+is checked as strictly as a biped's URDF, and then given to Pinocchio as it is written, because no
+re-rooting and no planar closed form is needed here. A payload is a homogeneous ball fixed to the
+tool; the controller's nominal model is usually the arm without it.
 """
 
 from __future__ import annotations
@@ -15,7 +18,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
@@ -30,34 +33,49 @@ from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 UR5 = ("ur_description/urdf/ur5_robot.urdf", "tool0")
-"""Path below the robots of example-robot-data, and the tool."""
+"""Path below the robot folder of example-robot-data, and the name of the tool's link."""
 ACCURACY = 1e-9
-"""Largest relative round-off in D^-1."""
+"""Largest relative round-off that D^-1 may have: eps times the condition number of D, dimensionless."""
 
 
 class Payload(NamedTuple):
-    """A ball: mass [kg], centre in the tool's frame [m], radius [m]."""
+    """A homogeneous solid ball that is fixed to the tool; its inertia about the centre is 2/5 m r^2."""
 
     mass: float
+    """[kg]."""
     com: Vector
+    """Centre (x, y, z) in the frame of the tool [m]."""
     radius: float
+    """[m]."""
 
 
 @dataclass(frozen=True)
 class Arm(Shown):
-    """An arm with what it carries. Make it with `Arm.load`; use one Arm per thread, as with a Biped."""
+    """An arm with its payload, if any. Make it with `Arm.load` or `Arm.ur5`.
+
+    Coordinates q (n,) are [rad] for revolute and [m] for prismatic joints, from the base outwards.
+    Pinocchio's work data inside is overwritten by every call: use one Arm per thread, as with a
+    Biped.
+    """
 
     source: str
+    """Path of the URDF, for error messages."""
     text: str
-    """URDF, without the <inertial> of frames that weigh nothing."""
+    """URDF as text, without the <inertial> elements whose mass is zero."""
     tool: str
+    """Name of the link that carries the payload and whose position is `tool_position`."""
     effort: Array
-    """(n,) [N m] or [N]; infinite where the URDF has no limit."""
+    """Largest torque of each motor from <limit effort> (n,) [N m] or [N]; infinite without a limit."""
     payload: Payload | None = None
+    """What the tool carries; None for the bare arm."""
 
     @classmethod
     def load(cls, urdf: Path | str, tool: str) -> Arm:
-        """From a URDF and the link that is the tool. Raises ModelError that names the file and the place."""
+        """Read an arm from a URDF; `tool` is the link at its end.
+
+        Raises ModelError that names the file and the element for a body that is not physical, an
+        unknown tool, and an inertia matrix that is not positive definite.
+        """
         source, root = str(urdf), parse(urdf)
         _strip(root, source)
         straightened(root, source)  # refuses what is not physical
@@ -69,7 +87,10 @@ class Arm(Shown):
 
     @classmethod
     def ur5(cls) -> Arm:
-        """The UR5 of example-robot-data, 6 joints. Raises ModelError where the extra `robots` is missing."""
+        """The UR5 of example-robot-data, with 6 joints and the tool frame `tool0`.
+
+        Raises ModelError where the extra `robots` is not installed.
+        """
         path, tool = UR5
         for folder in _data_folders():
             if (folder / path).is_file():
@@ -79,9 +100,10 @@ class Arm(Shown):
         )
 
     def with_payload(self, mass: float, com: Vector = (0.0, 0.0, 0.0), radius: float = 0.05) -> Arm:
-        """The arm with a ball of `mass` [kg] at `com` [m] in the tool's frame, in place of what it carried.
+        """The same arm with a ball of `mass` [kg] at `com` (x, y, z) [m] in the tool's frame; a
+        payload it had before is replaced. radius [m] gives the ball's inertia.
 
-        Raises InputError for a mass or radius [m] that is not positive.
+        Raises InputError for a mass or radius that is not positive, or a place that is not finite.
         """
         if not (0.0 < mass < math.inf and 0.0 < radius < math.inf and all(map(math.isfinite, com))):
             raise InputError(
@@ -91,8 +113,12 @@ class Arm(Shown):
         return replace(self, payload=Payload(mass, com, radius))._checked()
 
     @cached_property
-    def model(self) -> Any:
-        """Pinocchio's model, payload included."""
+    def model(self) -> pin.Model:
+        """Pinocchio's model, payload included, with gravity along -z.
+
+        Raises ModelError for a URDF that Pinocchio refuses, and for joints with more numbers than
+        velocities (`continuous` ones are stored as sine and cosine).
+        """
         try:
             model = pin.buildModelFromXML(self.text)
         except (ValueError, RuntimeError) as error:
@@ -112,7 +138,7 @@ class Arm(Shown):
         return model
 
     @cached_property
-    def _data(self) -> Any:
+    def _data(self) -> pin.Data:
         return self.model.createData()
 
     @cached_property
@@ -127,43 +153,50 @@ class Arm(Shown):
 
     @property
     def p(self) -> int:
-        """Number of motors, n."""
+        """Number of motors, equal to n."""
         return self.n
 
     # -- dynamics ----------------------------------------------------------------------------------
     def inertia(self, q: Array) -> Array:
-        """D(q) (n, n)."""
+        """Inertia matrix D(q) (n, n) [kg m^2] for revolute joints, by the composite rigid body algorithm."""
         return np.array(pin.crba(self.model, self._data, self._finite(q)))
 
     def bias(self, q: Array, v: Array) -> Array:
-        """Omega(q, q') (n,)."""
+        """Omega(q, q') = C q' + G (n,) [N m]: Coriolis, centrifugal and gravity torques."""
         x, dx = self._finite(q), self._finite(v)
         return np.array(pin.nonLinearEffects(self.model, self._data, x, dx))
 
     def reduction(self, q: Array, v: Array) -> Reduction:
-        """D, Omega, kappa and xi; A_N and a_N are empty."""
+        """D, Omega, kappa and xi of (11)-(15) at (q, q') (n,) [rad, rad/s].
+
+        All coordinates are actuated, so the rows A_N (0, n) and a_N (0,) of the unactuated ones are
+        empty.
+        """
         return reduce(self.inertia(q), self.bias(q, v), self.n)
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
-        """q'' (n,) under the generalised force u + zeta (n,), by ABA."""
+        """q'' (n,) [rad/s^2] under the generalised force u + zeta (n,) [N m], by the articulated body
+        algorithm.
+        """
         x, dx = self._finite(q), self._finite(v)
         return np.array(pin.aba(self.model, self._data, x, dx, force))
 
     def kinetic_energy(self, q: Array, v: Array) -> float:
-        """[J]."""
+        """q'^T D q' / 2 [J]."""
         return float(pin.computeKineticEnergy(self.model, self._data, self._finite(q), v))
 
     def potential_energy(self, q: Array) -> float:
-        """[J], zero at the height of the base."""
+        """V(q) [J], zero for masses at the height of the base."""
         return float(pin.computePotentialEnergy(self.model, self._data, self._finite(q)))
 
     def tool_position(self, q: Array) -> Array:
-        """(x, y, z) of the tool's frame [m]."""
+        """Place (x, y, z) of the tool's frame in the frame of the base (3,) [m]."""
         pin.forwardKinematics(self.model, self._data, self._finite(q))
         frame = frame_index(self.model, self.tool)
         return np.array(pin.updateFramePlacement(self.model, self._data, frame).translation)
 
     def _finite(self, q: Array) -> Array:
+        """q (n,) itself after a check of its shape and that all its numbers are finite."""
         return finite_angles(q, (self.n,))
 
     def _checked(self) -> Arm:
@@ -182,7 +215,10 @@ class Arm(Shown):
 
 
 def _strip(root: ET.Element, source: str) -> None:
-    """Take out the <inertial> of links whose mass is written as 0: frames."""
+    """Remove the <inertial> of links whose mass and moments are all written as 0.
+
+    Many URDFs mark pure frames in this way; the strict reader takes a mass of 0 for an error.
+    """
     for link in root.findall("link"):
         inertial, where = link.find("inertial"), place_of(link, source)
         mass = None if inertial is None else inertial.find("mass")
@@ -197,6 +233,9 @@ def _strip(root: ET.Element, source: str) -> None:
 
 
 def _effort(joint: ET.Element, source: str) -> float:
+    """<limit effort> of a joint [N m], infinite where it is not given. Raises ModelError unless it is
+    positive: an arm has no passive joints.
+    """
     limit = joint.find("limit")
     if limit is None or "effort" not in limit.attrib:
         return math.inf
@@ -210,7 +249,7 @@ def _effort(joint: ET.Element, source: str) -> float:
 
 
 def _data_folders() -> Iterator[Path]:
-    """Where example-robot-data may lie: below the prefix that its wheel shares with Pinocchio's."""
+    """Folders where example-robot-data may lie: below the prefix that its wheel shares with Pinocchio's."""
     here = (Path(sysconfig.get_path(key)) for key in ("platlib", "purelib"))
     for place in [*(path / "cmeel.prefix" for path in here), *Path(pin.__file__).parents]:
         yield place / "share" / "example-robot-data" / "robots"

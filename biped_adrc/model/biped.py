@@ -2,9 +2,16 @@
 
     D_s(q) q'' + C(q, q') q' + G_s(q) = B_s u + delta + zeta         (1)
 
-q_b are the actuated joints (stance hip, swing hip, stance knee, swing knee), q_N the absolute pitch of
-the torso. Angles are counter-clockwise positive with x to the right and z up; a link of absolute
-angle a points along (-sin a, cos a).
+q_b (p,) are the actuated joints (for RABBIT: stance hip, swing hip, stance knee, swing knee), q_N
+is the absolute pitch of the torso. Angles are counter-clockwise positive with x to the right and z
+up; a link of absolute angle a points along (-sin a, cos a). zeta is an external generalised force
+and delta what the model has wrong.
+
+`Biped` joins a robot's record (`robots.robot_toml`), its URDF tree and two Pinocchio models made
+from that tree: `pinned` at the stance foot for single support, `floating` for the impact. Every
+method here checks its angles and passes them on to one of the two. Walkers, observers, controllers,
+gait design and the compiled engine all take their numbers from this class. Use it for the plant and
+for the controller's nominal model alike; they are two objects when the model is wrong.
 """
 
 from __future__ import annotations
@@ -32,20 +39,28 @@ from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 STICTION_SPEED = 0.05  # [rad/s], width of the smoothed sign of static friction
+"""Width [rad/s] of the smoothed sign tanh(v / STICTION_SPEED) of static friction."""
 
 
 @dataclass(frozen=True)
 class Biped(Shown):
     """A robot with one set of parameters. Make it with `Biped.load`.
 
-    Pinocchio's work data inside is overwritten by every call: use one Biped per thread.
+    Methods take q (n,) [rad], v = q' (n,) [rad/s] and a = q'' (n,) [rad/s^2] in the order of
+    `description.joints`, and raise InputError for another shape, NotFiniteError for NaN or
+    infinity. Pinocchio's work data inside is overwritten by every call: use one Biped per thread.
     """
 
     description: RobotDescription
+    """The record robot.toml: names of joints and feet, limits, phase, presets."""
     tree: Tree
+    """Links and joints as in the URDF, with the masses of the preset, rooted at the planar base."""
     preset: str
+    """Name of the parameter set."""
     armature: float
+    """Rotor inertia of every motor, reflected to its joint [kg m^2]."""
     friction: bool = False
+    """Whether `acceleration` includes the joint friction of the record."""
 
     def __repr__(self) -> str:
         name, parts = self.description.name, f"n = {self.n}, p = {self.p}, {self.mass:.4g} kg"
@@ -55,10 +70,10 @@ class Biped(Shown):
     def load(
         cls, robot: str | Path = "rabbit", preset: str | None = None, friction: bool = False
     ) -> Biped:
-        """A robot by name (or the path of its robot.toml) with a parameter preset.
+        """A robot by name, or by the path of its robot.toml, with a parameter preset (None: the default one).
 
-        friction: add the record's viscous and static joint friction to the dynamics.
-        Raises ModelError for an unknown robot or preset, or a URDF that is not physical.
+        friction: add the record's viscous and static joint friction to the dynamics. Raises
+        ModelError for an unknown robot or preset, or a URDF that is not physical.
         """
         description = load_description(robot)
         record = description.preset(preset)
@@ -71,7 +86,9 @@ class Biped(Shown):
     def check(self) -> None:
         """Build both models now; check that they can be computed with and that the two legs are alike.
 
-        The kinetic energy with the base at rest must not change when the legs swap roles. Raises ModelError.
+        Relabelling at impact is right only for equal legs. Tested at one state: with the base at
+        rest the kinetic energy must not change when the legs exchange their roles, nor the distance
+        between the feet. Raises ModelError.
         """
         check_planar(self.tree, self.description)
         check_numbers(self)
@@ -90,40 +107,47 @@ class Biped(Shown):
     # -- sizes and names -----------------------------------------------------------------------
     @cached_property
     def n(self) -> int:
-        """Number of coordinates N."""
+        """Number of coordinates N: actuated joints, passive joints and the pitch."""
         return len(self.description.joints)
 
     @cached_property
     def p(self) -> int:
-        """Number of motors."""
+        """Number of motors; the first p coordinates are the actuated ones."""
         return len(self.description.actuated)
 
     @cached_property
     def B(self) -> Array:
-        """B_s = [I; 0] (n, p)."""
+        """Input matrix B_s = [I; 0] (n, p) of (1), dimensionless."""
         return np.eye(self.n)[:, : self.p]
 
     @cached_property
     def phase(self) -> Array:
-        """Row c (n,) of Theta = c q."""
+        """Row c (n,) of the phase variable Theta = c q, dimensionless."""
         return np.array(self.description.phase)
 
     @cached_property
     def R(self) -> Array:
-        """(n, n): q+ = R q- + r exchanges the legs at impact, as `relabel` does. Raises ModelError."""
+        """Matrix (n, n) of q+ = R q- + r, which exchanges the legs at impact; `relabel` applies it.
+
+        Raises ModelError where no linear map exchanges the legs.
+        """
         return relabelling(self.tree, self.description.joints, self.description.feet)
 
     def relabel(self, q: Array) -> Array:
-        """q (n,) in the coordinates of the next single support [rad]."""
+        """R q + r: the configuration q (n,) [rad] in the coordinates of the next single support."""
         return self.R @ q + self._offset
 
     @cached_property
     def _offset(self) -> Array:
+        """r (n,) [rad] of q+ = R q- + r; zero except for robots with spokes."""
         return np.array(self.description.offset)
 
     @cached_property
     def relabelling(self) -> NDArray[np.int_]:
-        """R as a permutation (n,): q_new = q[R], dtype int. Raises ModelError where it is none."""
+        """R as a permutation (n,) of ints: q_new = q[R].
+
+        Observers exchange their states by it. Raises ModelError where R is no permutation.
+        """
         rows, columns = np.nonzero(self.R)
         ones = np.array_equal(rows, np.arange(self.n)) and np.all(self.R[rows, columns] == 1.0)
         if not ones or self._offset.any():
@@ -136,18 +160,18 @@ class Biped(Shown):
     # -- the two Pinocchio models ----------------------------------------------------------------
     @cached_property
     def pinned_tree(self) -> Tree:
-        """The tree rooted at the stance foot."""
+        """The same links as a tree that is rooted at the stance foot."""
         return reroot(self.tree, self.description.stance_foot, self.description.trunk)
 
     @cached_property
     def pinned(self) -> PinnedDynamics:
-        """Single-support dynamics from the pinned model."""
+        """Single-support dynamics (1), from the model pinned at the stance foot."""
         chain = self._stance_chain()
         return PinnedDynamics(self.pinned_tree, self.description, chain, self.armature)
 
     @cached_property
     def floating(self) -> FloatingDynamics:
-        """Unpinned dynamics from the floating model."""
+        """Unpinned dynamics (2) and impact (7), from the model with a planar base."""
         return FloatingDynamics(self.tree, self.description, self.armature)
 
     def _stance_chain(self) -> Array:
@@ -163,7 +187,7 @@ class Biped(Shown):
 
     # -- single support (1), (11)-(15) -----------------------------------------------------------
     def inertia(self, q: Array) -> Array:
-        """D_s(q) (n, n) [kg m^2]."""
+        """Inertia matrix D_s(q) (n, n) [kg m^2], rotors included."""
         return self.pinned.inertia(self._angles(q))
 
     def bias(self, q: Array, v: Array) -> Array:
@@ -171,7 +195,7 @@ class Biped(Shown):
         return self.pinned.bias(self._angles(q), self._angles(v))
 
     def gravity(self, q: Array) -> Array:
-        """G_s(q) = dV/dq (n,) [N m]."""
+        """G_s(q) = dV/dq (n,) [N m], the torques of gravity."""
         return self.pinned.gravity(self._angles(q))
 
     def coriolis(self, q: Array, v: Array) -> Array:
@@ -179,19 +203,25 @@ class Biped(Shown):
         return self.pinned.coriolis(self._angles(q), self._angles(v))
 
     def reduction(self, q: Array, v: Array) -> Reduction:
-        """The split (11)-(15) at (q, q'): D, Omega, kappa, xi, and the unactuated rows."""
+        """The split (11)-(15) at (q, q') (n,) [rad, rad/s]: D, Omega, kappa, xi and the unactuated rows."""
         D, Omega = self.pinned.inertia_and_bias(self._angles(q), self._angles(v))
         return reduce(D, Omega, self.p)
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
-        """G, C' q', and the force of the ground as F_a q'' + F_0."""
+        """Gravity G (n,) [N m], C' q' (n,) [N m], and the ground's force as F_a q'' + F_0 (2,) [N].
+
+        For controllers that shape the momentum or bound the contact force; see `BodyTerms`.
+        """
         q, v = self._angles(q), self._angles(v)
         F_0 = self.ground_reaction(q, v, np.zeros(self.n))
         turning = self.pinned.coriolis(q, v).T @ v
         return BodyTerms(self.pinned.gravity(q), turning, self.pinned.mass_jacobian(q), F_0)
 
     def friction_torque(self, v: Array) -> Array:
-        """Joint friction (n,) [N m]: -viscous v - static tanh(v / STICTION_SPEED); zero if off."""
+        """Joint friction (n,) [N m]: -viscous v - static tanh(v / STICTION_SPEED), at rates v (n,) [rad/s].
+
+        Zero if the robot was loaded without friction.
+        """
         if not self.friction:
             return np.zeros(self.n)
         viscous, static = self.friction_coefficients
@@ -199,13 +229,16 @@ class Biped(Shown):
 
     @cached_property
     def friction_coefficients(self) -> tuple[Array, Array]:
-        """Viscous [N m s/rad] and static [N m], each (n,), as in the record."""
+        """Viscous [N m s/rad] and static [N m] friction, each (n,), as in the record."""
         d = self.description
         viscous = np.array([d.viscous.get(name, 0.0) for name in d.joints])
         return viscous, np.array([d.static.get(name, 0.0) for name in d.joints])
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
-        """q'' (n,) [rad/s^2] under the generalised force B_s u + delta + zeta (n,) [N m], by ABA."""
+        """q'' (n,) [rad/s^2] under the generalised force B_s u + delta + zeta (n,) [N m].
+
+        By the articulated body algorithm; joint friction is added where `friction` is set.
+        """
         if self.friction:
             force = force + self.friction_torque(v)
         return self.pinned.acceleration(self._angles(q), self._angles(v), force)
@@ -219,12 +252,15 @@ class Biped(Shown):
         return self.pinned.potential_energy(self._angles(q))
 
     def angular_momentum(self, q: Array, v: Array) -> float:
-        """sigma [kg m^2/s]: the row of q_N of D_s q'. sigma' = -dV/dq_N when q_N is not disturbed."""
+        """sigma [kg m^2/s], the last row of D_s q': the angular momentum about the stance foot.
+
+        sigma' = -dV/dq_N holds while no force or torque acts on q_N, since no motor acts there.
+        """
         return float(self.inertia(q)[-1] @ v)
 
     # -- kinematics ------------------------------------------------------------------------------
     def swing_foot(self, q: Array) -> Array:
-        """p_2 = (x, z) from the stance foot [m]."""
+        """Position p_2 = (x, z) of the swing foot from the stance foot (2,) [m]."""
         return self.pinned.position(self._angles(q), self.pinned.swing)
 
     def swing_foot_jacobian(self, q: Array) -> Array:
@@ -232,15 +268,15 @@ class Biped(Shown):
         return self.pinned.jacobian(self._angles(q), self.pinned.swing)
 
     def swing_foot_velocity(self, q: Array, v: Array) -> Array:
-        """(x, z) [m/s]."""
+        """Velocity (x, z) of the swing foot (2,) [m/s]."""
         return self.swing_foot_jacobian(q) @ self._angles(v)
 
     def hip(self, q: Array) -> Array:
-        """(x, z) of the hip from the stance foot [m]."""
+        """Position (x, z) of the hip from the stance foot (2,) [m]."""
         return self.pinned.position(self._angles(q), self.pinned.hip)
 
     def hip_velocity(self, q: Array, v: Array) -> Array:
-        """(x, z) [m/s]."""
+        """Velocity (x, z) of the hip (2,) [m/s]."""
         return self.pinned.jacobian(self._angles(q), self.pinned.hip) @ self._angles(v)
 
     @cached_property
@@ -255,28 +291,31 @@ class Biped(Shown):
 
     # -- contact (2)-(9) -------------------------------------------------------------------------
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
-        """Force of the ground on the stance foot (F_T, F_N) [N] in single support at (q, q', q'').
+        """Force of the ground on the stance foot (F_T, F_N) (2,) [N] in single support at (q, q', q'').
 
-        Newton's law for the COM: F = m (p_com'' - g). Joint torques and pure moments on a link do not
-        enter; forces on links from outside would.
+        Newton's law for the COM: F = m (p_com'' - g). Torques in joints and pure moments on a link
+        do not enter. External forces on links would; subtract their resultant (as
+        `analysis.signals` does).
         """
         acceleration = self.pinned.centre_of_mass(self._angles(q), v, a)[2]
         return self.mass * (acceleration + np.array([0.0, self.description.gravity]))
 
     def momentum(self, q: Array, v: Array) -> Array:
-        """Linear momentum m p_com' (x, z) [N s] in single support at (q, q')."""
+        """Linear momentum m p_com' (x, z) (2,) [N s] in single support at (q, q')."""
         return self.mass * self.pinned.centre_of_mass(self._angles(q), self._angles(v))[1]
 
     def extended_inertia(self, q: Array) -> Array:
-        """D_e(q) (n + 2, n + 2) of (2)."""
+        """Inertia matrix D_e(q) (n + 2, n + 2) of the unpinned model (2) in q_e = (q_s, p_e)."""
         return self.floating.extended_inertia(self._angles(q))
 
     def E_2(self, q: Array) -> Array:
-        """dp_2/dq_e (2, n + 2) of (4)."""
+        """Jacobian dp_2/dq_e (2, n + 2) of the swing foot, (4)."""
         return self.floating.swing_jacobian(self._angles(q))
 
     def impact(self, q: Array, v: Array) -> Impact:
-        """Delta (8) and Sigma (9) at (q-, q'-), and the relabelled state after it."""
+        """The plastic impact at (q-, q'-) (n,) [rad, rad/s]: Delta (8), Sigma (9), and the state after
+        it, already relabelled. Raises SingularError where (7) is singular.
+        """
         return self.floating.impact(self._angles(q), self._angles(v), self.R, self._offset)
 
     # -- variations ------------------------------------------------------------------------------
@@ -286,10 +325,11 @@ class Biped(Shown):
         inertia: Mapping[str, float] | None = None,
         friction: bool | None = None,
     ) -> Biped:
-        """The robot with masses and inertias multiplied, by class or link name: `delta` of (1).
+        """The robot with masses and inertias multiplied, by class or link name: a plant with `delta` of (1).
 
-        `mass` alone leaves the inertias about the COM as they are. Raises ModelError for an unknown
-        body or a factor that is not positive.
+        Factors are dimensionless, 1.1 is ten per cent more. `mass` alone leaves the inertias about
+        the COM as they are. friction: None keeps the setting. Raises ModelError for an unknown body
+        or a factor <= 0.
         """
         check_part(mass, "mass", Mapping, NoneType)
         check_part(inertia, "inertia", Mapping, NoneType)
@@ -302,7 +342,7 @@ class Biped(Shown):
         return replace(self, tree=self.scaled(factors), friction=friction)
 
     def scaled(self, factors: Mapping[str, Mapping[str, float]]) -> Tree:
-        """The tree with "mass", "com" or "inertia" multiplied: by kind, then by class or link name.
+        """The tree with "mass", "com" or "inertia" multiplied: factors by kind, then by class or link name.
 
         Raises ModelError for an unknown body, or one without mass.
         """
@@ -317,6 +357,7 @@ class Biped(Shown):
         return self.tree.with_inertials(inertials)
 
     def _links(self, body: str) -> tuple[str, ...]:
+        """Links of a body: the class's links of the record ("thigh"), or the one link of that name."""
         if body in self.description.links:
             return self.description.links[body]
         if body in self.tree.links:

@@ -1,27 +1,30 @@
-"""Double support: the unpinned model (2), the plastic impact (3)-(9).
+"""Double support: the unpinned model (2) and the plastic impact (3)-(9).
 
-q_e = (q_s, p_e) with p_e the end of the support leg. The floating URDF is rooted at the torso;
-p_e' and q_s' give its velocity through the stance-foot Jacobian, `v_float = J_e(q) q_e'`, hence
+q_e = (q_s, p_e) with p_e (2,) [m] the end of the support leg. The floating URDF is rooted at the
+torso, so its own velocity v_float differs from q_e'; the Jacobian of the stance foot gives `v_float
+= J_e(q) q_e'`, hence
 
     D_e = J_e' M J_e,   E_2 = J_2 J_e                                (2), (4)
     D_e (q_e+' - q_e-') = E_2' F_2,   E_2 q_e+' = 0                  (7)
 
-F_2 = (F_T, F_N) is the impulse of the ground on the swing foot [N s]. (5) in the paper has the
-sign of E_2' F_2 against (3), (4) and (7); (7) is right.
+F_2 = (F_T, F_N) is the impulse of the ground on the swing foot [N s]. The second line says that
+only this impulse acts, and that the new stance foot neither slips nor rebounds. (5) in the paper
+has the sign of E_2' F_2 against (3), (4) and (7); (7) is right.
 
-`LinkMotion` has the angular momentum of links from their own velocities, for laws that these matrices obey:
+`LinkMotion` computes the angular momentum of single links from their own velocities, to test laws
+that these matrices must obey:
 
     L = sum_k m_k (c_k - p) x c_k' + J_k omega_k        of some links, about a point p
 
-c_k, omega_k are taken from Pinocchio's link placements and velocities, so that neither D_e nor (7) enters.
-Positive counter-clockwise with x to the right and z up.
+c_k, omega_k come from Pinocchio's link placements and velocities, so neither D_e nor (7) enters.
+Positive counter-clockwise with x to the right and z up. `Biped` makes the FloatingDynamics.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
@@ -35,7 +38,7 @@ from biped_adrc.types import Array
 
 
 class Impact(NamedTuple):
-    """The plastic impact at x- = (q, v): Delta (8), Sigma (9), and the state after relabelling."""
+    """Result of the plastic impact at x- = (q, v): Delta (8), Sigma (9), and the state after relabelling."""
 
     q: Array
     """q_s after relabelling (n,) [rad]."""
@@ -44,16 +47,16 @@ class Impact(NamedTuple):
     impulse: Array
     """F_2 = (tangential, normal) [N s]."""
     v_e: Array
-    """q_e+' before relabelling (n + 2,): Delta of (8)."""
+    """q_e+' before relabelling (n + 2,) [rad/s, m/s]: Delta of (8) times q'-."""
 
     @property
     def old_foot_velocity(self) -> Array:
-        """(x, z) velocity of the foot that was the support [m/s]; z > 0 means that it lifts off."""
+        """Velocity (x, z) (2,) [m/s] of the foot that was the support; z > 0 means that it lifts off."""
         return self.v_e[-2:]
 
     @property
     def impulse_ratio(self) -> float:
-        """|F_T| / F_N: the dry friction the impact asks for, dimensionless."""
+        """|F_T| / F_N, dimensionless: the coefficient of dry friction that the impact asks for."""
         return float(abs(self.impulse[0]) / self.impulse[1])
 
     def __repr__(self) -> str:
@@ -61,9 +64,14 @@ class Impact(NamedTuple):
 
 
 class FloatingDynamics:
-    """The floating model in q_e = (q_s, p_e), evaluated with p_e at the origin."""
+    """The floating model in q_e = (q_s, p_e), evaluated with p_e at the origin.
+
+    Nothing depends on where the foot is, so the results hold for any p_e. q (n,) [rad] and v (n,)
+    [rad/s] are the paper's coordinates; m = n + 2 is the number of Pinocchio's velocities.
+    """
 
     def __init__(self, tree: Tree, d: RobotDescription, armature: float):
+        """Build the model of a tree with the armature [kg m^2] at every motor of the record `d`."""
         self.model = build(tree, d, armature)
         self.data = self.model.createData()
         self.n = len(d.joints)
@@ -81,10 +89,11 @@ class FloatingDynamics:
         return x
 
     def velocity_map(self, q: Array) -> Array:
-        """J_e(q) (n + 2, n + 2): v_float = J_e q_e'."""
+        """J_e(q) (n + 2, n + 2) of v_float = J_e q_e', dimensionless and [m]."""
         return self._velocity_map(self.configuration(q))
 
     def _velocity_map(self, x: Array) -> Array:
+        """J_e for Pinocchio's configuration x (m,): the base moves so that the stance foot moves with p_e'."""
         J = self._foot_jacobian(x, self.stance)
         J_e = np.zeros((self.n + 2, self.n + 2))
         J_e[self.angles, np.arange(self.n)] = 1.0
@@ -98,26 +107,28 @@ class FloatingDynamics:
         return M[np.ix_(self.angles, self.angles)]
 
     def _foot_jacobian(self, x: Array, frame: int) -> Array:
+        """d(x, z)/dx of a frame (2, m) [m] in the axes of the world."""
         J: Array = pin.computeFrameJacobian(
             self.model, self.data, x, frame, pin.LOCAL_WORLD_ALIGNED
         )
         return J[XZ]
 
     def extended_inertia(self, q: Array) -> Array:
-        """D_e(q) (n + 2, n + 2) of (2)."""
+        """D_e(q) (n + 2, n + 2) of (2): [kg m^2] for angles, [kg] for p_e."""
         J_e = self.velocity_map(q)
         M = pin.crba(self.model, self.data, self.configuration(q))
         return J_e.T @ M @ J_e
 
     def swing_jacobian(self, q: Array) -> Array:
-        """E_2 = dp_2/dq_e (2, n + 2) of (4)."""
+        """E_2 = dp_2/dq_e (2, n + 2) of (4), [m] for angles."""
         return self._foot_jacobian(self.configuration(q), self.swing) @ self.velocity_map(q)
 
     def projected(self, q: Array, v: Array) -> tuple[Array, Array]:
-        """D_s and Omega from the floating model, constrained by the stance contact (n, n), (n,).
+        """D_s (n, n) [kg m^2] and Omega (n,) [N m] from the floating model, constrained by the stance contact.
 
-        With Z = J_e[:, :n] the null space of the contact Jacobian, D_s = Z' M Z and
-        Omega = Z' (nle + M Z' v), where Z' v is minus the drift of the stance foot on the base rows.
+        An independent way to the pinned model's terms, used as a check. With Z = J_e[:, :n] the
+        null space of the contact Jacobian, D_s = Z' M Z and Omega = Z' (nle + M Z' v), where Z' v
+        is minus the drift acceleration of the stance foot in the rows of the base.
         """
         x = self.configuration(q)
         Z = self.velocity_map(q)[:, : self.n]
@@ -134,7 +145,10 @@ class FloatingDynamics:
         return Z.T @ M @ Z, Z.T @ (nle + M @ Zdot_v)
 
     def impact(self, q: Array, v: Array, R: Array, offset: Array) -> Impact:
-        """Solve (7) at (q-, v-) and relabel: q+ = R q- + offset, v+ = R v (n,). Raises SingularError."""
+        """Solve (7) at (q-, v-) (n,) [rad, rad/s] and relabel: q+ = R q- + offset, v+ = R v.
+
+        R (n, n) and offset (n,) [rad] are those of `Biped`. Raises SingularError.
+        """
         n, x = self.n, self.configuration(q)
         J_e = self._velocity_map(x)
         D_e = J_e.T @ pin.crba(self.model, self.data, x) @ J_e
@@ -151,14 +165,18 @@ class FloatingDynamics:
 
 @dataclass(frozen=True)
 class LinkMotion:
-    """Links of the floating model at (q, q_e'), with the stance foot at the origin."""
+    """Placements and velocities of all links of the floating model at (q, q_e'), stance foot at the origin.
+
+    Makes its own work data, so it stays valid when the model is used again.
+    """
 
     floating: FloatingDynamics
     q: Array
     """(n,) [rad]."""
     v_e: Array
     """(q_s', p_e') (n + 2,) [rad/s, m/s]."""
-    data: Any = field(init=False, repr=False)
+    data: pin.Data = field(init=False, repr=False)
+    """Pinocchio's work data at this state."""
 
     def __post_init__(self) -> None:
         f = self.floating
@@ -168,26 +186,30 @@ class LinkMotion:
         pin.updateFramePlacements(f.model, data)
         object.__setattr__(self, "data", data)
 
-    def momentum(self, joints: Iterable[int] | None = None) -> Any:
-        """Spatial momentum of the links of `joints` (by Pinocchio, all without), in the axes of the world."""
+    def momentum(self, joints: Iterable[int] | None = None) -> pin.Force:
+        """Spatial momentum [N s], [N m s] of the links that move with `joints` (Pinocchio's numbers),
+        in the axes of the world about its origin; None takes all of them.
+        """
         model, data, total = self.floating.model, self.data, pin.Force.Zero()
         for j in range(1, model.njoints) if joints is None else joints:
             total += data.oMi[j].act(model.inertias[j] * data.v[j])
         return total
 
     def about(self, point: Array, joints: Iterable[int] | None = None) -> float:
-        """L of the links of `joints` (all without) about a point (x, z) [kg m^2/s]."""
+        """L [kg m^2/s] about a point (x, z) [m] of the links that move with `joints`; None takes all
+        of them.
+        """
         h = self.momentum(joints)
         return -float((h.angular - np.cross([point[0], 0.0, point[1]], h.linear))[1])
 
     @property
     def new_foot(self) -> Array:
-        """(x, z) of the swing foot [m]."""
+        """Place (x, z) of the swing foot (2,) [m], the contact point of the impact."""
         place: Array = self.data.oMf[self.floating.swing].translation
         return place[[0, 2]]
 
     def old_leg(self) -> list[int]:
-        """Joints of the leg that was the support, from its knee up to its hip."""
+        """Pinocchio's numbers of the joints of the leg that was the support, from its knee up to its hip."""
         model, found = self.floating.model, []
         j = int(model.frames[self.floating.stance].parentJoint)
         top = int(model.frames[self.floating.swing].parentJoint)
@@ -198,9 +220,10 @@ class LinkMotion:
         return found
 
     def outboard(self, joint: int) -> float:
-        """L about a joint of all that it carries, with the momentum of its rotor [kg m^2/s].
+        """L [kg m^2/s] about a joint of everything it carries, with the angular momentum of its rotor.
 
-        An ideal joint passes no impulse of torque on, so an impact elsewhere leaves it as it is.
+        An ideal joint transmits no impulse of torque, so an impact elsewhere leaves this number
+        unchanged.
         """
         model, data = self.floating.model, self.data
         below = data.oMi[joint].rotation @ data.v[joint].angular
@@ -212,6 +235,6 @@ class LinkMotion:
 
     @property
     def com_velocity(self) -> Array:
-        """(x, z) [m/s]."""
+        """Velocity (x, z) of the COM (2,) [m/s]."""
         velocity: Array = self.momentum().linear / pin.computeTotalMass(self.floating.model)
         return velocity[[0, 2]]

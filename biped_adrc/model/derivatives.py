@@ -1,8 +1,12 @@
-"""Derivatives of the dynamics and of the impact with respect to the state, without difference quotients.
+"""Derivatives of the dynamics and of the impact with respect to the state, without difference
+quotients.
+
+The variational equation (`analysis.variational`) needs df/dx and dDelta/dx to more digits than
+differences of the dynamics would give.
 
 Single support, from Pinocchio's derivatives of ABA and RNEA on the pinned model in `q_tree = T q_s`
-(Carpentier, Mansard, RSS 2018). T is constant, so derivatives are only multiplied by it; rotor inertia is
-constant too and enters through the model's armature.
+(Carpentier, Mansard, RSS 2018). T is constant, so derivatives are only multiplied by it; rotor
+inertia is constant too and enters through the model's armature.
 
 Impact, in the velocity w of the floating base and the joints, where (7) reads
 
@@ -12,13 +16,14 @@ With the matrix K = [[M, -J_2'], [J_2, 0]] of (7) a change of the state gives
 
     K (dw+, dF_2) = ( d(M a)|_(a = w- - w+) + d(J_2' F_2)|_(F_2) + M dw-,   -d(J_2 w+)|_(w+) )
 
-d(M a) is the derivative of RNEA at rest under the acceleration a, less that of gravity. d(J_2' F_2) and
-d(J_2 w+) are two contractions of one tensor, the second derivative of the position p of a foot. It is written
-down from the columns (v_j, omega_j) of the foot's Jacobian,
+d(M a) is the derivative of RNEA at rest under the acceleration a, minus that of gravity alone.
+d(J_2' F_2) and d(J_2 w+) are two contractions of one tensor, the second derivative of the position
+p of a foot. It is written down from the columns (v_j, omega_j) of the foot's Jacobian,
 
     d2p / dx_i dx_j = omega_i x v_j    for i nearer the root than j, or i = j,
 
-since moving joint i turns everything beyond it. M and J_2 do not depend on where the base is.
+since moving joint i turns everything beyond it. M and J_2 do not depend on where the base is, so
+the columns of the base's position drop out.
 """
 
 from __future__ import annotations
@@ -36,7 +41,7 @@ from biped_adrc.types import Array
 
 
 class AccelerationDerivatives(NamedTuple):
-    """Of q'' = D_s^-1 (force + friction - Omega), each (n, n)."""
+    """Partial derivatives of q'' = D_s^-1 (force + friction - Omega), each (n, n)."""
 
     dq: Array
     """[1/s^2]."""
@@ -47,7 +52,7 @@ class AccelerationDerivatives(NamedTuple):
 
 
 class TorqueDerivatives(NamedTuple):
-    """Of D_s(q) a + Omega(q, q') at fixed a, each (n, n)."""
+    """Partial derivatives of the inverse dynamics D_s(q) a + Omega(q, q') at fixed a, each (n, n)."""
 
     dq: Array
     """[N m/rad]."""
@@ -56,7 +61,7 @@ class TorqueDerivatives(NamedTuple):
 
 
 class ImpactDerivatives(NamedTuple):
-    """Of the state after impact and relabelling; n coordinates."""
+    """Partial derivatives of the state (q+, v+) after impact and relabelling; n coordinates."""
 
     dq: Array
     """dq+/dq- = R (n, n)."""
@@ -67,14 +72,16 @@ class ImpactDerivatives(NamedTuple):
 
     @property
     def matrix(self) -> Array:
-        """D Delta (2 n, 2 n): d(q+, v+) / d(q-, v-)."""
+        """D Delta (2 n, 2 n) = d(q+, v+) / d(q-, v-); dq+/dv- is zero, since q does not jump with v."""
         return np.block([[self.dq, np.zeros_like(self.dq)], [self.dv_dq, self.dv]])
 
 
 def acceleration_derivatives(
     biped: Biped, q: Array, v: Array, force: Array
 ) -> AccelerationDerivatives:
-    """Of `Biped.acceleration` at (q, q') under the generalised force B_s u + delta + zeta (n,) [N m]."""
+    """Derivatives of `Biped.acceleration` at q (n,) [rad], v (n,) [rad/s] and the generalised force
+    B_s u + delta + zeta (n,) [N m], friction included where the biped has it.
+    """
     pinned, T = biped.pinned, biped.pinned.T
     if biped.friction:
         force = force + biped.friction_torque(v)
@@ -86,7 +93,7 @@ def acceleration_derivatives(
 
 
 def friction_derivative(biped: Biped, v: Array) -> Array:
-    """d/dv of `Biped.friction_torque` (n, n) [N m s/rad]."""
+    """d/dv of `Biped.friction_torque` (n, n) [N m s/rad] at rates v (n,) [rad/s]: diagonal."""
     if not biped.friction:
         return np.zeros((biped.n, biped.n))
     viscous, static = biped.friction_coefficients
@@ -95,7 +102,7 @@ def friction_derivative(biped: Biped, v: Array) -> Array:
 
 
 def torque_derivatives(biped: Biped, q: Array, v: Array, a: Array) -> TorqueDerivatives:
-    """Of D_s(q) a + Omega(q, q') at fixed a (n,) [rad/s^2], without friction."""
+    """Derivatives of D_s(q) a + Omega(q, q') at fixed a (n,) [rad/s^2], without friction."""
     pinned, T = biped.pinned, biped.pinned.T
     pin.computeRNEADerivatives(pinned.model, pinned.data, T @ q, T @ v, T @ a)
     dq, dv = (np.reshape(part, T.shape) for part in (pinned.data.dtau_dq, pinned.data.dtau_dv))
@@ -103,7 +110,10 @@ def torque_derivatives(biped: Biped, q: Array, v: Array, a: Array) -> TorqueDeri
 
 
 def impact_derivatives(biped: Biped, q: Array, v: Array) -> ImpactDerivatives:
-    """Of `Biped.impact` at (q-, q'-), by the equations of the module."""
+    """Derivatives of `Biped.impact` at (q-, q'-) (n,) [rad, rad/s], by the equations of the module.
+
+    Raises SingularError where the matrix of (7) is singular.
+    """
     floating = biped.floating
     impact = biped.impact(q, v)
     x = floating.configuration(q)
@@ -123,7 +133,10 @@ def impact_derivatives(biped: Biped, q: Array, v: Array) -> ImpactDerivatives:
 
 
 def momentum_derivative(floating: FloatingDynamics, x: Array, a: Array) -> Array:
-    """d(M(x) a)/dx at fixed a (m, m), from RNEA at rest with and without the acceleration a."""
+    """d(M(x) a)/dx at fixed a (m,), as (m, m) [N m/rad].
+
+    RNEA at rest gives M a + G, so its derivatives with and without a differ by what is wanted.
+    """
     model, data, rest, m = floating.model, floating.data, np.zeros(len(x)), len(x)
     pin.computeRNEADerivatives(model, data, x, rest, a)
     with_a = np.array(data.dtau_dq).reshape(m, m)
@@ -132,7 +145,7 @@ def momentum_derivative(floating: FloatingDynamics, x: Array, a: Array) -> Array
 
 
 def stance_velocity(floating: FloatingDynamics, x: Array, v: Array) -> tuple[Array, Array]:
-    """Z (m, n) of w- = Z q'-, the stance foot being at rest, and d(Z q'-)/dq (m, n)."""
+    """Z (m, n) of w- = Z q'-, the stance foot being at rest, and d(Z q'-)/dq (m, n), at x (m,) [rad, m]."""
     J, H = foot_derivatives(floating, x, floating.stance)
     angles, base = floating.angles, floating.base
     Z, dZ_v = np.zeros((len(x), floating.n)), np.zeros((len(x), floating.n))
@@ -143,7 +156,7 @@ def stance_velocity(floating: FloatingDynamics, x: Array, v: Array) -> tuple[Arr
 
 
 def foot_derivatives(floating: FloatingDynamics, x: Array, foot: int) -> tuple[Array, Array]:
-    """dp/dx (2, m) and d2p/dx2 (2, m, m) of a foot's position p = (x, z) [m]."""
+    """dp/dx (2, m) and d2p/dx2 (2, m, m) of a foot's position p = (x, z) [m]; `foot` is its frame's index."""
     columns = pin.computeFrameJacobian(
         floating.model, floating.data, x, foot, pin.LOCAL_WORLD_ALIGNED
     )

@@ -1,10 +1,13 @@
-"""Errors of a model: masses, COMs, inertias and friction that differ from the nominal ones, `delta` of (1).
+"""Errors of a model: masses, COMs, inertias and friction that differ from the nominal ones, `delta` of
+(1).
 
     m -> (1 + e_m) m     d -> (1 + e_d) d     J -> (1 + e_J) J     b, F_c -> (1 + e_f) b, F_c
 
-with J about the COM d, which is given from the origin of the link's frame. The errors are relative, chosen or
-drawn evenly from +-width. Both legs of a biped have the same ones, as relabelling at impact needs it; so errors
-go by body ("thigh") rather than by link.
+with J about the COM d, which is given from the origin of the link's frame. The errors are relative,
+chosen by hand or drawn evenly from +-width with a seed, for studies of robustness. Both legs of a
+biped get the same errors, because relabelling at impact needs equal legs; so errors go by body
+("thigh") rather than by link. `ModelErrors.apply` makes the plant; the controller keeps the robot
+it was made with as nominal model.
 """
 
 from __future__ import annotations
@@ -15,26 +18,32 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from biped_adrc.errors import InputError, ModelError
+from biped_adrc.errors import InputError, ModelError, check_whole
 from biped_adrc.model.biped import Biped
 from biped_adrc.robots.symmetry import twins
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 KINDS = ("mass", "com", "inertia", "friction")
+"""Names of the fields of `ModelErrors`, in the order in which they are drawn."""
 
 
 @dataclass(frozen=True)
 class ModelErrors(Shown):
-    """Relative errors: mass, com, inertia by body or link, friction by joint; 0.1 is ten per cent more.
+    """Relative errors, dimensionless: 0.1 is ten per cent more.
 
-    Raises InputError for an error that is not finite, or that leaves no mass or inertia, or negative friction.
+    Raises InputError for an error that is not finite, or that leaves no mass or inertia, or
+    negative friction.
     """
 
     mass: Mapping[str, float] = field(default_factory=dict)
+    """By body or link; the inertia about the COM is not scaled with it."""
     com: Mapping[str, float] = field(default_factory=dict)
+    """By body or link, of the distance of the COM from the link's origin."""
     inertia: Mapping[str, float] = field(default_factory=dict)
+    """By body or link, about the COM."""
     friction: Mapping[str, float] = field(default_factory=dict)
+    """By joint, of viscous and static friction alike."""
 
     def __post_init__(self) -> None:
         for kind in KINDS:
@@ -60,17 +69,18 @@ class ModelErrors(Shown):
         friction: float = 0.3,
         links: tuple[str, ...] | None = None,
     ) -> ModelErrors:
-        """Errors of every body drawn evenly from +-width by a seed; links: of these bodies alone.
+        """Errors of every body, drawn evenly from +-width by a seed; links: of these bodies alone.
 
-        Friction is drawn for the joints that have some, where the robot was loaded with friction. The errors
-        depend on the seed and on the bodies, in their order. Raises InputError for a width outside [0, 1).
+        mass, com, inertia, friction: the widths, dimensionless. Friction is drawn for the joints
+        that have some, where the robot was loaded with friction. The errors depend on the seed and
+        on the bodies, in their order. Raises InputError for a width outside [0, 1).
         """
         for kind, width in zip(KINDS, (mass, com, inertia, friction), strict=True):
             if not 0.0 <= width < 1.0:
                 raise InputError(
                     f"the width of errors of {kind} is {width}, expected 0 <= width < 1"
                 )
-        random = np.random.default_rng(_seed(seed))
+        random = _random(seed)
         bodies = tuple(biped.description.links) if links is None else links
         m, d, J = (
             dict(zip(bodies, random.uniform(-width, width, len(bodies)).tolist(), strict=True))
@@ -82,7 +92,9 @@ class ModelErrors(Shown):
         return cls(m, d, J, {joint: e for pair, e in by_pair for joint in pair})
 
     def apply(self, biped: Biped) -> Biped:
-        """`biped` with these errors. Raises ModelError for a body or joint it has not, or unequal legs."""
+        """`biped` with these errors. Raises ModelError for an unknown body or joint, or legs that
+        become unequal.
+        """
         factors = {k: {x: 1.0 + e for x, e in getattr(self, k).items()} for k in KINDS[:3]}
         made = replace(biped, tree=biped.scaled(factors))
         if self.friction:
@@ -91,7 +103,7 @@ class ModelErrors(Shown):
         return made
 
     def _rubbed(self, biped: Biped) -> Biped:
-        """With errors of friction."""
+        """The biped with its viscous and static friction multiplied; twin joints must have the same error."""
         d = biped.description
         if not biped.friction:
             raise ModelError(
@@ -118,19 +130,20 @@ class ModelErrors(Shown):
 
 
 def impact_error(seed: int, spread: float, n: int) -> Array:
-    """e (n,) drawn evenly from +-spread by a seed: an impact that leaves (1 + e) q'+ in place of q'+ of (7).
+    """Relative errors e (n,) of the velocities after impact, drawn evenly from +-spread by a seed.
 
-    Raises InputError for a spread outside [0, 1).
+    The impact then leaves (1 + e) q'+ in place of q'+ of (7). Raises InputError for a spread
+    outside [0, 1).
     """
     if not 0.0 <= spread < 1.0:
         raise InputError(f"the spread of impact errors is {spread}, expected 0 <= spread < 1")
-    return np.random.default_rng(_seed(seed)).uniform(-spread, spread, n)
+    return _random(seed).uniform(-spread, spread, n)
 
 
-def _seed(seed: int) -> int:
-    if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
-        raise InputError(f"the seed of model errors is {seed}, expected a whole number >= 0")
-    return seed
+def _random(seed: int) -> np.random.Generator:
+    """Random numbers of a seed. Raises InputError unless it is a whole number >= 0."""
+    check_whole(seed, f"the seed of model errors is {seed}")
+    return np.random.default_rng(seed)
 
 
 def _rubbing(biped: Biped) -> Iterator[tuple[str, ...]]:

@@ -1,8 +1,9 @@
-"""Whether a robot read from a file can be computed with: planar joints, and numbers that stay numbers.
+"""Whether a robot read from a file can be computed with: planar joints, and well-conditioned numbers.
 
-Masses and inertias are checked one by one where the file is read. What is left is how they go together: joints
-that leave the plane, a mass beside another 1e20 times as large, lengths whose squares overflow. So D_s, Omega
-and the impact are evaluated at a few states.
+Masses and inertias are checked one by one where the file is read (`robots.urdf`). What is left is
+how they go together: joint axes that leave the plane, a mass beside another 1e20 times as large,
+lengths whose squares overflow. So D_s, Omega and the impact are evaluated at a few random states.
+`Biped.check` calls both functions whenever a robot is loaded or changed.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 
 from biped_adrc.errors import ModelError, SingularError
 from biped_adrc.robots.robot_toml import RobotDescription
+from biped_adrc.robots.symmetry import text_of
 from biped_adrc.robots.urdf import Tree, Vector
 from biped_adrc.types import Array
 
@@ -21,12 +23,17 @@ if TYPE_CHECKING:
 
 STATES, SEED = 4, 5
 ACCURACY = 1e-6
-"""Largest relative round-off in D_s^-1; feet of 1e-7 of the hip's mass leave 1e-8."""
+"""Largest relative round-off in D_s^-1 (eps times the condition number), dimensionless. Feet with 1e-7
+of the hip's mass still reach 1e-8.
+"""
 _ALONG = 1e-6  # how far an axis may be from y, x or z, dimensionless
 
 
 def check_planar(tree: Tree, d: RobotDescription) -> None:
-    """Joints turn about y, the base slides along x and z. Raises ModelError that names the joint."""
+    """Check that joints turn about y and that the base slides along x and z.
+
+    Raises ModelError that names the joint, its axis and the expected one.
+    """
     wanted: list[tuple[str, str, Vector]] = [
         (d.base[0], "prismatic", (1.0, 0.0, 0.0)),
         (d.base[1], "prismatic", (0.0, 0.0, 1.0)),
@@ -45,13 +52,15 @@ def check_planar(tree: Tree, d: RobotDescription) -> None:
             along = abs(along)
         if joint.type != kind or not abs(along - 1.0) <= _ALONG:
             raise ModelError(
-                f"URDF '{tree.source}', joint '{name}': {joint.type} along {_text(joint.axis)}, expected "
-                f"{kind} along {_text(axis)}: a planar robot moves in x and z"
+                f"URDF '{tree.source}', joint '{name}': {joint.type} along {text_of(joint.axis)}, expected "
+                f"{kind} along {text_of(axis)}: a planar robot moves in x and z"
             )
 
 
 def check_numbers(biped: Biped) -> None:
-    """D_s is positive definite, Omega and the impact are finite, at random states. Raises ModelError."""
+    """Check at random states that D_s is positive definite and well conditioned, and that Omega and
+    the impact are finite. Raises ModelError that says what to look for in the URDF.
+    """
     random, n = np.random.default_rng(SEED), biped.n
     where = f"URDF '{biped.tree.source}', robot '{biped.description.name}'"
     for _ in range(STATES):
@@ -76,6 +85,7 @@ def check_numbers(biped: Biped) -> None:
 
 
 def _check_definite(D: Array, where: str) -> None:
+    """Raise ModelError unless D (n, n) is positive definite with a condition number that doubles can hold."""
     finite = bool(np.all(np.isfinite(D)))
     least, most = np.linalg.eigvalsh(D)[[0, -1]] if finite else (np.nan, np.nan)
     if not most * np.finfo(float).eps <= ACCURACY * least:
@@ -84,7 +94,3 @@ def _check_definite(D: Array, where: str) -> None:
             "a ratio that double precision can hold; look for a body that nothing moves, and for masses, "
             "inertias and lengths that are far apart"
         )
-
-
-def _text(axis: Vector) -> str:
-    return f"({', '.join(f'{a:g}' for a in axis)})"

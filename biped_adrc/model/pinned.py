@@ -1,12 +1,16 @@
 """Single support: Pinocchio's terms of the model pinned at the stance foot, in the paper's q_s.
 
-The pinned tree hangs from the stance foot: its first coordinate is the absolute angle of the
-stance shin. The paper's coordinates count from the torso. Both are angles of the same links, so
-`q_tree = T q_s` with a constant T, and `D_s = T' M T`, `Omega = T' nle(T q, T v)`.
+The pinned tree hangs from the stance foot: its first coordinate is the absolute angle of the stance
+shin. The paper's coordinates count from the torso. Both are angles of the same links, so `q_tree =
+T q_s` with a constant T, and `D_s = T' M T`, `Omega = T' nle(T q, T v)`.
 
-`reroot` turns the tree of floating.urdf round at its stance foot. All frames are parallel at zero angles, so
-turning the tree round only moves origins. A joint that is walked backwards keeps its coordinate when its axis
-is negated: if the child turns by `q` about `n`, the parent turns by `q` about `-n` seen from the child.
+`reroot` makes this tree: it turns the tree of floating.urdf round at its stance foot. All frames
+are parallel at zero angles, so turning the tree round only moves origins. A joint that is walked
+backwards keeps its coordinate when its axis is negated: if the child turns by `q` about `n`, the
+parent turns by `q` about `-n` seen from the child.
+
+`Biped` holds one `PinnedDynamics` and checks the angles; nothing is checked here. Pinocchio's
+geometry is in three dimensions, the rows XZ of it are the plane of motion.
 """
 
 from __future__ import annotations
@@ -24,11 +28,14 @@ from biped_adrc.robots.urdf import Joint, Link, Tree, Vector, to_xml
 from biped_adrc.types import Array
 
 XZ = [0, 2]
-"""The plane of motion among Pinocchio's axes."""
+"""The plane of motion among Pinocchio's axes x, y, z."""
 
 
 def build(tree: Tree, d: RobotDescription, armature: float) -> pin.Model:
-    """The Pinocchio model of `tree` with a rotor inertia [kg m^2] at every motor, and its gravity."""
+    """The Pinocchio model of `tree` with rotor inertia `armature` [kg m^2] at every motor, and its gravity.
+
+    Raises ModelError for a joint that has more numbers than velocities.
+    """
     model = pin.buildModelFromXML(to_xml(tree))
     if model.nq != model.nv:
         raise ModelError(f"URDF '{tree.source}': nq = {model.nq} differs from nv = {model.nv}")
@@ -40,7 +47,7 @@ def build(tree: Tree, d: RobotDescription, armature: float) -> pin.Model:
 
 
 def velocity_index(model: pin.Model, joint: str) -> int:
-    """Index in v of a joint. Raises ModelError with the names there are."""
+    """Index of a joint in Pinocchio's velocity vector. Raises ModelError with the names there are."""
     if not model.existJointName(joint):
         names = [name for name in model.names if name != "universe"]
         raise ModelError(f"model '{model.name}' has no joint '{joint}'; it has {names}")
@@ -48,7 +55,9 @@ def velocity_index(model: pin.Model, joint: str) -> int:
 
 
 def frame_index(model: pin.Model, frame: str) -> int:
-    """Index of a link's frame, also where a joint has its name; Pinocchio answers nframes if unknown."""
+    """Index of a link's frame, also where a joint has the same name. Raises ModelError if it is
+    unknown, where Pinocchio would answer with the number of frames.
+    """
     if not model.existBodyName(frame):
         names = [f.name for f in model.frames if f.type == pin.FrameType.BODY]
         raise ModelError(f"model '{model.name}' has no frame '{frame}'; it has {names}")
@@ -56,7 +65,11 @@ def frame_index(model: pin.Model, frame: str) -> int:
 
 
 def finite_angles(q: Array, shape: tuple[int]) -> Array:
-    """q itself, once it is known to be finite numbers of this shape. Raises InputError, NotFiniteError."""
+    """q itself, once it is known to have this shape, (n,), and finite numbers [rad] or [rad/s].
+
+    Raises InputError for the shape, NotFiniteError for NaN or infinity. The sum of squares is
+    tested since it is one fast call; it is finite only if all entries are.
+    """
     if q.shape != shape:
         raise InputError(f"expected an array of shape {shape}, found {q.shape}")
     if not math.isfinite(q.dot(q)):
@@ -65,10 +78,17 @@ def finite_angles(q: Array, shape: tuple[int]) -> Array:
 
 
 class PinnedDynamics:
-    """D_s, Omega, forward dynamics and kinematics at (q_s, q_s'); arrays are (n,) or (n, n)."""
+    """D_s, Omega, forward dynamics and kinematics at (q_s, q_s') (n,) [rad, rad/s], stance foot at rest.
+
+    Positions are (x, z) from the stance foot. `model` and `data` are Pinocchio's, `T` (n, n) maps
+    q_s to the tree's coordinates, `swing` and `hip` are frame numbers.
+    """
 
     def __init__(self, tree: Tree, d: RobotDescription, stance_chain: Array, armature: float):
-        """`stance_chain` (n,) gives the pin's angle as a sum of the robot's coordinates."""
+        """Build the model; `stance_chain` (n,) gives the pin's angle as a sum of the robot's coordinates.
+
+        Raises ModelError when the tree and the record have different numbers of coordinates.
+        """
         self.model, joints = build(tree, d, armature), d.joints
         self.data = self.model.createData()
         n = len(joints)
@@ -86,16 +106,16 @@ class PinnedDynamics:
         self.hip = frame_index(self.model, d.hip)
 
     def inertia(self, q: Array) -> Array:
-        """D_s(q) (n, n) [kg m^2] from CRBA."""
+        """D_s(q) (n, n) [kg m^2] by the composite rigid body algorithm."""
         M = pin.crba(self.model, self.data, self.T @ q)
         return self.T.T @ M @ self.T
 
     def bias(self, q: Array, v: Array) -> Array:
-        """Omega = C q' + G (n,) [N m] from RNEA with zero acceleration."""
+        """Omega = C q' + G (n,) [N m], by recursive Newton-Euler with zero acceleration."""
         return self.T.T @ pin.nonLinearEffects(self.model, self.data, self.T @ q, self.T @ v)
 
     def inertia_and_bias(self, q: Array, v: Array) -> tuple[Array, Array]:
-        """D_s and Omega at once."""
+        """D_s (n, n) [kg m^2] and Omega (n,) [N m] at one state."""
         T, x = self.T, self.T @ q
         M = pin.crba(self.model, self.data, x)
         nle = pin.nonLinearEffects(self.model, self.data, x, T @ v)
@@ -106,12 +126,12 @@ class PinnedDynamics:
         return self.T.T @ pin.computeGeneralizedGravity(self.model, self.data, self.T @ q)
 
     def coriolis(self, q: Array, v: Array) -> Array:
-        """C(q, q') (n, n) with D' - 2 C skew-symmetric."""
+        """C(q, q') (n, n) [N m s] in the form for which D' - 2 C is skew-symmetric."""
         C = pin.computeCoriolisMatrix(self.model, self.data, self.T @ q, self.T @ v)
         return self.T.T @ C @ self.T
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
-        """q'' (n,) under generalised forces `force` (n,) [N m], by ABA.
+        """q'' (n,) [rad/s^2] under generalised forces `force` (n,) [N m], by the articulated body algorithm.
 
         T is square with determinant +-1: tau_tree = T^-T force and q'' = T^-1 a_tree.
         """
@@ -123,12 +143,12 @@ class PinnedDynamics:
         return float(pin.computePotentialEnergy(self.model, self.data, self.T @ q))
 
     def position(self, q: Array, frame: int) -> Array:
-        """(x, z) of a frame from the stance foot [m]."""
+        """Place (x, z) of a frame, given by its index, from the stance foot (2,) [m]."""
         pin.forwardKinematics(self.model, self.data, self.T @ q)
         return pin.updateFramePlacement(self.model, self.data, frame).translation[XZ]
 
     def jacobian(self, q: Array, frame: int) -> Array:
-        """d(x, z)/dq_s of a frame (2, n) [m]."""
+        """d(x, z)/dq_s of a frame, given by its index (2, n) [m]."""
         J = pin.computeFrameJacobian(
             self.model, self.data, self.T @ q, frame, pin.LOCAL_WORLD_ALIGNED
         )
@@ -137,7 +157,10 @@ class PinnedDynamics:
     def centre_of_mass(
         self, q: Array, v: Array | None = None, a: Array | None = None
     ) -> tuple[Array, Array, Array]:
-        """Position [m], velocity [m/s] and acceleration [m/s^2] of the COM, each (x, z)."""
+        """Position [m], velocity [m/s] and acceleration [m/s^2] of the COM, each (x, z) (2,).
+
+        v (n,) [rad/s] and a (n,) [rad/s^2] are zero if they are not given.
+        """
         zero = np.zeros(self.model.nv)
         v = zero if v is None else v
         a = zero if a is None else a
@@ -146,13 +169,17 @@ class PinnedDynamics:
         return d.com[0][XZ].copy(), d.vcom[0][XZ].copy(), d.acom[0][XZ].copy()
 
     def mass_jacobian(self, q: Array) -> Array:
-        """m dp_com/dq_s (2, n) [kg m]."""
+        """m dp_com/dq_s (2, n) [kg m]: times q' it is the linear momentum."""
         J = pin.jacobianCenterOfMass(self.model, self.data, self.T @ q).reshape(3, -1)
         return self.mass * J[XZ] @ self.T
 
     def bodies(self) -> tuple[Array, Array, Array]:
-        """Of the bodies in Pinocchio's order: mass (n,), inertia about the COM (n,), and the rows A (n, n) of
-        their absolute angles a = A q_s, counter-clockwise with x to the right and z up."""
+        """Masses (n,) [kg], inertias about the COM (n,) [kg m^2] and rows A (n, n) of the absolute
+        angles a = A q_s, for the bodies in Pinocchio's order.
+
+        Fixed links are merged with the body they hang on. Counter-clockwise with x to the right and
+        z up.
+        """
         inertias = self.model.inertias[1:]
         mass = np.array([body.mass for body in inertias])
         about_y = np.array([body.inertia[1, 1] for body in inertias])
@@ -164,8 +191,10 @@ class PinnedDynamics:
         return mass, about_y, np.array(rows)
 
     def points(self, q: Array) -> Array:
-        """(x, z) of the COM of every body, of the swing foot and of the hip, from the stance foot
-        (n + 2, 2) [m]."""
+        """Places (x, z) (n + 2, 2) [m] from the stance foot: the COM of every body, the swing foot, the hip.
+
+        The planar closed form is fitted to these.
+        """
         pin.forwardKinematics(self.model, self.data, self.T @ q)
         places, inertias = list(self.data.oMi)[1:], list(self.model.inertias)[1:]
         coms = [oMi.act(body.lever) for oMi, body in zip(places, inertias, strict=True)]
@@ -182,15 +211,17 @@ class PinnedDynamics:
 
 
 PIN_JOINT = "stance_pin"
+"""Name of the joint between the ground and the stance foot in the pinned tree."""
 ZERO: Vector = (0.0, 0.0, 0.0)
 
 
 def _minus(a: Vector, b: Vector) -> Vector:
+    """a - b as a vector [m]; adding 0.0 turns -0.0 into 0.0, which would be written as "-0"."""
     return (a[0] - b[0] + 0.0, a[1] - b[1] + 0.0, a[2] - b[2] + 0.0)
 
 
 def _moved(link: Link, origin: Vector) -> Link:
-    """`link` written in a frame whose origin lies at `origin` of the old one."""
+    """`link` written in a frame whose origin lies at `origin` [m] of the old one."""
     body = link.inertial and replace(link.inertial, com=_minus(link.inertial.com, origin))
     visuals = tuple(replace(v, origin=_minus(v.origin, origin)) for v in link.visuals)
     return Link(link.name, body, visuals)
@@ -223,7 +254,7 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
 
 
 def _chain(tree: Tree, foot: str, torso: str) -> tuple[Joint, ...]:
-    """Joints from `foot` up to `torso`."""
+    """Joints from `foot` up to `torso`. Raises ModelError where there are none, or one is prismatic."""
     chain = tree.path_below(foot, torso)
     if chain is None:
         raise ModelError(f"URDF '{tree.source}': foot '{foot}' does not hang below '{torso}'")
@@ -236,7 +267,7 @@ def _chain(tree: Tree, foot: str, torso: str) -> tuple[Joint, ...]:
 
 
 def _beside(tree: Tree, link: str, chain: tuple[Joint, ...]) -> Iterator[Joint]:
-    """All joints below `link` that are not reached by the chain."""
+    """All joints below `link` that are not reached by the chain: the other branches, which keep their sense."""
     for joint in tree.joints_below(link):
         if joint not in chain:
             yield joint

@@ -1,23 +1,27 @@
 """The planar tree in absolute angles: closed forms for any planar robot, read off its Pinocchio model.
 
-With a = A q the absolute angles of the links, every point c fixed to the robot is a sum of turned vectors,
-written as complex numbers x + i z from the stance foot:
+Pinocchio computes numbers only. Gait design (CasADi) and the compiled engine (code generated from
+expressions) need the dynamics as formulas, which this module gives for any planar robot.
+
+With a = A q the absolute angles of the links, every point c fixed to the robot is a sum of turned
+vectors, written as complex numbers x + i z from the stance foot:
 
     c = sum_i d_i exp(i a_i)
 
-so that, with d_k the COM of link k, m_k its mass, J_k its inertia about the COM, W = sum_k m_k d_k* d_k',
-and w = sum_k m_k d_k, and with c = cos a, s = sin a,
+so that, with d_k the COM of link k, m_k its mass, J_k its inertia about the COM, W = sum_k m_k d_k*
+d_k', and w = sum_k m_k d_k, and with c = cos a, s = sin a,
 
     C_ij = cos(a_j - a_i) = c_i c_j + s_i s_j,   S_ij = sin(a_j - a_i) = c_i s_j - s_i c_j
 
     D = Re W o C - Im W o S + diag J,   Omega = -(Re W o S + Im W o C) a'^2 + g Re(w exp(i a))
 
-taken to the coordinates by A, with the rotors added. The vectors d are fitted to Pinocchio's own positions,
-where the fit is exact, and the terms are compared to Pinocchio's before anything uses them. The functions take
-numbers and object arrays of symbols alike: NumPy asks each symbol for its `cos` and `sin`.
+taken to the coordinates by A, with the rotors added. The vectors d are fitted to Pinocchio's own
+positions, where the fit is exact, and the terms are compared to Pinocchio's before anything uses
+them. The functions take numbers and object arrays of symbols alike: NumPy asks each symbol for its
+`cos` and `sin`.
 
-`wrench_torque` is the generalised force of a force and a moment at a point fixed to a link: with J(q) the
-Jacobian of the point, and the link's own absolute angle b q,
+`wrench_torque` is the generalised force of a force and a moment at a point fixed to a link, for
+disturbances: with J(q) the Jacobian of the point, and the link's own absolute angle b q,
 
     zeta = J' (F_x, F_z) + b' M
 """
@@ -26,7 +30,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 import pinocchio as pin
@@ -37,12 +41,17 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.pinned import frame_index
 from biped_adrc.types import Array, ComplexArray
 
+Numbers = TypeVar("Numbers", Array, NDArray[np.object_])
+"""Arrays of numbers, or of symbols that stand for numbers; functions of both return the same kind."""
 EXACT = 1e-11
-"""Largest relative difference to Pinocchio's D_s, Omega, swing foot and hip."""
+"""Largest difference to Pinocchio's D_s, Omega, swing foot and hip, relative to their largest entry."""
 
 
 class PlantArrays(NamedTuple):
-    """The numbers of n links as run-time arrays, float64: one compilation serves all of them."""
+    """The numbers of n links, float64. The engine passes them at run time, so that one compilation
+    serves all robots of the same structure. Vectors d are complex, stored as real and imaginary
+    part.
+    """
 
     W_re: Array
     """Re W (n, n) [kg m^2]."""
@@ -59,34 +68,40 @@ class PlantArrays(NamedTuple):
     foot_re: Array
     """Re d of the swing foot (n,) [m]."""
     foot_im: Array
+    """Im d of the swing foot (n,) [m]."""
     hip_re: Array
     """Re d of the hip (n,) [m]."""
     hip_im: Array
+    """Im d of the hip (n,) [m]."""
     mass: float
-    """Of the robot [kg]."""
+    """Total mass of the robot [kg]."""
     gravity: float
     """[m/s^2]."""
 
 
 class Joined(Protocol):
-    """How links are joined."""
+    """Anything with the matrix A of the absolute angles: a `PlanarTree`, a `LinkPoint`, the engine's robot."""
 
     @property
-    def A(self) -> NDArray[Any]:
-        """a = A q (n, n)."""
+    def A(self) -> NDArray[np.int_] | Array:
+        """Matrix (n, n) of the absolute angles [rad], a = A q."""
 
 
 @dataclass(frozen=True)
 class PlanarTree:
-    """A robot of n links: how they are joined, and their numbers."""
+    """A planar robot of n links: how they are joined (A), and their numbers (K)."""
 
     A: NDArray[np.int_]
-    """(n, n), a = A q."""
+    """a = A q (n, n), integers."""
     K: PlantArrays
+    """Masses, lengths and inertias."""
 
     @classmethod
     def of(cls, biped: Biped) -> PlanarTree:
-        """Read off the model of a robot. Raises ModelError when it is not a planar tree of rigid links."""
+        """Read the closed form off the model of a robot, and check it.
+
+        Raises ModelError when the robot is not a planar tree of rigid links.
+        """
         n, (mass, inertia, A) = biped.n, biped.pinned.bodies()
         d, _, _ = fitted(A, biped.pinned.points, EXACT)
         com, rotor = d[:n], np.zeros(n)
@@ -99,7 +114,10 @@ class PlanarTree:
         return cls(A.astype(int), K).check(biped)
 
     def check(self, biped: Biped, samples: int = 20) -> PlanarTree:
-        """The tree itself, when D_s, Omega and the swing foot are Pinocchio's. Raises ModelError."""
+        """The tree itself, once D_s, Omega and the swing foot agree with Pinocchio's at random states to EXACT.
+
+        Raises ModelError otherwise.
+        """
         random, K = np.random.default_rng(2), self.K
         names = ("D_s", "Omega", "the swing foot")
         for _ in range(samples):
@@ -119,12 +137,12 @@ class PlanarTree:
 
     @property
     def foot(self) -> ComplexArray:
-        """d of the swing foot (n,) [m]."""
+        """Vectors d of the swing foot (n,) [m]: p_2 = sum_i d_i exp(i a_i)."""
         return self.K.foot_re + 1j * self.K.foot_im
 
     @property
     def hip(self) -> ComplexArray:
-        """d of the hip (n,) [m]."""
+        """Vectors d of the hip (n,) [m]."""
         return self.K.hip_re + 1j * self.K.hip_im
 
     @property
@@ -134,16 +152,18 @@ class PlanarTree:
 
 
 def _parts(z: ComplexArray) -> tuple[Array, Array]:
+    """Real and imaginary part, contiguous as compiled code expects them."""
     return np.ascontiguousarray(z.real), np.ascontiguousarray(z.imag)
 
 
 def fitted(
     A: Array, places: Callable[[Array], Array], exact: float
 ) -> tuple[ComplexArray, float, float]:
-    """Vectors d (points, n) of points fixed to links, from their places (points, 2) at angles q [m].
+    """Vectors d (points, n) [m] of points fixed to links, from their places (points, 2) [m] at angles q.
 
-    Then the largest gap of the fit and the farthest place [m]; parts below `exact` of that, or of 1 m where
-    nothing is so far, are round-off and 0.
+    A is the matrix of the absolute angles (n, n); `places` maps q (n,) [rad] to the places. Also
+    returns the largest gap of the fit and the farthest place [m]; parts below `exact` of that, or
+    of 1 m where nothing is so far, are round-off and set to 0.
     """
     n = len(A)
     q = np.random.default_rng(1).uniform(-np.pi, np.pi, (3 * n + 3, n))
@@ -156,21 +176,25 @@ def fitted(
 
 
 # -- laws, for numbers and symbols -----------------------------------------------------------------
-class Turned(NamedTuple):
-    """Cosines and sines of the absolute angles, (n,)."""
+class Turned(NamedTuple, Generic[Numbers]):
+    """Cosines and sines of the absolute angles, each (n,), dimensionless."""
 
-    c: Any
-    s: Any
+    c: Numbers
+    """cos a."""
+    s: Numbers
+    """sin a."""
 
 
-def turned(robot: Joined, q: Any) -> Turned:
-    """At the angles q (n,)."""
+def turned(robot: Joined, q: Numbers) -> Turned[Numbers]:
+    """cos and sin of a = A q at the angles q (n,) [rad]."""
     a = robot.A @ q
     return Turned(np.cos(a), np.sin(a))
 
 
-def inertia_and_bias(robot: Joined, K: PlantArrays, q: Any, v: Any) -> tuple[Any, Any]:
-    """D_s (n, n) and Omega (n,)."""
+def inertia_and_bias(
+    robot: Joined, K: PlantArrays, q: Numbers, v: Numbers
+) -> tuple[Numbers, Numbers]:
+    """D_s (n, n) [kg m^2] and Omega (n,) [N m] at q (n,) [rad], v (n,) [rad/s], by the module's formulas."""
     t, A = turned(robot, q), robot.A
     C, S = _differences(t)
     D = K.W_re * C - K.W_im * S
@@ -182,37 +206,40 @@ def inertia_and_bias(robot: Joined, K: PlantArrays, q: Any, v: Any) -> tuple[Any
     return D_s, A.T @ (_weight(K, t) - (K.W_re * S + K.W_im * C) @ (A @ v) ** 2)
 
 
-def gravity_and_turning(robot: Joined, K: PlantArrays, t: Turned, v: Any) -> tuple[Any, Any]:
-    """G_s (n,), and C' q' = dT/dq (n,)."""
+def gravity_and_turning(
+    robot: Joined, K: PlantArrays, t: Turned[Numbers], v: Numbers
+) -> tuple[Numbers, Numbers]:
+    """G_s (n,) [N m], and C' q' = dT/dq (n,) [N m], at the angles t and rates v (n,) [rad/s]."""
     A, rate = robot.A, robot.A @ v
     C, S = _differences(t)
     turning = rate * ((K.W_re * S + K.W_im * C) @ rate)
     return A.T @ _weight(K, t), A.T @ turning
 
 
-def _differences(t: Turned) -> tuple[Any, Any]:
-    """cos and sin of a_j - a_i off the diagonal, 0 on it."""
+def _differences(t: Turned[Numbers]) -> tuple[Numbers, Numbers]:
+    """cos and sin of a_j - a_i off the diagonal (n, n), 0 on it: there they are 1 and 0 exactly."""
     off = 1.0 - np.eye(len(t.c))
     C = (np.outer(t.c, t.c) + np.outer(t.s, t.s)) * off
     return C, (np.outer(t.c, t.s) - np.outer(t.s, t.c)) * off
 
 
-def _weight(K: PlantArrays, t: Turned) -> Any:
+def _weight(K: PlantArrays, t: Turned[Numbers]) -> Numbers:
+    """dV/da (n,) [N m], gravity in absolute angles."""
     return K.gravity * (K.w_re * t.c - K.w_im * t.s)
 
 
-def point(t: Turned, re: Any, im: Any) -> tuple[Any, Any]:
-    """(x, z) [m] of a point from the stance foot, from its vectors d = re + i im (n,)."""
+def point(t: Turned[Numbers], re: Array, im: Array) -> tuple[Numbers, Numbers]:
+    """(x, z) [m] of a point from the stance foot, from its vectors d = re + i im (n,) [m]."""
     return re @ t.c - im @ t.s, im @ t.c + re @ t.s
 
 
-def jacobian(robot: Joined, t: Turned, re: Any, im: Any) -> Any:
-    """d(x, z)/dq (2, n) [m] of a point."""
+def jacobian(robot: Joined, t: Turned[Numbers], re: Array, im: Array) -> Numbers:
+    """d(x, z)/dq (2, n) [m] of a point with vectors d = re + i im (n,) [m]."""
     return np.array([robot.A.T @ (-(re * t.s) - im * t.c), robot.A.T @ (re * t.c - im * t.s)])
 
 
-def ground_reaction(robot: Joined, K: PlantArrays, q: Any, v: Any, a: Any) -> Any:
-    """(F_T, F_N) [N] of the ground on the stance foot, for q'' = a: m (p_com'' - g)."""
+def ground_reaction(robot: Joined, K: PlantArrays, q: Numbers, v: Numbers, a: Numbers) -> Numbers:
+    """Force (F_T, F_N) (2,) [N] of the ground on the stance foot, for q'' = a (n,): m (p_com'' - g)."""
     t, rate2 = turned(robot, q), (robot.A @ v) ** 2
     F_x, F_z = jacobian(robot, t, K.w_re, K.w_im) @ a
     x, z = point(Turned(t.c * rate2, t.s * rate2), K.w_re, K.w_im)
@@ -220,32 +247,36 @@ def ground_reaction(robot: Joined, K: PlantArrays, q: Any, v: Any, a: Any) -> An
 
 
 POINT_EXACT = 1e-10
-"""Largest gap of the fit, relative to the farthest place of the point."""
+"""Largest gap of the fit of a `LinkPoint`, relative to the farthest place of the point."""
 
 
 class LinkPoint(NamedTuple):
-    """n coordinates; all arrays float64."""
+    """A point fixed to a link, in n coordinates; all arrays float64, so that compiled code can take it."""
 
     A: Array
-    """(n, n), a = A q."""
+    """Matrix of the absolute angles a = A q (n, n)."""
     re: Array
     """Re d (n,) [m]."""
     im: Array
     """Im d (n,) [m]."""
     turn: Array
-    """b (n,): rate of the link's absolute angle per rate of the coordinates."""
+    """b (n,): rate of the link's absolute angle per rate of the coordinates, dimensionless."""
 
 
 def wrench_torque(k: LinkPoint, q: Array, f: Array) -> Array:
-    """zeta (n,) [N m] of f = (F_x, F_z, M) [N, N, N m], M counter-clockwise with x to the right and z up."""
+    """Generalised force zeta (n,) [N m] of f = (F_x, F_z, M) (3,) [N, N, N m] at the point, at q (n,) [rad].
+
+    M is counter-clockwise with x to the right and z up.
+    """
     zeta: Array = f[:2] @ jacobian(k, turned(k, q), k.re, k.im) + k.turn * f[2]
     return zeta
 
 
 def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -> LinkPoint:
-    """The point `at` (x, z) [m] in the frame of `link`, its origin without.
+    """The point `at` (x, z) [m] in the frame of `link`; None is its origin.
 
-    Raises ModelError for a link that the robot has not, or that does not move with its coordinates.
+    Raises ModelError for a link that the robot does not have, or that does not move with its
+    coordinates.
     """
     f, x_z = biped.floating, at or (0.0, 0.0)
     try:
@@ -271,16 +302,20 @@ def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -
 
 
 def hip_point(biped: Biped) -> LinkPoint:
-    """The hip, with no turn."""
+    """The hip as a point without rotation: forces act there, moments do not."""
     return _fitted(biped, biped.hip, np.zeros(biped.n), "hip")
 
 
 def _moves(biped: Biped, link: str) -> bool:
+    """Whether a link hangs on the trunk, and so moves with the coordinates."""
     return biped.tree.path_below(link, biped.description.trunk) is not None
 
 
 def _fitted(biped: Biped, place: Callable[[Array], Array], turn: Array, name: str) -> LinkPoint:
-    """d of a point whose place (x, z) is a function of q. Raises ModelError where the fit is not exact."""
+    """The `LinkPoint` of a point whose place (x, z) [m] is a function of q (n,) [rad].
+
+    Raises ModelError where the fit is not exact.
+    """
     _, _, A = biped.pinned.bodies()
     (d,), gap, size = fitted(A, place, POINT_EXACT)
     if not gap <= POINT_EXACT * size:

@@ -6,8 +6,12 @@
     xi = [D11 - D12 D22^-1 D21]^-1
          {xi~1 - Omega1 - D12 D22^-1 (xi~2 - Omega2)}                (14)
 
-xi~ is a generalised force [N m] in (11) and xi an acceleration [rad/s^2] in (13); the paper
-prints one letter for both. Here B1 is the identity: the motors act on the joints q_b.
+The unactuated rows of (11) are solved for q_N'' and inserted into the actuated ones, so that every
+actuated joint is a double integrator with an input gain kappa and a total disturbance xi.
+Controllers and observers work on (13) alone.
+
+xi~ is a generalised force [N m] in (11) and xi an acceleration [rad/s^2] in (13); the paper prints
+one letter for both. Here B1 is the identity: the motors act on the joints q_b.
 """
 
 from __future__ import annotations
@@ -30,7 +34,7 @@ class Reduction(NamedTuple):
     Omega: Array
     """C q' + G (n,) [N m]."""
     kappa: Array
-    """(15), (p, p) [1/(kg m^2)]."""
+    """Input gain (15), (p, p) [1/(kg m^2)]."""
     xi: Array
     """(14) with xi~ = 0: the model's own part of the total disturbance (p,) [rad/s^2]."""
     kappa_inverse: Array
@@ -45,7 +49,7 @@ class Reduction(NamedTuple):
 
 
 class BodyTerms(NamedTuple):
-    """What few controllers need of the whole robot at one state, besides its `Reduction`.
+    """Terms of the whole robot at one state that few controllers need, besides its `Reduction`.
 
     With the momentum D_s q' = pi, (1) is pi' = C' q' - G + B_s u + zeta; the force of the ground is
     F = F_a q'' + F_0, by Newton's law for the COM.
@@ -54,11 +58,11 @@ class BodyTerms(NamedTuple):
     G: Array
     """Gravity's part of Omega (n,) [N m]."""
     turning: Array
-    """C' q' = dT/dq (n,) [N m], the motion's own part of pi'."""
+    """C' q' = dT/dq (n,) [N m]: the rate of the momentum pi that the motion itself makes."""
     F_a: Array
-    """(2, n) [N s^2]."""
+    """m dp_com/dq (2, n) [kg m], the part of (F_T, F_N) that is proportional to q''."""
     F_0: Array
-    """(2,) [N]."""
+    """(F_T, F_N) (2,) [N] at q'' = 0."""
 
     def __repr__(self) -> str:
         return one_line(self)
@@ -66,14 +70,18 @@ class BodyTerms(NamedTuple):
 
 @lru_cache(maxsize=16)
 def identity(p: int) -> Array:
-    """(p, p), to be read only."""
+    """The unit matrix (p, p), made once per size and read-only."""
     one = np.eye(p)
     one.setflags(write=False)
     return one
 
 
 def reduce(D: Array, Omega: Array, p: int) -> Reduction:
-    """(15) and (14) with xi~ = 0, for the first p coordinates actuated; p = 0 is a passive robot."""
+    """kappa (15) and xi (14) with xi~ = 0, from D (n, n) [kg m^2] and Omega (n,) [N m].
+
+    The first p coordinates are actuated; p = 0 is a passive robot with empty kappa and xi. With one
+    unactuated coordinate D22 is a number, and no system is solved for it. Raises SingularError.
+    """
     if p == 0:
         a_N = -solve_positive(D, Omega, "D_s")
         none = np.zeros((0, 0))
@@ -94,7 +102,8 @@ def reduce(D: Array, Omega: Array, p: int) -> Reduction:
 def unknown_force(terms: Reduction, a: Array, u: Array) -> Array:
     """xi~ of (11): the generalised force D_s a + Omega - B_s u that the nominal model does not know (n,) [N m].
 
-    With a = q'' of the plant it is zeta and all that is wrong with the model, friction too.
+    With a = q'' (n,) [rad/s^2] of the plant and u (p,) [N m] it is zeta plus all that is wrong with
+    the model, friction included.
     """
     force = terms.D @ a + terms.Omega
     force[: len(u)] = force[: len(u)] - u
@@ -102,16 +111,18 @@ def unknown_force(terms: Reduction, a: Array, u: Array) -> Array:
 
 
 def disturbance_acceleration(terms: Reduction, force: Array) -> Array:
-    """The part of (14) that a generalised force xi~ = delta + zeta adds to q_b'' [rad/s^2].
+    """The part of (14) that a generalised force xi~ = delta + zeta adds to q_b'' (p,) [rad/s^2].
 
     `force` (n,) [N m] acts on all coordinates; its last rows enter through -D12 D22^-1 xi~2.
-    Returns (p,).
     """
     matched, unmatched = disturbance_parts(terms, force)
     return matched + unmatched
 
 
 def disturbance_parts(terms: Reduction, force: Array) -> tuple[Array, Array]:
-    """The matched part (from xi~1) and the unmatched part (from xi~2) of (14), each (p,) [rad/s^2]."""
+    """The matched part (from xi~1) and the unmatched part (from xi~2) of (14), each (p,) [rad/s^2].
+
+    A motor could cancel the matched part at once. force is xi~ (n,) [N m].
+    """
     p = terms.kappa.shape[0]
     return terms.kappa @ force[:p], terms.kappa @ (terms.A_N.T @ force[p:])

@@ -1,12 +1,18 @@
-"""The largest bandwidth that a robot's encoders, clock and motors allow an observer, for each order.
+"""The largest bandwidth that a robot's encoders, sampling and motors allow an observer, for each order
+m.
 
-An encoder of N counts per revolution leaves an error between -pi / N and pi / N, of variance (2 pi / N)^2 / 12,
-independent from tick to tick while the joint moves by counts. In joint i it makes a torque of
+An encoder of N counts per revolution leaves an error between -pi / N and pi / N, of variance (2 pi
+/ N)^2 / 12, independent from one sample instant to the next while the joint moves by counts. In
+joint i it makes a torque of
 
     rms u_i = sigma_a sqrt(sum_j (kappa^-1)_ij^2)
 
-with sigma_a from the sampled loop. The encoders' part in Theta and in the rates of the reference, which no
-observer filters, is not in it.
+with sigma_a [rad/s^2] from the sampled loop. The encoders' part in Theta and in the rates of the
+reference, which no observer filters, is not included.
+
+An observer is allowed on the `Hardware` if its sampled loop is stable for kappa 20 % off, and if
+the torque noise ("ripple") of one count stays below a share of the torque limit. `observer_report`
+calls `recommend` for its last table.
 """
 
 from __future__ import annotations
@@ -19,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.control.tracking import Gains
-from biped_adrc.observer_design.observer_loop import joint_gains, observer_loop
+from biped_adrc.observer_design.observer_loop import ObserverLoop, joint_gains, observer_loop
 from biped_adrc.observer_design.observer_sampled import (
     SampledLoop,
     largest_delay,
@@ -29,69 +35,73 @@ from biped_adrc.observer_design.observer_sampled import (
 from biped_adrc.observers.gpi import GPIObserver
 
 SHARE = 0.1
-"""Of the torque limit that the rms torque of one count may have. The published gait takes 108 of RABBIT's 150
-N m at its peak: three standard deviations of 15 N m are what is left."""
+"""Share of the torque limit that the rms torque of one count may have. The published gait takes 108 of
+RABBIT's 150 N m at its peak: the rest holds three standard deviations of 15 N m.
+"""
 KAPPA_RATIOS = (0.8, 1.0, 1.25)
-"""Of the robot's kappa to the model's, under which a recommended loop is stable: inertias known to 20 %."""
+"""Ratios of the robot's kappa to the model's for which a recommended loop is stable: inertias known to 20 %."""
 ORDERS = (0, 1, 2, 3, 5, 7)
-"""m, of the observers that are compared."""
+"""Orders m of the disturbance model that are compared; an observer has m + 2 poles."""
 LEAST, MOST = 10.0, 2e4
 """[rad/s]: bandwidths that are looked among; below, the observer is slower than a step of the robot."""
 BANDS = 120
-"""How many, in geometric order, before the largest is found by bisection."""
+"""Number of bandwidths, in geometric order, before the largest one is refined by bisection."""
 REJECTED = 2.0 * math.pi * 5.0
-"""[rad/s]: frequency at which orders are compared, that of the 5 Hz torque of the verification."""
+"""Frequency [rad/s] at which orders are compared: the 5 Hz disturbance torque of the verification."""
 
 
 class Hardware(NamedTuple):
-    """What the loop runs on."""
+    """Sampling, encoders and motors that the loop runs on."""
 
     period: float
-    """[s]."""
+    """Sampling period [s]."""
     delay: float
-    """[s], from a tick to its torque."""
+    """From a sample instant to the torque computed from it [s]."""
     known: bool
-    """Whether the observer is fed with the torque that acts."""
+    """Whether the delay is known: the observer is then fed with the torque that acts, not the command."""
     counts: float
-    """Of the encoders per revolution."""
+    """Counts of the encoders per revolution."""
     torque_limit: float
-    """[N m]."""
+    """Of every motor [N m]."""
     inertia: float
-    """Largest sqrt(sum_j (kappa^-1)_ij^2) over joints and the step [kg m^2]."""
+    """Largest sqrt(sum_j (kappa^-1)_ij^2) over joints i and the step [kg m^2]: torque per acceleration."""
 
 
 class Recommended(NamedTuple):
-    """The largest bandwidth of m + 2 equal poles that is allowed; nan where none is."""
+    """The largest allowed bandwidth of an observer with m + 2 equal poles; NaN where none is allowed."""
 
     m: int
+    """Order of the disturbance model."""
     bandwidth: float
-    """[rad/s]."""
+    """Magnitude of the poles [rad/s]."""
     because: str
     """What forbids a larger one: "ripple" or "stability"; "" where nothing does, or none is allowed."""
     ripple: float
-    """rms [N m]."""
+    """rms torque of one encoder count [N m]."""
     delay_margin: float
-    """[s], at this period, hidden or known as the hardware says."""
+    """Largest stable delay [s] at this period, unknown or known to the observer as the hardware says."""
     rejection: float
-    """|e / xi| at REJECTED [s^2]."""
+    """|e / xi| at REJECTED [s^2]: tracking error per disturbance."""
 
 
 def count_error(counts: float) -> float:
-    """Standard deviation of the angle [rad] from an encoder of that many counts per revolution."""
+    """Standard deviation of the angle [rad] from an encoder with `counts` per revolution: uniform error."""
     return 2.0 * math.pi / counts / math.sqrt(12.0)
 
 
 @dataclass(frozen=True)
 class OnHardware:
-    """An observer and the gains of one joint at this period and delay."""
+    """An observer and the gains of one joint, judged at the period and delay of the hardware."""
 
     hardware: Hardware
     observer: GPIObserver
     gains: Gains
+    """K_p and K_d of (20)."""
     joint: int = 0
+    """Which of the gains, where there is one number per joint."""
 
     def sampled(self, ratio: float = 1.0) -> SampledLoop:
-        """The sampled loop, with kappa off by a ratio."""
+        """The sampled loop with `ratio` times the model's kappa, dimensionless."""
         k = self.hardware
         return sampled_loop(
             self.observer,
@@ -104,32 +114,40 @@ class OnHardware:
         )
 
     @cached_property
+    def loop(self) -> ObserverLoop:
+        """The loop of the joint in continuous time."""
+        return observer_loop(self.observer, self.gains, self.joint)
+
+    @cached_property
     def ripple(self) -> float:
-        """rms torque [N m] of one encoder count; infinite for an unstable loop."""
+        """rms torque [N m] of the error of one encoder count; infinite for an unstable loop."""
         return self.sampled().rms(count_error(self.hardware.counts)) * self.hardware.inertia
 
     @cached_property
     def weakest(self) -> tuple[float, float]:
-        """The one of KAPPA_RATIOS with the largest spectral radius, and that radius."""
+        """The one of KAPPA_RATIOS with the largest spectral radius, and that radius; dimensionless."""
         radii = {ratio: self.sampled(ratio).spectral_radius for ratio in KAPPA_RATIOS}
         return max(radii.items(), key=lambda found: found[1])
 
     @cached_property
     def obstacle(self) -> str:
-        """What forbids it: "stability", "ripple", or "" where nothing does."""
+        """What forbids this observer: "stability", "ripple", or "" where nothing does."""
         if not self.weakest[1] < 1.0:
             return "stability"
         return "" if self.ripple <= SHARE * self.hardware.torque_limit else "ripple"
 
     @cached_property
     def rejection(self) -> float:
-        """|e / xi| at REJECTED [s^2]."""
-        loop = observer_loop(self.observer, self.gains, self.joint)
-        return float(np.abs(loop.tracking_error(np.array([REJECTED])))[0])
+        """|e / xi| at REJECTED [s^2], in continuous time."""
+        return float(np.abs(self.loop.tracking_error(np.array([REJECTED])))[0])
 
 
 def recommend(hardware: Hardware, gains: Gains, m: int, joint: int = 0) -> Recommended:
-    """The largest bandwidth of the lowest range of bandwidths that are allowed."""
+    """The largest bandwidth of m + 2 equal poles in the lowest range of bandwidths that are allowed.
+
+    Only the lowest range counts: a loop that is unstable at some bandwidth and stable again above
+    it would be a bad recommendation.
+    """
 
     def against(w: float) -> str:
         return OnHardware(hardware, GPIObserver.from_bandwidth(w, m), gains, joint).obstacle
@@ -150,7 +168,7 @@ def recommend(hardware: Hardware, gains: Gains, m: int, joint: int = 0) -> Recom
 
 
 def without_observer(gains: Gains, joint: int = 0) -> float:
-    """|e / xi| at REJECTED [s^2] of K_p and K_d alone: 1 / |s^2 + K_d s + K_p|."""
+    """|e / xi| at REJECTED [s^2] of K_p and K_d alone: 1 / |s^2 + K_d s + K_p|, to compare with."""
     K_p, K_d = joint_gains(gains, joint)
     s = 1j * REJECTED
     return float(1.0 / abs(s**2 + K_d * s + K_p))

@@ -1,22 +1,24 @@
-"""What an observer says wrongly after an impact, by its linear error dynamics, for each reset policy.
+"""The estimation error that an impact leaves in an observer, by its linear error dynamics.
 
     e' = A^ e   (19),   e(0+) = what is true after impact - what the reset makes of the estimates before it
 
-Before impact the estimates are taken as right, along the gait's periodic orbit: q_b, q_b', xi and its first
-derivatives. The torque that the error costs is the deviation
+At an impact velocities and xi jump; each `ResetPolicy` guesses the new states differently. Before
+impact the estimates are taken as right, along the gait's periodic orbit: q_b, q_b', xi and its
+first derivatives. The torque that the error costs is the deviation
 
     u - u* = kappa^-1 (K_p e_1 + K_d e_2 + e_3)
 
-from that of right estimates, with kappa as it is just after impact. Linear, and so without the torque limit
-and without what a fall would do.
+from the torque of right estimates, with kappa as it is just after impact. The model is linear, so
+it knows neither the torque limit nor a fall. `observer_tables` shows one row per reset policy.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import Chebyshev
+from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from biped_adrc.control.tracking import TABLE_II, Gains
@@ -28,9 +30,9 @@ from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array
 
 DEGREE = 20
-"""Of the polynomial in time that stands for xi along the orbit."""
+"""Degree of the polynomial in time that approximates xi along the orbit."""
 DERIVATIVES = 3
-"""Of xi that are taken from it; those above count as known, since a fit has none to give."""
+"""How many derivatives of xi are taken from it; higher ones count as known, since the fit is too rough."""
 INSTANTS, LONG = 400, 8.0
 """Of the response, and its length in time constants of the slowest pole."""
 
@@ -48,19 +50,26 @@ class ImpactPeak(NamedTuple):
     """u - u* [N m]."""
 
 
-class Impact(NamedTuple):
-    """States of the chain in physical units, (order, p): q_b, q_b', xi, xi', ..."""
+class ImpactStates(NamedTuple):
+    """True states of the observer's chain at an impact in physical units: q_b [rad], q_b' [rad/s], xi
+    [rad/s^2], xi', ...; one row per state, one column per joint.
+    """
 
     before: Array
+    """True states of the chain just before impact (order, p)."""
     after: Array
-    swap: Any
-    """(p,) ints, the relabelling of the joints."""
+    """True states just after impact, in the coordinates of the next step (order, p)."""
+    swap: NDArray[np.int_]
+    """Permutation of the joints at impact (p,), ints."""
     inertia: Array
-    """kappa^-1 (p, p) after it [kg m^2]."""
+    """kappa^-1 (p, p) just after impact [kg m^2]."""
 
 
-def orbit_impact(biped: Biped, gait: Gait, order: int) -> Impact:
-    """The impact of the gait's periodic orbit. Raises GaitError where the orbit cannot be had."""
+def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
+    """The impact of the gait's periodic orbit, for an observer with `order` = m + 2 states per joint.
+
+    Raises GaitError where the gait has no periodic orbit.
+    """
     orbit = ZeroDynamics.of(biped, gait.constraint).cycle
     xi = np.array([biped.reduction(q, v).xi for q, v in zip(orbit.q, orbit.v, strict=True)])
     rate = orbit.v @ gait.constraint.phase
@@ -76,18 +85,21 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> Impact:
         rows += [np.zeros(biped.p)] * order
         ends.append(np.array(rows[:order]))
     inertia = biped.reduction(*gait.start(biped)).kappa_inverse
-    return Impact(ends[0], ends[1], biped.relabelling[: biped.p], inertia)
+    return ImpactStates(ends[0], ends[1], biped.relabelling[: biped.p], inertia)
 
 
 def _times(theta: Array, rate: Array, start: float) -> Array:
-    """t at the nodes: the integral of 1 / Theta' from the start of the step."""
+    """Time at the nodes (K,) [s]: the integral of 1 / Theta' from the start of the step.
+
+    theta (K,) [rad] and rate Theta' (K,) [rad/s] along the orbit; start: Theta+ [rad].
+    """
     slowness = Chebyshev.fit(theta, 1.0 / rate, DEGREE)
     whole = slowness.integ()
     return whole(theta) - whole(start)
 
 
-def reset_error(impact: Impact, policy: ResetPolicy) -> Array:
-    """e(0+) (order, p) in physical units."""
+def reset_error(impact: ImpactStates, policy: ResetPolicy) -> Array:
+    """e(0+) (order, p) in physical units, [rad], [rad/s], [rad/s^2], ..., that a reset policy leaves."""
     estimate = impact.before if policy is ResetPolicy.NONE else impact.before[:, impact.swap]
     estimate = estimate.copy()
     if policy in (ResetPolicy.MEASURED, ResetPolicy.MODEL):
@@ -99,9 +111,12 @@ def reset_error(impact: Impact, policy: ResetPolicy) -> Array:
 
 
 def impact_peak(
-    observer: GPIObserver, impact: Impact, policy: ResetPolicy, gains: Gains = TABLE_II
+    observer: GPIObserver, impact: ImpactStates, policy: ResetPolicy, gains: Gains = TABLE_II
 ) -> ImpactPeak:
-    """The response to e(0+), over LONG time constants; e_3 = 0 for m = 0, which has no xi^."""
+    """Peaks of the response to e(0+), over LONG time constants; e_3 = 0 for m = 0, which has no xi^.
+
+    The response is computed in scaled states, by matrix exponentials at each time.
+    """
     w, k = observer.scale, observer.order
     E = reset_error(impact, policy) / w ** np.arange(k)[:, np.newaxis]
     A = observer.error_system().A

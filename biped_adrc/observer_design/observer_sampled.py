@@ -1,6 +1,8 @@
-"""The linear loop of one joint in sampled time: what is stable, and what an encoder does to the torque.
+"""The linear loop of one joint in sampled time: what is stable, and how an encoder disturbs the
+torque.
 
-With T the period, the torque held between ticks and acting (j + f) T after its tick, 0 <= f < 1,
+With T the period, the torque held between sample instants and acting (j + f) T after its instant, 0
+<= f < 1,
 
     e_(k+1)    = e_k + T e'_k + T^2 (g alpha + xi) / 2,     T e'_(k+1) = T e'_k + T^2 (g alpha + xi)
 
@@ -9,10 +11,14 @@ where alpha changes from a_(k-j-1) to a_(k-j) at t_k + f T, and
     current   Z <- Z + L (e + n - Z_1),  a = -F Z,  Z <- Phi Z + Gamma a       as `SampledGPIObserver`
     held      a = -F Z,  Z <- exp(A T) Z + int_0^T exp(A s) ds (w l (e + n) + b a)
 
-The held form is the continuous observer (17) with its measurement held for a period. X = (e, T e', Z, torques
-on their way) obeys X <- X + M X + B (xi, n). M is formed without its unit matrix: at short periods all
-eigenvalues gather at 1, and what tells them apart would be lost. The observer is fed with a_k, or, when the
-delay is known, with the mean of what acts until the next tick, which is exact for whole periods alone.
+The held form is the continuous observer (17) with its measurement held for a period. X = (e, T e',
+Z, torques on their way) obeys X <- X + M X + B (xi, n). M is formed without its unit matrix: at
+short periods all eigenvalues gather at 1, and what distinguishes them would be lost in round-off.
+The observer is fed with a_k, or, when the delay is known, with the mean of what acts until the next
+sample instant, which is exact for whole periods alone.
+
+`observer_choice` asks it for stability and for the noise of the torque, `observer_report` for the
+largest period and delay.
 """
 
 from __future__ import annotations
@@ -36,29 +42,37 @@ FORMS = ("current", "held")
 SHORTEST, LONGEST = 1e-6, 0.1
 """[s]: periods among which the largest stable one is looked for."""
 RATIO = 1.05
-"""Of one period of that search to the one before."""
+"""Ratio of one period of that search to the one before."""
 PARTS, MOST_PERIODS = 20, 50
 """Parts of a period by which the largest delay is looked for, and how many periods far."""
 HIGHEST = 14
-"""Largest m: with more, round-off moves poles of the discrete observer by more than the loop's do."""
+"""Largest m: with more, round-off moves poles of the discrete observer by more than the loop does."""
 
 
 @dataclass(frozen=True)
 class SampledLoop:
-    """The module's loop. K_p [1/s^2], K_d [1/s], T and delay [s]; kappa_ratio is g.
+    """The loop of one joint in sampled time. Make it with `sampled_loop`.
 
-    Raises InputError for what `SampledTime` refuses, an m above HIGHEST, a form that is neither, and a
-    kappa_ratio <= 0.
+    Raises InputError for what `SampledTime` refuses, an m above HIGHEST, a form that is neither,
+    and a kappa_ratio <= 0.
     """
 
     observer: GPIObserver
+    """The GPI observer in continuous time; its current form has the poles exp(s T)."""
     period: float
+    """T [s]."""
     K_p: float = 5000.0
+    """[1/s^2]."""
     K_d: float = 50.0
+    """[1/s]."""
     delay: float = 0.0
+    """From a sample instant to its torque [s]."""
     known: bool = False
+    """Whether the observer is fed with what acts rather than with the command."""
     form: str = "current"
+    """Either "current" or "held"."""
     kappa_ratio: float = 1.0
+    """g, the robot's kappa over the model's, dimensionless."""
 
     def __post_init__(self) -> None:
         SampledTime(self.period, delay=self.delay)
@@ -74,7 +88,11 @@ class SampledLoop:
     # -- the step ------------------------------------------------------------------------------------
     @cached_property
     def _system(self) -> tuple[Array, Array, Array, Array]:
-        """M, B, and the row of T^2 a in X and in (T^2 xi, n)."""
+        """M (s, s) and B (s, 2) of one step, and the rows of T^2 a in X (s,) and in (T^2 xi, n) (2,).
+
+        Every quantity is a row in (X, T^2 xi, n): the step is composed from rows as the equations
+        read.
+        """
         k, T = self.observer.order, self.period
         queue, f = whole_and_part(self.delay, T)
         waits = int(f > 0.0)
@@ -100,7 +118,9 @@ class SampledLoop:
         return increments[:, :size], increments[:, size:], a[:size], a[size:]
 
     def _tick(self, Z: Array, y: Array) -> tuple[Array, Array]:
-        """The change of Z without its input, and T^2 a, as rows."""
+        """The change of Z in one period without its input, and T^2 a, as rows; y is the measured
+        angle's row.
+        """
         if self.form == "current":
             k = self._current
             corrected = np.outer(k.L, y - Z[0])
@@ -112,12 +132,12 @@ class SampledLoop:
 
     @cached_property
     def _current(self) -> SampledGPIParameters:
-        """Phi, Gamma T^2 and L."""
+        """Phi, Gamma T^2 and L of the current form, those of the observer that walks."""
         return self.observer.sampled(self.period).parameters
 
     @cached_property
     def _held(self) -> Array:
-        """int_0^T exp(A s) ds."""
+        """int_0^T exp(A s) ds (m + 2, m + 2) [s], from the exponential of a block matrix."""
         A, n = self.observer.error_system().A, self.observer.order
         both = np.zeros((2 * n, 2 * n))
         both[:n, :n], both[:n, n:] = A * self.period, np.eye(n) * self.period
@@ -125,7 +145,7 @@ class SampledLoop:
 
     @cached_property
     def _fed(self) -> Array:
-        """What T^2 a adds to Z in a period."""
+        """What T^2 a adds to Z in a period (m + 2,)."""
         T, k = self.period, self.observer.order
         if self.form == "current":
             return self._current.Gamma / T**2
@@ -135,7 +155,7 @@ class SampledLoop:
 
     @cached_property
     def _feedback(self) -> Array:
-        """The row -F of T^2 a in the observer's states."""
+        """The row -F T^2 (m + 2,) of T^2 a in the observer's scaled states."""
         T = self.period
         w = 1.0 / T if self.form == "current" else self.observer.scale
         row = np.zeros(self.observer.order)
@@ -147,23 +167,23 @@ class SampledLoop:
     # -- what it says --------------------------------------------------------------------------------
     @property
     def matrix(self) -> Array:
-        """X_(k+1) = matrix X_k."""
+        """The matrix (s, s) of X_(k+1) = matrix X_k, dimensionless."""
         M = self._system[0]
         return M + np.eye(len(M))
 
     @cached_property
     def eigenvalues(self) -> ComplexArray:
-        """Of the step."""
+        """Eigenvalues (s,) of one period, dimensionless: 1 + those of M."""
         return np.asarray(1.0 + np.linalg.eigvals(self._system[0]), dtype=complex)
 
     @property
     def spectral_radius(self) -> float:
-        """Below 1 for a stable loop."""
+        """Largest |eigenvalue|; below 1 for a stable loop."""
         return float(np.max(np.abs(self.eigenvalues)))
 
     @property
     def stable(self) -> bool:
-        """Whether it is."""
+        """Whether the spectral radius is below 1."""
         return self.spectral_radius < 1.0
 
     def rms(self, sigma: float) -> float:
@@ -179,9 +199,10 @@ class SampledLoop:
 
 
 def covariance(A: Array, Q: Array) -> Array:
-    """P = A P A' + Q for a stable A, as the sum of A^i Q A'^i, twice as many terms at a time.
+    """P (s, s) of P = A P A' + Q for a stable A (s, s), as the sum of A^i Q A'^i, doubling its terms.
 
-    All terms add up, so nothing is lost where the equation itself is badly conditioned.
+    For a matrix Q that is positive semidefinite all terms add up, so nothing is lost where the
+    equation itself is badly conditioned. P has the units of Q, such as [rad^2] for angles.
     """
     P = Q
     while True:
@@ -202,7 +223,9 @@ def sampled_loop(
     form: str = "current",
     kappa_ratio: float = 1.0,
 ) -> SampledLoop:
-    """The loop of one joint with its gains. Raises InputError as `SampledLoop`."""
+    """The loop of one joint with its gains, at a period [s] and a delay [s]. Raises InputError as
+    `SampledLoop`.
+    """
     return SampledLoop(
         observer, period, *joint_gains(gains, joint), delay, known, form, kappa_ratio
     )
@@ -246,7 +269,10 @@ def largest_delay(loop: SampledLoop) -> float:
 
 
 def last_true(holds: Callable[[float], bool], low: float, high: float) -> float:
-    """Where `holds` ends between low, where it does, and high, where it does not; to 1e-6 of high."""
+    """The end of the range where `holds` is true, by bisection to 1e-6 of high.
+
+    It holds at low and does not hold at high.
+    """
     while high - low > 1e-6 * high:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if holds(middle) else (low, middle)

@@ -1,4 +1,9 @@
-"""The observer report as tables of text, for a terminal or a page."""
+"""The observer report as text: a verdict in one sentence, and five tables.
+
+For a terminal (`ObserverReport.text`) or a page. Every function takes the report and asks it for
+its numbers; nothing is computed here but the peaks after an impact. The columns "delay hidden" and
+"known" are the delay unknown and known to the observer.
+"""
 
 from __future__ import annotations
 
@@ -12,11 +17,11 @@ from biped_adrc.observer_design.observer_loop import conditioning
 from biped_adrc.observers.base import ResetPolicy
 
 if TYPE_CHECKING:
-    from biped_adrc.observer_design.observer_design import ObserverReport
+    from biped_adrc.observer_design.observer_report import ObserverReport
 
 
 class Section(NamedTuple):
-    """One table."""
+    """One table: its title, the heads of its columns, and its rows as text."""
 
     title: str
     header: tuple[str, ...]
@@ -29,7 +34,11 @@ class Section(NamedTuple):
 
 # -- the verdict ---------------------------------------------------------------------------------
 def verdict(report: ObserverReport) -> str:
-    """Whether the observer can run on the robot, in words, with the numbers that decide."""
+    """Whether the observer can run on the robot, in words, with the numbers that decide.
+
+    "cannot run": unstable, or torque noise above the limit. "can run, but": more noise than SHARE,
+    or a worse rejection than without an observer.
+    """
     k = report.hardware
     where = f"on {report.robot} at {1.0 / k.period:.0f} Hz with {k.counts:g} counts per revolution"
     share, torque = _torque(report)
@@ -49,6 +58,7 @@ def verdict(report: ObserverReport) -> str:
 
 
 def _bears(report: ObserverReport) -> str:
+    """The largest delay that the sampled loop bears, in words."""
     margin = report.sampled_margins[int(report.hardware.known)]
     if math.isinf(margin):
         return "with the model's kappa no delay was found that it does not bear"
@@ -56,7 +66,7 @@ def _bears(report: ObserverReport) -> str:
 
 
 def _torque(report: ObserverReport) -> tuple[float, str]:
-    """The ripple over the torque limit, and in words."""
+    """The ripple relative to the torque limit, and in words."""
     limit = report.hardware.torque_limit
     share = report.ripple / limit
     part = f"{100.0 * share:.3g} % of" if share <= 1.0 else f"{share:.3g} times"
@@ -80,7 +90,7 @@ def _unstable(report: ObserverReport) -> str:
 
 
 def _use(report: ObserverReport) -> str:
-    """What the observer is good for, against none."""
+    """What the observer is good for: the error it leaves relative to a loop without it."""
     times = report.against_none
     error = f"a 5 Hz disturbance leaves {times:.2g} times the error of K_p and K_d alone"
     if report.observer.m == 0:
@@ -90,7 +100,7 @@ def _use(report: ObserverReport) -> str:
 
 # -- the tables ----------------------------------------------------------------------------------
 def sections(report: ObserverReport) -> list[Section]:
-    """All of it but the verdict."""
+    """All tables: gains, stability, responses, impact and allowed bandwidths."""
     return [
         _gains(report),
         _stability(report),
@@ -101,6 +111,7 @@ def sections(report: ObserverReport) -> list[Section]:
 
 
 def _gains(report: ObserverReport) -> Section:
+    """Gains l of (19), physical [1/s^i] and scaled, and the condition numbers."""
     o, c = report.observer, conditioning(report.observer)
     names = [f"l_{o.order - 1 - i} [1/s^{i + 1}]" for i in range(o.order)]
     rows = [
@@ -113,6 +124,7 @@ def _gains(report: ObserverReport) -> Section:
 
 
 def _stability(report: ObserverReport) -> Section:
+    """Delay margins and largest periods, the delay unknown and known."""
     hidden, known = (report.loop.delay_margin(told) for told in (False, True))
     sampled = report.sampled_margins
     period = microseconds(report.hardware.period)
@@ -133,6 +145,7 @@ def _stability(report: ObserverReport) -> Section:
 
 
 def _responses(report: ObserverReport) -> Section:
+    """Level, peak and -3 dB frequency of the three transfer functions."""
     rows = tuple(
         (
             f"|{name}|",
@@ -148,6 +161,7 @@ def _responses(report: ObserverReport) -> Section:
 
 
 def _impact(report: ObserverReport) -> Section:
+    """Peak of the estimation error after the gait's impact, one row per reset policy."""
     rows = tuple(
         (
             policy.value,
@@ -164,6 +178,7 @@ def _impact(report: ObserverReport) -> Section:
 
 
 def _allowed(report: ObserverReport) -> Section:
+    """The largest allowed bandwidth for every order m, and the loop without an observer."""
     rows = [
         (str(r.m), "none", "", "", "", "")
         if math.isnan(r.bandwidth)
@@ -196,5 +211,5 @@ def _allowed(report: ObserverReport) -> Section:
 
 
 def microseconds(seconds: float) -> str:
-    """A time in words."""
+    """A time [s] in microseconds, or that there is no limit."""
     return f"{1e6 * seconds:.4g} us" if math.isfinite(seconds) else "no limit found"

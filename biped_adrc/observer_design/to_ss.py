@@ -1,6 +1,7 @@
 """Observer and linear loop as `control.StateSpace` of the package python-control.
 
-The GPI observer (17) in its scaled states z_k = x_k / w^(k-1), with inputs y = q_b and the torques u:
+For users who want Bode plots, margins or reductions with the tools they know. Three systems; the
+GPI observer (17) in its scaled states z_k = x_k / w^(k-1), with inputs y = q_b and the torques u:
 
     z' = A z + w l (y - z_1) + b kappa u / w,    x1^ = z_1,  x2^ = w z_2,  xi^ = w^2 z_3
 
@@ -8,18 +9,20 @@ Its error (19), e_k = x_k - x_k^, under the total disturbance xi and with a meas
 
     E' = A_e E + b xi / w - w l n,               e1 = E_1,  e2 = w E_2,  xi^ = -w^2 E_3
 
-and the loop of one joint (20) where the model's kappa is right, with e_q = q_b - q_d, as in (21) to (23):
+and the loop of one joint (20) where the model's kappa is right, with e_q = q_b - q_d, as in (21) to
+(23):
 
     e_q'' = -K_d (e_q' - e2) - K_p (e_q - e1) + xi - xi^
     kappa u - q_d'' = -K_d (e_q' - e2) - K_p (e_q - e1) - xi^
 
-l, w and A_e are those of `GPIObserver`; in x itself the matrix of Table I has condition number 3e29.
+l, w and A_e are those of `GPIObserver`; in x itself the matrix of Table I has condition number
+3e29. python-control is imported only when a system is made, since it is an extra.
 """
 
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -52,7 +55,7 @@ def to_ss(observer: GPIObserver, kappa: Array | float = 1.0) -> StateSpace:
     input_row[1] = 1.0 / observer.scale
     joints = [""] if p == 1 else [f"_{i + 1}" for i in range(p)]
     A, B_y, C = (
-        np.kron(part, np.eye(p))
+        np.asarray(np.kron(part, np.eye(p)), dtype=float)
         for part in (observer.error_system().A, _injection(observer), _estimates(observer))
     )
     return _state_space(
@@ -118,6 +121,7 @@ def loop_to_ss(controller: ADRCController, joint: int = 0) -> StateSpace:
 
 
 def _checked(observer: Observer) -> GPIObserver:
+    """The observer itself. Raises InputError for another kind."""
     return checked_gpi(observer, "state space")
 
 
@@ -135,7 +139,7 @@ def _estimates(observer: GPIObserver) -> Array:
 
 
 def _error(observer: GPIObserver) -> tuple[Array, Array]:
-    """A_e and the columns of xi and n."""
+    """A_e (m + 2, m + 2) and the columns of xi and n (m + 2, 2), in scaled states."""
     B = np.hstack((np.zeros((observer.order, 1)), -_injection(observer)))
     system = observer.error_system()
     B[1, 0] = system.velocity_scale
@@ -143,10 +147,14 @@ def _error(observer: GPIObserver) -> tuple[Array, Array]:
 
 
 def _error_names(observer: GPIObserver) -> list[str]:
+    """Names of the states E_k."""
     return [f"E_{i + 1}" for i in range(observer.order)]
 
 
-def _state_space(A: Any, B: Any, C: Any, D: Any = None, **names: Any) -> StateSpace:
+def _state_space(
+    A: Array, B: Array, C: Array, D: Array | None = None, **names: object
+) -> StateSpace:
+    """The system of these matrices and names. Raises InputError when python-control is missing."""
     D = np.zeros((len(C), B.shape[1])) if D is None else D
     try:
         control = import_module("control")

@@ -13,8 +13,8 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.paper.figures import push_window
 from biped_adrc.paper.plan import BOTH, Plan
 from biped_adrc.paper.results import Results
+from biped_adrc.viz.figure_numbers import as_text, numbers_of
 from biped_adrc.viz.from_the_side.robot_figure import robot_figure
-from biped_adrc.viz.numbers import as_text, numbers_of
 from biped_adrc.viz.plots import figures
 from biped_adrc.viz.plots.push_map import push_map_figure
 from biped_adrc.viz.style import render

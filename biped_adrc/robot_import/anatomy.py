@@ -1,14 +1,18 @@
-"""Who is who in the tree of a planar biped: feet, motors, hip, and the phase.
+"""The parts of a planar biped found in its tree: feet, hip, order of the joints, and the phase
+variable.
 
-The phase is the absolute angle of the virtual stance leg from the hip to the stance foot, counter-clockwise
-with x to the right and z up, so that it falls while the robot walks to +x. With a_k the absolute angles of
-the links of the stance leg and l_k the lengths of the leg in them,
+The phase is the absolute angle of the virtual stance leg from the hip to the stance foot,
+counter-clockwise with x to the right and z up, so that it falls while the robot walks to +x. With
+a_k the absolute angles of the links of the stance leg and l_k the lengths of the leg in them,
 
     Theta = sum_k l_k a_k / sum_k l_k = c q + const
 
-which is q5 + q1 + q3/2 for RABBIT. For two links of equal length this is the angle itself (an isosceles
-triangle), for others its first-order part about the straight leg; a row c is what a virtual constraint needs.
-What the URDF does not say is guessed only when there is one answer, and every guess is a sentence in `said`.
+which is q5 + q1 + q3/2 for RABBIT. For two links of equal length this is the angle itself (an
+isosceles triangle), for others its first-order part about the straight leg; a virtual constraint
+needs a constant row c.
+
+`import_robot.derive` calls `anatomy` after the base is known. What the URDF does not say is guessed
+only when there is one answer, and every guess is a sentence in `said`.
 """
 
 from __future__ import annotations
@@ -27,19 +31,24 @@ from biped_adrc.robots.urdf import Joint, Tree
 from biped_adrc.types import Array
 
 _FOOT_NAMES = re.compile(r"foot|feet|toe|sole", re.IGNORECASE)
+"""Words in the name of a link that make it a foot."""
 _AWAY = 1e-6  # [m], a foot nearer to its last joint than this is no foot
 
 
 @dataclass(frozen=True)
 class Anatomy:
-    """Names of the parts; `moving` in the order q1, q2, ... without the pitch."""
+    """Names of the parts of one biped."""
 
     feet: tuple[str, str]
     """Stance and swing foot."""
     hip: str
+    """Link whose origin is the hip."""
     moving: tuple[Joint, ...]
+    """Revolute joints without the pitch, in the order q1, q2, ..."""
     phase: tuple[float, ...]
+    """Row c (n,) of Theta = c q, dimensionless; the last entry belongs to the pitch."""
     said: tuple[str, ...]
+    """What was guessed, in sentences."""
 
 
 def anatomy(body: PlanarBase, feet: tuple[str, ...] | None, hip: str | None) -> Anatomy:
@@ -65,7 +74,9 @@ def anatomy(body: PlanarBase, feet: tuple[str, ...] | None, hip: str | None) -> 
 
 
 def position(tree: Tree, link: str) -> Array:
-    """(x, z) of the frame of a link at zero angles [m]; frames are parallel."""
+    """Place (x, z) of the frame of a link at zero angles (2,) [m]: the sum of the origins, since
+    frames are parallel.
+    """
     origins = [joint.origin for joint in tree.path_to_root(link)]
     return np.array([math.fsum(o[0] for o in origins), math.fsum(o[2] for o in origins)])
 
@@ -90,6 +101,10 @@ def _leaves(body: PlanarBase) -> list[str]:
 
 
 def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Two feet and a sentence why: the two ends below the most joints, or the two that are called feet.
+
+    Raises ModelError where neither rule gives exactly two.
+    """
     leaves = _leaves(body)
     depth = {leaf: len(_chain(body, leaf)) for leaf in leaves}
     most = max(depth.values())
@@ -109,6 +124,10 @@ def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 
 def _checked_feet(body: PlanarBase, feet: tuple[str, ...]) -> tuple[str, str]:
+    """The feet (stance, swing), once they are two links of different legs that move against each other.
+
+    Raises ModelError that names what is wrong.
+    """
     source, links = body.tree.source, body.tree.links
     for foot in feet:
         if foot not in links:
@@ -131,7 +150,7 @@ def _checked_feet(body: PlanarBase, feet: tuple[str, ...]) -> tuple[str, str]:
 
 
 def _check_foot(tree: Tree, foot: str) -> None:
-    """A point foot lies away from the joint that moves it. Raises ModelError."""
+    """A point foot lies away from the joint that moves it. Raises ModelError that says how to add a tip."""
     last = next(joint for joint in tree.path_to_root(foot) if joint.type == "revolute")
     if math.dist(position(tree, foot), position(tree, last.child)) < _AWAY:
         raise ModelError(
@@ -143,7 +162,11 @@ def _check_foot(tree: Tree, foot: str) -> None:
 
 # -- joints ----------------------------------------------------------------------------------------
 def _in_order(body: PlanarBase, feet: tuple[str, str]) -> tuple[Joint, ...]:
-    """Stance hip, swing hip, stance knee, swing knee, ...; then the joints that belong to no leg alone."""
+    """Stance hip, swing hip, stance knee, swing knee, ...; then the joints that belong to no leg alone.
+
+    From the trunk outwards, a joint of the stance leg before its twin of the swing leg: the paper's
+    order.
+    """
     one, other = (_chain(body, foot) for foot in feet)
     pairs = zip_longest((j for j in one if j not in other), (j for j in other if j not in one))
     legs = [joint for pair in pairs for joint in pair if joint is not None]
@@ -153,7 +176,9 @@ def _in_order(body: PlanarBase, feet: tuple[str, str]) -> tuple[Joint, ...]:
 
 # -- hip and phase ---------------------------------------------------------------------------------
 def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
-    """The link whose origin is the hip: where the legs meet, at the first joint of the swing leg."""
+    """The link whose origin is the hip, and a sentence: where the legs meet, at the first joint of the
+    swing leg. Raises ModelError where the swing foot is fixed to the stance leg.
+    """
     one, other = ([foot, *(j.parent for j in tree.path_to_root(foot))] for foot in feet)
     meet = next(link for link in one if link in other)
     swing = [j for j in tree.path_to_root(feet[1]) if j.child not in one and j.type == "revolute"]
@@ -168,6 +193,7 @@ def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
 
 
 def _check_hip(body: PlanarBase, hip: str, foot: str) -> None:
+    """Raise ModelError unless the hip hangs on the trunk and its origin survives re-rooting at the foot."""
     if hip not in body.tree.links:
         raise ModelError(
             f"URDF '{body.tree.source}': there is no link '{hip}' to be the hip; it has "
@@ -183,13 +209,19 @@ def _check_hip(body: PlanarBase, hip: str, foot: str) -> None:
 
 
 def _keeps_its_origin(tree: Tree, link: str, foot: str) -> bool:
-    """Whether re-rooting at `foot` leaves the origin of `link` where it is."""
+    """Whether re-rooting at `foot` leaves the origin of `link` where it is.
+
+    `pinned.reroot` moves the frame of a link on the stance leg to the joint below it.
+    """
     outwards = [joint for joint in tree.path_to_root(foot) if joint.parent == link]
     return all(math.hypot(*joint.origin) < _AWAY for joint in outwards)
 
 
 def _phase(tree: Tree, foot: str, hip: str, joints: tuple[Joint, ...]) -> Array:
-    """Row c (n,) of Theta: the leg from the foot to the hip, cut where its links meet."""
+    """Row c (n,) of Theta: the leg from the foot to the hip, cut into lengths [m] where its links meet.
+
+    Raises ModelError where hip and foot coincide.
+    """
     carriers = {hip, *(joint.parent for joint in tree.path_to_root(hip))}
     points, links = [position(tree, foot)], []
     for joint in tree.path_to_root(foot):

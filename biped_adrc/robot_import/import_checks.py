@@ -1,12 +1,16 @@
-"""Laws a derived biped must keep, each with the number it was measured at.
+"""Laws of mechanics an imported biped must obey, each with the number it was measured at.
 
-At random states, against the floating model, with H_c the angular momentum about a point c taken from
-masses, COM velocities and spins of the bodies:
+An import has many ways to be subtly wrong: a sense, an offset, an inertia in the wrong frame. These
+laws hold for every planar biped, so they need no reference values. At random states, against the
+floating model, with H_c the angular momentum about a point c taken from masses, COM velocities and
+spins of the bodies (`contact.LinkMotion`):
 
     D_s, Omega = Z' M Z, Z' (nle + M Z')      pinned = floating, constrained at the foot
     E_2 q_e+' = 0,  H_c+ = H_c-,  T+ <= T-    the plastic impact at c = p_2
-    R R = 1,  p_2(R q) = -p_2(q)              the legs change over
+    R R = 1,  p_2(R q) = -p_2(q)              the legs exchange their roles
     Theta' = -1                               while the robot topples forwards at 1 rad/s
+
+`import_robot.derive` runs them; `biped_from_urdf` refuses a robot for which one is broken.
 """
 
 from __future__ import annotations
@@ -18,19 +22,26 @@ import pinocchio as pin
 
 from biped_adrc.checks import Check, at_most
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.contact import LinkMotion
 from biped_adrc.model.pinned import frame_index
 from biped_adrc.types import Array
 
 STATES, SEED = 20, 0
 LIMIT = 1e-9
-"""Largest relative gap; double precision leaves about 1e-12."""
+"""Largest relative gap of a law; double precision leaves about 1e-12."""
 ACCURACY = 1e-6
-"""Largest relative round-off in q''; feet of 1e-7 of the hip's mass leave 1e-8."""
+"""Largest relative round-off in q'' (eps times the condition number of D_s), dimensionless. Feet with
+1e-7 of the hip's mass leave 1e-8.
+"""
 DEFINITE = "D_s is positive definite; round-off left in q'' by its condition"
+"""The one check whose limit is ACCURACY."""
 
 
 def checks(biped: Biped) -> tuple[Check, ...]:
-    """The laws at `STATES` random states drawn with `SEED`: angles in +-pi, rates of 3 rad/s."""
+    """The laws at `STATES` random states drawn with `SEED`: angles in +-pi, rates of 3 rad/s.
+
+    One `Check` per law, with the largest gap over the states. A NaN counts as broken.
+    """
     random = np.random.default_rng(SEED)
     laws: dict[str, float] = {}
     for _ in range(STATES):
@@ -46,15 +57,8 @@ def checks(biped: Biped) -> tuple[Check, ...]:
     return tuple(at_most(law, "law", gap, limits.get(law, LIMIT)) for law, gap in laws.items())
 
 
-def angular_momentum(biped: Biped, q: Array, v_e: Array, point: Array) -> float:
-    """H_c [kg m^2/s] of the bodies about `point` (x, z) from the stance foot, at q_e' = v_e (n + 2,)."""
-    f = biped.floating
-    pin.computeCentroidalMomentum(f.model, f.data, f.configuration(q), f.velocity_map(q) @ v_e)
-    arm = f.data.com[0] - np.array([point[0], 0.0, point[1]])
-    return float(f.data.hg.angular[1] + np.cross(arm, f.data.hg.linear)[1])
-
-
 def _gap(found: Array, expected: Array) -> float:
+    """Largest difference of two arrays relative to the largest entry of the expected one."""
     return float(np.max(np.abs(found - expected)) / np.max(np.abs(expected)))
 
 
@@ -68,6 +72,10 @@ def _places(b: Biped, q: Array, frames: tuple[str, str]) -> Array:
 
 
 def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
+    """Laws of single support at q, v (n,) [rad, rad/s], each with its gap.
+
+    D_s and Omega, D_s positive definite, places of hip and foot, and the direction of the phase.
+    """
     D, Omega = b.floating.projected(q, v)
     yield "D_s of the pinned model is the floating one's, constrained", _gap(b.inertia(q), D)
     yield "Omega of the pinned model is the floating one's, constrained", _gap(b.bias(q, v), Omega)
@@ -87,19 +95,25 @@ def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]
 
 
 def _impact(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
+    """Laws of the plastic impact at q, v (n,) [rad, rad/s], each with its gap; H relative to a
+    momentum of the same energy.
+    """
     hit, contact = b.impact(q, v), b.swing_foot(q)
     before, after = b.kinetic_energy(q, v), b.kinetic_energy(hit.q, hit.v)
     foot = b.E_2(q) @ hit.v_e
     yield "impact: the new stance foot is at rest", float(np.max(np.abs(foot)) / np.linalg.norm(v))
     yield "impact: kinetic energy does not grow", max(0.0, after / before - 1.0)
-    H_before = angular_momentum(b, q, np.append(v, [0.0, 0.0]), contact)
-    H_after = angular_momentum(b, q, hit.v_e, contact)
+    H_before, H_after = (
+        LinkMotion(b.floating, q, rates).about(contact)
+        for rates in (np.append(v, [0.0, 0.0]), hit.v_e)
+    )
     scale = np.sqrt(2.0 * before * b.mass) * max(np.linalg.norm(contact), np.linalg.norm(b.hip(q)))
     law = "impact: angular momentum about the new foot is kept"
     yield law, float(abs(H_after - H_before) / scale)
 
 
 def _exchange(b: Biped, q: Array) -> Iterator[tuple[str, float]]:
+    """Laws of the exchange of legs at q (n,) [rad], each with its gap."""
     new = b.relabel(q)
     length = np.linalg.norm(b.hip(np.zeros(b.n)))
     yield "legs: exchanging them twice changes nothing", _gap(b.relabel(new), q)

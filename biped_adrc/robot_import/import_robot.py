@@ -1,21 +1,34 @@
-"""A robot from one URDF: everything the record of a robot says, derived and checked.
+"""A robot from one URDF: everything its record robot.toml says, derived and checked.
 
     derived = derive("walker.urdf")
     derived.biped    the Biped, with the masses of the URDF as its preset "urdf"
     derived.said     what was guessed, in sentences
     derived.checks   the laws it was checked against, with their numbers
 
-The URDF describes a planar biped with point feet: revolute joints about y, equal legs, each with a link at its
-tip. Frames may be turned, angles may run either way; q keeps the file's zeros and senses. The section of
-the return map is foot strike, the height of the swing foot, which follows from the feet.
+The URDF describes a planar biped with point feet: revolute joints about y, equal legs, each with a
+link at its tip. Frames may be turned, angles may run either way; q keeps the file's zeros and
+senses. The section of the return map is the impact, where the height of the swing foot is zero; it
+follows from the feet.
 
-Its record is in the words of a robot.toml, and written as TOML: `tomllib` reads and does not write. Strings,
-numbers, lists and tables are all a record holds, and JSON's strings are basic strings of TOML.
+The way of `derive`, each stage raising ModelError with what to change in the file:
 
-A robot whose URDF has no shape that can be drawn gets sticks from joint to joint, and balls. A stick runs from
-the origin of a link to every joint below it, or to its COM where nothing lies below. It is a cylinder along z,
-a box along x, and a row of balls where it stands obliquely. At every COM lies a ball of steel that weighs as
-much as the body, r = (3 m / (4 pi rho))^(1/3).
+    urdf_reader.read      links and joints, frames turned parallel at zero angles
+    on_planar_base        joints in the plane x-z, base (x, z, pitch) found or added
+    anatomy               feet, hip, order of the joints, phase variable
+    drawable              shapes to draw, sticks where there are none
+    _motors, _torque      joints with a motor, and their torque limit
+    check_alike           equal legs
+    record_of             the robot.toml, from which the Biped is made
+    checks                laws of mechanics, with numbers
+
+The record uses the words of a robot.toml, and is written as TOML by `to_toml`: `tomllib` reads and
+does not write. Strings, numbers, lists and tables are all a record holds, and JSON's strings are
+basic strings of TOML.
+
+A robot whose URDF has no shape that can be drawn gets sticks from joint to joint, and balls. A
+stick runs from the origin of a link to every joint below it, or to its COM where nothing lies
+below. It is a cylinder along z, a box along x, and a row of balls where it stands obliquely. At
+every COM lies a ball of steel with the mass of the body, r = (3 m / (4 pi rho))^(1/3).
 """
 
 from __future__ import annotations
@@ -26,7 +39,6 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from biped_adrc.checks import Check
 from biped_adrc.errors import ModelError, OutputError
@@ -35,10 +47,10 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.robot_import.anatomy import Anatomy, anatomy
 from biped_adrc.robot_import.import_checks import checks
 from biped_adrc.robot_import.planar_base import PlanarBase, on_planar_base
-from biped_adrc.robots.robot_toml import GRAVITY, description_of
+from biped_adrc.robots.robot_toml import GRAVITY, RobotRecord, description_of
 from biped_adrc.robots.symmetry import check_alike, pairs
 from biped_adrc.robots.urdf import Joint, Link, Tree, Vector, Visual, to_xml
-from biped_adrc.robots.urdf_reader import Reading, read, tip_of
+from biped_adrc.robots.urdf_reader import UrdfContents, read, tip_of
 
 _STEEL = 7800.0  # [kg/m^3]
 _RADIUS = 0.03  # of a stick, as a fraction of its length
@@ -47,7 +59,10 @@ _STANCE, _SWING, _TRUNK = (0.0, 0.45, 0.7, 1.0), (0.84, 0.37, 0.0, 1.0), (0.35, 
 
 
 def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
-    """The tree itself where a link has a shape, else the tree with sticks and a sentence that says so."""
+    """The tree itself where a link has a shape, else the tree with sticks, and a sentence that says so.
+
+    Links of the stance leg, the swing leg and the trunk get different colours.
+    """
     if any(link.visuals for link in tree.links.values()):
         return tree, ()
     legs = [{joint.child for joint in tree.path_to_root(foot)} for foot in feet]
@@ -61,6 +76,7 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
 
 
 def _shapes(tree: Tree, link: Link, colour: tuple[float, ...]) -> tuple[Visual, ...]:
+    """Sticks from the link's origin to the joints below it, or to its COM, and a ball at the COM."""
     rgba = (colour[0], colour[1], colour[2], colour[3])
     ends = [joint.origin for joint in tree.joints_below(link.name) if any(joint.origin)]
     if link.inertial is None:
@@ -72,7 +88,7 @@ def _shapes(tree: Tree, link: Link, colour: tuple[float, ...]) -> tuple[Visual, 
 
 
 def _stick(end: Vector, rgba: tuple[float, float, float, float]) -> tuple[Visual, ...]:
-    """From the origin to `end` [m]."""
+    """A stick from the origin to `end` [m]: upright cylinder, horizontal box, or a row of balls between."""
     x, _, z = end
     length = math.hypot(x, z)
     radius = _RADIUS * length
@@ -86,41 +102,48 @@ def _stick(end: Vector, rgba: tuple[float, float, float, float]) -> tuple[Visual
 
 
 PRESET = "urdf"
+"""Name of the preset that holds the masses of the URDF."""
 FRICTION = 0.6
-"""Dry friction of the feet where none is given: RABBIT's, dimensionless."""
+"""Dry friction mu of the feet where none is given: RABBIT's, dimensionless."""
 
 _SIDES = re.compile(r"(^|[_-])(left|right|l|r)(?=$|[_-])", re.IGNORECASE)
+"""The part of a link's name that says left or right."""
 
 
 @dataclass(frozen=True)
 class Hints:
-    """What a URDF does not say; None is guessed where there is one answer.
-
-    feet: links of the stance and the swing foot. actuated: joints with a motor, q1, q2, ... in order. hip:
-    link whose origin is the hip. torque [N m]: limit of a motor. friction_coefficient: of the feet. armature
-    [kg m^2]: rotor inertia per motor, reflected to the joint. gravity [m/s^2]. tip [m]: place of the feet
-    in the frames of the links `feet`, for a URDF that ends with its shins.
-    """
+    """What a URDF does not say; None is guessed where there is one answer."""
 
     feet: tuple[str, ...] | None = None
+    """Links of the stance and the swing foot."""
     actuated: tuple[str, ...] | None = None
+    """Joints with a motor, q1, q2, ... in order."""
     hip: str | None = None
+    """Link whose origin is the hip."""
     torque: float | None = None
+    """Limit of every motor [N m]."""
     friction_coefficient: float | None = None
+    """Dry friction mu of the feet, dimensionless."""
     armature: float = 0.0
+    """Rotor inertia per motor, reflected to the joint [kg m^2]."""
     gravity: float = GRAVITY
+    """[m/s^2]."""
     tip: tuple[float, float, float] | None = None
+    """Place of the feet in the frames of the links `feet` [m], for a URDF that ends with its shins."""
 
 
 def record_of(
-    reading: Reading,
+    reading: UrdfContents,
     body: PlanarBase,
     parts: Anatomy,
     actuated: tuple[str, ...],
     torque: float,
     hints: Hints,
-) -> dict[str, Any]:
-    """What a robot.toml says of it."""
+) -> RobotRecord:
+    """The tables of the robot.toml that describes this robot, as plain values.
+
+    torque: limit of every motor [N m].
+    """
     moving = [joint.name for joint in parts.moving]
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
     source = f"The <inertial> elements of {Path(reading.tree.source).name}."
@@ -142,8 +165,10 @@ def record_of(
         "gravity": hints.gravity,
         "ranges": {name: list(reading.ranges[name]) for name in moving if name in reading.ranges},
         "friction": {
-            kind: {name: values[name] for name in moving if name in values}
-            for kind, values in (("viscous", reading.viscous), ("static", reading.static))
+            "viscous": {
+                joint: reading.viscous[joint] for joint in moving if joint in reading.viscous
+            },
+            "static": {joint: reading.static[joint] for joint in moving if joint in reading.static},
         },
         "links": _bodies(body.tree, parts.feet),
         "presets": {PRESET: {"source": source, "armature": hints.armature}},
@@ -151,7 +176,10 @@ def record_of(
 
 
 def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
-    """Links with mass by body: twins together, under their name without the side."""
+    """Links with mass by body: twins together, under their name without the side.
+
+    A name that is empty or taken without its side is replaced by that of the first link.
+    """
     twins = dict(pairs(tree, feet))
     heavy = [name for name, link in tree.links.items() if link.inertial is not None]
     bodies: dict[str, list[str]] = {}
@@ -165,12 +193,13 @@ def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
     return bodies
 
 
-def to_toml(record: Mapping[str, Any]) -> str:
+def to_toml(record: Mapping[str, object]) -> str:
     """TOML text of `record`: its values first, then its tables; empty tables are left out."""
     return "\n".join(_lines(record, ())).strip() + "\n"
 
 
-def _lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+def _lines(table: Mapping[str, object], path: tuple[str, ...]) -> Iterator[str]:
+    """Lines of a table and of those inside it; `path` is its name, part by part."""
     values = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
     tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
     if path and values:
@@ -181,11 +210,13 @@ def _lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
 
 
 def _key(key: str) -> str:
+    """A key as TOML writes it, in quotes unless it is bare."""
     bare = key.isascii() and key.replace("_", "").replace("-", "").isalnum()
     return key if bare else json.dumps(key, ensure_ascii=False)
 
 
-def _value(value: Any) -> str:
+def _value(value: object) -> str:
+    """A string, number or list as TOML writes it."""
     if isinstance(value, list):
         return f"[{', '.join(_value(item) for item in value)}]"
     return json.dumps(value, ensure_ascii=False)
@@ -193,21 +224,23 @@ def _value(value: Any) -> str:
 
 @dataclass(frozen=True)
 class Derived:
-    """A biped derived from a URDF, and how."""
+    """A biped derived from a URDF, with what was guessed and checked on the way."""
 
     biped: Biped
     said: tuple[str, ...]
+    """What was found and guessed, in sentences."""
     checks: tuple[Check, ...]
-    record: Mapping[str, Any]
-    """As in a robot.toml."""
+    """The laws of `import_checks` with their numbers."""
+    record: RobotRecord
+    """Contents of its robot.toml."""
 
     @property
     def broken(self) -> tuple[Check, ...]:
-        """Checks that do not hold."""
+        """Laws that do not hold; empty for a robot that can be used."""
         return tuple(check for check in self.checks if not check.holds)
 
     def write(self, folder: Path | str) -> Path:
-        """Write floating.urdf and robot.toml for `Biped.load`; the path of robot.toml.
+        """Write floating.urdf and robot.toml for `Biped.load` into a folder; returns the path of robot.toml.
 
         Raises OutputError where one of them exists already or cannot be written.
         """
@@ -232,7 +265,7 @@ def biped_from_urdf(
 ) -> Biped:
     """The Biped of a URDF, once every check holds; see `Hints` for the options and `derive` for the rest.
 
-    Raises ModelError.
+    torque [N m], armature [kg m^2], tip [m]. Raises ModelError, with the laws that do not hold.
     """
     derived = derive(path, Hints(feet, actuated, hip, torque, armature=armature, tip=tip))
     if derived.broken:
@@ -242,7 +275,7 @@ def biped_from_urdf(
 
 
 def derive(path: Path | str, hints: Hints | None = None) -> Derived:
-    """Derive and check a biped from a URDF.
+    """Derive a biped from a URDF and check it. Checks that fail do not raise; they are in `broken`.
 
     Raises ModelError that names the link, joint or file, and what to give or to change.
     """
@@ -269,8 +302,8 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     return Derived(biped, said, checks(biped), record)
 
 
-def _with_tips(path: Path | str, hints: Hints) -> tuple[Reading, tuple[str, ...] | None]:
-    """The URDF, and the feet: those of the hints, or links put at their tips."""
+def _with_tips(path: Path | str, hints: Hints) -> tuple[UrdfContents, tuple[str, ...] | None]:
+    """The URDF, and the feet: those of the hints, or links put at their tips. Raises ModelError."""
     if hints.tip is None:
         return read(path), hints.feet
     if hints.feet is None or not all(map(math.isfinite, hints.tip)):
@@ -283,8 +316,13 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[Reading, tuple[str, ...]
 
 # -- motors ----------------------------------------------------------------------------------------
 def _motors(
-    reading: Reading, moving: tuple[Joint, ...], hints: Hints
+    reading: UrdfContents, moving: tuple[Joint, ...], hints: Hints
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Joints with a motor in order, and a sentence where they were guessed.
+
+    Guessed: all joints but those whose <limit effort> is 0. Raises ModelError for unknown or
+    doubled names.
+    """
     names = tuple(joint.name for joint in moving)
     if hints.actuated is None:
         found = tuple(name for name in names if reading.effort.get(name) != 0.0)
@@ -301,9 +339,13 @@ def _motors(
 
 
 def _torque(
-    reading: Reading, actuated: tuple[str, ...], hints: Hints
+    reading: UrdfContents, actuated: tuple[str, ...], hints: Hints
 ) -> tuple[float, tuple[str, ...]]:
-    """The torque limit of all motors [N m]; 1 where there is none, as a record asks for a number."""
+    """The torque limit of all motors [N m], and a sentence where it was found in the URDF.
+
+    The weakest motor's limit counts for all; 1 for a robot without motors, as a record needs a
+    number. Raises ModelError where a motor has none.
+    """
     if hints.torque is not None or not actuated:
         return (1.0 if hints.torque is None else hints.torque), ()
     without = [name for name in actuated if not reading.effort.get(name, 0.0) > 0.0]
@@ -318,7 +360,8 @@ def _torque(
     return least, (f"torque limit: {least:g} N m, of {which}",)
 
 
-def _remarks(reading: Reading, hints: Hints) -> tuple[str, ...]:
+def _remarks(reading: UrdfContents, hints: Hints) -> tuple[str, ...]:
+    """Sentences on what the URDF leaves open and which defaults were taken."""
     found = []
     if hints.friction_coefficient is None:
         found.append(f"dry friction of the feet: {FRICTION}, as of RABBIT; a URDF does not say")

@@ -1,8 +1,10 @@
 """A tree that moves in the plane x-z on a base (x, z, pitch): found in a URDF, or put above its root.
 
-The base is two prismatic joints along x and z and one revolute joint about y, in this order from the root, with
-nothing of mass in between. Its position is eliminated by the stance contact, so only the pitch is a coordinate.
-A URDF without a base floats on its root link; the base put there turns in the sense of its other joints.
+The base is two prismatic joints along x and z and one revolute joint about y, in this order from
+the root, with no mass in between. The stance contact determines its position, so only the pitch
+remains as a coordinate, q_N. A URDF without a base floats on its root link; the base put there
+turns in the sense of its other joints. Called by `import_robot.derive`, before feet and hip are
+looked for.
 """
 
 from __future__ import annotations
@@ -15,6 +17,7 @@ from biped_adrc.model.pinned import PIN_JOINT
 from biped_adrc.robots.urdf import Joint, Link, Tree, Vector
 
 PLANAR = 1e-4  # how far a rounded rpy may turn an axis out of the plane, dimensionless
+"""How far an axis, or a place [m], may be out of the plane because rpy was rounded in the file."""
 _Y = 1
 
 
@@ -24,8 +27,9 @@ class PlanarBase:
 
     tree: Tree
     base: tuple[str, str]
-    """Joints along x and z."""
+    """Names of the prismatic joints along x and z."""
     pitch: str
+    """Name of the revolute joint about y that carries the trunk."""
     trunk: str
     """Link that the base carries."""
     said: tuple[str, ...]
@@ -33,10 +37,10 @@ class PlanarBase:
 
 
 def on_planar_base(tree: Tree) -> PlanarBase:
-    """The planar tree with the base it has, or one put above its root.
+    """The planar tree with the base it has, or with one that is put above its root.
 
-    Raises ModelError for joints or bodies out of the plane, a base of another kind or with mass, and bodies
-    that move without mass.
+    Raises ModelError for joints or bodies out of the plane, a base of another kind or with mass,
+    and bodies that move without mass.
     """
     tree = _in_plane(tree)
     root = next(link for link in tree.links if tree.joint_above(link) is None)
@@ -48,7 +52,7 @@ def on_planar_base(tree: Tree) -> PlanarBase:
 
 # -- the plane -------------------------------------------------------------------------------------
 def _in_plane(tree: Tree) -> Tree:
-    """The same tree with axes exactly in or across the plane x-z. Raises ModelError."""
+    """The same tree with axes exactly in the plane x-z or perpendicular to it. Raises ModelError."""
     for name, link in tree.links.items():
         if link.inertial is not None and abs(link.inertial.com[_Y]) > PLANAR:
             raise ModelError(
@@ -59,6 +63,9 @@ def _in_plane(tree: Tree) -> Tree:
 
 
 def _joint_in_plane(tree: Tree, joint: Joint) -> Joint:
+    """The joint with y = 0 and its axis rounded to the nearest allowed one. Raises ModelError where
+    none is near: the error of rounded angles is removed, a robot that leaves the plane is refused.
+    """
     where = f"URDF '{tree.source}', joint '{joint.name}'"
     x, y, z = joint.origin
     if abs(y) > PLANAR:
@@ -88,7 +95,11 @@ def _moves(tree: Tree, joint: Joint) -> bool:
 
 
 def _slides(tree: Tree, root: str) -> tuple[list[Joint], str]:
-    """The prismatic joints above the trunk, and the link below the last of them."""
+    """The prismatic joints above the trunk, and the link below the last of them.
+
+    Walks down from the root as long as there is one moving joint, and stops at the first revolute
+    one.
+    """
     slides: list[Joint] = []
     link = root
     while True:
@@ -101,6 +112,9 @@ def _slides(tree: Tree, root: str) -> tuple[list[Joint], str]:
 
 
 def _found(tree: Tree, root: str, slides: list[Joint], link: str) -> PlanarBase:
+    """The base that the URDF has, with its slides in the sense of +x and +z. Raises ModelError where
+    it is incomplete or has mass.
+    """
     names = [joint.name for joint in slides]
     along = {("x" if joint.axis[0] else "z"): joint.name for joint in slides}
     pitches = [joint for joint in tree.joints_below(link) if _moves(tree, joint)]
@@ -132,7 +146,10 @@ def _found(tree: Tree, root: str, slides: list[Joint], link: str) -> PlanarBase:
 
 
 def _added(tree: Tree, root: str) -> PlanarBase:
-    """A base above the root link."""
+    """A base above the root link; its pitch turns in the sense of the first revolute joint.
+
+    Raises ModelError where the root is a mere frame with one revolute joint: an incomplete base.
+    """
     turning = [joint for joint in tree.joints if joint.type == "revolute"]
     below = [joint for joint in tree.joints_below(root) if _moves(tree, joint)]
     if len(below) == 1 and tree.links[root].inertial is None and below[0].type == "revolute":
@@ -171,7 +188,10 @@ def _free(tree: Tree, name: str) -> str:
 
 # -- below the trunk -------------------------------------------------------------------------------
 def _check_below(found: PlanarBase) -> None:
-    """Joints below the trunk turn, and each of them turns some mass. Raises ModelError."""
+    """Joints below the trunk turn, each of them moves some mass, and no name of the stance contact is taken.
+
+    Raises ModelError that names the joint.
+    """
     tree = found.tree
     below = [j for j in tree.joints if tree.path_below(j.child, found.trunk)]
     below.sort(key=lambda joint: joint.parent == found.trunk)

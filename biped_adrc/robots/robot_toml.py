@@ -1,23 +1,43 @@
-"""The registry: a robot is a folder of `urdf/` with a `robot.toml` beside its URDF.
+"""The record of a robot, `robot.toml`: read, checked, and the registry of the robots in the package.
 
-The record names the actuated joints in the order q1, q2, ..., the unactuated pitch, the planar base,
-the feet, the phase variable, and parameter presets with their sources.
+A robot is a folder of `urdf/` with a `robot.toml` beside its URDF. The record says what a URDF
+cannot, here for RABBIT, abbreviated:
 
-`Limits` are what ground and motors can give, within which a walk is legal. A walk makes a single support
-legally when the force of the ground, averaged over any window within it, lies in the friction cone (F_N > 0 and
-|F_T| <= mu F_N), every torque is within the motors' limit, and the swing foot does not scuff away from the ends
-of the step. The impulse at impact is not part of it. A mean and not an instant: the edge of a push breaks the
-cone for a millisecond and a foot does not move in it, while torques that chatter break it in the mean as well.
+    actuated = ["left_hip", "right_hip", "left_knee", "right_knee"]     # q1, ..., q4
+    unactuated = "torso_pitch"                                          # q5, absolute
+    base = ["base_x", "base_z"]
+    stance_foot = "left_foot"
+    swing_foot = "right_foot"
+    hip = "torso"
+    phase = [1.0, 0.0, 0.5, 0.0, 1.0]                                   # Theta = q5 + q1 + q3/2
+    peak_torque = 150.0                                                 # [N m]
+    friction_coefficient = 0.6
+
+    [links]                                                             # by body
+    thigh = ["left_thigh", "right_thigh"]
+    [presets.identified]
+    armature = 0.83                                                     # [kg m^2]
+    thigh = { mass = 6.8, com = 0.11, inertia = 0.47 }                  # [kg], [m], [kg m^2]
+
+`load_description` makes a `RobotDescription` of it, with which `Biped.load` starts.
+
+`Limits` are what ground and motors can give, within which a walk is legal. A walk makes a single
+support legally when the force of the ground, averaged over any window within it, lies in the
+friction cone (F_N > 0 and |F_T| <= mu F_N), every torque is within the motors' limit, and the swing
+foot does not scuff away from the ends of the step. The impulse at impact is not part of it. A mean
+and not an instant is used: the edge of a push leaves the cone for a millisecond and a foot does not
+move in it, while torques that chatter leave it in the mean as well. `analysis.certificate` applies
+the limits.
 """
 
 from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NotRequired, TypedDict, cast
 
 from biped_adrc.errors import InputError, ModelError, check_positive
 from biped_adrc.files import reading
@@ -30,61 +50,123 @@ from biped_adrc.shown import Shown
 
 @dataclass(frozen=True)
 class BodyParameters:
-    """mass [kg], com [m] along +z of the link, inertia [kg m^2] about the COM."""
+    """Parameters of a link that is symmetric about its axis z."""
 
     mass: float
+    """[kg]."""
     com: float
+    """Distance of the COM from the link's origin along +z [m]."""
     inertia: float
+    """About the COM and the axis y [kg m^2]."""
+
+
+class FrictionRecord(TypedDict, total=False):
+    """The table [friction] of a robot.toml: by joint, as `RobotDescription.viscous` and `static`."""
+
+    viscous: Mapping[str, float]
+    """[N m s/rad]."""
+    static: Mapping[str, float]
+    """[N m]."""
+
+
+class RobotRecord(TypedDict):
+    """The tables of a robot.toml as TOML reads them; meaning and units of the fields as in
+    `RobotDescription`. Optional ones may be missing in the file.
+    """
+
+    name: str
+    urdf: str
+    """Name of the URDF, relative to the folder of the robot.toml."""
+    actuated: Sequence[str]
+    passive: NotRequired[Sequence[str]]
+    """Joints without a motor; none if it is missing."""
+    unactuated: str
+    base: Sequence[str]
+    stance_foot: str
+    swing_foot: str
+    hip: str
+    trunk: NotRequired[str]
+    """Link that the base carries; the hip's if it is missing."""
+    phase: Sequence[float]
+    offset: NotRequired[Sequence[float]]
+    """r (n,) of the relabelling [rad]; zero if it is missing."""
+    peak_torque: float
+    friction_coefficient: float
+    gravity: NotRequired[float]
+    """[m/s^2]; 9.81 if it is missing."""
+    ranges: NotRequired[Mapping[str, Sequence[float]]]
+    """Lower and upper end by joint [rad]; joints that are missing turn freely."""
+    friction: NotRequired[FrictionRecord]
+    """Joint friction; none if it is missing."""
+    links: Mapping[str, Sequence[str]]
+    default_preset: str
+    presets: Mapping[str, Mapping[str, Any]]
+    """By name: `source`, `armature`, and a table of `BodyParameters` for every body."""
 
 
 GRAVITY = 9.81
-"""[m/s^2], where a record does not say otherwise."""
+"""[m/s^2], where a record does not give another value."""
 
 
 @dataclass(frozen=True)
 class Preset:
-    """A parameter set: bodies by class (torso, thigh, ...), armature [kg m^2] per actuated joint.
-
-    Without bodies the URDF's own <inertial> elements hold.
-    """
+    """A parameter set of a robot."""
 
     name: str
     source: str
+    """Where the numbers come from."""
     armature: float
+    """Rotor inertia per actuated joint, reflected to it [kg m^2]."""
     bodies: Mapping[str, BodyParameters]
+    """By class (torso, thigh, ...); empty where the URDF's own <inertial> elements hold."""
 
 
 @dataclass(frozen=True)
 class RobotDescription(Shown):
-    """What `robot.toml` says; lengths [m], torques [N m], angles [rad]."""
+    """Contents of `robot.toml`; lengths [m], torques [N m], angles [rad]."""
 
     name: str
+    """Name of the robot, as in `Biped.load`."""
     urdf: Path
+    """Path of the URDF with the floating base."""
     actuated: tuple[str, ...]
+    """Joints with a motor, q1, ..., qp in order."""
     passive: tuple[str, ...]
     """Relative joints without a motor."""
     unactuated: str
-    """The absolute pitch of the link that the base carries."""
+    """Joint of the base that is the absolute pitch of the trunk, q_N."""
     base: tuple[str, str]
+    """Prismatic joints of the base along x and z."""
     stance_foot: str
+    """Link at the tip of the stance leg; the contact point is its origin."""
     swing_foot: str
+    """Link at the tip of the swing leg."""
     hip: str
-    """Frame of the hip."""
+    """Link whose origin is the hip."""
     trunk: str
-    """Link that the floating base carries; the hip's own if the record names no other."""
+    """Link that the floating base carries; that of the hip if the record names no other."""
     phase: tuple[float, ...]
+    """Row c (n,) of the phase variable Theta = c q, dimensionless."""
     offset: tuple[float, ...]
-    """What relabelling adds to q [rad]; not zero for spokes."""
+    """r (n,) [rad] of the relabelling q+ = R q- + r; not zero for robots with spokes."""
     peak_torque: float
+    """Limit of every motor [N m]."""
     friction_coefficient: float
+    """Dry friction mu between foot and ground, dimensionless."""
     gravity: float
+    """[m/s^2]."""
     viscous: Mapping[str, float]
+    """Viscous joint friction by joint [N m s/rad]; 0 for joints that are not here."""
     static: Mapping[str, float]
+    """Static joint friction by joint [N m]; 0 for joints that are not here."""
     links: Mapping[str, tuple[str, ...]]
+    """Links by body: the class "thigh" has the links of both thighs."""
     default_preset: str
+    """Preset that is taken if none is asked for."""
     presets: Mapping[str, Preset]
+    """Parameter sets by name."""
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """[rad] by joint, where gaits are designed; joints that are not here turn freely."""
+    """Lower and upper end [rad] by joint, for gait design; joints that are not here turn freely."""
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -106,7 +188,10 @@ class RobotDescription(Shown):
         return self.presets[name]
 
     def joint_index(self, joint: str | int) -> int:
-        """Index in q of a joint given by name, as "q1".."qN", or by index from 0."""
+        """Index in q of a joint given by name, as "q1".."qN", or by index from 0.
+
+        Raises ModelError with the names that are possible.
+        """
         names = self.joints
         if isinstance(joint, int):
             if 0 <= joint < len(names):
@@ -121,7 +206,11 @@ class RobotDescription(Shown):
         )
 
     def tree(self, preset: str | None = None) -> Tree:
-        """The floating URDF with the inertials of `preset`."""
+        """The floating URDF with the inertials of `preset`. Raises ModelError.
+
+        A preset has one moment of inertia per body, about y. The moments about x and z get values
+        of a slender link, since a URDF needs them and planar motion does not depend on them.
+        """
         tree = load_tree(self.urdf)
         inertials: dict[str, Inertial] = {}
         for body, p in self.preset(preset).bodies.items():
@@ -158,22 +247,28 @@ def load_description(robot: str | Path) -> RobotDescription:
         path = data_folder("urdf") / str(robot) / "robot.toml"
     with reading("robot record", path, ModelError):
         data = tomllib.loads(path.read_text(encoding="utf-8"))
-    return description_of(data, path)
+    return description_of(cast(RobotRecord, data), path)
 
 
-def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
-    """The record `data`, whose URDF lies beside `path`. Raises ModelError that names the key."""
+def description_of(data: RobotRecord, path: Path) -> RobotDescription:
+    """The record from TOML's tables `data`, whose URDF lies beside `path`.
+
+    Raises ModelError that names the key, what was found and what was expected.
+    """
     with reading("robot record", path, ModelError):
         return _description(data, path)
 
 
-_PLAIN = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
-
-
-def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
+def _description(data: RobotRecord, path: Path) -> RobotDescription:
+    """The record; raises KeyError, TypeError or ValueError, which `reading` turns into a ModelError."""
     friction = data.get("friction", {})
     description = RobotDescription(
-        **{key: data[key] for key in _PLAIN},
+        name=data["name"],
+        unactuated=data["unactuated"],
+        stance_foot=data["stance_foot"],
+        swing_foot=data["swing_foot"],
+        hip=data["hip"],
+        default_preset=data["default_preset"],
         urdf=path.parent / data["urdf"],
         actuated=tuple(data["actuated"]),
         passive=tuple(data.get("passive", ())),
@@ -198,20 +293,21 @@ def _description(data: Mapping[str, Any], path: Path) -> RobotDescription:
     return description
 
 
-def _count(data: Mapping[str, Any]) -> int:
-    """Number of coordinates."""
+def _count(data: RobotRecord) -> int:
+    """Number of coordinates: actuated joints, passive joints and the pitch."""
     return len(data["actuated"]) + len(data.get("passive", ())) + 1
 
 
-def _numbers(data: Mapping[str, Any], key: str, values: Any) -> tuple[float, ...]:
-    """One number per coordinate."""
+def _numbers(data: RobotRecord, key: str, values: Sequence[float]) -> tuple[float, ...]:
+    """One finite number per coordinate. Raises ValueError that names the key."""
     found = tuple(float(c) for c in values)
     if len(found) != _count(data) or not all(map(math.isfinite, found)):
         raise ValueError(f"{key} is {list(values)}, expected {_count(data)} finite numbers")
     return found
 
 
-def _range(joint: str, ends: Any) -> tuple[float, float]:
+def _range(joint: str, ends: Sequence[float]) -> tuple[float, float]:
+    """Lower and upper end of a joint's range [rad]. Raises ValueError unless they are in this order."""
     low, high = (float(end) for end in ends)
     if not low < high:
         raise ValueError(
@@ -220,7 +316,8 @@ def _range(joint: str, ends: Any) -> tuple[float, float]:
     return low, high
 
 
-def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Preset:
+def _preset(name: str, record: Mapping[str, Any], data: RobotRecord) -> Preset:
+    """One of the tables [presets.NAME]: all bodies of the record, or none of them. Raises ValueError."""
     bodies = {}
     own = not any(body in record for body in data["links"])
     for body in () if own else data["links"]:
@@ -238,41 +335,45 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
 
 
 def _positive(value: object, what: str) -> float:
+    """A number above zero. Raises InputError that names it by `what`."""
     number = float(value)  # type: ignore[arg-type]
     check_positive(number, f"{what} is {value}")
     return number
 
 
 WINDOW = 5e-3
-"""[s]"""
+"""Time over which the force of the ground is averaged [s]."""
 ROUND_OFF = 1e-9
-"""By which a force on the friction cone may lie outside of it, relative."""
+"""Relative amount by which a force may lie outside the friction cone and still count as inside."""
 ENDS = 0.03
-"""Share of a step at either end in which the swing foot may be at the ground."""
+"""Share of a step at either end in which the swing foot may touch the ground, dimensionless."""
 
 
 class KnownLimits(NamedTuple):
-    """`Limits` of one robot."""
+    """`Limits` of one robot, every number known."""
 
     friction: float
-    """mu."""
+    """Dry friction mu of the ground, dimensionless."""
     torque: float
-    """[N m]"""
+    """Of every motor [N m]."""
     window: float
-    """[s]"""
+    """Time over which the ground's force is averaged [s]."""
 
 
 @dataclass(frozen=True)
 class Limits(Shown):
-    """friction: mu of the ground; torque [N m]: of every motor; None is what the robot's record says.
+    """What ground and motors can give, within which a walk is legal; None takes the robot's record.
 
-    window [s]: over which the force of the ground is averaged. Raises InputError for a friction that is not
-    above 0 and at most 1, or a torque or window that is not positive.
+    Raises InputError for a friction that is not above 0 and at most 1, or a torque or window that
+    is not positive.
     """
 
     friction: float | None = None
+    """Dry friction mu of the ground, dimensionless."""
     torque: float | None = None
+    """Of every motor [N m]."""
     window: float = WINDOW
+    """Time over which the force of the ground is averaged [s]."""
 
     def __post_init__(self) -> None:
         mu, torque = self.friction, self.torque
@@ -288,10 +389,16 @@ class Limits(Shown):
         check_positive(self.window, f"the force window is {self.window} s")
 
     def of(self, robot: RobotDescription) -> KnownLimits:
-        """With what the robot's record says where None was given."""
-        mu, torque = self.friction, self.torque
-        return KnownLimits(
-            robot.friction_coefficient if mu is None else float(mu),
-            robot.peak_torque if torque is None else float(torque),
-            float(self.window),
-        )
+        """These limits with the values of the robot's record where None was given."""
+        own = KnownLimits(robot.friction_coefficient, robot.peak_torque, self.window)
+        return completed(self, own)
+
+
+def completed(limits: Limits | KnownLimits, known: KnownLimits) -> KnownLimits:
+    """`limits` with the numbers of `known` where None was given; the window is that of `known`."""
+    mu, torque = limits.friction, limits.torque
+    return KnownLimits(
+        known.friction if mu is None else float(mu),
+        known.torque if torque is None else float(torque),
+        float(known.window),
+    )

@@ -1,8 +1,10 @@
-"""A robot as a small tree of links and joints, edits on it, what makes it physical, and writing it as URDF.
+"""A robot as a small tree of links and joints: edits on it, what makes it physical, writing it as
+URDF.
 
-Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0.
-So a file is read by `urdf_reader` and validated here first, parameters are changed on this tree, and Pinocchio
-is given the text this module writes.
+Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0. So
+a file is read by `urdf_reader` and validated here first; parameters are changed on this tree
+(presets, model errors, re-rooting at a foot), and Pinocchio is given the text that `to_xml` writes.
+All records are frozen: an edit makes a new tree.
 """
 
 from __future__ import annotations
@@ -11,7 +13,6 @@ import math
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -19,69 +20,91 @@ from biped_adrc.errors import ModelError
 from biped_adrc.shown import Shown
 
 Vector = tuple[float, float, float]
+"""(x, y, z) [m], or a direction."""
 
 JOINT_TYPES = ("revolute", "prismatic", "fixed")
 GEOMETRY_SIZES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length")}
+"""Attributes of a shape's size by the shape's name."""
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+"""Attributes of <inertia>, in the order of `Inertial.inertia`."""
 SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
-"""The matrix of inertia by the numbers of its MOMENTS."""
+"""Symmetric matrix (3, 3) of indices: the inertia matrix from the six MOMENTS."""
 _FREE = {"lower": "-1000", "upper": "1000", "effort": "1000", "velocity": "1000"}  # no limit
 
 
 @dataclass(frozen=True)
 class Inertial:
-    """Mass [kg], COM in the link frame [m], inertia about the COM [kg m^2] (xx, xy, xz, yy, yz, zz)."""
+    """Mass properties of a link, in the axes of its frame."""
 
     mass: float
+    """[kg]."""
     com: Vector
+    """From the origin of the link's frame [m]."""
     inertia: tuple[float, float, float, float, float, float]
+    """About the COM: xx, xy, xz, yy, yz, zz [kg m^2]."""
 
     def scaled(self, kind: str, factor: float) -> Inertial:
-        """With "mass", "com" or "inertia" multiplied."""
-        old: Any = getattr(self, kind)
-        new: Any = factor * old if kind == "mass" else tuple(factor * x for x in old)
-        return replace(self, **{kind: new})
+        """A copy with "mass", "com" or "inertia" multiplied by a dimensionless factor."""
+        old = getattr(self, kind)
+        new = factor * old if kind == "mass" else tuple(factor * x for x in old)
+        return Inertial(**(vars(self) | {kind: new}))
 
 
 @dataclass(frozen=True)
 class Visual:
-    """A primitive: `shape` is box, sphere or cylinder (axis z), `size` its numbers [m], `rgba` its colour."""
+    """A primitive shape: box, sphere or cylinder (its axis is z of the link)."""
 
     shape: str
+    """Name of the shape, a key of GEOMETRY_SIZES."""
     size: tuple[float, ...]
+    """Edges of a box, radius of a sphere, radius and length of a cylinder [m]."""
     origin: Vector
+    """Centre in the frame of the link [m]."""
     rgba: tuple[float, float, float, float]
+    """Red, green, blue, opacity, each from 0 to 1."""
 
 
 @dataclass(frozen=True)
 class Link:
-    """A rigid body; `inertial` is None for frames without mass."""
+    """A rigid body, or a frame without mass."""
 
     name: str
     inertial: Inertial | None
+    """None for a frame without mass."""
     visuals: tuple[Visual, ...]
+    """Shapes to draw; they have no part in contact."""
 
 
 @dataclass(frozen=True)
 class Joint:
-    """`child` moves about or along `axis`; all link frames are parallel at zero (no rpy)."""
+    """A connection of two links: `child` moves about or along `axis` relative to `parent`.
+
+    All link frames are parallel at zero angles, so that `origin` and `axis` need no rotation.
+    """
 
     name: str
     type: str
+    """One of JOINT_TYPES."""
     parent: str
     child: str
     origin: Vector
+    """Origin of the child's frame in the parent's [m]."""
     axis: Vector
+    """Unit vector, the same in both frames; without meaning for a fixed joint."""
 
 
 @dataclass(frozen=True)
 class Tree(Shown):
-    """A robot as read from URDF: links by name, joints in the order of the file."""
+    """A robot as read from URDF."""
 
     name: str
+    """Name of the robot."""
     links: Mapping[str, Link]
+    """By name, in the order of the file."""
     joints: tuple[Joint, ...]
+    """In the order of the file."""
     source: str
+    """The file that messages name."""
 
     def joint_above(self, link: str) -> Joint | None:
         """The joint whose child is `link`, None at the root."""
@@ -92,7 +115,7 @@ class Tree(Shown):
         return tuple(j for j in self.joints if j.parent == link)
 
     def path_to_root(self, link: str) -> tuple[Joint, ...]:
-        """Joints from `link` up to the root."""
+        """Joints from `link` up to the root, the nearest one first."""
         path: list[Joint] = []
         joint = self.joint_above(link)
         while joint is not None:
@@ -101,13 +124,13 @@ class Tree(Shown):
         return tuple(path)
 
     def path_below(self, link: str, top: str) -> tuple[Joint, ...] | None:
-        """Joints from `link` up to link `top`, None where it does not hang there."""
+        """Joints from `link` up to link `top`, the nearest first; None where `link` does not hang on `top`."""
         path = self.path_to_root(link)
         ends = [k for k, joint in enumerate(path) if joint.child == top]
         return path[: ends[0]] if ends else None
 
     def with_inertials(self, inertials: Mapping[str, Inertial]) -> Tree:
-        """The same tree with the inertials of some links replaced."""
+        """The same tree with the inertials of some links replaced. Raises ModelError as `validated`."""
         links = {
             name: replace(link, inertial=inertials.get(name, link.inertial))
             for name, link in self.links.items()
@@ -116,7 +139,10 @@ class Tree(Shown):
 
 
 def to_xml(tree: Tree) -> str:
-    """URDF text of `tree`; `load_tree` of it gives the tree back."""
+    """URDF text of `tree`; `load_tree` of it gives the same tree back.
+
+    Joints are written with wide limits, since the tree has none: <limit> is compulsory in URDF.
+    """
     robot = ET.Element("robot", name=tree.name)
     for link in tree.links.values():
         body = ET.SubElement(robot, "link", name=link.name)
@@ -137,6 +163,7 @@ def to_xml(tree: Tree) -> str:
 
 
 def _text(*values: float) -> str:
+    """Numbers with 17 digits, which is exact for doubles."""
     return " ".join(f"{value:.17g}" for value in values)
 
 
@@ -147,6 +174,7 @@ def _write_inertial(element: ET.Element, inertial: Inertial) -> None:
 
 
 def _write_visual(element: ET.Element, visual: Visual, link: str) -> None:
+    """Add origin, geometry and colour of a shape to the element <visual>."""
     ET.SubElement(element, "origin", xyz=_text(*visual.origin))
     keys = GEOMETRY_SIZES[visual.shape]
     sizes = [_text(*visual.size)] if len(keys) == 1 else map(_text, visual.size)
@@ -157,7 +185,11 @@ def _write_visual(element: ET.Element, visual: Visual, link: str) -> None:
 
 
 def validated(tree: Tree) -> Tree:
-    """Check that the links form one tree and that every moving body is physical."""
+    """The tree itself, once its links form one tree and every moving body is physical.
+
+    Raises ModelError for names used twice, unknown links, closed chains, several roots, and masses
+    or inertias that no rigid body can have.
+    """
     where = f"URDF '{tree.source}'"
     names = [joint.name for joint in tree.joints]
     for name in names:
@@ -198,6 +230,10 @@ def _below(tree: Tree, root: str) -> set[str]:
 
 
 def _check_inertial(inertial: Inertial, where: str) -> None:
+    """Raise ModelError unless mass > 0 and the inertia matrix is positive definite and obeys the
+    triangle inequality of its principal moments. It is scaled before the test, so tiny bodies do
+    not underflow.
+    """
     if not 0 < inertial.mass < math.inf:
         raise ModelError(
             f"{where}: mass {inertial.mass:g} kg, expected a positive number; a frame without mass has no "

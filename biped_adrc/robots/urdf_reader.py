@@ -1,15 +1,20 @@
-"""Reading a URDF: a strict one with parallel frames, or any one of a planar robot, whose frames are turned.
+"""Reading a URDF: a strict one with parallel frames, or any planar robot, whose frames may be turned.
 
-With R_p the turn of the parent's frame at zero angles and (x, R) the origin of a joint in it,
+The rest of the package works with parallel frames at zero angles (`urdf.Joint`). `load_tree`
+demands them, for the robots of the package. `read` accepts frames of any orientation and turns them
+parallel, for `robot_import`. With R_p the rotation of the parent's frame at zero angles and (x, R)
+the origin of a joint in it,
 
     R_c = R_p R,   x' = R_p x,   n' = R_c n                          (joints)
     c' = R_c c,    I' = (R_c R_i) I (R_c R_i)'                       (bodies)
 
-so a leg that hangs down by an origin of rpy = (0, pi, 0) becomes a leg that points along -z. Angles keep
-their names, senses and zeros. A `continuous` joint becomes `revolute`, for which nq = nv. Shapes that are
-meshes or stand oblique after the turn are not kept: the strict tree has upright primitives only.
+so a leg that hangs down by an origin of rpy = (0, pi, 0) becomes a leg that points along -z. Angles
+keep their names, senses and zeros. A `continuous` joint becomes `revolute`, for which nq = nv.
+Shapes that are meshes or stand oblique after the turn are not kept: the strict tree has upright
+primitives only.
 
-The limits <limit effort lower upper> and the friction <dynamics damping friction> are kept beside the tree.
+The limits <limit effort lower upper> and the friction <dynamics damping friction> are kept beside
+the tree. Every ModelError names the file, the element, what was found and what was expected.
 """
 
 from __future__ import annotations
@@ -42,7 +47,7 @@ from biped_adrc.robots.urdf import (
 from biped_adrc.types import Array
 
 LARGEST = 1e100
-"""Of the numbers in a URDF, in any unit; products of more overflow."""
+"""Bound on every number in a URDF, in any unit; products of larger ones overflow."""
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _ALMOST_ONE = 1e-6  # how far an axis may be from unit length, dimensionless
 _ROUND_OFF = 1e-15  # entries of a turn below this are the round-off of pi, dimensionless
@@ -50,30 +55,33 @@ _UPRIGHT = 1e-6  # how far a shape's axes may be from the frame's, dimensionless
 _CIRCULAR = ("revolute", "continuous")
 
 Turns = Mapping[str, Array] | None
-"""R (3, 3) of every link at zero angles; None where all frames have to be parallel."""
+"""Rotation R (3, 3) of every link at zero angles; None where all frames have to be parallel."""
 
 
 @dataclass(frozen=True)
-class Reading:
+class UrdfContents:
     """A robot with parallel frames, and what its file says beside the tree, by joint."""
 
     tree: Tree
+    """Links and joints with parallel frames."""
     effort: Mapping[str, float]
-    """[N m], where <limit effort> is given."""
+    """Torque limits [N m], where <limit effort> is given."""
     ranges: Mapping[str, tuple[float, float]]
-    """[rad], of revolute joints that cannot turn all the way round."""
+    """Lower and upper end [rad], of revolute joints that cannot turn all the way round."""
     viscous: Mapping[str, float]
-    """[N m s], where <dynamics damping> is given."""
+    """Viscous friction [N m s/rad], where <dynamics damping> is given."""
     static: Mapping[str, float]
-    """[N m], where <dynamics friction> is given."""
+    """Static friction [N m], where <dynamics friction> is given."""
     undrawn: tuple[str, ...]
-    """Links with a shape that was not kept."""
+    """Links with a shape that was not kept: a mesh, or one that stands oblique."""
     flat: tuple[str, ...]
-    """Links without moments about x and z, which got some; they do not enter planar motion."""
+    """Links with a moment about y alone; they got moments of a slender link about x and z, which do
+    not enter planar motion.
+    """
 
 
 def load_tree(path: Path | str) -> Tree:
-    """Read and validate a URDF file with parallel frames.
+    """Read and validate a URDF file with parallel frames, as the robots of the package have.
 
     Raises ModelError that names the file, the element, what was found and what was expected.
     """
@@ -81,9 +89,10 @@ def load_tree(path: Path | str) -> Tree:
 
 
 def straightened(root: ET.Element, source: str) -> tuple[Tree, tuple[str, ...], tuple[str, ...]]:
-    """The tree of <robot> with parallel frames, and `undrawn` and `flat` of a `Reading`.
+    """The tree of <robot> with parallel frames, and the links without drawing and with completed moments.
 
-    `source` is the file that messages name. Raises ModelError.
+    The two tuples are `undrawn` and `flat` of what `read` returns. `source` is the file that
+    messages name. Raises ModelError.
     """
     tree, flat = _tree(root, source, _turns(root, source))
     shapes = ((e.get("name", ""), len(e.findall("visual"))) for e in root.findall("link"))
@@ -91,11 +100,11 @@ def straightened(root: ET.Element, source: str) -> tuple[Tree, tuple[str, ...], 
     return tree, undrawn, flat
 
 
-def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> Reading:
+def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfContents:
     """Read and validate a URDF with frames of any orientation.
 
-    tips: by link, a place in its own frame [m] where a link without mass, `LINK_tip`, is put.
-    Raises ModelError.
+    tips: by link, a place in its own frame [m] where a link without mass, `LINK_tip`, is put: a
+    foot for legs that end with a shin. Raises ModelError.
     """
     path = Path(path)
     source, robot = str(path), _expanded(path)
@@ -104,7 +113,7 @@ def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> Reading:
     tree, undrawn, flat = straightened(robot, source)
     moving = [j for j in robot.findall("joint") if j.get("type") in _CIRCULAR]
     low, high = (_by_joint(moving, "limit", key, source, -math.inf) for key in ("lower", "upper"))
-    return Reading(
+    return UrdfContents(
         tree,
         _by_joint(moving, "limit", "effort", source),
         {
@@ -142,7 +151,7 @@ def parse(path: Path | str) -> ET.Element:
 
 
 def _expanded(path: Path) -> ET.Element:
-    """<robot> of a file without macros. Raises ModelError."""
+    """<robot> of a file without xacro macros. Raises ModelError that says how to expand them."""
     try:
         robot = parse(path)
         macros = path.suffix == ".xacro" or any("xacro}" in element.tag for element in robot.iter())
@@ -159,6 +168,7 @@ def _expanded(path: Path) -> ET.Element:
 
 
 def _add_tip(robot: ET.Element, link: str, place: Vector) -> None:
+    """Add a link without mass, fixed at a place [m] in the frame of `link`."""
     ET.SubElement(robot, "link", name=tip_of(link))
     joint = ET.SubElement(robot, "joint", name=f"{tip_of(link)}_mount", type="fixed")
     ET.SubElement(joint, "parent", link=link)
@@ -167,14 +177,14 @@ def _add_tip(robot: ET.Element, link: str, place: Vector) -> None:
 
 
 def place_of(element: ET.Element, source: str) -> str:
-    """What messages call a link or joint."""
+    """How messages call a link or joint: file, kind of element and name."""
     return f"URDF '{source}', {element.tag} '{element.get('name')}'"
 
 
 def _by_joint(
     joints: list[ET.Element], tag: str, key: str, source: str, least: float = 0.0
 ) -> dict[str, float]:
-    """A number of <tag key> by joint, where it is given. Raises ModelError when it is below `least`."""
+    """The number <tag key> of each joint that has it. Raises ModelError when it is below `least`."""
     found = {}
     for joint in joints:
         element = joint.find(tag)
@@ -190,7 +200,11 @@ def _by_joint(
 
 # -- its elements ----------------------------------------------------------------------------------
 def numbers(element: ET.Element | None, key: str, default: str, count: int, where: str) -> Vector:
-    """`count` finite numbers of an attribute. Raises ModelError that quotes it after `where`."""
+    """`count` finite numbers of an attribute, `default` where it is missing; for xyz, rpy, rgba and size.
+
+    Raises ModelError that quotes the attribute after `where`. Only decimal notation counts: Python
+    would also read "nan", "inf" and "1_0".
+    """
     text = default if element is None else element.get(key, default)
     words = text.split()
     values = tuple(float(word) for word in words) if all(map(_NUMBER.fullmatch, words)) else ()
@@ -202,6 +216,7 @@ def numbers(element: ET.Element | None, key: str, default: str, count: int, wher
 
 
 def _required(element: ET.Element, tag: str, where: str) -> ET.Element:
+    """The first child <tag>. Raises ModelError where it is missing."""
     found = element.find(tag)
     if found is None:
         raise ModelError(f"{where}: <{tag}> is missing")
@@ -209,6 +224,7 @@ def _required(element: ET.Element, tag: str, where: str) -> ET.Element:
 
 
 def _name(element: ET.Element, key: str, where: str) -> str:
+    """The attribute `key`. Raises ModelError where it is missing or empty."""
     name = element.get(key)
     if not name:
         raise ModelError(f"{where}: <{element.tag}> has no '{key}'")
@@ -216,6 +232,7 @@ def _name(element: ET.Element, key: str, where: str) -> str:
 
 
 def _printable(name: str, tag: str, where: str) -> str:
+    """The name itself. Raises ModelError for line breaks and tabs, which would spoil tables and messages."""
     if not name.isprintable():
         raise ModelError(
             f"{where}: <{tag}> names {name!r}, expected a name on one line, without tabs"
@@ -224,7 +241,10 @@ def _printable(name: str, tag: str, where: str) -> str:
 
 
 def _turns(robot: ET.Element, source: str) -> dict[str, Array]:
-    """R (3, 3) of every link at zero angles, from the roots down; each link is met once."""
+    """Rotation R (3, 3) of every link at zero angles, from the roots down; each link is met once.
+
+    Closed chains are refused later, by `validated`; here they only must not loop for ever.
+    """
 
     def link_of(joint: ET.Element, role: str) -> str:
         found = joint.find(role)
@@ -248,9 +268,10 @@ def _turns(robot: ET.Element, source: str) -> dict[str, Array]:
 
 
 def _origin(element: ET.Element, where: str, R: Array | None) -> tuple[Vector, Array | None]:
-    """Place [m] and turn (3, 3) of an <origin> in axes turned by R; None asks for parallel frames.
+    """Place [m] and rotation (3, 3) of an <origin> in axes turned by R; None for R demands parallel frames.
 
-    rpy turns about the fixed axes x, y, z in this order.
+    rpy turns about the fixed axes x, y, z in this order. Round-off of pi in rpy is set to zero, so
+    that turns by right angles stay exact.
     """
     origin, where = element.find("origin"), f"{where} <origin>"
     rpy = numbers(origin, "rpy", "0 0 0", 3, where)
@@ -267,6 +288,7 @@ def _origin(element: ET.Element, where: str, R: Array | None) -> tuple[Vector, A
 
 
 def _vector(values: Array) -> Vector:
+    """Three entries of an array as a tuple."""
     x, y, z = values.tolist()
     return x, y, z
 
@@ -292,7 +314,7 @@ def _tree(root: ET.Element, source: str, turns: Turns) -> tuple[Tree, tuple[str,
 
 
 def _inertial(element: ET.Element, where: str, R: Array | None) -> tuple[Inertial, bool]:
-    """The body, and whether its moments were completed."""
+    """The body in axes turned by R, and whether its moments had to be completed."""
     mass = numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
     com, own = _origin(element, f"{where} <inertial>", R)
     inertia = _required(element, "inertia", where)
@@ -301,7 +323,10 @@ def _inertial(element: ET.Element, where: str, R: Array | None) -> tuple[Inertia
 
 
 def _moments(inertia: ET.Element, where: str, R: Array | None) -> tuple[Array, bool]:
-    """xx, xy, xz, yy, yz, zz (6,) turned by R; a body with yy alone gets those of a slender link along z."""
+    """xx, xy, xz, yy, yz, zz (6,) [kg m^2] turned by R, and whether they were completed.
+
+    A body with yy alone, as some planar URDFs have, gets the moments of a slender link along z.
+    """
 
     def given(default: str = "") -> Array:
         defaults = (default if key[1] == key[2] else "0" for key in MOMENTS)
@@ -322,7 +347,10 @@ def _moments(inertia: ET.Element, where: str, R: Array | None) -> tuple[Array, b
 
 
 def _visual(element: ET.Element, where: str, R: Array | None) -> Visual | None:
-    """A shape; None where frames may be turned and it is no upright primitive afterwards."""
+    """A shape in axes turned by R; None where frames may be turned and it is no upright primitive then.
+
+    Raises ModelError for sizes or colours that are impossible.
+    """
     geometry = element.find("geometry")
     if geometry is None and R is None:
         geometry = _required(element, "geometry", f"{where} <visual>")
@@ -355,6 +383,9 @@ def _visual(element: ET.Element, where: str, R: Array | None) -> Visual | None:
 
 
 def _joint(element: ET.Element, source: str, turns: Turns) -> Joint:
+    """A joint with its place and axis in the turned axes. Raises ModelError for unknown types, mimic
+    joints and axes that are not of unit length.
+    """
     name = _name(element, "name", f"URDF '{source}'")
     where = place_of(element, source)
     kind = _name(element, "type", where)

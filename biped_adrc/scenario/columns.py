@@ -72,8 +72,7 @@ def data_frame(columns: Mapping[str, Any], note: str) -> pandas.DataFrame:
     except ImportError:
         raise InputError(
             "a table of a walk needs pandas, which is not installed; pip install "
-            "'biped-adrc[tables]', or write "
-            "write a file with walk.to_csv(path)"
+            "'biped-adrc[tables]', or write a file with walk.to_csv(path)"
         ) from None
     frame = pandas.DataFrame(dict(columns))
     frame.attrs["note"] = note

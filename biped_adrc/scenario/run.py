@@ -105,7 +105,7 @@ def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
     walker = Walker(biped, Passive(), slope=angle, max_step_time=known.max_step_time)
     P = ReturnMap(walker, Adaptive(1e-12, 1e-12), difference=LIGHT_FEET, pitch=math.pi)
     start = walker.initial_state(known.q_plus, known.v_plus)
-    return Cycle(P, P.next_strike(walker, start, Mode()).x_minus)
+    return Cycle(P, P.next_impact(walker, start, Mode()).x_minus)
 
 
 def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:

@@ -20,8 +20,8 @@ from biped_adrc.analysis.regression import Regression, regress_multipliers
 from biped_adrc.analysis.return_map import PeriodicOrbit, ReturnMap, after_impact
 from biped_adrc.analysis.signals import signals
 from biped_adrc.analysis.stability import (
-    Method,
     MethodRow,
+    StabilityMethod,
     StabilityTable,
     Tolerances,
     regression_row,
@@ -123,7 +123,7 @@ def cycle_stability(
         guess = cycle.guess if P.controller_states else cycle.guess[: 2 * P.walker.plant.n]
         orbit = P.fixed_point(guess)
         regression = _regression(P, orbit, samples)
-        rows = [MethodRow(Method.CENTRAL, orbit.multipliers)]
+        rows = [MethodRow(StabilityMethod.CENTRAL, orbit.multipliers)]
         rows += [] if regression is None else [regression_row(regression)]
         return CycleStability(cycle, orbit, StabilityTable(tuple(rows), t))
     orbit, step = periodic_orbit(P, cycle.guess, SETTLES)

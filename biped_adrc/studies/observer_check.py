@@ -28,8 +28,8 @@ from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.observer_design.observer_design import observer_name
 from biped_adrc.observer_design.observer_loop import observer_loop
+from biped_adrc.observer_design.observer_report import observer_name
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.scenario.walk import walk
 from biped_adrc.timing import SampledTime

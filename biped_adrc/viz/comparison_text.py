@@ -1,46 +1,64 @@
-"""The tables and lines of a comparison as plain text, for its page and for the documentation.
+"""The tables and sentences of a comparison of controllers as plain text.
 
-They are made from the summary that `biped-adrc compare` writes: shares of walks and medians are
-[value, low, high] with intervals of 95 %, None where there is nothing to take them of.
+`biped-adrc compare` writes a summary (plain values, summary.json); this module turns its entries
+into rows of text. `viz.pages` puts them on the HTML page and `docs/write_comparison.py` into the
+documentation, so that both say the same.
+
+Shares of walks and medians come as [value, low, high] with a confidence interval of 95 %, and are
+None where no walk is left to take them of. Headings and words are in comparison.toml.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from biped_adrc.resources import packaged
+from biped_adrc.types import PlainRecord
 
 TEXTS = packaged("biped_adrc.viz", "comparison.toml")
+"""The content of comparison.toml."""
 TITLE: str = TEXTS["title"]
+"""Title of the page."""
 WHAT_COUNTS: str = " ".join(TEXTS["what_counts"].split())
+"""When a walk counts as legal, in words."""
 MEASURES: dict[str, str] = TEXTS["measures"]
-"""Columns of a walk's row of which the median over legal walks is shown; matched and unmatched are the parts of
-what the model does not know."""
+"""Column of a walk's row -> heading; the median over legal walks is shown. matched and unmatched are
+the parts of what the model does not know: what a motor could cancel, and the rest.
+"""
 NEEDS: dict[str, str] = TEXTS["needs"]
-"""What a walk needs of the ground and the motors: medians over the walks that make all steps."""
+"""Column -> heading of what a walk needs of the ground and the motors: medians over the walks that
+make all steps, legal or not.
+"""
 REASONS: dict[str, str] = TEXTS["reasons"]
-"""Why a walk that makes all steps is not legal; a walk may have several."""
+"""Column -> heading of why a walk that makes all steps is not legal; a walk may have several reasons."""
 SHARES: tuple[str, ...] = (*TEXTS["columns"]["shares"], *NEEDS.values())
-"""Of the first table; the needs are medians over the walks that make all steps."""
+"""Headings of the first table, by `share_texts`; the needs are its last columns."""
 MEDIANS: tuple[str, ...] = (*TEXTS["columns"]["medians"], *MEASURES.values())
-"""Of the second; medians over legal walks."""
+"""Headings of the second table, by `median_texts`."""
 PUSHES: tuple[str, ...] = tuple(TEXTS["columns"]["pushes"])
-"""Of the largest pushes [N m]."""
+"""Headings of the table of largest pushes [N m], by `push_texts`."""
 EQUAL: tuple[str, ...] = tuple(TEXTS["columns"]["equal"])
-"""Of the observers at equal bandwidth."""
+"""Headings of the table of observers at equal bandwidth, by `equal_texts`."""
 EQUAL_FAMILY = "equal_bandwidth"
-"""Of the sentences about them; the others are about controllers at their own settings."""
+"""Name of the findings about observers at equal bandwidth; the others are about controllers at their
+own settings.
+"""
 
 
-def said(summary: Mapping[str, Any], equal: bool) -> list[str]:
-    """The sentences about observers at equal bandwidth, or all others."""
+def said(summary: PlainRecord, equal: bool) -> list[str]:
+    """The sentences of the findings: those about observers at equal bandwidth, or all others.
+
+    summary: of a comparison, with "findings", a list of sentences for each family of questions.
+    """
     families = summary["findings"].items()
     return [line for name, lines in families if (name == EQUAL_FAMILY) == equal for line in lines]
 
 
 def interval(found: Sequence[float] | None, digits: int = 2, factor: float = 1.0) -> str:
-    """A number with its interval: so many digits, and 180 rather than 1.8e+02."""
+    """ "value (low to high)" with so many significant digits, never in powers of ten; a dash for None.
+
+    found: [value, low, high]; factor: by which all three are multiplied, such as 100 for per cent.
+    """
     if found is None:
         return "–"
     value, low, high = (f"{float(f'{factor * x:.{digits}g}'):g}" for x in found)
@@ -48,18 +66,23 @@ def interval(found: Sequence[float] | None, digits: int = 2, factor: float = 1.0
 
 
 def percent(found: Sequence[float] | None) -> str:
-    """A share with its interval, in per cent."""
+    """A share [1] with its interval, in per cent with three digits."""
     return interval(found, 3, 100.0)
 
 
-def by_condition(cells: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
-    """The cells, those of one condition together."""
+def by_condition(cells: Sequence[PlainRecord]) -> list[PlainRecord]:
+    """The cells in the order of their conditions' first appearance, so that those of one condition are
+    together.
+    """
     order = list(dict.fromkeys(c["condition"] for c in cells))
     return sorted(cells, key=lambda c: order.index(c["condition"]))
 
 
-def share_texts(cell: Mapping[str, Any]) -> list[str]:
-    """A row of the first table."""
+def share_texts(cell: PlainRecord) -> list[str]:
+    """A row of the first table: how many walks are legal, how many make all steps, and why not.
+
+    cell: one controller under one condition, as `bench.cell.Cell.row` gives it.
+    """
     ended = ", ".join(f"{n} {status.lower()}" for status, n in cell["falls"].items())
     reasons = [
         f"{REASONS[name]} {100 * found[0]:.0f}"
@@ -78,34 +101,45 @@ def share_texts(cell: Mapping[str, Any]) -> list[str]:
     ]
 
 
-def median_texts(cell: Mapping[str, Any]) -> list[str]:
-    """A row of the second table."""
+def median_texts(cell: PlainRecord) -> list[str]:
+    """A row of the second table: how many walks are legal, and the medians of `MEASURES` over them."""
     count = f"{round(cell['legal'][0] * cell['walks'])} of {cell['walks']}"
     return [cell["condition"], cell["controller"], count, *(interval(cell[n]) for n in MEASURES)]
 
 
-def push_texts(push: Mapping[str, Any]) -> list[str]:
-    """A row of the largest pushes."""
+def push_texts(push: PlainRecord) -> list[str]:
+    """A row of the largest pushes: joints, phase of the step, controller, and four ranges [N m].
+
+    The ranges are of the median and of single seeds, of walks that are legal and of those that make
+    all steps.
+    """
     spans = [span(push[kind][of]) for kind in ("legal", "survived") for of in ("median", "seeds")]
     at = "" if push["bandwidth"] is None else f", {push['bandwidth']:.0f} rad/s"
     return [push["direction"], push["phase"], push["controller"] + at, *spans]
 
 
-def by_direction(pushes: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
-    """The pushes, those on the same joints in the same phase together."""
+def by_direction(pushes: Sequence[PlainRecord]) -> list[PlainRecord]:
+    """The pushes sorted by joints and phase of the step, so that controllers under the same push are
+    together.
+    """
     return sorted(pushes, key=lambda p: (p["direction"], p["phase"]))
 
 
 def span(found: Sequence[float | None]) -> str:
-    """Between what a number lies; None above for "at least"."""
+    """A range [low, high] found by bisection, as text; `high` is None where even the largest push
+    tried was passed.
+    """
     low, high = found
     if high is None:
         return f"at least {low:.3g}"
     return f"{low:.3g}" if low == high else f"{low:.3g} to {high:.3g}"
 
 
-def equal_texts(equal: Sequence[Mapping[str, Any]]) -> list[list[str]]:
-    """The rows of the observers at their own and at equal bandwidth."""
+def equal_texts(equal: Sequence[PlainRecord]) -> list[list[str]]:
+    """The rows of the observers, each at its own settings and below at equal bandwidth [rad/s].
+
+    equal: pairs of cells {"own": ..., "equal": ...} for each observer and condition.
+    """
     order = list(dict.fromkeys(x["own"]["condition"] for x in equal))
     ordered = sorted(equal, key=lambda x: order.index(x["own"]["condition"]))
     return [
@@ -122,8 +156,12 @@ def equal_texts(equal: Sequence[Mapping[str, Any]]) -> list[list[str]]:
     ]
 
 
-def nominal_text(nominal: Mapping[str, Any]) -> str:
-    """What the undisturbed walk needs, and what of it is illegal already."""
+def nominal_text(nominal: PlainRecord) -> str:
+    """What the undisturbed walk needs of ground and motors, in a sentence, and what of it is illegal already.
+
+    nominal: "status", "legal", "broken" (limits that are not kept), "needs" by name of `NEEDS`,
+    "limits".
+    """
     walk = "The gait itself, walked by NPD from its own start with nothing wrong,"
     if nominal["status"] != "COMPLETED":
         return f"{walk} does not make all steps: {nominal['status'].lower()}."

@@ -1,4 +1,12 @@
-"""A walk as a file, by its suffix: an offline page, a moving picture, or a strip of stick figures."""
+"""A walk as a file; the suffix of its name says what kind.
+
+    .html          an offline page with the animation in Meshcat's viewer (`meshcat.view`)
+    .gif           a moving picture from the side (`from_the_side.gif`)
+    .png, .svg     a strip of stick figures (`from_the_side.stick_figures`)
+
+`biped-adrc animate` and `Walk.animate` call `export` with a `Clip` of what is to be shown; each of
+the three takes of it what it can use, and options that it has no use for are refused.
+"""
 
 from __future__ import annotations
 
@@ -15,10 +23,14 @@ from biped_adrc.viz.meshcat.view import Look, animation_html
 from biped_adrc.viz.placement import Recorded
 
 SUFFIXES = (".html", ".gif", ".png", ".svg")
+"""Kinds of files a walk can be drawn to."""
 
 
 def check_suffix(path: Path) -> str:
-    """The suffix of `path` in small letters. Raises InputError for one that is not in `SUFFIXES`."""
+    """The suffix of `path` in small letters. Raises InputError for one that is not in `SUFFIXES`.
+
+    Called before a walk is computed or loaded, so that a wrong name costs no time.
+    """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
         raise InputError(
@@ -30,11 +42,16 @@ def check_suffix(path: Path) -> str:
 
 @dataclass(frozen=True)
 class Clip:
-    """What part of the walks is shown, and how.
+    """What part of the walks is shown, and how; None leaves the choice to the kind of file.
 
-    start, stop [s]: of a moving picture or a strip; the whole walk, or its last two steps for a strip, if None.
-    fps [1/s]: 60 for a page and 25 for a moving picture if None. view: "side" or "perspective", of a page.
-    apart, magnify, slower: of a moving picture, see `Motion`.
+    start, stop [s]: the part shown in a moving picture or a strip; None: the whole walk, or its
+    last two steps for a strip.
+    fps [1/s]: frames per second; None: 60 for a page and 25 for a moving picture.
+    view: camera of a page, "side" or "perspective".
+    apart: moving picture with the walks side by side and their errors below, instead of over one
+    another.
+    magnify [1]: deviations from the reference are drawn so many times as large; it needs `apart`.
+    slower [1]: how many times slower than the walk a moving picture plays.
     """
 
     start: float | None = None
@@ -47,22 +64,26 @@ class Clip:
 
     @property
     def moving(self) -> bool:
-        """Whether something is asked for that only a moving picture has."""
+        """Whether something is asked for that only a moving picture has: apart, magnify or slower."""
         return self.apart or self.magnify is not None or self.slower != 1.0
 
     def look(self) -> Look:
-        """Of a page, or live."""
+        """The settings of a page or of the live view."""
         return Look(fps=60.0 if self.fps is None else self.fps, view=self.view)
 
     def motion(self) -> Motion:
-        """Of a moving picture. Raises InputError."""
+        """The settings of a moving picture. Raises InputError for values that do not fit."""
         fps = 25.0 if self.fps is None else self.fps
         width = 800 if self.apart else 600
         return Motion(self.apart, self.magnify, self.slower, fps, width)
 
 
 def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) -> None:
-    """Write the walks to `path`; a strip shows the last of them. Raises InputError and OutputError."""
+    """Write the walks to `path`, as its suffix says; a strip shows the last of them.
+
+    walks: name -> walk; the names are shown. clip: what is shown, the defaults if None. Raises
+    InputError for a suffix, a part or an option that does not fit, and OutputError.
+    """
     clip = Clip() if clip is None else clip
     suffix = check_suffix(path)
     if not walks:

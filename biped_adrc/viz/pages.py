@@ -1,7 +1,10 @@
-"""Pages from templates: each one offline file that holds all it needs and asks no network for anything.
+"""HTML pages from Jinja2 templates: each is one offline file that holds all it needs.
 
-They are the report of a reproduction, a comparison, the player of animated walks, and a walk inside a notebook.
-The same values give the same text.
+The pages are the report of a reproduction, a comparison of controllers, the player of animated
+walks, and a walk inside a notebook; their templates are in the folder `templates`. Figures go in as
+data URIs, scripts and styles as text, and a content security policy makes the browser refuse every
+load from a network. All values are escaped, unless they are `Markup` made here. The same values
+give the same text, byte for byte.
 """
 
 from __future__ import annotations
@@ -12,7 +15,6 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
 from jinja2 import Environment, PackageLoader
 from markupsafe import Markup
@@ -21,6 +23,7 @@ from matplotlib.figure import Figure
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
 from biped_adrc.resources import packaged
+from biped_adrc.types import PlainRecord
 from biped_adrc.viz import comparison_text as t
 from biped_adrc.viz.style import render
 
@@ -30,14 +33,17 @@ POLICY = (
 )
 """Content security policy of a page: the browser itself refuses every load from a network."""
 CLAIM_COLUMNS = ("claim", "where", "word", "number", "share", "convergence", "reason")
+"""Columns of the table of claims in the report, by their key in the summary."""
 KINDS = {
     "reproduced": "what the paper claims and what could have failed",
     "law": "physics and numerics that hold whatever the paper says",
     "consistency": "what was built in and has to come out again",
 }
+"""Kind of a check -> what the report says about it."""
 HEIGHT = 480
 """[px] of the animation in a notebook."""
 MAGIC = {b"\x89PNG": "image/png", b"<?xml": "image/svg+xml", b"<svg": "image/svg+xml"}
+"""First bytes of a picture -> its media type."""
 
 Captions = dict[str, tuple[str, str]]
 """Heading of each figure and what to look for in it, by name."""
@@ -45,18 +51,23 @@ Captions = dict[str, tuple[str, str]]
 
 @cache
 def captions(page: str) -> Captions:
-    """Those of a page, from captions.toml."""
+    """The headings and captions of the figures of a page ("report" or "comparison"), from captions.toml."""
     found = packaged("biped_adrc.viz", "captions.toml")[page].items()
     return {name: (x["title"], " ".join(x["text"].split())) for name, x in found}
 
 
-def rendered(template: str, **values: Any) -> str:
-    """The text of a page; every value is escaped, numbers are shown to four significant digits."""
+def rendered(template: str, **values: object) -> str:
+    """The text of a page from its template and the values the template names.
+
+    Every value is escaped as HTML, and shown as `plain` has it: floats with four significant
+    digits.
+    """
     return _environment().get_template(f"{template}.html.j2").render(values)
 
 
 @cache
 def _environment() -> Environment:
+    """Jinja's environment, made once: it compiles the templates."""
     loader = PackageLoader("biped_adrc.viz")
     made = Environment(
         loader=loader, autoescape=True, finalize=plain, trim_blocks=True, lstrip_blocks=True
@@ -66,12 +77,15 @@ def _environment() -> Environment:
 
 
 def own_file(name: str) -> Markup:
-    """A style or script of this package, as it is."""
+    """The text of a style or script of this package, trusted and not escaped; for templates."""
     return Markup(files("biped_adrc.viz").joinpath(name).read_text(encoding="utf-8"))
 
 
-def plain(value: Any) -> str:
-    """A value as text."""
+def plain(value: object) -> str:
+    """A value as a page shows it: text as it is, a dash for None, yes or no, floats with four digits.
+
+    Mappings and lists are joined with commas, recursively.
+    """
     if isinstance(value, str):
         return value
     if value is None:
@@ -88,7 +102,12 @@ def plain(value: Any) -> str:
 
 
 def data_uri(title: str, source: str | bytes | Path) -> str:
-    """A figure as a data URI: nothing in an SVG can run or clash with the page. Raises InputError."""
+    """A figure as a data URI for the source of an <img>: an SVG there can neither run scripts nor
+    clash with the ids of another. title: for the message. source: text or bytes of an SVG or PNG,
+    or its path.
+
+    Raises InputError for what is neither PNG nor SVG.
+    """
     data = source.read_bytes() if isinstance(source, Path) else source
     data = data.encode("utf-8") if isinstance(data, str) else data
     kinds = [kind for start, kind in MAGIC.items() if data.lstrip().startswith(start)]
@@ -101,24 +120,26 @@ def data_uri(title: str, source: str | bytes | Path) -> str:
 
 def write_report(
     path: Path,
-    summary: Mapping[str, Any],
+    summary: PlainRecord,
     figures: Mapping[str, str | Path],
     animation: str | None = None,
 ) -> None:
-    """Write the page of a reproduction.
+    """Write the page of a reproduction (report.html).
 
-    summary: as in summary.json; what is missing is left out. figures: name -> SVG text, or the path of an SVG
-    or PNG file. animation: text of the page of `meshcat.animation_html`. Raises InputError and OutputError.
+    summary: as in summary.json; parts that are missing are left out of the page.
+    figures: name -> text of an SVG, or path of an SVG or PNG file; the name selects the caption.
+    animation: text of the page of `meshcat.view.animation_html`, shown in a frame.
+    Raises InputError for a figure that is no picture, and OutputError.
     """
     write_text(path, report_html(summary, figures, animation))
 
 
 def report_html(
-    summary: Mapping[str, Any],
+    summary: PlainRecord,
     figures: Mapping[str, str | Path],
     animation: str | None = None,
 ) -> str:
-    """The text of the page of `write_report`."""
+    """The text of the page that `write_report` writes, from the same values."""
     return rendered(
         "report",
         s=summary,
@@ -130,7 +151,10 @@ def report_html(
 
 
 def _figure(name: str, source: str | Path) -> tuple[str, str, str]:
-    """Heading, what to look for, and the picture itself; of a map the preset is in the heading too."""
+    """(heading, what to look for, data URI) of one figure; its name begins with that of a caption.
+
+    What the name has behind that, such as the preset of a map, is put behind the heading.
+    """
     known = captions("report")
     key = next((key for key in known if name == key or name.startswith(f"{key}_")), "")
     title, caption = known.get(key, (name, ""))
@@ -139,8 +163,12 @@ def _figure(name: str, source: str | Path) -> tuple[str, str, str]:
     return title, caption, data_uri(title, source)
 
 
-def comparison_html(summary: Mapping[str, Any], figures: Mapping[str, str]) -> str:
-    """The text of the page of a comparison; figures: name -> SVG text."""
+def comparison_html(summary: PlainRecord, figures: Mapping[str, str]) -> str:
+    """The text of the page of a comparison.
+
+    summary: as `bench.compare_study.write` makes it. figures: name -> text of an SVG; those that
+    have a caption are shown, in the order of the captions.
+    """
     shown, cells = captions("comparison").items(), t.by_condition(summary["cells"])
     return rendered(
         "comparison",
@@ -153,10 +181,12 @@ def comparison_html(summary: Mapping[str, Any], figures: Mapping[str, str]) -> s
     )
 
 
-def player(settings: Mapping[str, Any], title: str, legend: Sequence[tuple[str, str]]) -> str:
-    """The page that plays `settings` (see `meshcat.scene_settings`) in Meshcat's viewer.
+def player(settings: Mapping[str, object], title: str, legend: Sequence[tuple[str, str]]) -> str:
+    """The page that plays walks in Meshcat's viewer, with play, pause, speed and a slider of time.
 
-    legend: colours and texts, which are plain and are escaped here.
+    settings: as `meshcat.view.scene_settings` gives them; player.js reads them as JSON. legend:
+    pairs (colour, text), the text plain, as it is escaped here. With settings["live"] the page may
+    open a WebSocket to the server it came from, and to nothing else.
     """
     viewer = files("meshcat").joinpath("viewer", "dist", "main.min.js").read_text(encoding="utf-8")
     return rendered(
@@ -172,6 +202,10 @@ def player(settings: Mapping[str, Any], title: str, legend: Sequence[tuple[str, 
 
 
 def inline(summary: str, animation: str, figures: Sequence[Figure] = ()) -> str:
-    """HTML of a cell's output: a line of text, the page `animation` in a frame, the figures below it."""
+    """HTML of the output of a notebook's cell: a line of text, the page `animation` in a frame, figures below.
+
+    The frame has the page as its source text, so the scripts of the notebook and of the page cannot
+    meet.
+    """
     uris = [data_uri("walk", render(figure, "png", dpi=80.0)) for figure in figures]
     return rendered("notebook", summary=summary, animation=animation, figures=uris, height=HEIGHT)

@@ -1,14 +1,22 @@
-"""Where the links of the drawn robot are, on which ground, under which loads, by the tree of its URDF.
+"""Where the links of the robot are in the world, on which ground, under which loads.
 
-In odd single supports the stance leg is the one the robot record calls so (RABBIT: left), in even ones the
-other. The joints drawn are q in odd steps and R q in even ones, so no drawn angle jumps at impact. A rimless
-wheel has spokes in place of legs: it is drawn at q in every step, on the next of its equal spokes.
+All drawings of a walk, from the side or in Meshcat, start here: `WalkScene.of` lays a trajectory
+out along the ground, `WalkScene.joints` gives the joint values of the URDF at any time,
+`link_placements` the links, `loads` the forces. Kinematics are those of the URDF's tree alone;
+Pinocchio is not needed to draw.
 
-The ground is a slope that steps down fall off from,
+The model's stance foot is always at the origin and q is relabelled at impact, so that the model
+walks without left and right. A drawing has both: in odd single supports the stance leg is the one
+the robot's record calls so (RABBIT: left), in even ones the other. The joints drawn are q in odd
+steps and R q in even ones, so no drawn angle jumps at impact. A rimless wheel has spokes in place
+of legs: it is drawn at q in every step, on the next of its equal spokes.
 
-    z(x) = -tan(slope) x - sum of the heights of the steps down behind x
+The ground is a slope with steps down and up,
 
-with a step's edge half way between the footholds on either side of it; where it is has no part in the walk.
+    z(x) = -tan(slope) x - sum of the drops of the steps behind x, negative for a step up
+
+A step's edge is drawn half way between the footholds on either side of it; where it is has no part
+in the walk.
 """
 
 from __future__ import annotations
@@ -34,35 +42,45 @@ TILE = 0.5
 
 
 class Tile(NamedTuple):
-    """A piece of the surface without a step."""
+    """A piece of the surface without a step in it, drawn in one shade: the shades show how far a walk
+    has come.
+    """
 
     ends: Array
     """(2, 2), x and z of both ends [m]."""
     even: bool
-    """Light ones are even, dark ones odd."""
+    """Light tiles are even, dark ones odd, counted from x = 0."""
 
 
 @dataclass(frozen=True)
 class Surface:
-    """slope [rad], positive downhill; steps down of `heights` (E,) [m] at x = `edges` (E,) [m], in order."""
+    """The ground of a walk: a slope with steps down and up.
+
+    slope [rad]: positive downhill. edges (E,) [m]: x of the steps, in order. drops (E,) [m]: by how
+    much the ground is lower behind each of them, negative for a step up.
+    """
 
     slope: float
     edges: Array
-    heights: Array
+    drops: Array
 
     def height(self, x: float, before: bool = False) -> float:
-        """z at x [m]; at an edge below it, or above it if `before`."""
+        """z [m] of the ground at x [m]; exactly at an edge the level behind it, or the level before it
+        if `before`.
+        """
         passed = self.edges < x if before else self.edges <= x
-        return -math.tan(self.slope) * x - float(np.sum(self.heights[passed]))
+        return -math.tan(self.slope) * x - float(np.sum(self.drops[passed]))
 
     def line(self, low: float, high: float) -> Array:
-        """(K, 2), x and z of the corners from x = low to high [m]."""
+        """Corners (K, 2), x and z [m], of the ground from x = low to high [m]; each edge gives two."""
         inside = self.edges[(low < self.edges) & (self.edges < high)]
         corners = [(x, self.height(x, before)) for x in inside for before in (True, False)]
         return np.array([(low, self.height(low)), *corners, (high, self.height(high, True))])
 
     def tiles(self, low: int, high: int) -> list[Tile]:
-        """The pieces from x = low TILE to high TILE, cut at multiples of TILE and at edges."""
+        """The tiles from x = low TILE to high TILE, with whole numbers low, high; cut at multiples of
+        TILE and at edges.
+        """
         inside = self.edges[(low * TILE < self.edges) & (self.edges < high * TILE)]
         cuts = np.unique([*(k * TILE for k in range(low, high + 1)), *inside])
         return [
@@ -93,7 +111,10 @@ def joint_transform(joint: Joint, value: float) -> Array:
 
 
 def link_placements(tree: Tree, values: dict[str, float]) -> dict[str, Array]:
-    """World placement (4, 4) of every link; joints that `values` does not name stand at 0."""
+    """World placement (4, 4) of every link, by name; joints that `values` does not name stand at 0.
+
+    values: joint name -> [rad] or [m], as `joint_values` gives them for the floating URDF.
+    """
     placements: dict[str, Array] = {}
     for name in tree.links:
         M = np.eye(4)
@@ -104,12 +125,18 @@ def link_placements(tree: Tree, values: dict[str, float]) -> dict[str, Array]:
 
 
 def is_wheel(biped: Biped) -> bool:
-    """Whether no link changes over at impact: both feet belong to one body that rolls on."""
+    """Whether no link changes over at impact (R is the identity): both feet belong to one body that
+    rolls on.
+    """
     return np.array_equal(biped.R, np.eye(biped.n))
 
 
 def spokes(biped: Biped) -> list[Array]:
-    """Rotations (3, 3) from the spoke the URDF draws to every one; the identity alone for legs."""
+    """Rotations (3, 3) that take the spoke in the URDF to each spoke of the wheel; the identity alone for legs.
+
+    The URDF of a wheel draws one spoke; the angle between two is what the relabelling at impact
+    adds to q.
+    """
     if not is_wheel(biped):
         return [np.eye(3)]
     pitch = next(j for j in biped.tree.joints if j.name == biped.description.unactuated)
@@ -119,12 +146,17 @@ def spokes(biped: Biped) -> list[Array]:
 
 
 def exchanged(biped: Biped, step: int) -> bool:
-    """Whether in single support `step` (from 1) the legs have changed over."""
+    """Whether in single support `step` (from 1) the drawn legs have changed over: in even ones, but
+    for a wheel.
+    """
     return step % 2 == 0 and not is_wheel(biped)
 
 
 def legs(biped: Biped) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Links of the leg that carries odd steps and of the other, feet first; none for a wheel."""
+    """Names of the links of the leg that carries odd steps, and of the other, each from the foot up.
+
+    Empty for a wheel, whose links have no sides.
+    """
     if is_wheel(biped):
         return (), ()
     d = biped.description
@@ -135,9 +167,10 @@ def legs(biped: Biped) -> tuple[tuple[str, ...], tuple[str, ...]]:
 def joint_values(
     biped: Biped, q: Array, step: int = 1, foothold: float = 0.0, height: float = 0.0
 ) -> dict[str, float]:
-    """Joint values of the floating URDF [rad], [m] for q (n,) in single support `step` (from 1).
+    """Values of all joints of the floating URDF [rad], [m] for q (n,) [rad] in single support `step` (from 1).
 
-    The stance foot stands at x = foothold, z = height [m].
+    The two prismatic joints of the base are chosen so that the stance foot stands at x = foothold,
+    z = height [m].
     """
     d = biped.description
     other = exchanged(biped, step)
@@ -153,7 +186,12 @@ def joint_values(
 
 
 class Recorded(Protocol):
-    """A walker and what it did."""
+    """What a drawing needs of a walk; `scenario.recording.Walk` is one.
+
+    walker: the closed loop that walked. trajectory: what it did. recorded: its signals where the
+    controller is not at hand to compute them again, as in a file of another version; None
+    otherwise.
+    """
 
     @property
     def walker(self) -> Walker: ...
@@ -164,19 +202,25 @@ class Recorded(Protocol):
 
 
 @dataclass(frozen=True)
-class Scene:
-    """A walk laid out in the world; `footholds`, `heights` (arcs,) are x and z of the stance foot [m]."""
+class WalkScene:
+    """A walk laid out in the world: every single support with the place of its stance foot.
+
+    walker, trajectory: as recorded. footholds, heights (arcs,): x and z of the stance foot [m] in
+    each arc.
+    """
 
     walker: Walker
     trajectory: Trajectory
     footholds: Array
     heights: Array
     recorded: Signals | None = None
-    """Of a walk whose controller is not there."""
+    """Signals of a walk whose controller is not there; None where they can be computed."""
 
     @classmethod
-    def of(cls, walk: Recorded) -> Scene:
-        """The first stance foot stands at x = z = 0; each impact moves it by p_2 of x-."""
+    def of(cls, walk: Recorded) -> WalkScene:
+        """Lay a walk out: the first stance foot stands at x = z = 0; each impact moves it by p_2(q-),
+        the swing foot.
+        """
         foot, feet, plant = np.zeros(2), [], walk.walker.plant
         for arc in walk.trajectory.arcs:
             feet.append(foot)
@@ -187,35 +231,37 @@ class Scene:
 
     @property
     def biped(self) -> Biped:
-        """The robot drawn: the plant."""
+        """The robot that is drawn: the plant, not the controller's nominal model."""
         return self.walker.plant
 
     def foothold(self, i: int) -> tuple[float, float]:
-        """x and z of the stance foot in arc i [m]."""
+        """x and z [m] of the stance foot in arc i, counted from 0."""
         return float(self.footholds[i]), float(self.heights[i])
 
     @cached_property
     def surface(self) -> Surface:
-        """The ground walked on so far."""
+        """The ground under the footholds: the walker's slope, and its steps down and up so far."""
         arcs = self.trajectory.arcs[: len(self.footholds) - 1]
         drops = np.array([self.walker.drop(arc.mode.step) for arc in arcs])
         middles = 0.5 * (self.footholds[:-1] + self.footholds[1:])
-        return Surface(self.walker.slope, middles[drops > 0.0], drops[drops > 0.0])
+        return Surface(self.walker.slope, middles[drops != 0.0], drops[drops != 0.0])
 
     def level(self, x: float) -> float:
-        """z of a smooth line through the footholds at x [m]: what a camera follows."""
+        """z [m] of a smooth line through the footholds at x [m]: a camera that follows it does not
+        jump at steps.
+        """
         fall = math.tan(self.walker.slope)
         return float(np.interp(x, self.footholds, self.heights + fall * self.footholds)) - fall * x
 
     def arc_at(self, t: float) -> int:
-        """Index of the arc that is shown at t [s]; at an impact, the one after it."""
+        """Index, from 0, of the arc that is shown at t [s]; at an impact, the one after it."""
         ends = [arc.t[-1] for arc in self.trajectory.arcs]
         return min(int(np.searchsorted(ends, t, side="right")), len(ends) - 1)
 
     def joints(self, t: float, change: Array | None = None) -> dict[str, float]:
-        """Joint values of the URDF at t [s]; before and after the run, those of its ends.
+        """Joint values of the URDF [rad], [m] at t [s]; before and after the run, those of its ends.
 
-        change: added to the actuated joints (p,) [rad].
+        change: added to the actuated joints (p,) [rad], for a deviation drawn larger than it is.
         """
         t = min(max(t, self.trajectory.t_start), self.trajectory.t_end)
         i = self.arc_at(t)
@@ -227,19 +273,20 @@ class Scene:
         return joint_values(self.biped, q, arc.mode.step, x, z)
 
 
-class Loads(NamedTuple):
-    """Forces at one stored node."""
+class DrawnLoads(NamedTuple):
+    """Forces on the drawn robot at one stored node."""
 
     ground_reaction: Array
-    """(2,), (F_T, F_N) on the stance foot [N]."""
+    """(2,), F_T and F_N on the stance foot [N], along x and z of the world."""
     zeta: Array
     """(n,) external torque on the drawn joints of q1..qn [N m]."""
 
 
-def loads(scene: Scene, t: float) -> Loads:
+def loads(scene: WalkScene, t: float) -> DrawnLoads:
     """The loads at the last stored node up to t [s]; of the ends of the run outside it.
 
-    Controller states are not interpolated: a fast observer's would not survive it.
+    They are computed from the state at the node, or taken from `recorded`. States of controllers
+    are not interpolated between nodes: for a fast observer the result would be far from the truth.
     """
     arcs, at = scene.trajectory.arcs, scene.arc_at(t)
     arc, known = arcs[at], scene.recorded
@@ -251,13 +298,17 @@ def loads(scene: Scene, t: float) -> Loads:
         row = k + sum(len(before.t) for before in arcs[:at])
         force, zeta = known.ground_reaction[row], known.zeta[row]
     # with q drawn as R q, power zeta' q' is that of R^-T zeta, and R is its own inverse
-    return Loads(force, scene.biped.R.T @ zeta if exchanged(scene.biped, arc.mode.step) else zeta)
+    return DrawnLoads(
+        force, scene.biped.R.T @ zeta if exchanged(scene.biped, arc.mode.step) else zeta
+    )
 
 
 def ending(trajectory: Trajectory) -> str:
-    """Such as "fell at 3.42 s: hip too low"; empty for a walk that did what it was asked for.
+    """How a walk ended that did not do what it was asked for, such as "fell at 3.42 s: hip too low";
+    else empty.
 
-    The reason is the event that ended the run, its detail, or what its status says, in this order.
+    The reason is the terminal event of the run, the detail of its status, or what the status says,
+    in this order.
     """
     status = trajectory.status
     if status.ok:

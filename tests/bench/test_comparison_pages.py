@@ -16,7 +16,7 @@ from biped_adrc.bench.run import COLUMNS
 from biped_adrc.cli.app import command
 from biped_adrc.errors import InputError
 from biped_adrc.viz.comparison_text import interval
-from biped_adrc.viz.numbers import numbers_of
+from biped_adrc.viz.figure_numbers import numbers_of
 from biped_adrc.viz.pages import comparison_html
 from biped_adrc.viz.plots.comparison_figure import legal_figure, measure_figure, push_figure
 from biped_adrc.viz.plots.sweep_maps import Maps, cut, sweep_map_figure

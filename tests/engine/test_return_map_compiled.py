@@ -97,7 +97,7 @@ def test_robots_without_motors(robot):
     compiled, python = maps(walker, ba.Adaptive(1e-11, 1e-11), pitch=np.pi)
     assert compiled.ran == "compiled"
     start = walker.initial_state(known.q_plus, known.v_plus)
-    x = python.next_strike(walker, start, Mode()).x_minus
+    x = python.next_impact(walker, start, Mode()).x_minus
     s = compiled.project(x)
     assert np.max(np.abs(compiled(s) - python(s))) < 1e-8
     orbit = compiled.fixed_point(x)

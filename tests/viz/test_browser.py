@@ -20,8 +20,8 @@ from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.export import export
-from biped_adrc.viz.meshcat.scene import joint_path
-from biped_adrc.viz.placement import Scene
+from biped_adrc.viz.meshcat.objects import joint_path
+from biped_adrc.viz.placement import WalkScene
 
 from .browser import chromium, console, needs_chromium, requested, seek, world
 from .pinocchio_view import floating
@@ -68,7 +68,7 @@ def test_links_are_where_pinocchio_puts_them(
     for t in np.linspace(0.0, 0.999 * end_of(walks), 10):
         seek(browser, float(t))
         for name, walk in walks.items():
-            laid_out = Scene.of(walk)
+            laid_out = WalkScene.of(walk)
             expected = floating(biped, laid_out.joints(float(t)))
             lane = 0.0 if name == solid else 0.4
             for joint in biped.tree.joints:
@@ -84,7 +84,7 @@ def test_the_stance_foot_stays_on_its_footprint(
 ) -> None:
     browser, _ = opened
     walk, d = walks["ADRC"], biped.description
-    footholds = Scene.of(walk).footholds
+    footholds = WalkScene.of(walk).footholds
     by_child = {joint.child: joint for joint in biped.tree.joints}
     for i, arc in enumerate(walk.trajectory.arcs):
         foot = by_child[d.stance_foot if i % 2 == 0 else d.swing_foot]

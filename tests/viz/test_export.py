@@ -24,13 +24,13 @@ from biped_adrc.viz.from_the_side.gif import write_gif
 from biped_adrc.viz.from_the_side.moving_parts import Motion, arrow, cut, ring
 from biped_adrc.viz.from_the_side.side_view import Deviation, SideView
 from biped_adrc.viz.from_the_side.stick_figures import strip, write_strip
-from biped_adrc.viz.placement import Scene, ending
+from biped_adrc.viz.placement import WalkScene, ending
 from biped_adrc.viz.style import new_figure, style
 
 
 def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
     """Lengths against RABBIT's 0.4 m limbs and 0.63 m torso; ends against the biped's own kinematics."""
-    view = SideView(Scene.of(walks["NPD"]))
+    view = SideView(WalkScene.of(walks["NPD"]))
     for t in np.linspace(0.0, walks["NPD"].trajectory.t_end - 1e-9, 7):
         segments = view.segments(float(t))
         lengths = np.hypot(*(segments[:, 1] - segments[:, 0]).T)
@@ -43,7 +43,7 @@ def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
 
 
 def test_the_stance_leg_is_the_one_on_the_ground(walks: dict[str, Walk]) -> None:
-    view = SideView(Scene.of(walks["ADRC"]))
+    view = SideView(WalkScene.of(walks["ADRC"]))
     for i, arc in enumerate(walks["ADRC"].trajectory.arcs):
         t = float(0.5 * (arc.t[0] + arc.t[-1]))
         foot = np.array([view.scene.footholds[i], 0.0])
@@ -65,7 +65,7 @@ def test_strip(walks: dict[str, Walk]) -> None:
     assert sorted(names) == ["footprint", "stance leg", "swing leg", "torso"]
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("x [m]", "z [m]")
     assert axes.get_aspect() == 1.0
-    footholds = Scene.of(walks["NPD"]).footholds
+    footholds = WalkScene.of(walks["NPD"]).footholds
     prints = next(line for line in axes.get_lines() if line.get_marker() == "^")
     np.testing.assert_array_equal(prints.get_xdata(), footholds[-2:])
     with pytest.raises(InputError, match="at least 2"):
@@ -137,7 +137,7 @@ def test_a_magnified_posture_is_the_reference_and_so_many_times_the_error(
     biped: Biped, walks: dict[str, Walk], factor: float
 ) -> None:
     walk, names = walks["ADRC"], biped.description.joints
-    bent = SideView(Scene.of(walk), Deviation.of(walk, factor))
+    bent = SideView(WalkScene.of(walk), Deviation.of(walk, factor))
     for arc in walk.trajectory.arcs[:2]:
         k = len(arc.t) // 3
         t, q = float(arc.t[k]), arc.x[k, :5]
@@ -149,7 +149,7 @@ def test_a_magnified_posture_is_the_reference_and_so_many_times_the_error(
         values = bent.scene.joints(t, bent.deviation.change(t, arc.mode.step))
         np.testing.assert_allclose([values[name] for name in names], drawn, atol=1e-9)
         if factor == 1.0:
-            plain = SideView(Scene.of(walk))
+            plain = SideView(WalkScene.of(walk))
             np.testing.assert_allclose(bent.segments(t), plain.segments(t), atol=1e-12)
         # the stance foot stays on the ground
         foot = np.array(bent.scene.foothold(arc.mode.step - 1))

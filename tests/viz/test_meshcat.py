@@ -21,9 +21,9 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk as walk_of
 from biped_adrc.viz.export import Clip, export
-from biped_adrc.viz.meshcat.scene import ring_mesh, visual_transform
+from biped_adrc.viz.meshcat.objects import ring_mesh, visual_transform
 from biped_adrc.viz.meshcat.view import Look, animation_html, node_names
-from biped_adrc.viz.placement import Scene
+from biped_adrc.viz.placement import WalkScene
 
 from .pinocchio_view import floating
 
@@ -68,7 +68,7 @@ def test_the_animation_plays_the_walk(
     biped: Biped, walks: dict[str, Walk], page: str, robot: str
 ) -> None:
     found = robot_of(scene(page)[0], robot)
-    d, walk = data(found), Scene.of(walks[robot])
+    d, walk = data(found), WalkScene.of(walks[robot])
     moving = {j.name for j in biped.tree.joints if j.type != "fixed"}
     assert {joint["path"].split("/")[-1] for joint in found["joints"]} == moving
     arcs = walks[robot].trajectory.arcs
@@ -89,7 +89,7 @@ def test_the_animation_plays_the_walk(
 
 def test_between_nodes_the_walk_is_within_tolerance(walks: dict[str, Walk], page: str) -> None:
     for name, walk in walks.items():
-        d, laid_out = data(robot_of(scene(page)[0], name)), Scene.of(walk)
+        d, laid_out = data(robot_of(scene(page)[0], name)), WalkScene.of(walk)
         names = [joint["path"].split("/")[-1] for joint in robot_of(scene(page)[0], name)["joints"]]
         rng = np.random.default_rng(3)
         for t in rng.uniform(d["t"][0], d["t"][-1], 200):

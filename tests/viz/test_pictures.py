@@ -18,7 +18,7 @@ from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.paper.push_map import Fate, PushCell
 from biped_adrc.scenario.run import walk_scenario as execute
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.viz.numbers import Numbers, as_text, numbers_of
+from biped_adrc.viz.figure_numbers import Numbers, as_text, numbers_of
 from biped_adrc.viz.plots.figures import comparison_figure
 
 DOCS = Path(__file__).parents[2] / "docs"

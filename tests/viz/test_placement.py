@@ -8,7 +8,7 @@ import pytest
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.from_the_side.robot_figure import direction
-from biped_adrc.viz.placement import Scene, joint_values, link_placements
+from biped_adrc.viz.placement import WalkScene, joint_values, link_placements
 
 from .pinocchio_view import floating
 
@@ -33,7 +33,7 @@ def test_links_are_where_pinocchio_puts_them(biped: Biped, step: int) -> None:
 
 
 def test_no_drawn_joint_jumps_at_impact(biped: Biped, walks: dict[str, Walk]) -> None:
-    walk = Scene.of(walks["NPD"])
+    walk = WalkScene.of(walks["NPD"])
     assert len(walk.footholds) == 3
     assert np.all(np.diff(walk.footholds) > 0.2)
     for event in walks["NPD"].trajectory.events("foot_strike")[:-1]:
@@ -42,6 +42,6 @@ def test_no_drawn_joint_jumps_at_impact(biped: Biped, walks: dict[str, Walk]) ->
 
 
 def test_a_pose_is_held_outside_the_run(biped: Biped, walks: dict[str, Walk]) -> None:
-    walk = Scene.of(walks["ADRC"])
+    walk = WalkScene.of(walks["ADRC"])
     assert walk.joints(99.0) == walk.joints(walks["ADRC"].trajectory.t_end)
     assert walk.joints(-1.0) == walk.joints(0.0)

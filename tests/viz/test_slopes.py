@@ -28,9 +28,9 @@ from biped_adrc.viz.from_the_side.moving_parts import Motion
 from biped_adrc.viz.from_the_side.side_view import SideView
 from biped_adrc.viz.from_the_side.stick_figures import strip
 from biped_adrc.viz.meshcat.frames import pose
-from biped_adrc.viz.meshcat.scene import joint_path
+from biped_adrc.viz.meshcat.objects import joint_path
 from biped_adrc.viz.meshcat.view import Look, animation_html
-from biped_adrc.viz.placement import Scene, link_placements
+from biped_adrc.viz.placement import WalkScene, link_placements
 from biped_adrc.viz.plots import friction_cone
 from biped_adrc.viz.style import new_figure
 
@@ -77,7 +77,7 @@ def ground(walk: Walk, i: int, x: float) -> float:
 def test_links_are_where_pinocchio_puts_them(walks: dict[str, Walk], name: str) -> None:
     """And the stance foot stays where the swing foot came down, on the ground, from first to last."""
     walk, foothold = walks[name], np.zeros(2)
-    scene, biped = Scene.of(walk), walk.walker.plant
+    scene, biped = WalkScene.of(walk), walk.walker.plant
     assert len(scene.footholds) == len(walk.trajectory.arcs) >= 4
     for i, arc in enumerate(walk.trajectory.arcs):
         stance, swing = feet(walk, i)
@@ -95,7 +95,7 @@ def test_links_are_where_pinocchio_puts_them(walks: dict[str, Walk], name: str) 
 
 def test_no_drawn_joint_jumps_at_impact(walks: dict[str, Walk]) -> None:
     for name in ("compass", "slope", "down"):
-        scene = Scene.of(walks[name])
+        scene = WalkScene.of(walks[name])
         for event in walks[name].trajectory.events("foot_strike")[:-1]:
             before, after = scene.joints(event.t - 1e-9), scene.joints(event.t + 1e-9)
             assert max(abs(before[joint] - after[joint]) for joint in before) < 1e-6
@@ -103,7 +103,7 @@ def test_no_drawn_joint_jumps_at_impact(walks: dict[str, Walk]) -> None:
 
 def test_the_spokes_of_a_wheel_pass_on_to_one_another(walks: dict[str, Walk]) -> None:
     """Eight lines of 1 m at equal angles, in the same places before and after an impact."""
-    view = SideView(Scene.of(walks["wheel"]))
+    view = SideView(WalkScene.of(walks["wheel"]))
     for event in walks["wheel"].trajectory.events("foot_strike")[:-1]:
         before, after = (view.segments(event.t + d) for d in (-1e-9, 1e-9))
         assert before.shape == (8, 2, 2)
@@ -116,7 +116,7 @@ def test_the_spokes_of_a_wheel_pass_on_to_one_another(walks: dict[str, Walk]) ->
 
 
 def test_the_compass_stands_on_legs_of_one_metre(walks: dict[str, Walk]) -> None:
-    view = SideView(Scene.of(walks["compass"]))
+    view = SideView(WalkScene.of(walks["compass"]))
     for t in np.linspace(0.0, walks["compass"].trajectory.t_end - 1e-9, 9):
         assert sorted(view.roles(float(t))) == ["stance", "swing"]
         segments = view.segments(float(t))
@@ -128,7 +128,7 @@ def test_the_compass_stands_on_legs_of_one_metre(walks: dict[str, Walk]) -> None
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_ground_passes_through_all_footholds(walks: dict[str, Walk], name: str) -> None:
-    scene, slope = Scene.of(walks[name]), walks[name].walker.slope
+    scene, slope = WalkScene.of(walks[name]), walks[name].walker.slope
     for i, x in enumerate(scene.footholds):
         z = scene.heights[i]
         assert scene.surface.height(float(x)) == pytest.approx(z, abs=1e-9)
@@ -144,6 +144,18 @@ def test_the_ground_passes_through_all_footholds(walks: dict[str, Walk], name: s
     assert (ends[0, 0, 0], ends[-1, 1, 0]) == (-1.0, 5.0)
 
 
+def test_the_ground_is_drawn_over_a_step_up() -> None:
+    """5 mm up in the second single support, 15 mm down in the third."""
+    biped = ba.Biped.load("rabbit", "identified-bare")
+    gait = ba.load_gait("published", biped)
+    law = ReferenceReset(ba.NPDController(continued(gait.constraint)))
+    walker = ba.Walker(biped, law, ground_steps=(ba.StepUp(2, 0.005), StepDown(3, 0.015)))
+    scene = WalkScene.of(ba.walk(walker, gait, 4, METHOD))
+    drawn = [scene.surface.height(float(x)) for x in scene.footholds]
+    np.testing.assert_allclose(drawn, scene.heights, atol=1e-9)
+    np.testing.assert_allclose(scene.heights[:4], [0.0, 0.0, 0.005, -0.01], atol=1e-9)
+
+
 def test_a_torque_is_drawn_with_the_power_it_has() -> None:
     """zeta' q' in drawn coordinates, in a step in which the hip counts from the other leg."""
     walk = passive_walk("compass", 2)
@@ -154,7 +166,7 @@ def test_a_torque_is_drawn_with_the_power_it_has() -> None:
         ba.TorquePulse(zeta, step=2, start=0.1, stop=0.3),
         slope=walk.walker.slope,
     )
-    scene = Scene.of(type(walk)(pushed, None, walk.trajectory))
+    scene = WalkScene.of(type(walk)(pushed, None, walk.trajectory))
     arc = walk.trajectory.arcs[1]
     t = float(arc.t[0]) + 0.2
     shown, v = pose(scene, 1, t), arc(t)[2:]
@@ -178,7 +190,7 @@ def commands(page: str) -> dict[str, dict[str, dict]]:
 @pytest.mark.parametrize("name", NAMES)
 def test_footprints_lie_on_the_tiles_of_the_page(walks: dict[str, Walk], name: str) -> None:
     """The corners of every box: the balls of the feet touch the tops."""
-    scene = Scene.of(walks[name])
+    scene = WalkScene.of(walks[name])
     c = commands(animation_html({name: walks[name]}, Look(fps=20.0)))
     depth, normal = 0.02, np.array([math.sin(scene.walker.slope), math.cos(scene.walker.slope)])
     tops = []
@@ -213,7 +225,7 @@ def test_walks_on_different_grounds_have_a_ground_each(walks: dict[str, Walk]) -
 def test_the_page_in_the_browser(walks: dict[str, Walk], tmp_path: Path) -> None:
     """Links against Pinocchio; the camera goes down with the ground below the hip, as steep as it is."""
     walk = walks["compass"]
-    scene, biped, fall = Scene.of(walk), walk.walker.plant, math.tan(walk.walker.slope)
+    scene, biped, fall = WalkScene.of(walk), walk.walker.plant, math.tan(walk.walker.slope)
     walk.animate(tmp_path / "walk.html")
     with chromium() as browser:
         browser.get((tmp_path / "walk.html").as_uri())
@@ -232,7 +244,7 @@ def test_the_page_in_the_browser(walks: dict[str, Walk], tmp_path: Path) -> None
 
 
 def test_strip_and_gif(walks: dict[str, Walk], tmp_path: Path) -> None:
-    scene = Scene.of(walks["down"])
+    scene = WalkScene.of(walks["down"])
     axes = strip(
         new_figure(6.0, 4.0).subplots(), walks["down"], 0.0, walks["down"].trajectory.t_end
     )

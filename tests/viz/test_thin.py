@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from biped_adrc.viz.numbers import as_text, differences, numbers_of
+from biped_adrc.viz.figure_numbers import as_text, differences, numbers_of
 from biped_adrc.viz.thin import thin, thinned
 
 WIDTH = 1.0 / 600

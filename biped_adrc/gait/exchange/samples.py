@@ -28,6 +28,7 @@ from biped_adrc.gait.gait import CLOSES, Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part, numbers
+from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
 FITS = 5e-3
@@ -43,6 +44,9 @@ class Samples(NamedTuple):
     t: Array
     q: Array
     v: Array | None = None
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 def gait_of_samples(

@@ -1,4 +1,10 @@
-"""A moving picture of walks from the side, drawn by matplotlib and written by Pillow; no browser."""
+"""A moving picture of walks from the side, drawn by matplotlib and written by Pillow; no browser is needed.
+
+Times of the frames are chosen (`_times`), each frame is drawn to an array of pixels (walks over one
+another here, walks side by side in `side_by_side`), and all frames are reduced to one palette of 64
+colours (`_encoded`). The figure is made once; from frame to frame only its lines move, as making a
+figure takes longer than drawing it.
+"""
 
 from __future__ import annotations
 
@@ -18,14 +24,15 @@ from biped_adrc.types import Array
 from biped_adrc.viz.from_the_side import moving_parts as draw
 from biped_adrc.viz.from_the_side.side_by_side import LINES, frames_apart
 from biped_adrc.viz.from_the_side.side_view import SideView
-from biped_adrc.viz.placement import Recorded, Scene, ending
+from biped_adrc.viz.placement import Recorded, WalkScene, ending
 from biped_adrc.viz.style import REACTION, TORQUE, style
 
 GHOST = 0.35
+"""Opacity of walks that are not the solid one."""
 SHOWN = 2.6
-"""[m], width of the picture of walks laid over one another."""
+"""Width [m] of the picture of walks laid over one another."""
 REST = 2.0
-"""[s], how much longer the last frame is shown where a walk ended badly."""
+"""How much longer [s] the last frame is shown where a walk ended badly, to read why."""
 
 
 def write_gif(
@@ -38,8 +45,11 @@ def write_gif(
 ) -> None:
     """Write walks, over one another or side by side, as a GIF that repeats.
 
-    solid: the walk drawn opaque and followed where they are laid over one another, the last one if None. start,
-    stop [s]: the part shown, the whole if None. Raises InputError and OutputError.
+    walks: name -> walk. solid: where they are laid over one another, the walk drawn opaque that the
+    picture follows; the last one if None. start, stop [s]: the part shown, the whole if None.
+    motion: pace, size and arrangement.
+
+    Raises InputError for a name, a part or a motion that does not fit, and OutputError.
     """
     motion = draw.Motion() if motion is None else motion
     names = list(walks)
@@ -52,7 +62,7 @@ def write_gif(
             images = frames_apart(walks, times, motion)
         else:
             order = [*(n for n in names if n != solid), solid]
-            scenes = {n: Scene.of(walks[n]) for n in order}
+            scenes = {n: WalkScene.of(walks[n]) for n in order}
             images = _frames(scenes, times, motion)
     badly = any(ending(w.trajectory) and w.trajectory.t_end <= times[-1] for w in walks.values())
     rest = REST if badly else 0.0
@@ -62,7 +72,7 @@ def write_gif(
 def _times(
     walks: Mapping[str, Recorded], start: float | None, stop: float | None, motion: draw.Motion
 ) -> Array:
-    """When the frames are; the end of a walk that ended badly is one of them."""
+    """Times (K,) [s] of the frames; the end of a walk that ended badly is one of them."""
     first = min(walk.trajectory.t_start for walk in walks.values())
     last = max(walk.trajectory.t_end for walk in walks.values())
     start = first if start is None else start
@@ -77,7 +87,13 @@ def _times(
     return np.append(times, stop) if badly else times
 
 
-def _frames(scenes: Mapping[str, Scene], times: Array, motion: draw.Motion) -> list[Array]:
+def _frames(scenes: Mapping[str, WalkScene], times: Array, motion: draw.Motion) -> list[Array]:
+    """The frames (height, width, 3) at `times` (K,) [s], walks laid over one another.
+
+    scenes: the solid walk is the last; its hip keeps its place in the picture, the ground moves.
+    Every walk has a trail, a robot and its forces in layers of its own; a caption gives time, step,
+    and how walks have ended.
+    """
     views = [SideView(scene) for scene in scenes.values()]
     last = views[-1]
     width, pace = motion.width, motion.pace(", ")
@@ -113,14 +129,17 @@ def _frames(scenes: Mapping[str, Scene], times: Array, motion: draw.Motion) -> l
     return out
 
 
-def _is_over(scene: Scene, t: float) -> bool:
+def _is_over(scene: WalkScene, t: float) -> bool:
+    """Whether a walk has ended badly by t [s]."""
     return t >= scene.trajectory.t_end and ending(scene.trajectory) != ""
 
 
 def _encoded(images: list[Image.Image], fps: float, rest: float) -> bytes:
-    """One palette for all frames, so that colours do not flicker; no used colour is missing from it.
+    """The frames as a GIF with one palette for all, so that colours do not flicker from frame to frame.
 
-    rest [s]: how much longer the last frame is shown.
+    The palette is made from every eighth frame and from bands of the colours in use, so that even a
+    colour of few pixels has a place in it. fps [1/s]; rest [s]: how much longer the last frame is
+    shown.
     """
     some = [np.asarray(image)[::3] for image in images[:: max(1, len(images) // 8)]]
     width = some[0].shape[1]

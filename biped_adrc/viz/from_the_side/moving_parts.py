@@ -1,4 +1,10 @@
-"""The parts of a moving picture from the side: ground, robots, arrows, rings; updated from frame to frame."""
+"""The parts of a moving picture from the side: ground, robots, trails, footprints, arrows, rings.
+
+Each part is a class that makes its artists on an Axes once and has a method `show`, which moves
+them to what they are at t [s]; `gif` and `side_by_side` put parts together. The robot and forces of
+walk k are drawn in the layers 10 k to 10 k + 9, so that one walk is in front of another as a whole;
+trails and ground are behind all of them.
+"""
 
 from __future__ import annotations
 
@@ -17,22 +23,29 @@ from biped_adrc.viz.placement import TILE, loads
 from biped_adrc.viz.style import METRES_PER_NEWTON_METRE, REACTION, STANCE, SWING, TORQUE, TRUNK
 
 COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
+"""Colour of a bone by its role; the trunk has none."""
 REFERENCE = "#B9B9B9"
+"""Light grey, of a reference posture behind the robot."""
 SOLE, HEADROOM = 0.12, 1.2
-"""[m] of ground below the foot, and the height of the picture above it as a multiple of the robot's."""
+"""Ground shown below the foot [m], and the height of the picture above it as a multiple of the robot's."""
 EDGE = 0.04
-"""[m] that arrows keep from the edge of the picture."""
+"""Distance [m] that arrows keep from the edge of the picture."""
 DPI = 100
+"""Pixels for each inch of a figure; sizes here are in pixels."""
 
 
 @dataclass(frozen=True)
 class Motion:
     """How walks are set in motion.
 
-    apart: side by side instead of over one another, with their errors over time below. magnify: factor by which
-    the deviation from the reference is drawn larger, and the reference in grey; None for the posture as it is;
-    it needs `apart`. slower: by how much slower than the walk. fps [1/s]: frames per second, at most 50 (a GIF
-    counts hundredths of a second). width [px].
+    apart: side by side instead of over one another, with their errors over time below.
+    magnify [1]: factor by which the deviation from the reference is drawn larger, with the
+    reference in grey; None for the posture as it is. It needs `apart`.
+    slower [1]: how many times slower than the walk.
+    fps [1/s]: frames per second, at most 50, as a GIF counts time in hundredths of a second.
+    width [px]: of the picture, 100 to 4000.
+
+    Raises InputError for values that do not fit.
     """
 
     apart: bool = False
@@ -53,18 +66,20 @@ class Motion:
             raise InputError("a magnified deviation is drawn of walks side by side; add 'apart'")
 
     def pace(self, before: str = "") -> str:
-        """By how much slower it is, in words; empty for the pace of the walk."""
+        """By how much slower the picture is than the walk, in words behind `before`; empty for the
+        pace of the walk.
+        """
         return "" if self.slower == 1.0 else f"{before}{self.slower:g} times slower"
 
 
 def picture(canvas: FigureCanvasAgg) -> Array:
-    """The figure as it is now (height, width, 3)."""
+    """The figure as it is now, as pixels (height, width, 3)."""
     canvas.draw()  # type: ignore[no-untyped-call]
     return np.asarray(canvas.buffer_rgba())[:, :, :3].copy()  # type: ignore[no-untyped-call]
 
 
 def ground(axes: Axes, views: list[SideView]) -> None:
-    """The ground of every walk as a line, of the last one with its tiles."""
+    """Draw the ground of every walk as a line, and the tiles of the last one; equal lines are drawn once."""
     x = np.concatenate([view.scene.footholds for view in views])
     low, high = math.floor(x.min()) - 3, math.ceil(x.max()) + 4
     lines = [view.scene.surface.line(low, high) for view in views]
@@ -77,7 +92,11 @@ def ground(axes: Axes, views: list[SideView]) -> None:
 
 
 def follow(axes: Axes, view: SideView, t: float, left: float, right: float) -> None:
-    """Limits around the hip, from `left` before it to `right` behind it [m]; kept where it is not finite."""
+    """Set the limits around the hip at t [s], from `left` before it to `right` behind it [m].
+
+    They are kept as they are where the hip's position is not finite, as in a walk that has
+    diverged.
+    """
     x = float(view.points(t)[0])
     if not math.isfinite(x):
         return
@@ -87,7 +106,11 @@ def follow(axes: Axes, view: SideView, t: float, left: float, right: float) -> N
 
 
 class DrawnRobot:
-    """The links of one posture, in the colours of its legs or in one colour."""
+    """The links of one posture as thick lines, in the colours of stance leg, swing leg and trunk.
+
+    opacity: 0 to 1. order: number of the layer. colour: one colour for all links. width: factor of
+    the lines' widths.
+    """
 
     def __init__(
         self,
@@ -103,7 +126,7 @@ class DrawnRobot:
         axes.add_collection(self.lines)
 
     def show(self, t: float) -> None:
-        """The posture at t [s]."""
+        """Move the links to the posture at t [s]."""
         roles = self.view.roles(t)
         self.lines.set_segments(list(self.view.segments(t)))
         self.lines.set_color([self.colour or COLOURS[role] for role in roles])
@@ -111,7 +134,11 @@ class DrawnRobot:
 
 
 class Trail:
-    """Ways of hip and swing foot, and footprints."""
+    """The paths of hip and swing foot so far, and footprints.
+
+    times (K,) [s]: those of the frames. All points are computed at the beginning; a frame shows the
+    first of them.
+    """
 
     def __init__(
         self, axes: Axes, view: SideView, times: Array, opacity: float, order: int
@@ -124,7 +151,7 @@ class Trail:
         self.prints = Footprints(axes, view, opacity, order)
 
     def show(self, k: int, t: float) -> None:
-        """What frame k, at t [s], has behind it."""
+        """Draw what frame k, at t [s], has behind it; the swing foot's path breaks where the feet exchange."""
         self.hip.set_data(self.points[: k + 1, 0], self.points[: k + 1, 1])
         jumps = np.flatnonzero(np.diff(self.steps[: k + 1])) + 1
         self.foot.set_data(*np.insert(self.points[: k + 1, 2:], jumps, np.nan, axis=0).T)
@@ -139,13 +166,17 @@ class Footprints:
         (self.marks,) = axes.plot([], [], "^", color="black", ms=4, alpha=opacity, zorder=order)
 
     def show(self, t: float) -> None:
-        """Those up to t [s]."""
+        """Draw the footprints up to t [s]."""
         i = self.scene.arc_at(t)
         self.marks.set_data(self.scene.footholds[: i + 1], self.scene.heights[: i + 1])
 
 
 class Forces:
-    """The arrow of the ground reaction, and a ring around every joint that is pushed."""
+    """The arrow of the ground reaction at the stance foot, and a ring around every joint that is pushed.
+
+    Scales: the robot's weight gives an arrow of `WEIGHT_LENGTH` [m], and rings are the same for all
+    robots. order: number of the layer; arrows are in front of the links of the same walk.
+    """
 
     def __init__(self, axes: Axes, view: SideView, opacity: float, order: int) -> None:
         self.axes, self.view = axes, view
@@ -156,7 +187,9 @@ class Forces:
         self.text = axes.text(0.0, 0.0, "", color=REACTION, fontsize=9, zorder=10 * order + 3)
 
     def show(self, t: float) -> None:
-        """Those at t [s]; an arrow that would leave the picture is cut and says how large the force is."""
+        """Draw the forces at t [s]; an arrow that would leave the picture is cut and says how large
+        the force is [N].
+        """
         scene = self.view.scene
         acting = loads(scene, t)
         start = np.array(scene.foothold(scene.arc_at(t)))
@@ -171,6 +204,7 @@ class Forces:
         self.torques.set_verts(self._rings(t, acting.zeta))
 
     def _rings(self, t: float, zeta: Array) -> list[Array]:
+        """Outlines of the rings for external torques zeta (n,) [N m]; none where no joint is pushed."""
         if not zeta.any():
             return []
         biped = self.view.scene.biped
@@ -184,7 +218,10 @@ class Forces:
 
 
 def cut(start: Array, vector: Array, x: tuple[float, float], z: tuple[float, float]) -> Array:
-    """The vector (2,), shortened so that its tip is inside the limits; zero for one that is not finite."""
+    """The vector (2,) at `start` (2,), shortened so that its tip stays `EDGE` inside the limits x, z [m].
+
+    Zero for a vector that is not finite.
+    """
     if not np.isfinite(vector).all():
         return np.zeros(2)
     share = 1.0
@@ -196,7 +233,9 @@ def cut(start: Array, vector: Array, x: tuple[float, float], z: tuple[float, flo
 
 
 def arrow(start: Array, vector: Array) -> Array:
-    """Outline (7, 2) of an arrow; its head shrinks with a short one."""
+    """Outline (7, 2) [m] of an arrow from `start` along `vector`, both (2,); the head shrinks with a
+    short one.
+    """
     length = float(np.hypot(*vector))
     if length == 0.0:
         return np.tile(start, (7, 1))
@@ -219,7 +258,10 @@ def arrow(start: Array, vector: Array) -> Array:
 
 
 def ring(centre: Array, radius: float) -> Array:
-    """Outline of a bent arrow, counter-clockwise for a positive radius [m]."""
+    """Outline (K, 2) [m] of a bent arrow around `centre` (2,), counter-clockwise for a positive radius [m].
+
+    Its angles from -60 to 240 degrees leave an opening below, so that the joint stays visible.
+    """
     angle = np.radians(np.linspace(-60.0, 200.0, 30))
     rim = np.column_stack((np.cos(angle), np.sin(angle)))
     tip = np.radians(240.0)

@@ -1,12 +1,14 @@
 """The paper's figure 1: the robot drawn from its URDF, with q1..q5, Theta, p_2 and p_e.
 
-A link of absolute angle a points along (-sin a, cos a); angles are counter-clockwise positive.
+A link of absolute angle a [rad] points along (-sin a, cos a); angles are counter-clockwise
+positive. q5 is the absolute angle of the torso, q1 and q2 go from the torso to the thighs, q3 and
+q4 from the thighs to the shins, and Theta is the angle of the line from the hip to the stance foot
+p_e: the phase of the virtual constraints.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -21,14 +23,14 @@ from biped_adrc.viz.placement import joint_values, link_placements
 from biped_adrc.viz.style import GREY, PALETTE, label, new_figure, style
 
 POSE = (3.5, 4.05, -0.5, -0.75, -0.32)
-"""q1..q5 [rad] of a pose in which no mark covers another."""
+"""q1..q5 [rad] of a posture in which no mark covers another."""
 
 _HIP_ARCS = (0.15, 0.22)  # [m], radii of q1 and q2
 _KNEE_ARC, _THETA_ARC, _PITCH_ARC = 0.15, 0.30, 0.50
 
 
 def robot_figure(biped: Biped, q: Array | None = None) -> Figure:
-    """The robot in single support at q (n,) [rad]; `POSE` when none is given.
+    """The robot in single support at q (5,) [rad], with all its angles; the posture `POSE` when none is given.
 
     Raises InputError for a robot that is not a five-link biped (torso, two thighs, two shins).
     """
@@ -50,11 +52,12 @@ def robot_figure(biped: Biped, q: Array | None = None) -> Figure:
 
 
 def direction(a: float) -> Array:
-    """(-sin a, cos a): where a link of absolute angle a [rad] points, (2,)."""
+    """Unit vector (2,) along which a link of absolute angle a [rad] points: (-sin a, cos a)."""
     return np.array([-math.sin(a), math.cos(a)])
 
 
 def _ground(axes: Axes, biped: Biped, q: Array) -> None:
+    """Hatched level ground below both feet."""
     ends = (0.0, float(biped.swing_foot(q)[0]))
     left, right = min(ends) - 0.35, max(ends) + 0.3
     axes.plot([left, right], [0.0, 0.0], color="black", lw=1.0, zorder=1)
@@ -63,25 +66,24 @@ def _ground(axes: Axes, biped: Biped, q: Array) -> None:
 
 
 def _links(axes: Axes, biped: Biped, q: Array) -> None:
-    """The primitives of every link, seen from the side."""
+    """The outlines of the primitives of every link, seen from the side, in the colours of the URDF."""
     placements = link_placements(biped.tree, joint_values(biped, q))
     for name, link in biped.tree.links.items():
         for visual in link.visuals:
-            axes.add_patch(_silhouette(visual, placements[name]))
+            outline = _silhouette(visual, placements[name])
+            outline.set(fc=(*visual.rgba[:3], 0.35), ec=visual.rgba[:3], lw=1.0, zorder=3)
+            axes.add_patch(outline)
 
 
 def _silhouette(visual: Visual, placement: Array) -> Polygon | Circle:
-    """Outline of a primitive in the x-z plane; placement (4, 4) of its link."""
+    """Outline of a primitive in the x-z plane: a circle for a ball, a rectangle for a box or a cylinder.
+
+    placement (4, 4): of its link in the world.
+    """
     R, p = placement[:3, :3], placement[:3, 3]
     centre = (R @ np.array(visual.origin) + p)[[0, 2]]
-    look: dict[str, Any] = {
-        "fc": (*visual.rgba[:3], 0.35),
-        "ec": visual.rgba[:3],
-        "lw": 1.0,
-        "zorder": 3,
-    }
     if visual.shape == "sphere":
-        return Circle((centre[0], centre[1]), visual.size[0], **look)
+        return Circle((centre[0], centre[1]), visual.size[0])
     if visual.shape == "cylinder":
         width, height = 2.0 * visual.size[0], visual.size[1]
     else:
@@ -89,11 +91,11 @@ def _silhouette(visual: Visual, placement: Array) -> Polygon | Circle:
     corners = 0.5 * np.array(
         [[-width, -height], [width, -height], [width, height], [-width, height]]
     )
-    return Polygon(centre + corners @ R[np.ix_([0, 2], [0, 2])].T, **look)
+    return Polygon(centre + corners @ R[np.ix_([0, 2], [0, 2])].T)
 
 
 def _arc(axes: Axes, centre: Array, radius: float, span: tuple[float, float], colour: str) -> None:
-    """An arc from absolute angle span[0] to span[1] [rad] with an arrow at its end."""
+    """An arc about `centre` (2,) from absolute angle span[0] to span[1] [rad], with an arrow at its end."""
     points = np.array([centre + radius * direction(a) for a in np.linspace(*span, 60)])
     axes.plot(points[:-2, 0], points[:-2, 1], color=colour, lw=1.3, zorder=5)
     arrow = {"arrowstyle": "-|>", "color": colour, "lw": 1.3, "shrinkA": 0, "shrinkB": 0}
@@ -101,6 +103,7 @@ def _arc(axes: Axes, centre: Array, radius: float, span: tuple[float, float], co
 
 
 def _text(axes: Axes, at: Array, text: str, colour: str) -> None:
+    """A sign at the point `at` (2,) [m] on a white ground."""
     box = {"fc": "white", "ec": "none", "pad": 0.8, "alpha": 0.9}
     axes.text(
         at[0], at[1], text, color=colour, ha="center", va="center", fontsize=11, bbox=box, zorder=7
@@ -108,11 +111,17 @@ def _text(axes: Axes, at: Array, text: str, colour: str) -> None:
 
 
 def _ray(axes: Axes, start: Array, end: Array, colour: str = GREY, width: float = 0.9) -> None:
+    """A dashed line between two points (2,) [m]."""
     axes.plot(*zip(start, end, strict=True), color=colour, ls=(0, (5, 3)), lw=width, zorder=4)
 
 
 def _hip_angles(axes: Axes, biped: Biped, q: Array) -> None:
-    """q5 from the vertical to the torso, q1 and q2 from the torso to the thighs, Theta to p_e."""
+    """q5 from the vertical to the torso, q1 and q2 from the torso to the thighs, Theta from the
+    vertical to p_e.
+
+    The vertical and the line to p_e are dashed; each angle has a radius of its own, so that no two
+    arcs meet.
+    """
     hip = biped.hip(q)
     _ray(axes, hip, hip + 0.72 * direction(0.0))
     for i, radius in enumerate(_HIP_ARCS):
@@ -130,7 +139,7 @@ def _hip_angles(axes: Axes, biped: Biped, q: Array) -> None:
 
 
 def _knee_angles(axes: Axes, biped: Biped, q: Array) -> None:
-    """q3 and q4 from the line of the thigh to the shin."""
+    """q3 and q4, each from the prolonged line of its thigh to the shin."""
     placements = link_placements(biped.tree, joint_values(biped, q))
     joints = {joint.name: joint for joint in biped.tree.joints}
     for i in (2, 3):

@@ -1,7 +1,9 @@
-"""Walks side by side in a moving picture: each beside its reference, and the errors of all of them below.
+"""Walks side by side in a moving picture, and the tracking errors of all of them below.
 
-With a factor k the posture drawn is q_d + k (q_b - q_d), the reference q_d in grey behind it; without one it is
-the walk's own.
+With a factor k the posture drawn is q_d + k (q_b - q_d), the reference q_d in grey behind it;
+without one it is the walk's own. A tracking error of a milliradian is invisible on a robot 1.4 m
+high: this shows which controller has it. One `_Panel` for each walk, one `_Errors` for all, put
+together by `frames_apart`.
 """
 
 from __future__ import annotations
@@ -18,20 +20,24 @@ from matplotlib.patches import Patch
 from biped_adrc.types import Array
 from biped_adrc.viz.from_the_side import moving_parts as draw
 from biped_adrc.viz.from_the_side.side_view import Deviation, SideView
-from biped_adrc.viz.placement import Recorded, Scene, ending, is_wheel
+from biped_adrc.viz.placement import Recorded, WalkScene, ending, is_wheel
 from biped_adrc.viz.plots.over_time import angle_unit
 from biped_adrc.viz.style import PUSH, REACTION, TORQUE
 
 SHOWN = 1.5
-"""[m], width of the panel of one walk."""
+"""Width [m] of the panel of one walk."""
 LINES = ("#D55E00", "#000000", "#56B4E9", "#E69F00")
 """Vermillion, black, sky blue, orange: one for the name and the error of each walk."""
 HEAD, STRIP = 78, 150
-"""[px], heights of the legend above and of the errors below."""
+"""Heights [px] of the legend above and of the errors below."""
 
 
 def frames_apart(walks: Mapping[str, Recorded], times: Array, motion: draw.Motion) -> list[Array]:
-    """Frames (height, width, 3) at `times` [s]. Raises InputError for walks without a reference."""
+    """Frames (height, width, 3) at `times` (K,) [s], a panel for each walk and the errors of all below.
+
+    All panels have the height of the tallest robot. Raises InputError for walks without a
+    reference, and for a factor of deviations that is negative.
+    """
     start, width, k = float(times[0]), motion.width, motion.magnify
     panels = [
         _Panel(n, walk, k, LINES[i % len(LINES)], start)
@@ -58,12 +64,16 @@ def frames_apart(walks: Mapping[str, Recorded], times: Array, motion: draw.Motio
 
 
 class _Panel:
-    """One walk."""
+    """One walk in its panel.
+
+    factor [1]: by which its deviation is drawn larger; None for none. colour: of its name and its
+    error. start [s]: from when the largest error counts.
+    """
 
     def __init__(
         self, name: str, walk: Recorded, factor: float | None, colour: str, start: float
     ) -> None:
-        scene = Scene.of(walk)
+        scene = WalkScene.of(walk)
         self.name, self.colour, self.magnified = name, colour, factor is not None
         self.tracked = Deviation.of(walk, 0.0)
         shown = None if factor is None else Deviation.of(walk, factor)
@@ -71,7 +81,7 @@ class _Panel:
         self.ending, self.start = ending(scene.trajectory), start
 
     def draw(self, axes: Axes) -> None:
-        """Everything that `show` moves."""
+        """Make all artists that `show` moves, on the panel's axes."""
         axes.set_axis_off()
         draw.ground(axes, [self.view])
         self.axes = axes
@@ -90,7 +100,7 @@ class _Panel:
             text.set(transform=axes.transAxes, verticalalignment="top", zorder=90)
 
     def show(self, t: float) -> None:
-        """The walk at t [s]."""
+        """Draw the walk at t [s], and in words its largest error so far, or how it has ended."""
         draw.follow(self.axes, self.view, t, 0.5 * SHOWN, 0.5 * SHOWN)
         self.prints.show(t)
         if self.behind is not None:
@@ -106,13 +116,20 @@ class _Panel:
         self.text.set_text(f"largest error so far {size}")
 
     def largest(self, start: float, t: float) -> float:
-        """max_i |q_i - q_di| [rad] from start to t [s], at the nodes of the walk."""
+        """max_i |q_i - q_di| [rad] from start to t [s], at the nodes of the walk.
+
+        Of the walk itself, also where its deviation is drawn larger.
+        """
         s = self.tracked.signals
         return float(np.max(np.abs(s.error[(s.t >= start) & (s.t <= t)]), initial=0.0))
 
 
 class _Errors:
-    """The errors of all walks up to now on one scale, with the push shaded."""
+    """The largest error over the joints of every walk up to now, on one scale, with the push shaded.
+
+    The push is that of the first walk, as all walks are under the same one. times (K,) [s]: those
+    of the frames; the unit is the one in which the largest error among them reads well.
+    """
 
     def __init__(self, axes: Axes, panels: list[_Panel], times: Array) -> None:
         self.axes, self.lines = axes, []
@@ -143,7 +160,7 @@ class _Errors:
         axes.set_ylabel(f"error [{unit}]")
 
     def show(self, t: float) -> None:
-        """Up to t [s]."""
+        """Draw the errors up to t [s]."""
         for line, dot, at, error in self.lines:
             rows = at <= t
             line.set_data(at[rows], error[rows])
@@ -151,7 +168,7 @@ class _Errors:
 
 
 def _legend(figure: Figure, panels: list[_Panel], motion: draw.Motion, height: float) -> None:
-    """What the colours mean, and what is drawn larger or slower than it is."""
+    """Say what the colours mean, and what is drawn larger or slower than it is; height [px] of the picture."""
     entries: list[Patch | Line2D] = []
     if not is_wheel(panels[0].view.scene.biped):
         entries += [

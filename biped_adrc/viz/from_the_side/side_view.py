@@ -1,7 +1,11 @@
-"""The robot from the side in matplotlib: its links as lines, from the primitives of the URDF.
+"""The robot from the side: its links as lines in the x-z plane, from the primitives of the URDF.
 
-A posture whose deviation from the reference is drawn larger than it is, is q_d + k (q_b - q_d): the unactuated
-joint and the stance foot stay where they are. k = 1 is the walk itself, k = 0 its reference.
+`bones` finds a line for each link in the frame of that link; `SideView` moves these lines with a
+walk. Strips, moving pictures and the scale of the page in Meshcat are made from it.
+
+A posture whose deviation from the reference is drawn larger than it is, is q_d + k (q_b - q_d): k =
+1 is the walk itself, k = 0 its reference. The unactuated joint and the stance foot stay where they
+are.
 """
 
 from __future__ import annotations
@@ -18,13 +22,13 @@ from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.robots.urdf import Visual
 from biped_adrc.types import Array
-from biped_adrc.viz.placement import Recorded, Scene, exchanged, legs, link_placements, spokes
+from biped_adrc.viz.placement import Recorded, WalkScene, exchanged, legs, link_placements, spokes
 from biped_adrc.viz.style import WEIGHT_LENGTH
 
 
 @runtime_checkable
 class Tracked(Recorded, Protocol):
-    """A walk whose signals are at hand."""
+    """A walk whose signals are at hand; the tracking error is one of them."""
 
     @property
     def signals(self) -> Signals: ...
@@ -32,14 +36,16 @@ class Tracked(Recorded, Protocol):
 
 @dataclass(frozen=True)
 class Deviation:
-    """The tracking error of a walk and the factor k it is drawn with."""
+    """The tracking error of a walk and the factor k [1] it is drawn with."""
 
     signals: Signals
     factor: float
 
     @classmethod
     def of(cls, walk: Recorded, factor: float) -> Deviation:
-        """Raises InputError for a factor that is negative or not finite, or a walk without a reference."""
+        """Raises InputError for a factor that is negative or not finite, or a walk without motors: it
+        has no reference.
+        """
         if not (math.isfinite(factor) and factor >= 0.0):
             raise InputError(f"magnify is {factor}, expected a number that is not negative")
         if not isinstance(walk, Tracked) or walk.walker.plant.p == 0:
@@ -49,20 +55,26 @@ class Deviation:
         return cls(walk.signals, factor)
 
     def error(self, t: float, step: int) -> Array:
-        """q_b - q_d (p,) [rad] in single support `step`, linear between nodes; its ends outside them."""
+        """q_b - q_d (p,) [rad] at t [s] in single support `step`, linear between nodes; its ends
+        outside them.
+        """
         s = self.signals
         first, last = np.searchsorted(s.step, [step, step + 1])
         rows = slice(int(first), int(last))
         return np.array([np.interp(t, s.t[rows], column) for column in s.error[rows].T])
 
     def change(self, t: float, step: int) -> Array:
-        """What is added to q_b (p,) [rad]: (k - 1)(q_b - q_d)."""
+        """What is added to q_b (p,) [rad] at t [s] for the posture drawn: (k - 1)(q_b - q_d)."""
         return (self.factor - 1.0) * self.error(t, step)
 
 
 @dataclass(frozen=True)
 class Bone:
-    """A line in the frame of a link; `leg` is "stance" for the leg that carries odd steps, "swing", or ""."""
+    """A line in the frame of a link.
+
+    link: its name. leg: "stance" for links of the leg that carries odd steps, "swing" for the
+    other, "" for the trunk.
+    """
 
     link: str
     ends: Array
@@ -71,9 +83,10 @@ class Bone:
 
 
 def bones(biped: Biped) -> list[Bone]:
-    """The axes of cylinders and the longest sides of boxes; lines from joint to joint where there are none.
+    """The lines of a robot: axes of cylinders and longest sides of boxes, in the order of the URDF.
 
-    A wheel has each of them once a spoke.
+    Where the URDF has no such primitives: lines from joint to joint. A wheel has each of them once
+    for every spoke.
     """
     leg = dict.fromkeys(legs(biped)[0], "stance") | dict.fromkeys(legs(biped)[1], "swing")
     found = [
@@ -108,23 +121,24 @@ def _axis(visual: Visual) -> Array | None:
 class SideView:
     """Where the lines of a walk are in the x-z plane of the world.
 
-    deviation: changes the posture drawn; the walk's own without one.
+    scene: the walk laid out. deviation: changes the posture drawn; None for the walk's own.
     """
 
-    scene: Scene
+    scene: WalkScene
     deviation: Deviation | None = None
 
     @cached_property
     def bones(self) -> list[Bone]:
+        """The lines in the frames of their links; rows of `segments` and `roles` are in their order."""
         return bones(self.scene.biped)
 
     def placements(self, t: float) -> dict[str, Array]:
-        """World placement (4, 4) of every link of the posture drawn."""
+        """World placement (4, 4) of every link, by name, of the posture drawn at t [s]."""
         change = None if self.deviation is None else self.deviation.change(t, self.step(t))
         return link_placements(self.scene.biped.tree, self.scene.joints(t, change))
 
     def segments(self, t: float) -> Array:
-        """(bones, 2, 2), x and z of both ends [m], in the order of `bones`."""
+        """(bones, 2, 2), x and z [m] of both ends of every line at t [s], in the order of `bones`."""
         placements = self.placements(t)
         rows = []
         for bone in self.bones:
@@ -133,7 +147,7 @@ class SideView:
         return np.array(rows)
 
     def step(self, t: float) -> int:
-        """Number of the single support."""
+        """Number of the single support at t [s], counted from 1."""
         return self.scene.trajectory.arcs[self.scene.arc_at(t)].mode.step
 
     def roles(self, t: float) -> list[str]:
@@ -144,7 +158,9 @@ class SideView:
         return [other[bone.leg] for bone in self.bones]
 
     def points(self, t: float) -> Array:
-        """(4,), x and z of the hip and of the swing foot [m]."""
+        """(4,), x and z [m] of the hip and of the swing foot at t [s], of the walk itself without a
+        deviation.
+        """
         trajectory, biped = self.scene.trajectory, self.scene.biped
         t = min(max(t, trajectory.t_start), trajectory.t_end)
         i = self.scene.arc_at(t)
@@ -154,7 +170,7 @@ class SideView:
 
     @cached_property
     def _about_foot(self) -> Array:
-        """(K, 2), x and z of the ends of all lines at 50 times, from the stance foot [m]."""
+        """(K, 2), x and z [m] from the stance foot of the ends of all lines at 50 times of the walk."""
         scene = self.scene
         times = np.linspace(scene.trajectory.t_start, scene.trajectory.t_end, 50)
         return np.concatenate(
@@ -176,5 +192,5 @@ class SideView:
 
     @cached_property
     def metres_per_newton(self) -> float:
-        """Scale of the arrow of the ground reaction."""
+        """Scale of the arrow of the ground reaction [m/N]: the robot's weight gives `WEIGHT_LENGTH`."""
         return WEIGHT_LENGTH / self.scene.biped.weight

@@ -1,4 +1,8 @@
-"""A strip of stick figures over a few steps, as in papers on walking."""
+"""A strip of stick figures over a few steps, as in papers on walking.
+
+Postures at equally spaced times are drawn over one another on the ground they walk on, darker the
+later; stance leg, swing leg and trunk differ in colour and dash.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +14,7 @@ from matplotlib.collections import LineCollection
 
 from biped_adrc.errors import InputError
 from biped_adrc.viz.from_the_side.side_view import SideView
-from biped_adrc.viz.placement import Recorded, Scene, ending
+from biped_adrc.viz.placement import Recorded, WalkScene, ending
 from biped_adrc.viz.style import STANCE, SWING, TRUNK, label, new_figure, style, write_figure
 
 LOOKS = {
@@ -18,9 +22,9 @@ LOOKS = {
     "stance": (STANCE, 2.0, "-", "stance leg"),
     "": (TRUNK, 2.6, "-", ""),
 }
-"""Colour, width, dash and name by role; the trunk goes by its own name."""
+"""Role -> colour, width [pt], dash and name; the trunk goes by its own name."""
 MARGIN = 0.6
-"""[m], least ground shown before the first and behind the last foothold."""
+"""Least ground [m] shown before the first and behind the last foothold."""
 
 
 def strip(
@@ -32,10 +36,14 @@ def strip(
 ) -> Axes:
     """Draw the robot at `poses` times, equally spaced from `start` to `stop` [s]; returns the axes.
 
-    Without times: the last two whole steps. Poses grow darker with time. The title says how a walk ended that
-    did not do what it was asked for. Raises InputError.
+    Without times: the last two steps. The first pose is at `start`. A pose at an impact shows the
+    end of the step before it, as the first pose of the next step has the same posture with the legs
+    exchanged. The title says how far apart the poses are, and how a walk ended that did not do what
+    it was asked for.
+
+    Raises InputError for times outside the walk or fewer than 2 poses.
     """
-    scene = Scene.of(walk)
+    scene = WalkScene.of(walk)
     start, stop = _interval(scene, start, stop)
     if poses < 2:
         raise InputError(f"a strip of {poses} poses was asked for, expected at least 2")
@@ -60,7 +68,8 @@ def strip(
     return axes
 
 
-def _interval(scene: Scene, start: float | None, stop: float | None) -> tuple[float, float]:
+def _interval(scene: WalkScene, start: float | None, stop: float | None) -> tuple[float, float]:
+    """The times asked for, or those of the last two steps [s]. Raises InputError for times outside the walk."""
     trajectory = scene.trajectory
     arcs = trajectory.arcs[-2:]
     start = float(arcs[0].t[0]) if start is None else start
@@ -74,6 +83,10 @@ def _interval(scene: Scene, start: float | None, stop: float | None) -> tuple[fl
 
 
 def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) -> None:
+    """One posture at t [s]: a collection of lines for each role, so that each has one entry in the legend.
+
+    darkness: 0 to 1, sets the opacity. Only the last pose is `named`.
+    """
     segments, roles = view.segments(t), view.roles(t)
     for role, (colour, width, dash, name) in LOOKS.items():
         mine = [s for s, r in zip(segments, roles, strict=True) if r == role]
@@ -91,6 +104,10 @@ def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) ->
 
 
 def _ground(axes: Axes, view: SideView, start: float, stop: float) -> None:
+    """The ground between the footholds of the strip, footprints, and the limits of the axes.
+
+    A robot that leans far, such as one that falls, makes the ground longer on both sides.
+    """
     scene = view.scene
     first, last = scene.arc_at(start), scene.arc_at(float(np.nextafter(stop, start)))
     x, z = scene.footholds[first : last + 1], scene.heights[first : last + 1]
@@ -111,7 +128,7 @@ def write_strip(
     stop: float | None = None,
     poses: int = 13,
 ) -> None:
-    """Write a strip as .png or .svg. Raises InputError and OutputError."""
+    """Write a strip as .png or .svg; arguments as for `strip`. Raises InputError and OutputError."""
     with style():
         figure = new_figure(6.4, 5.2)
         strip(figure.subplots(), walk, start, stop, poses)

@@ -1,7 +1,8 @@
-"""A walk sampled for a player that draws it at any time: cubic Hermite interpolation between nodes.
+"""A walk sampled for a player that draws it at any time, by cubic Hermite interpolation between nodes.
 
-Nodes are the frames, both ends of every single support and the edges of pushes; where that is not enough for
-the joints to be within `TOLERANCE` of the trajectory between two nodes, the interval is halved.
+Nodes are the frames, both ends of every single support and the edges of pushes; where that is not
+enough for the joints to be within `TOLERANCE` of the trajectory between two nodes, the interval is
+halved. `view` packs the nodes into the page; `live` sends one `pose` at a time.
 """
 
 from __future__ import annotations
@@ -15,44 +16,48 @@ import numpy as np
 from biped_adrc.errors import check_positive
 from biped_adrc.hybrid.trajectory import Arc, hermite
 from biped_adrc.types import Array
-from biped_adrc.viz.placement import Scene, joint_values, loads
+from biped_adrc.viz.placement import WalkScene, joint_values, loads
 
 TOLERANCE = 1e-6
-"""[rad], of an interpolated joint angle."""
+"""Largest error [rad] of an interpolated joint angle."""
 HALVINGS = 6
+"""How often an interval between two frames is halved at most."""
 EPSILON = 1e-6
-"""[s], half the interval of the central difference that gives the rates of the base."""
+"""Half the interval [s] of the central difference that gives the rates of the joints, the base among them."""
 
 
 class Pose(NamedTuple):
     """All that is drawn at one time."""
 
     joints: Array
-    """(J,) of the moving joints in the order of the URDF [rad], [m]."""
+    """(J,) values of the moving joints, in the order of the URDF [rad], [m]."""
     rates: Array
-    """(J,) [rad/s], [m/s]."""
+    """(J,) their rates [rad/s], [m/s]."""
     loads: Array
-    """(2 + n,), F_T, F_N [N] and the external torque on the drawn joints of q1..qn [N m]."""
+    """(2 + n,): F_T, F_N [N], and the external torque on the drawn joints of q1..qn [N m]."""
     points: Array
-    """(4,), x and z of the hip and of the swing foot in the world [m]."""
+    """(4,): x and z of the hip and of the swing foot in the world [m]."""
 
 
 @dataclass(frozen=True)
 class Frames:
-    """Rows are nodes (K,); a node at an impact is there twice, before and after it."""
+    """A walk at its nodes, one in each row (K,); a node at an impact is there twice, before and after it.
+
+    joints, rates (K, J), loads (K, 2 + n), points (K, 4): as in `Pose`.
+    """
 
     t: Array
     """(K,) [s]."""
     arc: Array
-    """(K,) index of the single support."""
+    """(K,) index of the single support, from 0."""
     joints: Array
     rates: Array
     loads: Array
     points: Array
 
     @classmethod
-    def of(cls, scene: Scene, fps: float) -> Frames:
-        """Sample a walk. Raises InputError for a number of frames per second that is not positive."""
+    def of(cls, scene: WalkScene, fps: float) -> Frames:
+        """Sample a walk at `fps` [1/s] or finer. Raises InputError for an fps that is not positive."""
         check_positive(fps, f"fps is {fps} frames per second")
         t, arcs, poses = [], [], []
         for i, arc in enumerate(scene.trajectory.arcs):
@@ -64,8 +69,12 @@ class Frames:
         return cls(np.concatenate(t), np.concatenate(arcs), *columns)
 
 
-def pose(scene: Scene, i: int, t: float) -> Pose:
-    """The pose in arc i at t [s]."""
+def pose(scene: WalkScene, i: int, t: float) -> Pose:
+    """The pose in arc i at t [s].
+
+    At the end of the arc it is the state before the impact: the arc after it has one of its own for
+    that time.
+    """
     arc, biped, foothold = scene.trajectory.arcs[i], scene.biped, scene.foothold(i)
     n, step = biped.n, arc.mode.step
     x = arc(t, "left" if t == arc.t[-1] else "right")
@@ -85,8 +94,8 @@ def pose(scene: Scene, i: int, t: float) -> Pose:
     )
 
 
-def _nodes(scene: Scene, arc: Arc, fps: float) -> Array:
-    """Times (K,) [s] of one single support."""
+def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
+    """Times (K,) [s] of the nodes of one single support."""
     start, end = float(arc.t[0]), float(arc.t[-1])
     first = scene.trajectory.t_start
     frames = first + np.arange(math.ceil((start - first) * fps), (end - first) * fps) / fps
@@ -108,7 +117,7 @@ def _nodes(scene: Scene, arc: Arc, fps: float) -> Array:
 
 
 def _states(arc: Arc, times: Array, n: int) -> tuple[Array, Array]:
-    """q and v (K, n) of the arc."""
+    """q and v, both (K, n) [rad], [rad/s], of the arc at `times` (K,) [s]."""
     last = float(arc.t[-1])
     x = np.array([arc(float(t), "left" if t == last else "right") for t in times])
     x = x.reshape(len(times), arc.x.shape[1])

@@ -1,7 +1,16 @@
 """Walks in the browser while this process runs: a server on the loopback address that streams poses.
 
-The page is the one of `meshcat`, without the motion; a WebSocket brings a pose per frame. It ends when the page
-is closed, on SIGINT and on SIGTERM, and says why.
+    /         the page of `meshcat.view`, without the samples of the motion
+    /poses    a WebSocket that brings one JSON message for each frame: t [s], and the pose of
+    every walk
+
+`play` runs an event loop of its own with two tasks: `_stream` sends poses at the pace of the clock,
+`_watch` ends the session when the last page is closed. SIGINT and SIGTERM end it too; what ended it
+is returned in words.
+
+Only this computer can connect, and requests under another host name than that of the server are
+refused: a page elsewhere could have its name resolved to the loopback address and read the stream
+(DNS rebinding).
 """
 
 from __future__ import annotations
@@ -14,7 +23,6 @@ import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Any
 
 from tornado.httpserver import HTTPServer
 from tornado.netutil import bind_sockets
@@ -25,25 +33,33 @@ from biped_adrc.errors import InputError
 from biped_adrc.viz.meshcat.frames import pose
 from biped_adrc.viz.meshcat.view import Look, captions, scene_settings
 from biped_adrc.viz.pages import player
-from biped_adrc.viz.placement import Recorded, Scene
+from biped_adrc.viz.placement import Recorded, WalkScene
 
 ADDRESS = "127.0.0.1"
 GRACE = 2.0
-"""[s] a closed page may take to come back, as when it is loaded again."""
+"""Time [s] a closed page may take to come back, as when it is loaded again."""
 REST = 1.0
-"""[s] between the end of the walks and their next start."""
+"""Time [s] between the end of the walks and their next start."""
 PING = 2.0
-"""[s] between signs of life asked of the page, and how long it may take to give one."""
+"""Time [s] between signs of life asked of the page, and how long it may take to give one."""
 
 FAREWELL = 0.5
-"""[s] the pages are given to be told of the end."""
+"""Time [s] the pages are given to be told of the end."""
 
 Say = Callable[[str], None]
+"""Takes a line of text for the user."""
 
 
 @dataclass
 class Session:
-    """What one server serves."""
+    """State that the request handlers and tasks of one server share.
+
+    html: text of the page. hosts: names under which it may be asked for. stop: set to the reason
+    when the session is to end. clients: open pages, each with its message on the way, or None
+    before the first.
+    arrived, left: set when a page comes, and when the last one goes. restart: the next message
+    starts from the beginning, as a new page has nothing yet.
+    """
 
     html: str
     hosts: tuple[str, ...]
@@ -54,12 +70,15 @@ class Session:
     restart: bool = True
 
     def end(self, reason: str) -> None:
-        """End the session; the first reason counts."""
+        """End the session for this reason, such as a signal; the first reason counts."""
         if not self.stop.done():
             self.stop.set_result(reason)
 
-    def send(self, message: Mapping[str, Any]) -> None:
-        """Send to every page that has taken the last message."""
+    def send(self, message: Mapping[str, object]) -> None:
+        """Send a message to every page that has taken the last one.
+
+        A slow page misses frames in place of falling behind the clock more and more.
+        """
         text = json.dumps(message)
         for client, sent in list(self.clients.items()):
             if sent is None or sent.done():
@@ -67,36 +86,41 @@ class Session:
 
 
 class Guarded(RequestHandler):
-    """Refuses requests made under another name, as by a page that had its own name resolved to loopback."""
+    """Base of the handlers: refuses requests under a host name that is not the server's."""
 
     session: Session
 
     def initialize(self, session: Session) -> None:
+        """Take the session; called by tornado for every request."""
         self.session = session
 
     def prepare(self) -> None:
+        """Raise HTTPError (403) for a foreign host name; called by tornado before the request is handled."""
         if self.request.host not in self.session.hosts:
             raise HTTPError(403, f"unknown host; open http://{self.session.hosts[0]}/")
 
 
 class Front(Guarded):
-    """The page."""
+    """The page itself."""
 
     def get(self) -> None:
+        """Answer with the page, never from the browser's cache."""
         self.set_header("Content-Type", "text/html; charset=utf-8")
         self.set_header("Cache-Control", "no-store")
         self.write(self.session.html)
 
 
 class Pages(Guarded, WebSocketHandler):
-    """The stream to one page."""
+    """The WebSocket of one open page."""
 
     def open(self, *args: str, **kwargs: str) -> None:
+        """A page has come: send from the start."""
         self.session.clients[self] = None
         self.session.restart = True
         self.session.arrived.set()
 
     def on_close(self) -> None:
+        """A page has gone; `_watch` is told when it was the last."""
         self.session.clients.pop(self, None)
         if not self.session.clients:
             self.session.left.set()
@@ -105,10 +129,11 @@ class Pages(Guarded, WebSocketHandler):
         """Pages have nothing to say yet."""
 
     def post(self, text: str) -> asyncio.Future[None]:
-        """Send; the future is done when the page has taken it."""
+        """Send a text; the future is done when the page has taken it."""
         return asyncio.ensure_future(self._write(text))
 
     async def _write(self, text: str) -> None:
+        """Send, and forget a page that has gone meanwhile."""
         try:
             await self.write_message(text)
         except WebSocketClosedError:
@@ -126,8 +151,11 @@ def play(
 ) -> str:
     """Show the walks in the browser until the page is closed or the process is told to stop; returns why.
 
-    look: as for a file. port: 0 for a free one. wait [s]: how long to wait for the first page. say: is given
-    the address. Raises InputError for a port that is in use and inside a running event loop.
+    walks: name -> walk. look: as for a page. port: 0 for a free one. open_browser: open the user's
+    browser there.
+    wait [s]: how long to wait for the first page. say: is given the address.
+    Raises InputError for a port that is in use, and inside a running event loop, as that of a
+    notebook.
     """
     if not 0 <= port <= 65535:
         raise InputError(f"port is {port}, expected 1 to 65535, or 0 for a free one")
@@ -137,14 +165,14 @@ def play(
             "live mode runs an event loop of its own and one is running already, as in a notebook; there "
             "a walk as the last line of a cell shows itself"
         )
-    scenes = {name: Scene.of(walks[name]) for name in look.order(walks)}
+    scenes = {name: WalkScene.of(walks[name]) for name in look.order(walks)}
     settings = {**scene_settings(scenes, look), "live": True}
     html = player(settings, " and ".join(walks), captions(scenes))
     return asyncio.run(_serve(scenes, html, look.fps, port, open_browser, wait, say))
 
 
 async def _serve(
-    scenes: Mapping[str, Scene],
+    scenes: Mapping[str, WalkScene],
     html: str,
     fps: float,
     port: int,
@@ -152,6 +180,11 @@ async def _serve(
     wait: float,
     say: Say,
 ) -> str:
+    """Run the server until the session ends; returns why. Arguments as for `play`, with the text of the page.
+
+    The session ends by a signal, when `_watch` returns, or when a task fails, whose error is raised
+    here. Pages, server, tasks and the process of the browser are closed in each case.
+    """
     loop = asyncio.get_running_loop()
     try:
         sockets = bind_sockets(port, ADDRESS)
@@ -179,34 +212,27 @@ async def _serve(
         asyncio.create_task(_stream(session, scenes, fps)),
         asyncio.create_task(_watch(session, wait)),
     ]
-    for task in tasks:
-        task.add_done_callback(lambda done: _report(session, done))
     try:
-        reason = await session.stop
+        ends = [session.stop, *tasks]
+        done, _ = await asyncio.wait(ends, return_when=asyncio.FIRST_COMPLETED)
+        return done.pop().result()
     finally:
         await _close(session, server, tasks, launcher)
-    for task in tasks:
-        if task.done() and not task.cancelled() and task.exception() is not None:
-            raise task.exception()  # type: ignore[misc]
-    return reason
-
-
-def _report(session: Session, task: asyncio.Task[None]) -> None:
-    """A task that failed ends the session."""
-    if not task.cancelled() and task.exception() is not None:
-        session.end("failed")
 
 
 async def _launch(url: str) -> asyncio.subprocess.Process:
-    """The user's browser, from a process of its own: some browsers do not return."""
+    """Open the user's browser from a process of its own: some browsers do not return."""
     nowhere = asyncio.subprocess.DEVNULL
     return await asyncio.create_subprocess_exec(
         sys.executable, "-m", "webbrowser", url, stdin=nowhere, stdout=nowhere, stderr=nowhere
     )
 
 
-async def _stream(session: Session, scenes: Mapping[str, Scene], fps: float) -> None:
-    """A message per frame while a page is open; from the start again after the end."""
+async def _stream(session: Session, scenes: Mapping[str, WalkScene], fps: float) -> str:
+    """Send a message for each frame while a page is open, by the clock; from the start again after the end.
+
+    fps [1/s]: frames per second at most. It ends only by being cancelled or by an error.
+    """
     start = min(scene.trajectory.t_start for scene in scenes.values())
     end = max(scene.trajectory.t_end for scene in scenes.values())
     began = time.monotonic()
@@ -222,7 +248,8 @@ async def _stream(session: Session, scenes: Mapping[str, Scene], fps: float) -> 
         await asyncio.sleep(1.0 / fps)
 
 
-def _poses(scenes: Mapping[str, Scene], t: float) -> list[dict[str, Any]]:
+def _poses(scenes: Mapping[str, WalkScene], t: float) -> list[dict[str, object]]:
+    """The pose of every walk at t [s], as plain values; of a walk that has ended, its last one."""
     found = []
     for scene in scenes.values():
         at = min(max(t, scene.trajectory.t_start), scene.trajectory.t_end)
@@ -233,28 +260,32 @@ def _poses(scenes: Mapping[str, Scene], t: float) -> list[dict[str, Any]]:
     return found
 
 
-async def _watch(session: Session, wait: float) -> None:
-    """End when no page comes, and when the last one has gone for good."""
+async def _watch(session: Session, wait: float) -> str:
+    """Wait for what ends a session by itself, and return it in words: no page comes within `wait` [s],
+    or the last one has gone for good.
+    """
     try:
         await asyncio.wait_for(session.arrived.wait(), wait)
     except TimeoutError:
-        session.end(f"no browser has opened the page within {wait:g} s")
-        return
+        return f"no browser has opened the page within {wait:g} s"
     while True:
         await session.left.wait()
         session.left.clear()
         await asyncio.sleep(GRACE)
         if not session.clients:
-            session.end("the browser has closed the page")
-            return
+            return "the browser has closed the page"
 
 
 async def _close(
     session: Session,
     server: HTTPServer,
-    tasks: list[asyncio.Task[None]],
+    tasks: list[asyncio.Task[str]],
     launcher: asyncio.subprocess.Process | None,
 ) -> None:
+    """Tell the pages of the end, close them and the server, and end the process that opened the browser.
+
+    A page that does not take the message within `FAREWELL` is closed without it.
+    """
     for task in tasks:
         task.cancel()
     server.stop()

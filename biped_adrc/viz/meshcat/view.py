@@ -1,22 +1,27 @@
-"""Walks in Meshcat: one offline HTML file with the viewer, the robots, their motion and the controls."""
+"""Walks in Meshcat as one offline HTML file: the viewer, the robots, their motion and the controls.
+
+`animation_html` lays the walks out (`placement`), samples them (`frames`), draws the objects
+(`objects`), and writes all of it as JSON into the page (`pages.player`); player.js plays it. One
+walk is solid and followed by the camera, the others are ghosts: translucent, each a little farther
+from the camera.
+"""
 
 from __future__ import annotations
 
 import base64
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.viz.from_the_side.side_view import SideView
-from biped_adrc.viz.meshcat import scene as draw
+from biped_adrc.viz.meshcat import objects as draw
 from biped_adrc.viz.meshcat.frames import Frames
 from biped_adrc.viz.pages import player
-from biped_adrc.viz.placement import Recorded, Scene, ending, exchanged, is_wheel
+from biped_adrc.viz.placement import Recorded, WalkScene, ending, exchanged, is_wheel
 from biped_adrc.viz.style import (
     METRES_PER_NEWTON_METRE,
     REACTION,
@@ -29,25 +34,30 @@ from biped_adrc.viz.style import (
 GHOST = 0.35
 """Opacity of a ghost."""
 LANE = 0.4
-"""[m], by which each ghost walks farther from the camera: faces in one plane flicker."""
+"""By how much [m] each ghost walks farther from the camera: faces in one plane would flicker."""
 LONGEST = 1.2
-"""[m], of the arrow of a ground reaction; that of a larger one is cut, and the page says so."""
+"""Longest arrow of a ground reaction [m]; that of a larger one is cut, and the page says so."""
 TRACE_POINTS = 20_000
-"""Room for the traces of a walk whose length is not known beforehand."""
+"""Room for the traces of a live walk, whose number of nodes is not known beforehand."""
 TALL = 1.6
-"""[m], the highest robot the cameras show from where they are for RABBIT; for higher ones they stand back."""
+"""Height [m] of the highest robot that the cameras show from where they are for RABBIT; for higher
+ones they stand back.
+"""
 VIEWS = ("side", "perspective")
+"""Cameras: "side" is orthographic, so lengths can be compared anywhere in the picture."""
 
 Marks = Sequence[tuple[float, float, str]]
+"""(start, stop, text) of what is shown beside the clock, times in [s]."""
 
 
 @dataclass(frozen=True)
 class Look:
     """How walks are shown.
 
-    solid: name of the walk drawn opaque and followed by the camera, the last one if None; the others are
-    translucent. marks: (start, stop, text) [s], shown beside the clock. fps [1/s]: frames sampled from the
-    trajectories. view: "side" (orthographic) or "perspective".
+    solid: name of the walk drawn opaque and followed by the camera, the last one if None; the
+    others are translucent.
+    marks: (start, stop, text) [s], shown beside the clock.
+    fps [1/s]: frames sampled from the trajectories. view: camera at the start, one of `VIEWS`.
     """
 
     solid: str | None = None
@@ -56,7 +66,7 @@ class Look:
     view: str = "side"
 
     def order(self, walks: Mapping[str, Recorded]) -> list[str]:
-        """The solid walk first, then the ghosts. Raises InputError for what does not fit."""
+        """The names with the solid walk first, then the ghosts. Raises InputError for what does not fit."""
         if not walks:
             raise InputError("there is no walk to animate; expected at least one")
         if self.view not in VIEWS:
@@ -72,19 +82,17 @@ class Look:
 def animation_html(walks: Mapping[str, Recorded], look: Look | None = None) -> str:
     """The walks, overlaid, as one page that needs no server and no network; the same walks give the same text.
 
-    Raises InputError.
+    walks: name -> walk. Raises InputError for no walk, an unknown view or solid walk, or an fps
+    that is not positive.
     """
     look = Look() if look is None else look
-    scenes = {name: Scene.of(walks[name]) for name in look.order(walks)}
+    scenes = {name: WalkScene.of(walks[name]) for name in look.order(walks)}
     frames = {name: Frames.of(scene, look.fps) for name, scene in scenes.items()}
-    settings = scene_settings(scenes, look, {name: len(f.t) for name, f in frames.items()})
-    for walk, f in zip(settings["walks"], frames.values(), strict=True):
-        walk["data"] = _packed(f)
-    return player(settings, " and ".join(walks), captions(scenes))
+    return player(scene_settings(scenes, look, frames), " and ".join(walks), captions(scenes))
 
 
 def _packed(frames: Frames) -> dict[str, str]:
-    """Times as float64, the rest as float32, in base64."""
+    """The samples in base64: times as float64, the rest as float32, which is finer than a pixel."""
     kinds = {"t": np.float64} | dict.fromkeys(
         ("arc", "joints", "rates", "loads", "points"), np.float32
     )
@@ -94,23 +102,33 @@ def _packed(frames: Frames) -> dict[str, str]:
 
 # -- scene -----------------------------------------------------------------------------------------
 def scene_settings(
-    scenes: Mapping[str, Scene], look: Look, points: Mapping[str, int] | None = None
-) -> dict[str, Any]:
-    """What the player is told: Meshcat's commands and, by walk, the paths of what moves.
+    scenes: Mapping[str, WalkScene], look: Look, frames: Mapping[str, Frames] | None = None
+) -> dict[str, object]:
+    """What player.js is told: Meshcat's commands and, by walk, the paths of what moves.
 
-    scenes: the solid walk first. points: number of nodes of each trace.
+    scenes: the solid walk first. frames: the samples of each walk, for a page; a live walk has
+    none.
+
+        walks       for each walk what `_add_walk` says, its name, its end [s] and how it ended
+        leader      index of the walk the camera follows; follow: the node it follows
+        marks       as in `Look`; fps [1/s]; start, end [s] of the slider
+        view        the camera at the start; views: commands, position and target [m] of each
+        commands    Meshcat's commands that build the scene
+        live        whether poses come from a server
     """
     window = draw.MemoryWindow()
     viewer = window.viewer
     names = node_names(scenes)
     described = []
     for lane, (name, scene) in enumerate(scenes.items()):
-        opacity, room = (1.0 if lane == 0 else GHOST), (points or {}).get(name, TRACE_POINTS)
+        opacity, sampled = (1.0 if lane == 0 else GHOST), (frames or {}).get(name)
+        room = TRACE_POINTS if sampled is None else len(sampled.t)
         robot = viewer[f"robots/{names[name]}"]
         robot.set_transform(draw.shift((0.0, LANE * lane, 0.0)))
         path = f"meshcat/robots/{names[name]}"
         over = {"name": name, "end": scene.trajectory.t_end, "ending": ending(scene.trajectory)}
-        described.append(over | _add_walk(robot, path, scene, opacity, room))
+        data = {} if sampled is None else {"data": _packed(sampled)}
+        described.append(over | _add_walk(robot, path, scene, opacity, room) | data)
     solid = next(iter(scenes.values()))
     draw.add_ground(viewer["ground"], list(scenes.values()), draw.sole(solid.biped), LANE)
     draw.set_stage(viewer)
@@ -132,14 +150,30 @@ def scene_settings(
     }
 
 
-def _view(kind: str, scale: float) -> dict[str, Any]:
+def _view(kind: str, scale: float) -> dict[str, object]:
+    """A camera: its commands, position and target [m]."""
     window = draw.MemoryWindow(kind)
     position, target = draw.set_camera(window.viewer, kind, scale)
     return {"commands": window.packed, "position": position, "target": target}
 
 
-def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) -> dict[str, Any]:
-    """Draw one walk and say where its parts are."""
+def _add_walk(
+    robot: draw.SceneNode, path: str, scene: WalkScene, opacity: float, room: int
+) -> dict[str, object]:
+    """Draw one walk below the node `robot`, and say where its parts are: the entry of this walk for player.js.
+
+    path: of the node `robot`. opacity: 0 to 1. room: points of a trace.
+
+        joints        path, type, axis and origin [m] of each moving joint, in the order of the
+        samples
+        legs          paths of the parts of either leg; colours: of stance and swing leg,
+        0xRRGGBB
+        rings, arrow, traces, footprints    paths of these
+        supports      number, stance leg (0 or 1) and foothold x, z [m] of each single support
+        fall          tan(slope); ground: its level below the footholds [m]; head: length of an
+        arrow's head [m]
+        metres_per_newton, longest, metres_per_newton_metre    scales of arrow and rings
+    """
     biped, depth = scene.biped, draw.sole(scene.biped)
     tree = biped.tree
     draw.add_robot(robot, biped, opacity)
@@ -183,8 +217,11 @@ def _add_walk(robot: Any, path: str, scene: Scene, opacity: float, room: int) ->
     }
 
 
-def _add_ring(robot: Any, biped: Biped, name: str, opacity: float) -> str:
-    """The ring of a joint; the torso's is at its COM, away from the hips."""
+def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) -> str:
+    """Draw the ring of a joint and give its path.
+
+    The ring of the unactuated torso is at its COM: at its joint it would cover those of the hips.
+    """
     joint = next(joint for joint in biped.tree.joints if joint.name == name)
     inertial = biped.tree.links[joint.child].inertial
     torso = name not in biped.description.actuated and inertial is not None
@@ -194,8 +231,8 @@ def _add_ring(robot: Any, biped: Biped, name: str, opacity: float) -> str:
     return path
 
 
-def node_names(names: Mapping[str, Any]) -> dict[str, str]:
-    """Each name as it may stand in a path of the scene; no two alike."""
+def node_names(names: Iterable[str]) -> dict[str, str]:
+    """Each name as it may stand in a path of the scene (letters, digits, underscores); no two alike."""
     found: dict[str, str] = {}
     for name in names:
         plain = "".join(c if c.isalnum() else "_" for c in name) or "walk"
@@ -205,8 +242,8 @@ def node_names(names: Mapping[str, Any]) -> dict[str, str]:
     return found
 
 
-def captions(scenes: Mapping[str, Scene]) -> list[tuple[str, str]]:
-    """(colour, text) of the legend; the colour is empty for plain text."""
+def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
+    """The legend as pairs (colour, text); the colour is empty for plain text."""
     solid, *ghosts = scenes
     biped = scenes[solid].biped
     newtons = 0.1 * biped.weight / WEIGHT_LENGTH

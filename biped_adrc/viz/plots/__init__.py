@@ -1,6 +1,12 @@
 """Plots on axes of your own: each takes a matplotlib Axes and data, draws, and returns the Axes.
 
-Nothing here opens a window or touches pyplot. Whole figures are in `biped_adrc.viz.plots.figures`.
+The data are `Signals` of one walk, a mapping of names to `Signals` for several, or arrays; units
+are on the axes. Modules: `over_time` for one walk, `comparison` for controllers side by side,
+`stability` for return maps. Whole figures made of these plots are in
+`biped_adrc.viz.plots.figures`.
+
+Nothing here opens a window or touches pyplot. A plot takes colours from the palette; the package's
+other settings are in force inside `with biped_adrc.viz.style.style():`.
 """
 
 from biped_adrc.viz.plots.comparison import error_over_time as error_over_time

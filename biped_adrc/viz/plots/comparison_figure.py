@@ -1,10 +1,14 @@
-"""Figures of a comparison: who walks legally under what, at what error, and the largest push of each kind."""
+"""Figures of `biped-adrc compare`: who walks legally under what, at what error, and the largest pushes.
+
+They are drawn from the summary's plain values (the rows of `bench.cell.Cell` and
+`bench.largest_push`), so the documentation can draw them anew from summary.json. Shares and medians
+come as [value, low, high] with an interval of 95 %.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import cycle
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,21 +18,25 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from biped_adrc.errors import InputError
-from biped_adrc.types import Array
+from biped_adrc.types import Array, PlainRecord
 from biped_adrc.viz.style import PALETTE, label, named_cells, new_figure, style
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
+"""Marks by controller."""
 GREYS = LinearSegmentedColormap.from_list("legal", ["0.62", "1.0"])
 """White where all walks are legal, grey where none is."""
 KINDS = {"survived": "all steps", "legal": "legal"}
-"""Of the largest pushes."""
+"""The two answers about a largest push and their words: with all steps made, and walked legally."""
 
 
-def legal_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
-    """Share of walks that are legal, as text and shade, with the share that makes all steps below it, smaller.
+def legal_figure(cells: Sequence[PlainRecord]) -> Figure:
+    """A table in cells: the share of walks that are legal, and below it, smaller, that of walks with
+    all steps made.
 
-    cells: "controller", "condition", "legal" and "survived" [share, low, high], a row of the figure per
-    condition. Raises InputError without cells.
+    cells: for each controller and condition "controller", "condition", "legal" and "survived"
+    [share, low, high]. The figure has a row for each condition and a column for each controller;
+    white is legal, grey is not. A pair that is not among the cells stays empty. Raises InputError
+    without cells.
     """
     rows, columns = _names(cells, "condition"), _names(cells, "controller")
     with style():
@@ -56,11 +64,15 @@ def legal_figure(cells: Sequence[Mapping[str, Any]]) -> Figure:
         return figure
 
 
-def measure_figure(cells: Sequence[Mapping[str, Any]], measure: str, title: str) -> Figure:
-    """Medians of one measure with their intervals, a row per condition, a mark per controller.
+def measure_figure(cells: Sequence[PlainRecord], measure: str, title: str) -> Figure:
+    """Medians of one measure with their intervals: a row for each condition, a mark for each controller.
 
-    cells: as in `legal_figure`, with `measure` [median, low, high] or None, over legal walks, and the same
-    in "made", over those that make all steps: drawn hollow where no walk is legal.
+    cells: as in `legal_figure`, with `measure` [median, low, high] over legal walks or None, and
+    the same in "made" over walks that make all steps, drawn hollow where no walk is legal. A
+    controller that never makes all steps has no mark. measure: one of `comparison_text.MEASURES`.
+    title: label of the axis, with its unit. Errors and costs of transport have a logarithmic scale.
+
+    Raises InputError without cells.
     """
     rows, columns = _names(cells, "condition"), _names(cells, "controller")
     with style():
@@ -88,8 +100,10 @@ def measure_figure(cells: Sequence[Mapping[str, Any]], measure: str, title: str)
         return figure
 
 
-def _shown(cell: Mapping[str, Any], measure: str, kind: str) -> Sequence[float] | None:
-    """Of the legal walks, or of those that make all steps where none is legal."""
+def _shown(cell: PlainRecord, measure: str, kind: str) -> Sequence[float] | None:
+    """[median, low, high] of the legal walks, or, for kind "made", of all that make their steps where
+    none is legal.
+    """
     if kind == "legal":
         return cell[measure]
     return cell["made"][measure] if cell[measure] is None else None
@@ -102,7 +116,7 @@ def _marks(
     name: str,
     filled: bool,
 ) -> ErrorbarContainer:
-    """Marks of controller i at heights with [value, low, high]."""
+    """Draw the marks of controller i at pairs of a height and [value, low, high]; filled for legal walks."""
     found = np.array([x for _, x in here]).reshape(-1, 3)
     return axes.errorbar(
         found[:, 0],
@@ -117,11 +131,13 @@ def _marks(
     )
 
 
-def push_figure(pushes: Sequence[Mapping[str, Any]]) -> Figure:
-    """The largest push walked legally (filled) and with all steps made (hollow), a panel per phase.
+def push_figure(pushes: Sequence[PlainRecord]) -> Figure:
+    """The largest push [N m] walked legally (filled) and with all steps made (hollow), a panel for each phase.
 
-    pushes: "controller", "direction", "phase", and in "legal" and "survived" the "median" and the "seeds", each
-    [low, high] [N m] with None for "at least".
+    pushes: "controller", "direction" (joints), "phase", and in "legal" and "survived" the "median"
+    and the "seeds", each [low, high] [N m] with None for "at least". Thin lines span the seeds of
+    legal walks, an arrow means that even the largest push tried was passed. Raises InputError
+    without pushes.
     """
     directions, columns = _names(pushes, "direction"), _names(pushes, "controller")
     phases = list(dict.fromkeys(p["phase"] for p in pushes))
@@ -147,16 +163,18 @@ def push_figure(pushes: Sequence[Mapping[str, Any]]) -> Figure:
         return figure
 
 
-def _farthest(pushes: Sequence[Mapping[str, Any]]) -> float:
-    """The largest push that is drawn [N m], with room for arrows."""
+def _farthest(pushes: Sequence[PlainRecord]) -> float:
+    """The largest push that is drawn [N m], at least 1."""
     ends = [
         x for p in pushes for k in ("legal", "survived") for x in p[k]["median"] + p[k]["seeds"]
     ]
     return max(1.0, *(float(x) for x in ends if x is not None))
 
 
-def _pushes(axes: Axes, pushes: Sequence[Mapping[str, Any]], heights: list[float], i: int) -> None:
-    """Of controller i: marks at what is reached at least, with an arrow where that is all that is known."""
+def _pushes(axes: Axes, pushes: Sequence[PlainRecord], heights: list[float], i: int) -> None:
+    """Draw the pushes of controller i at these heights: a mark at what is reached at least, with an
+    arrow to the right where the largest push tried was passed, so that no more is known.
+    """
     colour, marker = PALETTE[i % len(PALETTE)], MARKERS[i % len(MARKERS)]
     for kind, face in (("survived", "white"), ("legal", colour)):
         least = np.array([p[kind]["median"][0] for p in pushes], dtype=float)
@@ -179,14 +197,15 @@ def _pushes(axes: Axes, pushes: Sequence[Mapping[str, Any]], heights: list[float
                 axes.annotate("", (x * 1.09, y), (x, y), arrowprops=arrow)
 
 
-def _over_seeds(pushes: Sequence[Mapping[str, Any]], least: Array) -> Array:
-    """How far the seeds of legal walks go below and above the marks (2, N); open above: as far as is known."""
+def _over_seeds(pushes: Sequence[PlainRecord], least: Array) -> Array:
+    """How far the seeds of legal walks go below and above the marks (N,): (2, N) [N m]; open above: 0."""
     low, high = zip(*(p["legal"]["seeds"] for p in pushes), strict=True)
     known = np.array([x if h is None else h for x, h in zip(least, high, strict=True)], dtype=float)
     return np.maximum([least - np.array(low, dtype=float), known - least], 0.0)
 
 
-def _names(rows: Sequence[Mapping[str, Any]], key: str) -> list[str]:
+def _names(rows: Sequence[PlainRecord], key: str) -> list[str]:
+    """The different values of `key` in order of appearance. Raises InputError without rows."""
     if not rows:
         raise InputError("the comparison has no cells to draw; expected at least one")
     return list(dict.fromkeys(row[key] for row in rows))

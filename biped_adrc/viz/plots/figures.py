@@ -1,4 +1,9 @@
-"""Whole figures made of `biped_adrc.viz.plots`: data in, Figure out, in the one style of this package."""
+"""Whole figures made of the plots in `biped_adrc.viz.plots`: data in, Figure out, in this package's style.
+
+`Walk.plot`, the reproduction of the paper and `biped-adrc plot` draw these. With a push most of
+them get more columns: the time around the push, and the milliseconds after either edge of it, in
+which a fast observer has its say. Lines are thinned to what can be seen (`viz.thin`).
+"""
 
 from __future__ import annotations
 
@@ -18,19 +23,22 @@ from biped_adrc.viz.style import new_figure, style
 from biped_adrc.viz.thin import thin
 
 BEFORE, AFTER = 0.3, 0.6
-"""[s]: what the zoom shows before and after a push."""
+"""What the zoom shows before and after a push [s]."""
 EDGE_BEFORE, EDGE_AFTER = 1e-3, 6e-3
-"""[s]: what is shown before and after an edge of a push, where a fast observer has its say."""
+"""What is shown before and after an edge of a push [s]."""
 EDGES = ("push begins", "push ends")
+"""Titles of the columns of the two edges."""
 
 
 def tracking_figure(
     signals: Signals, title: str, push: Window | None = None, torque_limit: float | None = None
 ) -> Figure:
-    """The paper's figures 4 and 5: references and joint angles, torques, and the tracking error.
+    """The paper's figures 4 and 5: references and joint angles [rad], torques [N m], and the tracking error.
 
-    push: (start, stop) [s]; its window is shaded, a row shows it, a second column the time around it, and two
-    more the milliseconds after either edge. torque_limit [N m]: drawn as a dotted line.
+    signals: of a walk with motors. title: above all panels. push: (start, stop) [s]; its window is
+    shaded, a row shows its torque, a second column the time around it, and two more the
+    milliseconds after either edge, without angles, as these do not move within milliseconds.
+    torque_limit [N m]: drawn as a dotted line.
     """
     heights = (3.0, 3.0, 1.6, 3.0, 3.0) if push else (1.0,) * 4
     shares = (1.5, 1.5, 1.0, 1.0) if push else (1.0,)
@@ -58,7 +66,7 @@ def tracking_figure(
 
 
 def _column(figure: Figure, places: Sequence[SubplotSpec]) -> list[Axes]:
-    """Panels one above the other with one time axis, the lowest's."""
+    """Panels one above the other that share one time axis, whose numbers stand below the lowest."""
     first = figure.add_subplot(places[0])
     column = [first, *(figure.add_subplot(place, sharex=first) for place in places[1:])]
     for axes in column[:-1]:
@@ -69,7 +77,10 @@ def _column(figure: Figure, places: Sequence[SubplotSpec]) -> list[Axes]:
 def _tracking_column(
     column: Sequence[Axes], angles: bool, s: Signals, push: Window | None, limit: float | None
 ) -> None:
-    """Angles if asked for, the push if there is one, torques, errors; from top to bottom."""
+    """Fill the panels of a column from top to bottom: angles if asked for, the push if any, torques, errors.
+
+    limit [N m]: of the torques, drawn as a line.
+    """
     halves = np.array_split(np.arange(s.q_d.shape[1]), 2) if angles else []
     for axes, half in zip(column, halves, strict=False):
         plots.joint_tracking(axes, s, half.tolist(), push)
@@ -82,7 +93,7 @@ def _tracking_column(
 
 
 def _edges(columns: Sequence[Sequence[Axes]], s: Signals, push: Window) -> None:
-    """Limits around either edge of the push, and a time axis in milliseconds from it."""
+    """Set the limits of two columns around either edge of the push, and label their time in [ms] from it."""
     for column, edge, name in zip(columns, push, EDGES, strict=True):
         _limits(column, max(edge - EDGE_BEFORE, s.t[0]), min(edge + EDGE_AFTER, s.t[-1]))
         column[0].set_title(name, loc="left")
@@ -94,7 +105,9 @@ def _edges(columns: Sequence[Sequence[Axes]], s: Signals, push: Window) -> None:
 
 
 def _one_legend_a_row(without: Sequence[Axes], beside_empty: Sequence[Axes]) -> None:
-    """Take the legends away from `without`; those beside an empty place take no room of their own."""
+    """Take the legends away from `without`; those of `beside_empty` reach into an empty place and take
+    no room.
+    """
     for axes in without:
         legend = axes.get_legend()
         if legend is not None:
@@ -106,7 +119,10 @@ def _one_legend_a_row(without: Sequence[Axes], beside_empty: Sequence[Axes]) -> 
 
 
 def passive_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
-    """A walk without motors: its angles and energies over time, and Theta against its rate."""
+    """A walk without motors: its angles [rad] and energies [J] over time [s], and Theta against its rate.
+
+    push: (start, stop) [s], shaded.
+    """
     with style():
         figure = new_figure(10.5, 5.6)
         figure.suptitle(title)
@@ -120,12 +136,15 @@ def passive_figure(signals: Signals, title: str = "", push: Window | None = None
 
 
 def _zoom(column: Sequence[Axes], s: Signals, push: Window) -> None:
-    """Limits of the time axis and of each value axis around the push."""
+    """Set the limits of a column to the time around the push, and of each value axis to what is drawn there."""
     _limits(column, max(push[0] - BEFORE, float(s.t[0])), min(push[1] + AFTER, float(s.t[-1])))
 
 
 def _limits(column: Sequence[Axes], low: float, high: float) -> None:
-    """The time axis from low to high [s], and each value axis to what is drawn there."""
+    """Set the time axis from low to high [s], and each value axis to what is drawn there.
+
+    A panel with nothing to show there, or a constant, keeps its limits.
+    """
     for axes in column:
         axes.set_xlim(low, high)
         shown = [np.asarray(line.get_data(), dtype=float) for line in axes.get_lines()]
@@ -142,7 +161,9 @@ def _limits(column: Sequence[Axes], low: float, high: float) -> None:
 
 
 def phase_figure(walks: Mapping[str, Signals]) -> Figure:
-    """The paper's figure 6: Theta against Theta', one panel per controller; lines break at impacts."""
+    """The paper's figure 6: Theta [rad] against Theta' [rad/s], a panel for each controller; lines
+    break at impacts.
+    """
     with style():
         figure = new_figure(4.6 * len(walks), 4.2)
         row = figure.subplots(1, len(walks), squeeze=False, sharex=True, sharey=True)[0]
@@ -154,7 +175,9 @@ def phase_figure(walks: Mapping[str, Signals]) -> Figure:
 def disturbance_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
     """Every actuated joint's total disturbance, and the torque from outside, against their estimates.
 
-    push: (start, stop) [s]; the time around it is shown, and in two more columns the torque at either edge.
+    A row for each joint: xi of (13) [rad/s^2] at the left, the torque zeta and what the estimate
+    amounts to [N m] at the right. push: (start, stop) [s]; the time around it is shown, and in two
+    more columns the torque at either edge.
     """
     p = signals.q_d.shape[1]
     with style():
@@ -182,7 +205,10 @@ def disturbance_figure(signals: Signals, title: str = "", push: Window | None = 
 
 
 def ground_figure(signals: Signals, title: str = "", mu: float = 0.6, slope: float = 0.0) -> Figure:
-    """The ground reaction over time and against the friction cone, on a slope [rad], positive downhill."""
+    """The ground reaction [N] over time, and its tangential against its normal part in the friction cone.
+
+    mu [1]: coefficient of friction. slope [rad]: of the ground, positive downhill.
+    """
     with style():
         figure = new_figure(10.0, 4.0)
         figure.suptitle(title)
@@ -193,7 +219,7 @@ def ground_figure(signals: Signals, title: str = "", mu: float = 0.6, slope: flo
 
 
 def energy_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
-    """Energies over time."""
+    """Kinetic, potential and total energy [J] over time [s]. push: (start, stop) [s], shaded."""
     with style():
         figure = new_figure(8.5, 3.4)
         plots.energy(figure.subplots(), signals, push).set_title(title, loc="left")
@@ -203,7 +229,10 @@ def energy_figure(signals: Signals, title: str = "", push: Window | None = None)
 def multiplier_figure(
     multipliers: Mapping[str, ArrayLike], published: ArrayLike | None = None
 ) -> Figure:
-    """Multipliers in the unit circle, and their magnitudes in decreasing order; see `plots.magnitudes`."""
+    """Floquet multipliers (k,), complex, by name in the unit circle, and their magnitudes in decreasing order.
+
+    published (k,): magnitudes printed in the paper, shown for comparison; see `plots.magnitudes`.
+    """
     with style():
         figure = new_figure(9.5, 4.4)
         circle, sizes = figure.subplots(1, 2)
@@ -213,7 +242,10 @@ def multiplier_figure(
 
 
 def return_map_figure(before: Array, after: Array) -> Figure:
-    """Theta' before one impact against Theta' before the next, both (k,) [rad/s], as a staircase."""
+    """The return map of Theta' as a staircase; see `plots.staircase`.
+
+    before, after (k,): Theta' before one impact and before the next [rad/s].
+    """
     with style():
         figure = new_figure(5.2, 4.8)
         plots.staircase(figure.subplots(), before, after)
@@ -221,9 +253,10 @@ def return_map_figure(before: Array, after: Array) -> Figure:
 
 
 def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) -> Figure:
-    """Controllers side by side: error over time, its size, and what the motors gave for it.
+    """Controllers side by side: tracking error over time, its size, and the peak torques.
 
-    push: (start, stop) [s]; a row shows it, and two columns the milliseconds after either edge.
+    walks: signals by name of the controller. push: (start, stop) [s]; a row shows it, and two
+    columns the milliseconds after either edge.
     """
     with style():
         figure = new_figure(11.0 if push else 10.0, 7.2 if push else 5.6)
@@ -245,7 +278,7 @@ def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) 
 def _pushed_columns(
     columns: Sequence[Sequence[Axes]], walks: Mapping[str, Signals], push: Window
 ) -> None:
-    """The push, the same for all walks, above their errors: whole, and at either edge."""
+    """Draw the push, the same for all walks, above their errors: over the whole walk, and at either edge."""
     first = next(iter(walks.values()))
     for above, axes in columns:
         plots.external_torque(above, first, push).set_xlabel("")

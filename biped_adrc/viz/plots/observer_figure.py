@@ -1,4 +1,9 @@
-"""Transfer functions of ADRC loops: disturbance to error and to its estimate, angle to torque."""
+"""Frequency responses of ADRC loops, from the linear loop of one joint (`observer_design`).
+
+Three panels: disturbance xi to tracking error e [s^2], disturbance to its estimate xi^ [1], and an
+error n of the measured angle to torque u [N m/rad]. `biped-adrc observer --out` draws it: a faster
+observer lowers the first curve and raises the last.
+"""
 
 from __future__ import annotations
 
@@ -8,17 +13,19 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from biped_adrc.errors import InputError
-from biped_adrc.observer_design.observer_design import ObserverReport
+from biped_adrc.observer_design.observer_report import ObserverReport
 from biped_adrc.viz.style import DASHES, GREY, PALETTE, label, new_figure, style
 
 FEWEST, FLOOR = 400, 1e-12
-"""Frequencies of a curve, and how far below a panel's largest value it is drawn."""
+"""Frequencies of a curve, and how far below a panel's largest value it is drawn, as a share of it."""
 
 
 def observer_figure(reports: Sequence[ObserverReport]) -> Figure:
-    """|e / xi|, |xi^ / xi| and |u / n| of each report; dotted: half the rate of the clock.
+    """|e / xi|, |xi^ / xi| and |u / n| over the frequency [rad/s], a curve for each report.
 
-    Raises InputError when there is no report.
+    Dotted: half the sampling frequency of the first report, above which a sampled loop sees
+    aliases. An observer without extended states (m = 0) has no estimate and no curve in the second
+    panel. Raises InputError when there is no report.
     """
     if not reports:
         raise InputError("the figure of transfer functions has no report; expected at least one")
@@ -34,11 +41,11 @@ def observer_figure(reports: Sequence[ObserverReport]) -> Figure:
                 loop.estimate(grid),
                 loop.noise(grid) * report.hardware.inertia,
             )
-            look = {"color": PALETTE[i % len(PALETTE)], "ls": DASHES[i % len(DASHES)]}
+            colour, dash = PALETTE[i % len(PALETTE)], DASHES[i % len(DASHES)]
             for axes, curve in zip(panels, curves, strict=True):
                 level = np.abs(curve)
                 if np.any(level > 0.0):  # m = 0 has no estimate
-                    axes.loglog(grid, level, label=report.name, **look)
+                    axes.loglog(grid, level, label=report.name, color=colour, ls=dash)
         titles = (
             ("|e / xi| [s$^2$]", "error from a disturbance"),
             ("|xi^ / xi|", "estimate of the disturbance"),

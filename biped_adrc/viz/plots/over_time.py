@@ -1,4 +1,10 @@
-"""Signals over time on axes of your own: angles, errors, torques, disturbances, ground, energy, and phase."""
+"""Signals of one walk over time, on axes of your own: angles, errors, torques, disturbances, ground, energy.
+
+Also the phase portrait and the friction cone, which are curves of the same signals. Every plot
+takes the Axes, `Signals` (rows are the nodes of a walk) and perhaps the window of a push, which is
+shaded; it labels the axes with units and returns them. Lines break at impacts, where velocities and
+torques jump.
+"""
 
 from __future__ import annotations
 
@@ -18,36 +24,39 @@ Window = tuple[float, float]
 
 
 def broken(s: Signals, y: Array) -> Array:
-    """y (K, ...) with a row of NaN where a single support begins, so that no line crosses an impact."""
+    """y (K,) or (K, k), in any unit, with a row of NaN where a single support begins.
+
+    matplotlib breaks a line at NaN, so none crosses an impact. Time is broken in the same way.
+    """
     return np.insert(y, np.flatnonzero(np.diff(s.step)) + 1, np.nan, axis=0)
 
 
 def line(axes: Axes, s: Signals, y: Array, i: int, name: str) -> None:
-    """y (K,) over time in the i-th colour and dash."""
+    """Draw y (K,) over time [s] in the i-th colour and dash."""
     axes.plot(broken(s, s.t), broken(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
 
 
 def curves(axes: Axes, s: Signals, values: Array, symbol: str, unit: str) -> None:
-    """The columns of values (K, k) over time: symbol_1, symbol_2, ..."""
+    """Draw the columns of values (K, k) over time [s]: symbol_1, symbol_2, ...; unit: label of the axis."""
     for i, column in enumerate(values.T):
         line(axes, s, column, i, f"${symbol}_{i + 1}$")
     label(axes, "time [s]", unit)
 
 
 def shade(axes: Axes, push: Window | None) -> None:
-    """Mark the time of a push."""
+    """Shade the time of a push (start, stop) [s]; nothing without one."""
     if push is not None:
         axes.axvspan(*push, color=PUSH, alpha=0.45, zorder=0, label="push")
 
 
 def legend(axes: Axes) -> Axes:
-    """A legend beside the axes, where it covers nothing."""
+    """Put a legend to the right of the axes, where it covers nothing; returns the axes."""
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2, frameon=False)
     return axes
 
 
 def angle_unit(values: Array) -> tuple[str, float]:
-    """The unit in which the largest of `values` [rad] reads well, and its factor."""
+    """The unit in which the largest of `values` [rad] reads well, from rad to nrad, and the factor to it."""
     largest = np.nanmax(np.abs(values), initial=0.0)
     for unit, factor in (("rad", 1.0), ("mrad", 1e3), ("µrad", 1e6)):
         if largest * factor >= 0.5:
@@ -56,16 +65,17 @@ def angle_unit(values: Array) -> tuple[str, float]:
 
 
 JOINTS = ("stance hip", "swing hip", "stance knee", "swing knee")
+"""Names of the actuated joints of a five-link biped."""
 
 
 def joint_name(s: Signals, i: int) -> str:
-    """q_1 stance hip, and so on; q_i alone on another robot."""
+    """ "$q_1$ stance hip" and so on for four actuated joints; the symbol alone on another robot."""
     known = s.q_d.shape[1] == len(JOINTS)
     return f"$q_{i + 1}$ {JOINTS[i]}" if known else f"$q_{i + 1}$"
 
 
 def chosen(s: Signals, joints: Sequence[int] | None) -> tuple[int, ...]:
-    """Indices of actuated joints, all if None. Raises InputError for one that does not exist."""
+    """Indices of actuated joints from 0, all if None. Raises InputError for one that does not exist."""
     p = s.q_d.shape[1]
     found = tuple(range(p)) if joints is None else tuple(joints)
     if not found or not all(0 <= i < p for i in found):
@@ -74,7 +84,7 @@ def chosen(s: Signals, joints: Sequence[int] | None) -> tuple[int, ...]:
 
 
 def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """All coordinates over time [rad], with motors or without."""
+    """All coordinates q (K, n) [rad] over time [s], with motors or without."""
     shade(axes, push)
     curves(axes, s, s.q, "q", "angle [rad]")
     return legend(axes)
@@ -83,7 +93,11 @@ def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
 def joint_tracking(
     axes: Axes, s: Signals, joints: Sequence[int] | None = None, push: Window | None = None
 ) -> Axes:
-    """Angles of the actuated joints as broad lines, their references dashed on top in black; [rad] over [s]."""
+    """Angles of the actuated joints [rad] as broad lines over time [s], their references dashed on top
+    in black.
+
+    joints: indices from 0, all if None. Raises InputError for an index that does not exist.
+    """
     shade(axes, push)
     joints, t = chosen(s, joints), broken(s, s.t)
     for i in joints:
@@ -99,7 +113,7 @@ def joint_tracking(
 
 
 def tracking_errors(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """q_b - q_d by joint, in the unit in which the largest reads well."""
+    """q_b - q_d (K, p) by joint over time [s], in the unit from rad to nrad in which the largest reads well."""
     shade(axes, push)
     unit, factor = angle_unit(s.error)
     curves(axes, s, factor * s.error, "q", f"tracking error [{unit}]")
@@ -107,7 +121,7 @@ def tracking_errors(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
 
 
 def torques(axes: Axes, s: Signals, limit: float | None = None, push: Window | None = None) -> Axes:
-    """Torques of the motors [N m]; limit [N m] is drawn as dotted lines."""
+    """Torques of the motors u (K, p) [N m] over time [s]; limit [N m] is drawn as dotted lines."""
     shade(axes, push)
     curves(axes, s, s.u, "u", "torque [N m]")
     if limit is not None:
@@ -117,10 +131,13 @@ def torques(axes: Axes, s: Signals, limit: float | None = None, push: Window | N
 
 
 NO_OBSERVER = "no observer: nothing is estimated"
+"""Written on a panel in place of an estimate."""
 
 
 def external_torque(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """The torque from outside on every joint that is ever pushed [N m]; on all where none is."""
+    """The torque from outside zeta [N m] over time [s] on every joint that is ever pushed; on all
+    where none is.
+    """
     shade(axes, push)
     pushed = np.flatnonzero(np.any(s.zeta != 0.0, axis=0))
     for i in pushed.tolist() or range(s.zeta.shape[1]):
@@ -130,7 +147,11 @@ def external_torque(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
 
 
 def total_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | None = None) -> Axes:
-    """xi of (13), q_b'' - kappa u, and its estimate xi^ for one actuated joint [rad/s^2]."""
+    """xi of (13), q_b'' - kappa u, and its estimate xi^ [rad/s^2] for one actuated joint over time [s].
+
+    joint: index from 0; InputError for one that does not exist. Without an observer the panel says
+    so.
+    """
     chosen(s, (joint,))
     shade(axes, push)
     _pair(axes, s, s.xi[:, joint], s.xi_estimate[:, joint], r"\xi", joint)
@@ -152,6 +173,7 @@ def matched_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | N
 
 
 def _pair(axes: Axes, s: Signals, true: Array, estimate: Array, symbol: str, joint: int) -> None:
+    """Draw a signal and its estimate, both (K,), or say that there is no observer."""
     t, index = broken(s, s.t), f"_{joint + 1}"
     axes.plot(t, broken(s, true), color=PALETTE[0], lw=2.4, alpha=0.6, label=f"${symbol}{index}$")
     if np.isnan(estimate).all():
@@ -169,7 +191,9 @@ def _pair(axes: Axes, s: Signals, true: Array, estimate: Array, symbol: str, joi
 
 
 def energy(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """Energies over time [J], potential energy from its least value; impacts take kinetic energy only."""
+    """Energies [J] over time [s], the potential energy from its least value; impacts take kinetic
+    energy only.
+    """
     shade(axes, push)
     potential = s.potential - s.potential.min()
     for i, (values, name) in enumerate(
@@ -183,9 +207,11 @@ def energy(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
 def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -> Axes:
     """F_T against F_N [N] in single support and the cone |F_T| = mu F_N; outside it a foot would slip.
 
-    mu: coefficient of dry friction, 0.6 for RABBIT (its record names the source). slope [rad] of the ground,
-    positive downhill; F_T is along it. Impulses at impact are not forces and are not drawn. Raises InputError
-    for a coefficient that is not positive.
+    mu: coefficient of dry friction, 0.6 for RABBIT (its record names the source). slope [rad]: of
+    the ground, positive downhill; F_T is along it. Impulses at impact are not forces and are not
+    drawn.
+
+    Raises InputError for a coefficient that is not positive.
     """
     check_positive(mu, f"the coefficient of friction is {mu}")
     tangent, normal = (s.ground_reaction @ axis for axis in ground_axes(slope))
@@ -204,7 +230,7 @@ def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -
 
 
 def ground_reaction(axes: Axes, s: Signals, push: Window | None = None, slope: float = 0.0) -> Axes:
-    """F_T and F_N over time [N], along and out of ground of this slope [rad], positive downhill."""
+    """F_T and F_N [N] over time [s], along and out of ground of this slope [rad], positive downhill."""
     shade(axes, push)
     for i, (name, axis) in enumerate(zip(("$F_T$", "$F_N$"), ground_axes(slope), strict=True)):
         line(axes, s, s.ground_reaction @ axis, i, name)
@@ -214,7 +240,10 @@ def ground_reaction(axes: Axes, s: Signals, push: Window | None = None, slope: f
 
 
 def phase_portrait(axes: Axes, s: Signals, name: str = "walk", colour: int = 0) -> Axes:
-    """Theta [rad] against Theta' [rad/s]: solid in single support, dotted across impacts."""
+    """Theta [rad] against Theta' [rad/s]: solid in single support, dotted across impacts.
+
+    colour: index in the palette. The start is marked.
+    """
     axes.plot(broken(s, s.theta), broken(s, s.dtheta), color=PALETTE[colour], lw=0.8, label=name)
     for k, j in enumerate(np.flatnonzero(np.diff(s.step))):
         ends, text = slice(j, j + 2), "impact" if k == 0 else "_"

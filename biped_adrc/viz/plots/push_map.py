@@ -1,15 +1,19 @@
-"""The map of pushes: how each controller walks on after a push, over onset, amplitude and joints."""
+"""The map of pushes: how each controller walks on after a push, over onset, amplitude and joints.
+
+Drawn from the rows of `paper.push_map.PushCell`, of the reproduction with `--full` and of the
+documentation. Each cell is cut by its diagonal and shows two controllers under the same push.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Polygon
 
 from biped_adrc.errors import InputError
+from biped_adrc.types import PlainRecord
 from biped_adrc.viz.style import label, named_cells, new_figure, style
 
 FATES: dict[str, tuple[str, str, str]] = {
@@ -20,14 +24,17 @@ FATES: dict[str, tuple[str, str, str]] = {
     "ended": ("ends otherwise: singular, diverged, stalled", "#CC79A7", "\\\\\\"),
     "marginal": ("the step of the method decides", "#56B4E9", "++"),
 }
-"""Word -> text, colour, hatch; the hatches show in a print in grey too."""
+"""Word -> text of the legend, colour, hatch; the hatches tell them apart in a print in grey too."""
 
 
-def push_map_figure(rows: Sequence[Mapping[str, Any]]) -> Figure:
-    """One panel per torque limit; a cell per onset and (pattern, amplitude): NPD upper left, ADRC lower right.
+def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
+    """One panel for each torque limit; a cell for each onset and (pattern, amplitude), NPD upper left,
+    ADRC lower right.
 
     rows: "onset_ms" [ms], "amplitude" [N m], "pattern", "torque_limit" [N m] or None for unlimited,
-    "npd_word" and "adrc_word" of `FATES`. Raises InputError when there are no rows.
+    "npd_word" and "adrc_word" of `FATES`. Panels go from unlimited torque to the highest limit,
+    rows of cells are in the order of the data. The title of a panel counts the pushes that are
+    walked through legally. Raises InputError when there are no rows.
     """
     if not rows:
         raise InputError("the map of pushes has no cells; expected at least one row")
@@ -58,10 +65,11 @@ def push_map_figure(rows: Sequence[Mapping[str, Any]]) -> Figure:
 
 def _cells(
     axes: Axes,
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[PlainRecord],
     kinds: list[tuple[str, float]],
     onsets: list[float],
 ) -> None:
+    """Draw the cells of one panel, columns by onset [ms], rows by (pattern, amplitude [N m])."""
     for r in rows:
         x = onsets.index(r["onset_ms"]) - 0.5
         y = kinds.index((r["pattern"], r["amplitude"])) - 0.5
@@ -74,7 +82,7 @@ def _cells(
     named_cells(axes, names, [f"{onset:g}" for onset in onsets])
 
 
-def _count(rows: Sequence[Mapping[str, Any]]) -> str:
-    """How many pushes each controller walks through legally."""
+def _count(rows: Sequence[PlainRecord]) -> str:
+    """How many pushes each controller walks through legally, in words."""
     npd, adrc = (sum(r[f"{c}_word"] == "legal" for r in rows) for c in ("npd", "adrc"))
     return f"legally: NPD {npd}, ADRC {adrc} of {len(rows)}"

@@ -1,9 +1,13 @@
-"""Multipliers of the return map, and the map itself as a staircase."""
+"""Floquet multipliers of the return map, and the return map of one coordinate as a staircase.
+
+A periodic walk is stable when all multipliers, the eigenvalues of the derivative of the return map
+at its fixed point, lie inside the unit circle. `analysis.stability` computes them by several
+methods; they are drawn by name beside each other.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,15 +18,16 @@ from biped_adrc.types import Array
 from biped_adrc.viz.style import GREY, PALETTE, label
 
 MARKERS = "ox^s"
+"""Marks by method."""
 
 
 def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
-    """Multipliers (k,), complex, by name in the unit circle."""
+    """Multipliers (k,) [1], complex, by name in the unit circle."""
     angle = np.linspace(0.0, 2.0 * np.pi, 361)
     axes.plot(np.cos(angle), np.sin(angle), color="black", lw=1.0, label="unit circle")
     for i, (name, values) in enumerate(found.items()):
         z = np.atleast_1d(np.asarray(values, dtype=complex))
-        axes.plot(z.real, z.imag, mfc="none", ms=7 + 2 * i, **_mark(i, name))
+        _plot(axes, i, name, z.real, z.imag, 7 + 2 * i)
     axes.set_aspect("equal")
     label(axes, r"Re $\lambda$ [-]", r"Im $\lambda$ [-]")
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.14), ncols=3, frameon=False)
@@ -32,9 +37,10 @@ def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
 def magnitudes(
     axes: Axes, found: Mapping[str, ArrayLike], published: ArrayLike | None = None
 ) -> Axes:
-    """|lambda| by name in decreasing order; stable below 1.
+    """|lambda| (k,) [1] by name in decreasing order on a logarithmic scale; stable below 1.
 
-    published: magnitudes printed in the paper; they come from a regression and are shown for comparison only.
+    Zeros have no place on that scale: the legend counts them. published (k,): magnitudes printed in
+    the paper; they come from a regression and are shown for comparison only.
     """
     axes.axhline(1.0, color="black", lw=1.0, label="unit circle")
     for i, (name, values) in enumerate(found.items()):
@@ -42,7 +48,7 @@ def magnitudes(
         zeros = int(np.sum(size == 0.0))  # a logarithmic scale has no place for them
         size = size[size > 0.0]
         name = f"{name}, {zeros} more are 0" if zeros else name
-        axes.plot(1 + np.arange(len(size)), size, mfc="none", ms=6, **_mark(i, name))
+        _plot(axes, i, name, 1.0 + np.arange(len(size)), size, 6)
     if published is not None:
         size = np.sort(np.abs(np.asarray(published)))[::-1]
         name = "printed in the paper (regression)"
@@ -53,15 +59,18 @@ def magnitudes(
     return axes
 
 
-def _mark(i: int, name: str) -> dict[str, Any]:
-    return {"marker": MARKERS[i % 4], "ls": "", "mec": PALETTE[i], "label": name}
+def _plot(axes: Axes, i: int, name: str, x: ArrayLike, y: ArrayLike, size: int) -> None:
+    """Draw y over x, both (k,), as open marks of the i-th kind and colour."""
+    marker, colour = MARKERS[i % 4], PALETTE[i]
+    axes.plot(x, y, marker=marker, ls="", mec=colour, mfc="none", ms=size, label=name)
 
 
 def staircase(axes: Axes, before: Array, after: Array, steps: int = 12) -> Axes:
     """The return map of one coordinate, the diagonal, and the way of `steps` steps from either end of it.
 
-    before, after (k,): Theta' before an impact and before the next [rad/s]; between the samples the map is
-    interpolated linearly. The walk settles where the stairs end: at the fixed point.
+    before, after (k,): Theta' before an impact and before the next [rad/s]; between the samples the
+    map is interpolated linearly. The walk settles where the stairs end: at the fixed point. Raises
+    InputError for fewer than 2 samples or one that is not finite.
     """
     order = np.argsort(before)
     x, y = np.asarray(before, dtype=float)[order], np.asarray(after, dtype=float)[order]
@@ -81,6 +90,8 @@ def staircase(axes: Axes, before: Array, after: Array, steps: int = 12) -> Axes:
 
 
 def stairs(axes: Axes, way: Sequence[float] | Array, name: str) -> None:
-    """From each number of `way` to the next: up or down to the map, across to the diagonal."""
+    """Draw the stairs of the values `way` (k,) of successive steps, in the unit of the map: up or down
+    to the map, then across to the diagonal.
+    """
     corners = np.repeat(way, 2)
     axes.plot(corners[:-1], np.append(way[0], corners[2:]), color=PALETTE[1], lw=0.9, label=name)

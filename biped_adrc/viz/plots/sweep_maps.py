@@ -1,18 +1,22 @@
 """Maps of a sweep: a result as colour over two parameters, in panels over a third.
 
-Colour is the mean over all points of a cell: of `survived` the share of walks that make all steps, of `legal`
-that of walks that make them legally. A parameter with few values has a cell for each of them; one that was
-drawn at random is cut into cells of equal width.
+`biped-adrc sweep --plot` draws them (`bench.export.write_map`) from the columns of the sweep's
+table. Each axis is cut into cells (`cut`), results are averaged over all points of a cell
+(`cell_means`), so parameters that are not on an axis are averaged over: of `survived` colour is the
+share of walks that make all steps, of `legal` that of walks that make them legally. A parameter
+with few values has a cell for each of them; one that was drawn at random is cut into cells of equal
+width.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -23,7 +27,9 @@ from biped_adrc.viz.style import label, new_figure, style
 MOST_LEVELS = 40
 """A parameter with more values than these is cut into `CELLS`."""
 CELLS = 20
+"""Cells of a parameter with many values."""
 MOST_PANELS = 12
+"""Most panels of one figure."""
 WRITTEN = 120
 """Cells of a panel up to which their numbers are written in them."""
 
@@ -33,14 +39,20 @@ SHARES = {
 }
 """Columns of 0 and 1, and what their mean is called."""
 
-Columns = Mapping[str, NDArray[Any]]
+Column = NDArray[np.generic]
+"""(N,), a value for each point of the study: numbers, or texts and None as objects."""
+Columns = Mapping[str, Column]
+"""Columns of one table, by name."""
+Level = str | float | None
+"""A value of a parameter."""
 
 
 @dataclass(frozen=True)
 class Maps:
-    """What is shown: `value` over x and y, in panels over `panel`. units: of columns, for the labels.
+    """What is shown: the mean of `value` over the parameters x and y, in panels over `panel` (None for one).
 
-    log: the columns that are cut into cells of equal ratio.
+    units: of columns, for the labels. log: columns that are cut into cells of equal ratio in place
+    of equal width.
     """
 
     x: str
@@ -51,22 +63,28 @@ class Maps:
     log: frozenset[str] = frozenset()
 
     def name(self, column: str) -> str:
-        """With its unit."""
+        """The name of a column with its unit in brackets, for a label."""
         unit = (self.units or {}).get(column, "1")
         return column if unit == "1" else f"{column} [{unit}]"
 
 
 class Cut(NamedTuple):
-    """An axis in cells: the cell of each point (N,), -1 for none, and the text of each cell."""
+    """An axis in cells.
+
+    cell (N,): the cell of each point, counted from 0, -1 for none. texts: of each cell, for its
+    tick.
+    """
 
     cell: NDArray[np.intp]
     texts: list[str]
 
 
 def sweep_map_figure(columns: Columns, maps: Maps) -> Figure:
-    """One panel per level of the third parameter. columns: (N,) by name, such as those of a sweep's table.
+    """One panel for each level of the third parameter.
 
-    Raises InputError for a column that there is not, without points, or with too many panels.
+    columns: (N,) by name, such as those of a sweep's table. maps: which of them are shown. Raises
+    InputError for a column that there is not, without points, with too many panels, or for a result
+    that is no number.
     """
     for name in (maps.x, maps.y, maps.value, *((maps.panel,) if maps.panel else ())):
         if name not in columns:
@@ -90,10 +108,11 @@ def sweep_map_figure(columns: Columns, maps: Maps) -> Figure:
     return _draw(maps, x, y, panels, means)
 
 
-def cut(column: NDArray[Any], log: bool) -> Cut:
-    """The cells of an axis: one for each value, or of equal width (ratio if `log`) where there are many.
+def cut(column: Column, log: bool) -> Cut:
+    """The cells of an axis from its column (N,), in the unit of the column.
 
-    What is no value has a cell of its own, the last.
+    One for each value where these are few or no numbers; else `CELLS` of equal width, or equal
+    ratio if `log`. NaN and None have a cell of their own, the last.
     """
     levels = sorted({_order(x): x for x in column.tolist()}.values(), key=_order)
     numbers = column.dtype.kind in "fi"
@@ -112,7 +131,8 @@ def cut(column: NDArray[Any], log: bool) -> Cut:
     return Cut(cell.astype(np.intp), [f"{m:.3g}" for m in middles] + none)
 
 
-def _order(x: Any) -> tuple[int, Any]:
+def _order(x: Level) -> tuple[int, float | str]:
+    """A key by which any values can be sorted: numbers, then NaN, texts, None."""
     if x is None:
         return 3, 0.0
     if isinstance(x, str):
@@ -120,8 +140,11 @@ def _order(x: Any) -> tuple[int, Any]:
     return (1, 0.0) if x != x else (0, x)
 
 
-def _texts(levels: list[Any]) -> list[str]:
-    """Each level with the fewest digits, from two, that tell all of them apart within 1 %."""
+def _texts(levels: list[Level]) -> list[str]:
+    """Each level with the fewest digits, from two, that tell all of them apart within 1 %.
+
+    So 0.0015 and 0.00152 do not both become "0.0015".
+    """
     numbers = [x for x in levels if not isinstance(x, str) and x is not None and x == x]
     for digits in range(2, 6):
         shown = [float(f"{x:.{digits}g}") for x in numbers]
@@ -131,14 +154,15 @@ def _texts(levels: list[Any]) -> list[str]:
     return [_text(x, digits) for x in levels]
 
 
-def _text(x: Any, digits: int = 4) -> str:
+def _text(x: Level, digits: int = 4) -> str:
+    """A value as text, with so many significant digits; "none" for what is no value."""
     if isinstance(x, str):
         return x.replace("$", r"\$")  # no formula
     return "none" if x is None or x != x else f"{float(f'{x:.{digits}g}'):.6g}"
 
 
 def cell_means(x: Cut, y: Cut, values: Array) -> Array:
-    """(cells of y, cells of x): the mean of the values that are numbers, NaN in a cell without."""
+    """(cells of y, cells of x): the mean of the values (N,) that are finite, NaN in a cell without."""
     shape = len(y.texts), len(x.texts)
     inside = np.isfinite(values) & (x.cell >= 0) & (y.cell >= 0)
     places = y.cell[inside] * shape[1] + x.cell[inside]
@@ -147,13 +171,19 @@ def cell_means(x: Cut, y: Cut, values: Array) -> Array:
     return np.where(count > 0, total / np.maximum(count, 1), np.nan).reshape(shape)
 
 
-def _numbers(column: NDArray[Any], name: str) -> Array:
+def _numbers(column: Column, name: str) -> Array:
+    """The column (N,) as floats. Raises InputError for texts."""
     if column.dtype.kind not in "fib":
         raise InputError(f"the map cannot show '{name}', which is no number; choose another column")
     return column.astype(np.float64)
 
 
 def _draw(maps: Maps, x: Cut, y: Cut, panels: Cut, means: list[Array]) -> Figure:
+    """The figure of these means, one array (cells of y, cells of x) for each panel, with one scale of colour.
+
+    Shares are drawn from 0 to 1, other results from the least to the largest mean. At most four
+    panels in a row.
+    """
     share = maps.value in SHARES
     shown = np.concatenate([m[np.isfinite(m)] for m in means])
     low, high = (0.0, 1.0) if share or not len(shown) else (float(shown.min()), float(shown.max()))
@@ -180,8 +210,8 @@ def _draw(maps: Maps, x: Cut, y: Cut, panels: Cut, means: list[Array]) -> Figure
         return figure
 
 
-def _panel(axes: Axes, means: Array, limits: tuple[float, float], share: bool) -> Any:
-    """Grey where there is no number; the numbers themselves where they fit."""
+def _panel(axes: Axes, means: Array, limits: tuple[float, float], share: bool) -> QuadMesh:
+    """Draw one panel: grey where there is no number, the numbers themselves where they fit."""
     axes.set_facecolor("#DDDDDD")
     kind = "cividis" if share else "viridis"
     low, high = limits
@@ -198,6 +228,7 @@ def _panel(axes: Axes, means: Array, limits: tuple[float, float], share: bool) -
 
 
 def _axes(axes: Axes, x: Cut, y: Cut) -> None:
+    """Label the cells of both axes, at most twelve or so of each."""
     for set_ticks, cells, rotation in ((axes.set_xticks, x, 45), (axes.set_yticks, y, 0)):
         step = -(-len(cells.texts) // 12)
         places = range(0, len(cells.texts), step)

@@ -1,7 +1,13 @@
 """The zero dynamics of a gait: I(Theta), V_zero(Theta), the phase portrait with its domain, and rho(zeta).
 
-Single support conserves sigma^2 / 2 + V_zero(Theta), so the portrait is made of level curves, and every step
-of the return map is a pair of corners between rho and the diagonal.
+On the zero dynamics the angular momentum sigma about the stance foot obeys a scalar system. Single
+support conserves sigma^2 / 2 + V_zero(Theta), so the portrait is made of level curves of that sum.
+zeta = sigma^2 / 2 at the end of a step is mapped by impact and step to rho(zeta) = delta^2 zeta -
+V_zero at the end: a straight line, whose fixed point zeta* is the gait; every step is a pair of
+corners between it and the diagonal.
+
+`biped-adrc gait zero --plot` draws all four from a `ZeroDynamicsReport` (`analysis.zero_report`).
+The domain is the range of zeta from which walks come back to the orbit and keep the limits.
 """
 
 from __future__ import annotations
@@ -22,10 +28,11 @@ WIDE = 2.0  # where the domain has no upper end it is drawn to this many zeta*
 STAIRS = 8
 """Steps drawn from either end of the domain."""
 DOMAIN = "#DDEBF4"
+"""Light blue, of the domain."""
 
 
 def zero_inertia(axes: Axes, orbits: ZeroOrbits) -> Axes:
-    """I(Theta) [kg m^2], which must not change its sign."""
+    """I(Theta) [kg m^2], the inertia sigma / Theta', which must not change its sign."""
     theta = grid(orbits.zero)
     axes.plot(theta, orbits.inertia(theta), color=PALETTE[0])
     axes.axhline(0.0, color="black", lw=0.8)
@@ -34,7 +41,10 @@ def zero_inertia(axes: Axes, orbits: ZeroOrbits) -> Axes:
 
 
 def zero_potential(axes: Axes, report: ZeroDynamicsReport) -> Axes:
-    """V_zero(Theta), its largest value, and sigma+^2 / 2 of the orbit, which has to be above it."""
+    """V_zero(Theta) [kg^2 m^4/s^2], its largest value, and sigma+^2 / 2 of the orbit, which has to be above it.
+
+    Where it is not, the robot does not come over the top of its step and falls back.
+    """
     o = report.orbits
     theta = grid(o.zero)
     axes.plot(theta, o.potential(theta), color=PALETTE[0], label=r"$V_{zero}$")
@@ -51,7 +61,12 @@ def zero_potential(axes: Axes, report: ZeroDynamicsReport) -> Axes:
 
 
 def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
-    """(Theta, sigma) with level curves, the domain shaded, and the orbit with its impact dotted."""
+    """(Theta [rad], sigma [kg m^2/s]) with level curves, the domain shaded, and the orbit with its
+    impact dotted.
+
+    Level curves are those of sigma^2 / 2 + V_zero(Theta). Limits follow the fastest step of the
+    domain.
+    """
     o, theta = report.orbits, grid(report.orbits.zero)
     low, high = _shown(report)
     orbit, fastest = _sigma(o, theta, report.zeta_star), _sigma(o, theta, max(low, high))
@@ -70,7 +85,11 @@ def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
 
 
 def restricted_map(axes: Axes, report: ZeroDynamicsReport, steps: int = STAIRS) -> Axes:
-    """rho(zeta), the diagonal, zeta*, the domain shaded, and the stairs from either end of it."""
+    """rho(zeta), the diagonal, zeta*, the domain shaded, and the stairs of `steps` steps from either end of it.
+
+    zeta [kg^2 m^4/s^2] is sigma^2 / 2 before an impact. The stairs begin just inside the domain, as
+    its ends are left out of it, and run towards zeta* where the gait is stable.
+    """
     o = report.orbits
     low, high = _shown(report)
     right = 1.05 * max(high, report.zeta_star)
@@ -94,7 +113,7 @@ def restricted_map(axes: Axes, report: ZeroDynamicsReport, steps: int = STAIRS) 
 
 
 def zero_dynamics_figure(report: ZeroDynamicsReport) -> Figure:
-    """All four, with what bounds the domain as a title."""
+    """All four plots, with what bounds the domain as a title."""
     with style():
         figure = new_figure(9.0, 6.6)
         (inertia, potential), (portrait, returns) = figure.subplots(2, 2)
@@ -107,7 +126,7 @@ def zero_dynamics_figure(report: ZeroDynamicsReport) -> Figure:
 
 
 def _level_curves(axes: Axes, report: ZeroDynamicsReport) -> None:
-    """Steps that are not the orbit, in what the axes show; below V_max they turn round."""
+    """Draw steps that are not the orbit, in what the axes show; those below V_max turn round."""
     o = report.orbits
     theta, sigma = np.meshgrid(grid(o.zero)[::2], np.linspace(*axes.get_ylim(), 201))
     above = o.delta**2 * report.zeta_star - o.v_max
@@ -118,7 +137,7 @@ def _level_curves(axes: Axes, report: ZeroDynamicsReport) -> None:
 
 
 def _shown(report: ZeroDynamicsReport) -> tuple[float, float]:
-    """The ends of the domain, or what to show in their place."""
+    """The range of zeta that is shown as domain; of an empty one, from the lowest zeta to that of the orbit."""
     low, high = report.domain
     if report.domain.empty:
         return report.orbits.lowest, report.zeta_star
@@ -126,13 +145,16 @@ def _shown(report: ZeroDynamicsReport) -> tuple[float, float]:
 
 
 def _sigma(orbits: ZeroOrbits, theta: Array, zeta: float) -> Array:
-    """sigma along the step after zeta, NaN where the step does not come."""
+    """sigma [kg m^2/s] over theta (K,) [rad] in the step that follows zeta, NaN where the step does
+    not come.
+    """
     square = orbits.sigma_squared(theta, zeta)
     size = np.sqrt(np.where(square >= 0.0, square, np.nan))
     return math.copysign(1.0, orbits.sigma(1.0)) * size
 
 
 def _title(report: ZeroDynamicsReport) -> str:
+    """The domain and what bounds it, as a sentence."""
     low, high = report.domain
     if report.domain.empty:
         return "no speed keeps the limits"
@@ -142,6 +164,6 @@ def _title(report: ZeroDynamicsReport) -> str:
 
 
 def _walking_order(axes: Axes, theta: Array) -> Axes:
-    """Theta+ at the left, so that a step runs to the right."""
+    """Limits of the axis of Theta with the start of a step at the left, so that a step runs to the right."""
     axes.set_xlim(theta[0], theta[-1])
     return axes

@@ -1,7 +1,12 @@
-"""The numbers a figure shows, as plain values for a small file beside it, and how two such files differ.
+"""The numbers a figure shows, as a small JSON file beside it, and how two such files differ.
 
-Of a line: its least and largest value within the limits of its panel, and its values at fixed shares of the
-panel's width. They depend neither on where the nodes of a walk are nor on how the line was thinned.
+Pictures cannot be compared as bytes: another version of matplotlib or of a font changes all of
+them. A picture in the documentation therefore has a file with the numbers that its reader would
+read off, and a check draws the figure anew and compares (`docs/check_pictures.py`).
+
+Of a line these are its least and largest value within the limits of its panel, and its values at
+fixed shares of the panel's width. They depend neither on where the nodes of a walk are nor on how
+the line was thinned.
 """
 
 from __future__ import annotations
@@ -9,7 +14,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import TypeGuard
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,29 +22,34 @@ from matplotlib.collections import QuadMesh
 from matplotlib.container import BarContainer, ErrorbarContainer
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, Rectangle
+from numpy.typing import ArrayLike
 
 from biped_adrc.types import Array
 
 SHARES = (0.137, 0.293, 0.487, 0.617, 0.831)
-"""Where a line is sampled, as shares of the panel's width."""
+"""Where a line is sampled, as shares of the panel's width from the left."""
 TOLERANCE = 0.01
 """By which two numbers may differ, as a share of the largest in their list."""
 SMALL = 1e-3
-"""Share of the largest number of a panel below which none is told apart."""
+"""Share of the largest number of a panel below which differences count as nothing."""
 
-Numbers = dict[str, Any]
+Numbers = dict[str, object]
+"""Plain values by name, ready for JSON."""
 
 
 def numbers_of(figure: Figure) -> Numbers:
-    """Panel by panel: labels, lines, bars, marks with their intervals, patches, maps and their texts.
+    """The numbers of a figure: {"panels": [...]}, a dict for each panel.
 
-    Plain values, ready for JSON.
+    A panel has its labels, lines, bars, marks with their intervals, outlines of patches, values of
+    maps and the texts written into them; what it does not have is left out. Lines, bars and marks
+    go by their labels in the legend, those without a label are skipped.
     """
     return {"panels": [_panel(axes) for axes in figure.axes]}
 
 
 def _panel(axes: Axes) -> Numbers:
+    """The numbers of one panel."""
     found: Numbers = {"x": axes.get_xlabel(), "y": axes.get_ylabel()}
     if axes.get_title(loc="left"):
         found["title"] = axes.get_title(loc="left")
@@ -74,10 +84,12 @@ def _panel(axes: Axes) -> Numbers:
 
 
 def _named(artist: Line2D) -> bool:
+    """Whether a line has a label; matplotlib gives others one that begins with an underscore."""
     return not str(artist.get_label()).startswith("_")
 
 
-def _size(bar: BarContainer, patch: Any) -> float:
+def _size(bar: BarContainer, patch: Rectangle) -> float:
+    """What a bar shows: its length along the axis of values."""
     return float(patch.get_width() if bar.orientation == "horizontal" else patch.get_height())
 
 
@@ -86,12 +98,12 @@ def _marks(found: ErrorbarContainer) -> Numbers:
     points, _, bars = found.lines
     x, y = (np.asarray(values, dtype=float) for values in points.get_data())
     ends = np.array([s[:, 0] for bar in bars for s in bar.get_segments()]).reshape(-1, 2)
-    numbers = {"x": rounded(x), "y": rounded(y)}
+    numbers: Numbers = {"x": rounded(x), "y": rounded(y)}
     return numbers | {"from": rounded(ends[:, 0]), "to": rounded(ends[:, 1])} if bars else numbers
 
 
 def _extents(patches: list[Patch]) -> list[float | None]:
-    """Left, bottom, right, top of all patches together in data coordinates."""
+    """[left, bottom, right, top] of all patches together, in data coordinates; empty for none."""
     boxes = [patch.get_path().get_extents(patch.get_patch_transform()).extents for patch in patches]
     if not boxes:
         return []
@@ -100,6 +112,11 @@ def _extents(patches: list[Patch]) -> list[float | None]:
 
 
 def _line(axes: Axes, line: Line2D) -> Numbers:
+    """What a line shows within the limits of its panel; empty for a line outside of them.
+
+    For a function of x: range of y and samples at `SHARES`, by linear interpolation. For a curve
+    that turns back, such as a phase portrait: ranges of x and y, as there is no y at a given x.
+    """
     x, y = (np.asarray(values, dtype=float) for values in line.get_data())
     known = np.isfinite(x) & np.isfinite(y)
     x, y = x[known], y[known]
@@ -115,17 +132,20 @@ def _line(axes: Axes, line: Line2D) -> Numbers:
 
 
 def _range(values: Array) -> list[float | None]:
+    """[least, largest] of the values."""
     return rounded([values.min(), values.max()])
 
 
-def rounded(values: Any) -> list[float | None]:
-    """To five significant digits, None for what is not finite."""
+def rounded(values: ArrayLike) -> list[float | None]:
+    """The values, of any shape (...,), as a flat list to five significant digits, None for what is not
+    finite.
+    """
     flat = np.ravel(np.asarray(values, dtype=float))
     return [float(f"{v:.5g}") if math.isfinite(v) else None for v in flat]
 
 
 def as_text(numbers: Numbers) -> str:
-    """As JSON; every panel has a line of its own."""
+    """The numbers as JSON; every panel has a line of its own, so that a difference shows which one it is in."""
     parts = []
     for name, value in numbers.items():
         body = json.dumps(value, ensure_ascii=False)
@@ -136,18 +156,24 @@ def as_text(numbers: Numbers) -> str:
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
-def differences(old: Any, new: Any, tolerance: float = TOLERANCE) -> list[str]:
-    """Where two `Numbers` differ by more than the tolerance, with both values; empty where they agree.
+def differences(old: object, new: object, tolerance: float = TOLERANCE) -> list[str]:
+    """Where two `Numbers` differ by more than the tolerance, one sentence each; empty where they agree.
 
-    Numbers of one list are compared with the largest of it, samples of a line with the largest of the line;
-    what is below `SMALL` of the largest of its panel counts as nothing.
+    old: of the file; new: of the figure as it is drawn now. Numbers of one list are compared with
+    the largest of it, samples of a line with the largest of the line. What is below `SMALL` of the
+    largest of its panel counts as nothing: it is not visible.
     """
     return list(_compared("", old, new, tolerance, 0.0, 0.0))
 
 
 def _compared(
-    where: str, old: Any, new: Any, tolerance: float, scale: float, floor: float
+    where: str, old: object, new: object, tolerance: float, scale: float, floor: float
 ) -> Iterator[str]:
+    """Differences below one place of the two trees; `where` names it, in words.
+
+    tolerance [1]: as a share of `scale`, the largest magnitude beside these values, or of `floor`,
+    the least that can be told apart in this panel.
+    """
     if isinstance(old, Mapping) and isinstance(new, Mapping):
         if "lines" in old:
             floor = SMALL * _largest([old["lines"], new.get("lines")])
@@ -171,12 +197,15 @@ def _compared(
         yield f"{where}: {old!r} in the file, {new!r} now"
 
 
-def _number(value: Any) -> bool:
+def _number(value: object) -> TypeGuard[float]:
+    """Whether a value is a number; True and False are none."""
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def _largest(value: Any) -> float:
-    """The largest magnitude inside; 0 where there is no number."""
+def _largest(value: object) -> float:
+    """The largest magnitude inside, at any depth; 0 where there is no number. Positions x have no part
+    in it.
+    """
     if isinstance(value, Mapping):
         return max((_largest(v) for name, v in value.items() if name != "x"), default=0.0)
     if isinstance(value, list):

@@ -1,7 +1,12 @@
 """Objects of the scene in Meshcat: robots from their URDF, ground, footprints, traces, arrows, cameras.
 
-The scene mirrors the tree of the URDF, a node per joint, so links stay together between frames. The feet are
-points in the model and balls in the URDF: the ground is drawn one radius below the footholds.
+Meshcat's scene is a tree of nodes with paths; an object hangs at a node and moves with it. The tree
+here mirrors that of the URDF, a node for each joint, so the player moves a link by one joint value
+and links stay together between frames. Every `add_` function draws below the node it is given;
+`MemoryWindow` collects the commands that come of it, and `view` writes them into the page.
+
+The feet are points in the model and balls in the URDF: the ground is drawn one radius below the
+footholds.
 """
 
 from __future__ import annotations
@@ -14,7 +19,7 @@ import re
 import uuid
 import warnings
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Protocol
 
 import numpy as np
 import umsgpack  # type: ignore[import-untyped]
@@ -24,7 +29,7 @@ from numpy.typing import NDArray
 from biped_adrc.model.biped import Biped
 from biped_adrc.robots.urdf import Joint, Tree, Visual
 from biped_adrc.types import Array
-from biped_adrc.viz.placement import TILE, Scene, joint_transform, legs, spokes, turn
+from biped_adrc.viz.placement import TILE, WalkScene, joint_transform, legs, spokes, turn
 
 with warnings.catch_warnings():
     # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here
@@ -34,47 +39,67 @@ with warnings.catch_warnings():
 
 _UUID = re.compile(rb"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 DARK = (0.1, 0.1, 0.1)
+"""Red, green, blue of footprints and of the hip's trace."""
 Colour = str | tuple[float, float, float] | tuple[float, float, float, float]
-"""Red, green, blue in 0..1, or "#RRGGBB"."""
+"""Red, green, blue in 0..1, perhaps with opacity, or "#RRGGBB"."""
 VIEW = 2.0
-"""[m], height of the picture from the side."""
+"""Height [m] of the picture from the side."""
 HEAD = 0.09
-"""[m], length of the head of an arrow."""
+"""Length [m] of the head of an arrow."""
+
+
+class SceneNode(Protocol):
+    """A node of Meshcat's tree; `node[path]` is one below it. meshcat has no types of its own."""
+
+    def __getitem__(self, path: str) -> SceneNode: ...
+    def set_object(self, geometry: object, material: object = ...) -> None: ...
+    def set_transform(self, matrix: Array) -> None: ...
+    def set_property(self, key: str, value: object) -> None: ...
+
+
+class MeshcatCommand(Protocol):
+    """A command that meshcat sends to a viewer; `lower` gives it as plain values."""
+
+    def lower(self) -> dict[str, object]: ...
 
 
 def shift(origin: Sequence[float]) -> Array:
-    """A translation (4, 4)."""
+    """Placement (4, 4) of a translation by `origin` (3,) [m]."""
     M = np.eye(4)
     M[:3, 3] = origin
     return M
 
 
 def rotation(R: Array) -> Array:
-    """A rotation (4, 4) by R (3, 3)."""
+    """Placement (4, 4) of a rotation by R (3, 3)."""
     M = np.eye(4)
     M[:3, :3] = R
     return M
 
 
-def paint(rgb: Colour, opacity: float = 1.0) -> Any:
-    """A material of one colour."""
+def paint(rgb: Colour, opacity: float = 1.0) -> object:
+    """A material of one colour, for Meshcat."""
     return shapes.MeshLambertMaterial(color=colour(rgb), opacity=opacity)
 
 
 def colour(rgb: Colour) -> int:
-    """0xRRGGBB."""
+    """The colour as Meshcat has it, 0xRRGGBB."""
     return int(to_hex(rgb)[1:], 16)
 
 
 # -- robot -----------------------------------------------------------------------------------------
 def joint_path(tree: Tree, joint: Joint) -> str:
-    """Path of a joint's node below its robot."""
+    """Path of a joint's node below that of its robot: the names of all joints from the base to it."""
     above = [j.name for j in tree.path_to_root(joint.parent)]
     return "/".join([*reversed(above), joint.name])
 
 
-def add_robot(node: Any, biped: Biped, opacity: float) -> None:
-    """A node per joint at its zero, the primitives of its child below it; of a wheel once a spoke."""
+def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
+    """Draw a robot: a node for each joint, at joint value 0, with the primitives of its child below it.
+
+    The player moves the joints. The primitives of a wheel are drawn once for every spoke; one at
+    the joint's own origin, the hub, once.
+    """
     tree = biped.tree
     for joint in tree.joints:
         here = node[joint_path(tree, joint)]
@@ -86,7 +111,8 @@ def add_robot(node: Any, biped: Biped, opacity: float) -> None:
                 part.set_transform(rotation(R) @ visual_transform(visual))
 
 
-def _shape(visual: Visual) -> Any:
+def _shape(visual: Visual) -> object:
+    """A primitive of the URDF as a shape of Meshcat's."""
     if visual.shape == "box":
         return shapes.Box(list(visual.size))
     if visual.shape == "sphere":
@@ -102,11 +128,14 @@ def visual_transform(visual: Visual) -> Array:
 UPRIGHT = np.array(
     [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
 )
-"""Turns y, the axis of Meshcat's cylinders, to z."""
+"""(4, 4): turns y, the axis of Meshcat's cylinders, to z."""
 
 
 def leg_visuals(biped: Biped) -> list[list[str]]:
-    """Paths below the robot of the parts of the leg that is stance leg in odd steps, and of the other."""
+    """Paths below the robot of the parts of the leg that is stance leg in odd steps, and of the other.
+
+    The player gives them their colours, which change over at impact.
+    """
     tree = biped.tree
     return [
         [
@@ -120,14 +149,14 @@ def leg_visuals(biped: Biped) -> list[list[str]]:
 
 
 def sole(biped: Biped) -> float:
-    """Radius of the ball of a foot [m]; 0 for a foot without one."""
+    """Radius [m] of the ball that the URDF draws as a foot; 0 for a foot without one."""
     foot = biped.tree.links[biped.description.stance_foot]
     return max((v.size[0] for v in foot.visuals if v.shape == "sphere"), default=0.0)
 
 
 # -- what surrounds it -----------------------------------------------------------------------------
-def add_footprints(node: Any, scene: Scene, depth: float, opacity: float) -> list[str]:
-    """A flat plate under every stance foot; returns their names."""
+def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: float) -> list[str]:
+    """Draw a flat plate under every stance foot; returns the names of their nodes, in order."""
     for k in range(len(scene.footholds)):
         plate = node[f"{k}"]
         plate.set_object(shapes.Box([0.06, 0.1, 0.004]), paint(DARK, opacity))
@@ -144,15 +173,15 @@ def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0)
     return shift((point[0], side, point[1])) @ rotation(R) @ shift((0.0, 0.0, -depth))
 
 
-def add_trace(node: Any, points: int, rgb: Colour, opacity: float) -> None:
-    """Room for a line of `points` points, drawn by the player."""
+def add_trace(node: SceneNode, points: int, rgb: Colour, opacity: float) -> None:
+    """Make room for a line of `points` points; the player fills it."""
     room = np.zeros((3, 2 * max(points - 1, 1)), dtype=np.float32)
     material = shapes.LineBasicMaterial(color=colour(rgb), opacity=opacity)
     node.set_object(shapes.LineSegments(shapes.PointsGeometry(room), material))
 
 
-def add_arrow(node: Any, rgb: Colour, opacity: float) -> None:
-    """An arrow along z: `shaft` of length 1 m and `head` of `HEAD`, to be scaled by the player."""
+def add_arrow(node: SceneNode, rgb: Colour, opacity: float) -> None:
+    """Draw an arrow along z: a shaft of length 1 m and a head of length `HEAD`, to be scaled by the player."""
     shaft, head = node["shaft"]["body"], node["head"]["body"]
     shaft.set_object(shapes.Cylinder(1.0, 0.012), paint(rgb, opacity))
     shaft.set_transform(shift((0.0, 0.0, 0.5)) @ UPRIGHT)
@@ -160,8 +189,11 @@ def add_arrow(node: Any, rgb: Colour, opacity: float) -> None:
     head.set_transform(shift((0.0, 0.0, 0.5 * HEAD)) @ UPRIGHT)
 
 
-def add_ring(node: Any, origin: Sequence[float], rgb: Colour, opacity: float) -> None:
-    """A bent arrow of radius 1 m in the x-z plane, counter-clockwise as q; `turn` is scaled by the player."""
+def add_ring(node: SceneNode, origin: Sequence[float], rgb: Colour, opacity: float) -> None:
+    """Draw a bent arrow of radius 1 m about `origin` (3,) [m] in the x-z plane, counter-clockwise as q.
+
+    The player scales its node `turn` by the torque; a negative one turns it round.
+    """
     node.set_transform(shift(origin))
     vertices, faces = ring_mesh()
     node["turn"]["body"].set_object(
@@ -190,10 +222,11 @@ def ring_mesh(width: float = 0.12, segments: int = 40) -> tuple[Array, NDArray[n
     return np.vstack((vertices, head)), faces
 
 
-def add_ground(node: Any, scenes: Sequence[Scene], depth: float, lane: float) -> None:
-    """Light and dark tiles, two before and three behind the walks, `depth` [m] below their footholds.
+def add_ground(node: SceneNode, scenes: Sequence[WalkScene], depth: float, lane: float) -> None:
+    """Draw light and dark tiles, from two before to three behind the walks, `depth` [m] below their footholds.
 
-    Walks on the same ground share it; on different grounds each has its own, as wide as its lane [m].
+    Walks on the same ground share it; on different grounds each has its own, as wide as its lane
+    [m].
     """
     x = np.concatenate([scene.footholds for scene in scenes])
     low, high = math.floor(x.min() / TILE) - 2, math.ceil(x.max() / TILE) + 3
@@ -207,16 +240,20 @@ def add_ground(node: Any, scenes: Sequence[Scene], depth: float, lane: float) ->
 
 
 def _add_strip(
-    node: Any,
+    node: SceneNode,
     names: Iterator[int],
-    scene: Scene,
+    scene: WalkScene,
     reach: tuple[int, int],
     depth: float,
     sides: tuple[float, float],
 ) -> None:
-    """The tiles of one ground; below the highest step down they are thick enough to reach the lower ground."""
+    """Draw the tiles of one ground, thick enough to reach the lower ground beside the highest step.
+
+    names: numbers for the nodes. reach: first and last tile. sides [m]: near and far edge, from the
+    first walk's plane.
+    """
     near, far = sides
-    thick = 0.03 + float(np.max(scene.surface.heights, initial=0.0))
+    thick = 0.03 + float(np.max(np.abs(scene.surface.drops), initial=0.0))
     for tile in scene.surface.tiles(*reach):
         grey = 0.78 if tile.even else 0.62
         size = [float(np.hypot(*(tile.ends[1] - tile.ends[0]))), far - near, thick]
@@ -228,7 +265,7 @@ def _add_strip(
         )
 
 
-def set_stage(viewer: Any) -> None:
+def set_stage(viewer: SceneNode) -> None:
     """White background, no axes, no grid."""
     for name in ("/Axes", "/Grid"):
         viewer[name].set_property("visible", False)
@@ -236,10 +273,11 @@ def set_stage(viewer: Any) -> None:
         viewer["/Background"].set_property(name, [1.0, 1.0, 1.0])
 
 
-def set_camera(viewer: Any, kind: str, scale: float = 1.0) -> tuple[list[float], list[float]]:
-    """A camera at the robot's right side (x to the right, z up) or before it; its position and target [m].
+def set_camera(viewer: SceneNode, kind: str, scale: float = 1.0) -> tuple[list[float], list[float]]:
+    """Place a camera at the robot's right side ("side", x to the right, z up) or before it ("perspective").
 
-    The camera's own frame has y up and z towards the robot's right. scale: how much larger than for RABBIT.
+    Returns its position and its target [m], in the camera's own frame, which has y up and z towards
+    the robot's right. scale: how much larger than for RABBIT.
     """
     node = viewer[f"/Cameras/{kind}/rotated"]
     node.set_transform(UPRIGHT)
@@ -253,26 +291,32 @@ def set_camera(viewer: Any, kind: str, scale: float = 1.0) -> tuple[list[float],
 
 
 class MemoryWindow:
-    """Takes the place of meshcat's window: keeps the commands, opens no port and starts no process."""
+    """Takes the place of meshcat's window: keeps the commands, opens no port and starts no process.
+
+    seed: of the names of objects, see `send`. packed: the commands in base64. viewer: the root of
+    the tree.
+    """
 
     def __init__(self, seed: str = "scene") -> None:
         self.packed: list[str] = []
         """The commands in base64."""
-        self.viewer: Any = meshcat.Visualizer(window=self)
+        self.viewer: SceneNode = meshcat.Visualizer(window=self)
         """Meshcat's tree of nodes."""
         self._names: dict[bytes, bytes] = {}
         self._source = random.Random(seed)
 
-    def send(self, command: Any) -> None:
-        """Pack a command of meshcat as its viewer expects it.
+    def send(self, command: MeshcatCommand) -> None:
+        """Keep a command of meshcat, packed as its viewer expects it.
 
-        Meshcat names objects by clock and host (uuid1); here names come from a seeded source, for the same
-        bytes every time.
+        Meshcat names objects by clock and host (uuid1). Here names come from a seeded source in the
+        order of their first use, so that the same walk gives the same bytes on any machine at any
+        time.
         """
         packed = _UUID.sub(lambda found: self._named(found[0]), umsgpack.packb(command.lower()))
         self.packed.append(base64.b64encode(packed).decode("ascii"))
 
     def _named(self, name: bytes) -> bytes:
+        """The name that stands for this one of meshcat's."""
         if name not in self._names:
             number = uuid.UUID(int=self._source.getrandbits(128), version=4)
             self._names[name] = str(number).encode()

@@ -1,8 +1,10 @@
-"""What a GPI observer asks of a robot's encoders, clock and motors, and which one they allow.
+"""What a GPI observer demands of a robot's encoders, sampling and motors, and which one they allow.
 
-`observer_report` puts together what the linear loop of one joint says: gains and conditioning, transfer
-functions, delay margins, the largest stable period, the torque that one encoder count makes, the peak after an
-impact, and the largest bandwidth of each order that the robot allows.
+`observer_report` puts together what the linear loop of one joint says: gains and conditioning,
+transfer functions, delay margins, the largest stable period, the torque noise of one encoder count,
+the peak after an impact, and the largest bandwidth of each order that the robot allows. The numbers
+come from the other modules of this folder, each computed when first asked for; `observer_tables`
+turns them into text. The command `biped-adrc observer` calls it.
 """
 
 from __future__ import annotations
@@ -28,12 +30,8 @@ from biped_adrc.observer_design.observer_choice import (
     recommend,
     without_observer,
 )
-from biped_adrc.observer_design.observer_impact import Impact, orbit_impact
-from biped_adrc.observer_design.observer_loop import (
-    ObserverLoop,
-    bandwidth,
-    observer_loop,
-)
+from biped_adrc.observer_design.observer_impact import ImpactStates, orbit_impact
+from biped_adrc.observer_design.observer_loop import bandwidth
 from biped_adrc.observer_design.observer_sampled import largest_delay, largest_period
 from biped_adrc.observer_design.observer_tables import Section, sections, verdict
 from biped_adrc.observers.base import Observer
@@ -42,44 +40,45 @@ from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, ComplexArray
 
 COUNTS = 8192.0
-"""Of RABBIT's encoders per revolution."""
+"""Counts of RABBIT's encoders per revolution."""
 PERIOD = 1.5e-3
-"""[s], of RABBIT's controller."""
+"""Sampling period of RABBIT's controller [s]."""
 
 
 class Response(NamedTuple):
-    """One transfer function: its value at low frequency, its largest value, and where it falls off."""
+    """Magnitude of one transfer function: at low frequency, at its peak, and where it falls off.
+
+    The unit of `low` and `peak` is that of the transfer function.
+    """
 
     low: float
+    """At the lowest frequency of the grid."""
     peak: float
+    """Largest value."""
     at: float
-    """[rad/s], of the peak."""
+    """Frequency of the peak [rad/s]."""
     bandwidth: float
-    """[rad/s], where it is 3 dB below: below `low` for xi^ / xi, below the peak for the others."""
+    """Where it is 3 dB below [rad/s]: below `low` for xi^ / xi, below the peak for the others."""
 
 
 @dataclass(frozen=True)
 class ObserverReport(OnHardware):
-    """The module's numbers for one observer and the gains of one joint; `text()` has all of it."""
+    """All numbers for one observer, the gains of one joint and a robot; `text()` shows them."""
 
     robot: str = field(kw_only=True)
-    """Its name and preset."""
-    impact: Impact = field(kw_only=True)
-
-    @cached_property
-    def loop(self) -> ObserverLoop:
-        """In continuous time."""
-        return observer_loop(self.observer, self.gains, self.joint)
+    """Name and preset of the robot."""
+    impact: ImpactStates = field(kw_only=True)
+    """Impact of the gait's periodic orbit."""
 
     @cached_property
     def sampled_margins(self) -> tuple[float, float]:
-        """The largest stable delay [s] at this period, hidden and known."""
+        """The largest stable delay [s] at this period, unknown and known to the observer."""
         hidden, known = (largest_delay(replace(self.sampled(), known=k)) for k in (False, True))
         return hidden, known
 
     @cached_property
     def largest_periods(self) -> dict[str, tuple[float, float]]:
-        """The largest stable period [s], the delay hidden and known, by form of the observer and delay."""
+        """The largest stable period [s], for a delay unknown and known, by form of the observer and delay."""
         return {
             "no delay": self._periods(),
             "a delay of one period": self._periods(delay_periods=1.0),
@@ -87,25 +86,26 @@ class ObserverReport(OnHardware):
         }
 
     def _periods(self, delay_periods: float = 0.0, form: str = "current") -> tuple[float, float]:
+        """The largest stable periods [s] with a delay of that many periods, unknown and known."""
         loop, told = replace(self.sampled(), form=form), (False, delay_periods > 0.0)
         hidden, known = (largest_period(replace(loop, known=k), delay_periods) for k in told)
         return hidden, known
 
     @cached_property
     def spectral_radius(self) -> float:
-        """Of the sampled loop at this period and delay."""
+        """Of the sampled loop at this period and delay, dimensionless; below 1 if it is stable."""
         return self.sampled().spectral_radius
 
     @property
     def frequencies(self) -> Array:
-        """[rad/s], for the responses."""
+        """Grid (2000,) [rad/s] for the responses, from far below the slowest pole to far above the fastest."""
         rates = np.abs(self.observer.poles)
         slow = min(rates.min(), math.sqrt(self.loop.K_p))
         return np.geomspace(0.01 * slow, 100.0 * max(rates.max(), self.loop.K_d), 2000)
 
     @cached_property
     def responses(self) -> dict[str, Response]:
-        """Of xi to e [s^2], of xi to xi^, and of the measurement's error to the torque [N m/rad]."""
+        """Of xi to e [s^2], of xi to xi^ [1], and of the measurement's error to the torque [N m/rad]."""
         grid = self.frequencies
 
         def torque(frequency: Array) -> ComplexArray:
@@ -128,7 +128,7 @@ class ObserverReport(OnHardware):
 
     @cached_property
     def recommended(self) -> tuple[Recommended, ...]:
-        """For each m of ORDERS what the encoders, the period and the delay allow."""
+        """For each m of ORDERS the largest bandwidth that encoders, period and delay allow."""
         return tuple(recommend(self.hardware, self.gains, m, self.joint) for m in ORDERS)
 
     @property
@@ -141,7 +141,7 @@ class ObserverReport(OnHardware):
 
     @cached_property
     def against_none(self) -> float:
-        """The error that a 5 Hz disturbance leaves, over that with K_p and K_d alone."""
+        """Tracking error that a 5 Hz disturbance leaves, relative to that with K_p and K_d alone."""
         return self.rejection / without_observer(self.gains, self.joint)
 
     @property
@@ -160,7 +160,7 @@ class ObserverReport(OnHardware):
         return observer_name(self.observer)
 
     def text(self) -> str:
-        """The verdict and the tables it stands on."""
+        """The verdict and the tables it is based on."""
         tables = ("\n".join(section.lines()) for section in sections(self))
         return "\n\n".join((self.verdict, *tables))
 
@@ -180,9 +180,10 @@ def observer_report(
 ) -> ObserverReport:
     """The report of an observer, or of poles [rad/s], on a robot that walks a gait.
 
-    counts: of the encoders per revolution; delay [s]: from a tick to its torque, `known` to the observer or
-    not; torque_limit [N m]: of the robot's record if not given; joint: whose gains, of one number per joint.
-    Raises InputError for what is impossible, and names it.
+    period [s]: of the sampling; counts: of the encoders per revolution; delay [s]: from a sample
+    instant to its torque, `known` to the observer or not; torque_limit [N m]: that of the robot's
+    record if None; joint: whose gains, where `gains` has one number per joint. Raises InputError
+    for what is impossible, and names it.
     """
     if isinstance(observer, Observer) and not isinstance(observer, GPIObserver):
         raise InputError(
@@ -225,7 +226,10 @@ def _check_joint(robot: Biped, gains: Gains, joint: int) -> None:
 
 
 def worst_inertia(biped: Biped, gait: Gait) -> float:
-    """The largest sqrt(sum_j (kappa^-1)_ij^2) over joints and along the gait [kg m^2]."""
+    """The largest sqrt(sum_j (kappa^-1)_ij^2) over joints i and along the gait [kg m^2].
+
+    It turns independent errors of the commanded accelerations into the torque of the worst joint.
+    """
     still = np.zeros(biped.n)
     along = ZeroDynamics.of(biped, gait.constraint).q
     return float(
@@ -234,7 +238,7 @@ def worst_inertia(biped: Biped, gait: Gait) -> float:
 
 
 def observer_name(observer: GPIObserver) -> str:
-    """Table I, or m and the poles."""
+    """The observer for a heading: Table I, or m and the poles [rad/s]."""
     if observer.poles == GPIObserver.from_poles().poles:
         return "Table I"
     first = observer.poles[0]

@@ -1,0 +1,90 @@
+"""The picture of docs/architecture.md: rooms of the package in layers, as the import contract has them.
+
+Run: python docs/draw_architecture.py
+"""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+from diagrams import BLUE, GREY, INK, ORANGE, Diagram
+
+ROOT = Path(__file__).resolve().parents[1]
+LEAVES = {"control", "hardware", "observers", "disturbances", "gait"}
+"""Where a research idea is one file."""
+WORDS = {
+    "validation": "published results, outside the wheel",
+    "cli": "the commands",
+    "paper": "the reproduction",
+    "bench": "sweeps and comparisons",
+    "studies": "stability, design, observer of one gait",
+    "scenario": "one walk in plain values, the registry",
+    "viz": "figures, pages, Meshcat",
+    "analysis": "signals, legality, return map",
+    "observer_design": "bandwidth, noise, delay",
+    "engine": "laws as machine code",
+    "closed_loop": "flow, tick, impact, events",
+    "control": "u from a measurement",
+    "hardware": "sensors, motors",
+    "observers": "estimates of q, q', xi",
+    "disturbances": "zeta(t, q)",
+    "gait": "q_d = h(Theta), design",
+    "robot_import": "a robot of one's own",
+    "model": "D_s, Omega, impact map",
+    "hybrid": "integrators, events, runs",
+    "robots": "URDF, robot.toml",
+    "campaign": "many tasks, stored",
+}
+
+
+def layers() -> list[list[str]]:
+    """Rooms from top to bottom, those beside each other in one list; modules of one file are left out."""
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    contract = tomllib.loads(text)["tool"]["importlinter"]["contracts"][0]
+    rows = ([name.strip() for name in layer.split("|")] for layer in contract["layers"])
+    found = [[name.rpartition(".")[2] for name in row if is_room(name)] for row in rows]
+    return [row for row in found if row]
+
+
+def is_room(name: str) -> bool:
+    """Whether a name of the contract is a folder."""
+    return (ROOT / name.replace(".", "/")).is_dir()
+
+
+def main() -> None:
+    """Draw it."""
+    rows = layers()
+    high, wide = 2.8, 40.0
+    d = Diagram(wide, high * (len(rows) + 1) + 0.4)
+    for i, row in enumerate(rows):
+        y = high * (len(rows) - i) + 0.9
+        for j, name in enumerate(row):
+            x = wide / 2 + (j - (len(row) - 1) / 2) * 12.4
+            d.box(x, y, 11.6, 2.0, "", ORANGE if name in LEAVES else BLUE)
+            d.text(x, y + 0.4, name)
+            d.text(x, y - 0.5, WORDS[name], GREY, 8)
+        if i:
+            d.arrow((wide / 2, y + high - 1.0), (wide / 2, y + 1.02), colour=GREY)
+    d.box(
+        wide / 2,
+        0.9,
+        30,
+        1.3,
+        "errors, types, files, linear, ground and other modules of one file",
+        GREY,
+    )
+    d.arrow((wide / 2, high - 0.1), (wide / 2, 1.58), colour=GREY)
+    d.text(
+        wide - 0.4,
+        high * (len(rows) + 1) - 0.4,
+        "a room may import what lies below it; orange: an idea is one file",
+        INK,
+        9,
+        ha="right",
+    )
+    d.save("architecture.svg")
+
+
+if __name__ == "__main__":
+    main()
