@@ -65,6 +65,7 @@ class Walker(ClosedLoop[Biped]):
 
     def __post_init__(self) -> None:
         self.check()
+        self.plant.check_motors()
         check_slope(self.slope)
         limit = self.torque_limit
         if limit is not None and not (math.isfinite(limit) and limit > 0):

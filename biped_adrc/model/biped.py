@@ -157,6 +157,30 @@ class Biped(Shown):
             )
         return np.asarray(columns)
 
+    def check_motors(self) -> None:
+        """Raise ModelError for motors that the impact does not exchange one for one.
+
+        A controller's state and a held torque are relabelled with the legs: u+ = u[swap]. One motor between the
+        legs has an angle that changes its sign instead, for which there is no such exchange.
+        """
+        moved = self.R[: self.p]
+        ones = np.sum(moved == 1.0, axis=1) == 1
+        bad = [
+            self.description.actuated[i]
+            for i in range(self.p)
+            if not ones[i] or np.count_nonzero(moved[i]) != 1 or self._offset[i] != 0.0
+        ]
+        if bad:
+            raise ModelError(
+                f"robot '{self.description.name}': the motors of {bad} are not exchanged with others "
+                "at impact; "
+                "their angles change sign or are combined as the legs change over, and a controller "
+                "is relabelled "
+                "by exchanging motors. Expected a motor for either leg, as between torso and thighs; "
+                "give the "
+                "robot a torso with two hips, or no motors (--actuated '')"
+            )
+
     # -- the two Pinocchio models ----------------------------------------------------------------
     @cached_property
     def pinned_tree(self) -> Tree:
