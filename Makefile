@@ -7,13 +7,15 @@ BIN := .venv/bin
 BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine/batches engine/growth \
   engine/compiling engine/continued peers/plant peers/closed_loop bench/studies bench/metering \
   pinocchio_calls
-PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
+PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
 .PHONY: reproduce test docs pictures comparison results verification dev lint format types imports bench clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
 
+# as many processes as cores: threads of linear algebra would only wait for each other
+test: export OPENBLAS_NUM_THREADS ?= 1
 test: .venv/.test
 	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadgroup
 

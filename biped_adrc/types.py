@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 """Real array in float64; shapes are stated in the docstrings."""
+
+Indices = NDArray[np.int_]
+"""Array of int: row numbers, and the relabelling of joints at an impact."""
 
 ComplexArray = NDArray[np.complex128]
 """Complex array, for eigenvalues and transfer functions."""
@@ -20,6 +23,9 @@ PlainRecord = Mapping[str, Any]
 For summaries, stored rows and TOML tables, whose keys are stated where they are written. Inside the
 package a dataclass or a NamedTuple is preferred.
 """
+
+DaskClient: TypeAlias = Any
+"""`distributed.Client`, the connection to a Dask scheduler: Dask is optional and has no types of its own."""
 
 
 def read_only(values: ArrayLike) -> Array:

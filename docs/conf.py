@@ -12,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import docstrings
 import expand
+from sphinx import addnodes
 
 docstrings.name_array_types()  # before any other module of the package is imported
 
@@ -46,6 +47,7 @@ autodoc_default_options = {
 }
 autodoc_typehints_format = "short"
 autodoc_preserve_defaults = True
+autodoc_use_type_comments = False  # there are none to look for
 
 # -- Markdown and notebooks -----------------------------------------------------------------------
 myst_enable_extensions = ["dollarmath", "colon_fence", "deflist", "attrs_inline"]
@@ -71,6 +73,34 @@ html_show_sourcelink = False
 html_theme_options = {"top_of_page_buttons": []}
 
 
+def titles(toc):
+    """Of the contents of a page its title and the pages below it, which is all that the sidebar shows."""
+    short = toc.deepcopy()
+    for entry in short.children:
+        if len(entry) > 1:
+            if below := list(entry.findall(addnodes.toctree)):
+                entry[1][:] = below
+            else:
+                entry.pop(1)
+    return short
+
+
+def light_sidebar(app, pagename, templatename, context, doctree):
+    """Otherwise every name of the reference is copied for every page, and thrown away."""
+    env, toctree = app.env, context["toctree"]
+    if not hasattr(app, "short_tocs"):
+        app.short_tocs = {name: titles(toc) for name, toc in env.tocs.items()}
+
+    def with_titles(**options):
+        whole, env.tocs = env.tocs, app.short_tocs
+        try:
+            return toctree(**options)
+        finally:
+            env.tocs = whole
+
+    context["toctree"] = with_titles
+
+
 def setup(app):
     app.config.mathjax_path = (
         "mathjax/tex-svg.js"  # fonts inside: browsers refuse those of other files
@@ -80,3 +110,4 @@ def setup(app):
     app.connect("autodoc-process-bases", docstrings.bases)
     app.connect("autodoc-skip-member", docstrings.skip)
     app.connect("source-read", expand.placeholders)
+    app.connect("html-page-context", light_sidebar, priority=400)  # before the theme asks for it

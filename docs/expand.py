@@ -53,9 +53,9 @@ def _names(_: str) -> str:
 def _fields(model: str) -> str:
     module, _, name = model.rpartition(".")
     rows = ["| name | unit | default | range | what |", "|---|---|---|---|---|"]
-    found = getattr(importlib.import_module(module), name)
-    for field, info in found.__pydantic_fields__.items():
-        unit = info.json_schema_extra["unit"]
+    home = importlib.import_module(module)
+    for field, info in getattr(home, name).__pydantic_fields__.items():
+        unit = home.UNITS[field]
         ends = [
             f"{sign} {getattr(part, key):g}"
             for part in info.metadata

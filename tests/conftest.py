@@ -6,6 +6,8 @@ import pytest
 
 import biped_adrc as ba
 
+from .preloaded import Preloaded
+
 PRESETS = ("identified", "identified-bare", "tac2003")
 
 
@@ -34,9 +36,20 @@ def published(bare):
     return ba.load_gait("published", bare)
 
 
+@pytest.fixture(scope="session")
+def preloaded():
+    """One process for all commands that this worker runs, with figures drawn into files."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("MPLBACKEND", "agg")
+        process = Preloaded()
+        yield process
+        process.close()
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """A file is run by one worker, which makes its fixtures once; every document is a file of its own."""
+    """A file is run by one worker, which makes its fixtures once; documents and examples by any."""
+    alone = ("test_every_block_runs", "test_every_example_runs")
     for item in items:
-        document = item.name.startswith("test_every_block_runs")
-        item.add_marker(pytest.mark.xdist_group(item.nodeid if document else str(item.path)))
+        group = item.nodeid if item.name.startswith(alone) else str(item.path)
+        item.add_marker(pytest.mark.xdist_group(group))

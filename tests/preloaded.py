@@ -1,7 +1,8 @@
 """Commands run by forks of one process that has imported the package already: it imports once, not per command.
 
-As a script, this file is that process; `Preloaded` starts it and asks it for commands. It imports only: it
-computes nothing and starts no thread, so that each fork is what a fresh interpreter is after its imports.
+As a script, this file is that process; `Preloaded` starts it and asks it for commands. It imports, and loads
+the compiled loops: it computes nothing and starts no thread, so that each fork is what a fresh interpreter is
+after its imports.
 """
 
 from __future__ import annotations
@@ -31,10 +32,11 @@ ERRORS = ("error", None, Warning, None, 0)
 
 
 class Ended(NamedTuple):
-    """How a command ended: its exit code (a signal's number below 0), and what it wrote on stderr."""
+    """How a command ended: its exit code (a signal's number below 0), and what it wrote."""
 
     code: int
     stderr: str
+    stdout: str
 
 
 class Preloaded:
@@ -56,15 +58,18 @@ class Preloaded:
             "timeout": timeout,
             "environment": dict(os.environ),
             "stderr": str(folder / ".stderr"),
+            "stdout": str(folder / ".stdout"),
         }
         process.stdin.write(json.dumps(request) + "\n")
         process.stdin.flush()
         answer = process.stdout.readline()
         assert answer, f"the preloaded process ended with {process.wait(60)}"
-        errors = folder / ".stderr"
-        text = errors.read_text(errors="replace")
-        errors.unlink()
-        return Ended(json.loads(answer), text)
+        texts = []
+        for name in ("stderr", "stdout"):
+            written = Path(request[name])
+            texts.append(written.read_text(errors="replace"))
+            written.unlink()
+        return Ended(json.loads(answer), *texts)
 
     def close(self) -> None:
         if self._process is not None:
@@ -96,6 +101,7 @@ def preload() -> None:
             importlib.import_module(module.name)
     for name in IMPORTED_LATE:
         importlib.import_module(name)
+    importlib.import_module("biped_adrc.engine.kernels.load").kernels()
     gc.freeze()  # nothing imported is garbage, and a fork that looks copies every page
     threads = len(os.listdir("/proc/self/task")) if os.path.isdir("/proc/self/task") else 1
     assert threads == 1, f"the imports have started {threads - 1} threads, which no fork has"
@@ -138,9 +144,9 @@ def become(request: dict) -> None:
     os.chdir(request["folder"])
     os.environ.clear()
     os.environ.update(request["environment"])
-    nothing = os.open(os.devnull, os.O_RDWR)
-    errors = os.open(request["stderr"], os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
-    for number, file in enumerate((nothing, nothing, errors)):
+    new = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
+    written = (os.open(request[name], new, 0o600) for name in ("stdout", "stderr"))
+    for number, file in enumerate((os.open(os.devnull, os.O_RDONLY), *written)):
         os.dup2(file, number)
     multiprocessing.process.ORIGINAL_DIR = request["folder"]
     sys.argv = [request["script"], *request["arguments"]]

@@ -13,7 +13,6 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.run import execute
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.cycle_stability import speed_slope
 
 
 @pytest.fixture(scope="module")
@@ -120,11 +119,6 @@ def test_runs_are_records_and_come_back():
 def test_bad_runs(values, message):
     with pytest.raises(InputError, match=message):
         execute(Scenario(**values))
-
-
-def test_slope_of_sampled_map(biped):
-    x = np.linspace(1.0, 2.0, 5)
-    assert speed_slope(biped, (x, 0.5 * x)) == pytest.approx(0.5)
 
 
 def test_power_balance_over_a_pushed_step(biped, gait):

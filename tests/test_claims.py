@@ -17,12 +17,12 @@ from biped_adrc.paper.claims.admissible import Member, convergence, declared, me
 from biped_adrc.paper.claims.evidence import Evidence, GaitCycle, Jumps, Needs, Pair, Start
 from biped_adrc.paper.claims.orders import Order, bandwidth_with
 from biped_adrc.paper.claims.table import rows
-from biped_adrc.paper.claims.tally import Case, Figure, Tally, below_limit, changes
+from biped_adrc.paper.claims.tally import AtTwoSteps, ClaimCase, Tally, below_limit, changes
 from biped_adrc.paper.claims.walks import (
     MemberOutcome,
+    MemberWalk,
     Prepared,
     Track,
-    Walked,
     _ending,
     _undisturbed,
     nominal,
@@ -43,13 +43,13 @@ NUMERICS = {
 
 
 def figure(value, change=1e-3):
-    return Figure(value * (1.0 + change), value)
+    return AtTwoSteps(value * (1.0 + change), value)
 
 
 def walk(error, *, made=4, rate=1e-9, change=1e-3, period=0.4, illegal=()):
     status = "COMPLETED" if made == 4 else "FELL"
     f = figure(error, change)
-    return Walked(status, made, 4, f, f, figure(rate), figure(period), illegal)
+    return MemberWalk(status, made, 4, f, f, figure(rate), figure(period), illegal)
 
 
 def outcome(npd=None, adrc=None, member=None):
@@ -160,21 +160,21 @@ def test_a_walk_that_is_not_finite_is_not_legal(monkeypatch):
 
 # -- cases and tallies -----------------------------------------------------------------------------
 def test_a_number_is_judged_at_both_steps():
-    just = below_limit("a", Figure(0.0099, 0.0101), 0.01, (0.05, 0.0))
+    just = below_limit("a", AtTwoSteps(0.0099, 0.0101), 0.01, (0.05, 0.0))
     assert just.marginal
-    assert not below_limit("a", Figure(0.0098, 0.0099), 0.01, (0.05, 0.0)).marginal
-    assert below_limit("a", Figure(0.002, 0.001), 0.01, (0.01, 1e-9)).marginal
-    assert not below_limit("a", Figure(2e-10, 1e-10), 0.01, (0.01, 1e-9)).marginal
-    infinite = below_limit("a", Figure(math.inf, math.inf), 0.01, (0.01, 1e-9))
+    assert not below_limit("a", AtTwoSteps(0.0098, 0.0099), 0.01, (0.05, 0.0)).marginal
+    assert below_limit("a", AtTwoSteps(0.002, 0.001), 0.01, (0.01, 1e-9)).marginal
+    assert not below_limit("a", AtTwoSteps(2e-10, 1e-10), 0.01, (0.01, 1e-9)).marginal
+    infinite = below_limit("a", AtTwoSteps(math.inf, math.inf), 0.01, (0.01, 1e-9))
     assert (infinite.holds, infinite.marginal) == (False, False)
-    nothing = below_limit("a", Figure(math.nan, math.nan), 0.01, (0.01, 1e-9))
+    nothing = below_limit("a", AtTwoSteps(math.nan, math.nan), 0.01, (0.01, 1e-9))
     assert (nothing.holds, nothing.marginal) == (False, True)  # a search that failed says nothing
-    assert below_limit("a", Figure(math.nan, 0.001), 0.01, (0.01, 1e-9)).marginal
+    assert below_limit("a", AtTwoSteps(math.nan, 0.001), 0.01, (0.01, 1e-9)).marginal
 
 
 def test_a_tally_counts_what_is_firm():
-    good, bad = Case("g", figure(1.0), True), Case("b", figure(1.0), False)
-    doubtful = Case("m", figure(1.0), True, marginal=True)
+    good, bad = ClaimCase("g", figure(1.0), True), ClaimCase("b", figure(1.0), False)
+    doubtful = ClaimCase("m", figure(1.0), True, marginal=True)
     assert Tally((good,) * 4).word == "replicated"
     assert Tally((good, bad)).word == "depends"
     assert Tally((bad, bad)).word == "contradicted"
@@ -185,7 +185,7 @@ def test_a_tally_counts_what_is_firm():
 
 
 def test_a_run_with_fewer_cases_than_declared_says_so():
-    good = Case("g", figure(1.0), True)
+    good = ClaimCase("g", figure(1.0), True)
     assert "4 of the 36 cases declared were run" in Tally((good,) * 4, 36).share
     assert "declared" not in Tally((good,) * 4, 4).share
     assert "where a run tried fewer" in MEANINGS["replicated"]
@@ -206,16 +206,16 @@ def test_the_interval_is_wilson_s():
     p = k / n
     middle = (p + z * z / (2 * n)) / (1 + z * z / n)
     half = z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n)) / (1 + z * z / n)
-    tally = Tally(tuple(Case("c", figure(1.0), i < k) for i in range(n)))
+    tally = Tally(tuple(ClaimCase("c", figure(1.0), i < k) for i in range(n)))
     assert f"between {middle - half:.2f} and {middle + half:.2f}" in tally.share
     assert tally.share.startswith("18 of 36")
 
 
 def test_what_is_said_of_convergence():
-    assert changes([Figure(1.001, 1.0), Figure(2.0, 2.0)]) == "half the step: at most 0.1 %"
-    assert changes([Figure(25.0, 25.0)]) == ""  # a count
-    assert changes([Figure(3e-9, 1e-9)]) == "half the step: round-off, at most 2e-09, in 1"
-    assert changes([Figure(math.nan, math.nan)]) == "no finite number"
+    assert changes([AtTwoSteps(1.001, 1.0), AtTwoSteps(2.0, 2.0)]) == "half the step: at most 0.1 %"
+    assert changes([AtTwoSteps(25.0, 25.0)]) == ""  # a count
+    assert changes([AtTwoSteps(3e-9, 1e-9)]) == "half the step: round-off, at most 2e-09, in 1"
+    assert changes([AtTwoSteps(math.nan, math.nan)]) == "no finite number"
 
 
 def test_spans():
@@ -462,7 +462,7 @@ def cycle(multiplier=0.7, rate=-1.25, gait="published", controller="NPD"):
     [(0.999, "replicated"), (1.001, "depends"), (1.0, "depends"), (math.nan, "depends")],
 )
 def test_stability(multiplier, word):
-    odd = cycle()._replace(multiplier=Figure(multiplier, multiplier))
+    odd = cycle()._replace(multiplier=AtTwoSteps(multiplier, multiplier))
     for rule in (rows_gait.stable, rows_gait.recipe_stable):
         claim = rule([cycle(), odd])
         assert claim.word == word
@@ -471,17 +471,19 @@ def test_stability(multiplier, word):
 
 def test_multipliers_agree_to_a_share_or_the_round_off_of_their_differences():
     for found, marginal in (
-        (Figure(0.706, 0.7), 0),
-        (Figure(0.708, 0.7), 1),
-        (Figure(1e-4, 2e-5), 0),
-        (Figure(1.3e-4, 2e-5), 1),
+        (AtTwoSteps(0.706, 0.7), 0),
+        (AtTwoSteps(0.708, 0.7), 1),
+        (AtTwoSteps(1e-4, 2e-5), 0),
+        (AtTwoSteps(1.3e-4, 2e-5), 1),
     ):
         odd = cycle()._replace(multiplier=found)
         assert rows_gait.stable([odd]).marginal == marginal
 
 
 def test_a_cycle_that_was_not_found_says_nothing():
-    lost = cycle()._replace(multiplier=Figure(math.nan, math.nan), rate=Figure(math.nan, math.nan))
+    lost = cycle()._replace(
+        multiplier=AtTwoSteps(math.nan, math.nan), rate=AtTwoSteps(math.nan, math.nan)
+    )
     for rule in (rows_gait.stable, rows_gait.recipe_speed):
         claim = rule([lost])
         assert (claim.word, claim.marginal) == ("not testable", 1)
@@ -532,10 +534,10 @@ def test_what_gaits_need():
     "odd",
     [
         {"same": False},
-        {"friction": Figure(0.6, 0.61)},
-        {"normal": Figure(100.0, 102.0)},
-        {"torque": Figure(149.0, 151.0)},
-        {"friction": Figure(math.nan, math.nan)},
+        {"friction": AtTwoSteps(0.6, 0.61)},
+        {"normal": AtTwoSteps(100.0, 102.0)},
+        {"torque": AtTwoSteps(149.0, 151.0)},
+        {"friction": AtTwoSteps(math.nan, math.nan)},
     ],
 )
 def test_needs_that_the_step_decides(odd):
@@ -544,7 +546,7 @@ def test_needs_that_the_step_decides(odd):
 
 
 def test_a_need_that_is_not_converged_is_said_to_be():
-    odd = need()._replace(friction_at_an_instant=Figure(9.6, 10.1))
+    odd = need()._replace(friction_at_an_instant=AtTwoSteps(9.6, 10.1))
     assert "not converged" in rows_gait.recipe_needs([odd]).number
 
 

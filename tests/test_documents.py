@@ -37,6 +37,7 @@ PAGES = sorted(
     path for path in (ROOT / "docs").rglob("*.md") if not BUILT & set(path.relative_to(ROOT).parts)
 )
 DOCUMENTS = [ROOT / "README.md", *PAGES]
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 
 RUN_BY_CI = {  # documented command: what has to stand in .ci/run
     "make reproduce": "make reproduce",
@@ -157,16 +158,6 @@ def execute(
         )
 
 
-@pytest.fixture(scope="session")
-def preloaded():
-    """One process for all commands that this worker runs, with figures drawn into files."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("MPLBACKEND", "agg")
-        process = Preloaded()
-        yield process
-        process.close()
-
-
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_every_block_runs(document, tmp_path, monkeypatch, preloaded):
     (tmp_path / "tests").symlink_to(ROOT / "tests")
@@ -182,6 +173,12 @@ def test_every_block_runs(document, tmp_path, monkeypatch, preloaded):
             origin = getattr(sys.modules[module], "__file__", None) or ""
             if origin.startswith(str(tmp_path)):  # a file the document wrote
                 del sys.modules[module]
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.name)
+def test_every_example_runs(example, tmp_path, preloaded):
+    ended = preloaded.run(example, [str(tmp_path / "out")], tmp_path, strict=False)
+    assert ended.code == 0, ended.stderr[-2000:]
 
 
 def test_blocks_are_found():

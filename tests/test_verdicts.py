@@ -19,7 +19,7 @@ from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper import reproduction, verdicts
-from biped_adrc.paper.claims.tally import Case, Figure, Tally
+from biped_adrc.paper.claims.tally import AtTwoSteps, ClaimCase, Tally
 from biped_adrc.paper.claims.words import Claim, judged
 from biped_adrc.paper.convergence import convergence_check
 from biped_adrc.paper.physical_laws import walk_laws, work_identity
@@ -310,7 +310,7 @@ def test_torso_pushes_that_the_controllers_answer_differently():
 def claim(ratio):
     """One member, whose ratio is given."""
     holds = bool(ratio <= 0.01)
-    case = Case("member", Figure(ratio, ratio), holds)
+    case = ClaimCase("member", AtTwoSteps(ratio, ratio), holds)
     return judged("ADRC rejects", "VI", Tally((case,)), f"{ratio}", "made up", asserted=True)
 
 

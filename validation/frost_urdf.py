@@ -1,10 +1,12 @@
-"""URDFs of RABBIT as others write it: links along +z, clockwise angles, right leg first.
+"""URDFs of RABBIT as others write them: links along +z, clockwise angles, right leg first.
 
-In their coordinates r, q = A r + b, they are the registered robot:
+Does the import of a URDF depend on who wrote it? In their coordinates r, with q = A r + b, the imported robot
+must be the registered one:
 
     D_r = A' D A,   Omega_r = A' Omega,   A r'+ = Delta q'-
 
-The first writing is FROST's; the others turn the frames of the hips and the axes of the legs.
+The first writing is FROST's; the others turn the frames of the hips and the axes of the legs. Called by
+`validation.groups`; tests of the import use `rabbit_urdf` too.
 """
 
 from __future__ import annotations
@@ -23,24 +25,29 @@ from biped_adrc.types import Array
 from validation.row import Row, nothing
 
 PRESET = "identified-bare"
+"""The preset whose masses the URDF has: without rotors, which a URDF cannot say."""
 LIMIT = '<limit effort="150"/>'
+"""The motors' limit, in each joint [N m]."""
 SOURCE = "Biped.load('rabbit'), a URDF with links along -z and angles counter-clockwise"
+"""With what the rows compare."""
 
 FROM_FROST: Array = np.eye(5)[[4, 0, 2, 1, 3]]
-"""(pitch, hip, knee, hip, knee) of FROST = FROM_FROST @ q of the derived robot."""
+"""(pitch, hip, knee, hip, knee) of FROST = FROM_FROST @ q of the derived robot, a permutation (5, 5)."""
 _FROST = convention("frost").to_paper
 TURNED = AngleMap(_FROST.A @ FROM_FROST, _FROST.b)
+"""q of the paper from the coordinates of FROST's URDF."""
 HUNG = AngleMap(TURNED.A, TURNED.b + TURNED.A @ np.array([math.pi, math.pi, 0.0, 0.0, 0.0]))
+"""The same where the frames of the hips are turned by pi: the thighs' zero is another."""
 
 
 # -- the text --------------------------------------------------------------------------------------
 def bodies() -> dict[str, BodyParameters]:
-    """Mass, COM and inertia of torso, thigh and shin."""
+    """Mass [kg], COM [m] and inertia [kg m^2] of torso, thigh and shin."""
     return dict(load_description("rabbit").preset(PRESET).bodies)
 
 
 def body(name: str, kind: str, lateral: str = "y") -> str:
-    """A link with its COM along +z; its moment about `lateral` is the planar one."""
+    """A link with its COM along +z; its moment of inertia about `lateral` is the planar one."""
     p = bodies()[kind]
     moments = {"x": 0.9, "y": 0.8, "z": 0.7} | {lateral: 1.0}
     inertia = " ".join(f'i{a}{a}="{p.inertia * moments[a]!r}"' for a in "xyz")
@@ -59,7 +66,7 @@ def joint(
     xyz: str = "0 0 0",
     rpy: str = "0 0 0",
 ) -> str:
-    """A joint with the motor's limit."""
+    """A joint with the motor's limit; xyz [m] and rpy [rad] of its frame in the parent's."""
     axis = "" if axis is None else f'<axis xyz="{axis}"/>'
     return (
         f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
@@ -76,7 +83,10 @@ def rabbit_urdf(
     thigh: float = 0.4,
     shin: float = 0.4,
 ) -> str:
-    """FROST's RABBIT: positive about `axis`, hips turned by rpy [rad], legs about `leg_axis`; lengths [m]."""
+    """FROST's RABBIT: positive about `axis`, hips turned by rpy [rad], legs about `leg_axis`; lengths [m].
+
+    base: whether the floating base is written as two prismatic joints and a revolute one.
+    """
     text = body("torso", "torso")
     if base:
         text += '<link name="world"/><link name="cart"/><link name="lift"/>\n'
@@ -97,7 +107,10 @@ def rabbit_urdf(
 
 # -- rows ------------------------------------------------------------------------------------------
 def sense_rows(states: int = 20) -> tuple[Row, ...]:
-    """D, Omega and the impact of three writings at random states, as shares of their largest entries."""
+    """D, Omega and the impact of three writings at random states, as shares of their largest entries.
+
+    Each writing is imported, and its coordinates r are mapped to q by a known A and b.
+    """
     writings = {
         "links along +z, clockwise": (rabbit_urdf(), TURNED),
         "hips turned by pi about y": (rabbit_urdf(rpy=f"0 {math.pi!r} 0"), HUNG),

@@ -1,11 +1,15 @@
-"""Laws that any periodic gait obeys, on every stored gait that the impact does not leave.
+"""Laws that any periodic gait obeys, on every stored gait whose constraint the impact preserves.
 
     int u' q_b' dt = KE- - KE+              net joint work is what the impact takes, on level ground
     lambda_1 = delta^2                      the largest multiplier of the closed loop, in closed form
     zeta+ - zeta+' = delta^2 (zeta - zeta') the map of zeta = sigma-^2 / 2 is affine
 
-Work by quadrature over the zero dynamics; multipliers of the walk simulated under NPD, once by the variational
-equation and once by two walks that start 1 % faster and slower. Westervelt, Grizzle, Koditschek 2003.
+The closed forms come from the zero dynamics and are compared with the simulated walk, so that both could be
+wrong only together. Work by quadrature over the zero dynamics; multipliers of the walk under NPD, once by the
+variational equation and once by two walks that start 1 % faster and slower. Westervelt, Grizzle, Koditschek
+2003. Called by `validation.groups`.
+
+A stored gait whose impact leaves the constraint, such as gait (b), has no closed form and is left out.
 """
 
 from __future__ import annotations
@@ -40,23 +44,26 @@ from validation.row import Row, at_most
 FASTER = 0.01  # of the speed before impact, dimensionless
 ROBOTS = ("rimless_wheel", "compass", "simplest", "three_link", "rabbit")
 ENERGY = "energy lost at impact"
+"""Where the expected work comes from."""
 CLOSED = "delta^2 of the zero dynamics"
+"""Where the expected multiplier comes from."""
 
 
 def invariant_gaits(preset: str) -> tuple[str, ...]:
-    """Names of the stored gaits of RABBIT whose constraint the impact does not leave."""
+    """Names of the stored gaits of RABBIT whose constraint the impact preserves (hybrid invariance)."""
     biped, limit = Biped.load("rabbit", preset), Tolerances().invariance
     gaits = (load_gait(name, biped) for name in gait_names("rabbit", preset))
     return tuple(g.name for g in gaits if invariance_gap(biped, g.constraint) <= limit)
 
 
 def work_rows(preset: str) -> tuple[Row, ...]:
-    """One row for every stored gait."""
+    """Net joint work of a step [J], one row for every invariant gait."""
     biped = Biped.load("rabbit", preset)
     return tuple(_work_row(biped, load_gait(n, biped)) for n in invariant_gaits(preset))
 
 
 def _work_row(biped: Biped, gait: Gait) -> Row:
+    """The work of one gait by quadrature over its zero dynamics."""
     q, v = gait.q_minus, gait.v_minus
     after = biped.impact(q, v)
     zero = ZeroDynamics.of(biped, gait.constraint)
@@ -68,7 +75,10 @@ def _work_row(biped: Biped, gait: Gait) -> Row:
 
 
 def multiplier_rows(preset: str, gait: str) -> tuple[Row, ...]:
-    """delta^2 against the simulated walk, twice."""
+    """delta^2 of the zero dynamics against the largest multiplier of the simulated walk.
+
+    Twice: by the variational equation along the walk, and by two walks whose starts differ by 2 % of the speed.
+    """
     cycle = gait_cycle(Scenario("NPD", preset=preset, gait=gait))
     biped = cycle.P.walker.plant
     delta2 = ZeroDynamics.of(biped, load_gait(gait, biped).constraint).delta ** 2
@@ -82,7 +92,11 @@ def multiplier_rows(preset: str, gait: str) -> tuple[Row, ...]:
 
 
 def slope_of_zeta(cycle: Cycle) -> float:
-    """d zeta+ / d zeta of the simulated walk by two walks beside the gait's orbit."""
+    """d zeta+ / d zeta of the simulated walk, from two walks that start faster and slower by the share
+    `FASTER`.
+
+    The map is affine, so that the secant over a finite difference is exact.
+    """
     biped, (q, v) = cycle.P.walker.plant, np.split(cycle.guess, 2)
 
     def zeta(x: Array) -> float:
@@ -104,7 +118,11 @@ def designed_three_link() -> Cycle:
 
 
 def cycle_of(robot: str) -> Cycle:
-    """A cycle of a registered robot; the simplest walker with feet heavy enough for differences of it."""
+    """A walking cycle of a registered robot.
+
+    The simplest walker has heavier feet here: with nearly massless ones finite differences of its map are
+    noise.
+    """
     if robot == "simplest":
         cycle = simplest(1e-4)
         return replace(cycle, P=replace(cycle.P, difference=2e-4))
@@ -112,7 +130,10 @@ def cycle_of(robot: str) -> Cycle:
 
 
 def robot_rows(robot: str) -> tuple[Row, ...]:
-    """All multipliers by the variational equation against extrapolated central differences."""
+    """All multipliers of a robot's cycle by the variational equation, against extrapolated central differences.
+
+    The second row is the largest gap in units of the tolerance that the stability table itself uses.
+    """
     cycle = cycle_of(robot)
     _, step = periodic_orbit(cycle.P, cycle.guess, 1e-9)
     table = stability_table(cycle.P, step)

@@ -1,4 +1,11 @@
-"""The groups of the verification, each with what it says and the functions that make its rows."""
+"""The groups of the verification page: a title, a text, and the functions that make the rows.
+
+Texts are in groups.toml, in the order of the page. Each maker takes seconds to minutes and is independent of
+the others, so that tests and `docs/write_verification.py` can distribute them.
+
+Groups: passive walkers, the three-link walker, the example of 2003, the paper, laws of work and of multipliers
+on stored gaits, all robots, gait design, the force on the hip, and RABBIT in other coordinates ("senses").
+"""
 
 from __future__ import annotations
 
@@ -13,17 +20,23 @@ from validation import frost_urdf, gaits, passive, rabbit, three_link
 from validation.row import PRESETS, Row
 
 DESIGNED = ("identified", "tac2003")
+"""Presets for which gaits are designed."""
 Maker = Callable[[], tuple[Row, ...]]
+"""A function that computes rows."""
 
 
 @dataclass(frozen=True)
 class Group:
-    """`text` is Markdown; `makers` give the rows, part by part."""
+    """One group of the page."""
 
     name: str
+    """By which it is asked for."""
     title: str
+    """Heading."""
     text: str
+    """Markdown."""
     makers: tuple[Maker, ...]
+    """They give the rows, part by part."""
 
 
 def groups() -> tuple[Group, ...]:
@@ -57,7 +70,7 @@ def groups() -> tuple[Group, ...]:
 
 
 def group_named(name: str) -> Group:
-    """Raises InputError with the names there are."""
+    """The group of this name. Raises InputError with the names there are."""
     found = {group.name: group for group in groups()}
     if name not in found:
         raise InputError(f"there is no group '{name}'; choose one of {list(found)}")

@@ -1,12 +1,17 @@
-"""How large a constant rearward force on the hip stops the walk, with and without a loop around the steps.
+"""How large a constant rearward force on the hip stops the walk, with and without a controller from step to
+step.
 
 Tracking cannot reject a force that enters the unactuated row: Westervelt, Grizzle, Canudas de Wit (IEEE CDC
 2003) report that 3 N stop a gait of 0.50 m/s under any inner loop, and that a PI from step to step recovers
 it. Here the smallest force, a multiple of `resolution`, with which the simulated walk does not make all its
 steps is searched under NPD and ADRC, alone and inside the PI of `control.stride` with the gains of its triple
-pole, beside the force that the quadratures of `analysis.forced_steps` find without a simulation. The search
-starts from that force, and both sides of what it returns were simulated. That more force is never better is
-taken for granted. Walks start on the orbit of their gait; the force (-force, 0) acts from the first instant on.
+pole. Beside it stands the force that quadratures of `analysis.forced_steps` predict without a simulation.
+
+The search starts from the prediction, and both sides of what it returns were simulated; that more force is
+never better is assumed. Walks start on the orbit of their gait; the force (-force, 0) acts from the first
+instant on. Run by `docs/write_hip_force.py`; `validation.rabbit` takes single cases of it.
+
+The prediction follows the zero dynamics from step to step under the force, up to the number of steps asked for.
 """
 
 from __future__ import annotations
@@ -31,7 +36,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.pair import CONTROLLERS
-from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.run import walk_scenario
@@ -39,30 +44,41 @@ from biped_adrc.scenario.scenario import Scenario
 
 
 class Parts(NamedTuple):
-    """The robot, the gait and the controller of a case."""
+    """What walks."""
 
     biped: Biped
+    """RABBIT in the preset of the case."""
     gait: Gait
+    """Its stored gait."""
     law: Controller
+    """The controller, the PI around it included."""
 
 
 @dataclass(frozen=True)
 class HipCase:
-    """One walker to be pushed. h [s]: of RK4 under NPD, of the exponential method under ADRC.
+    """One walker to be pushed.
 
-    stride: whether the PI goes around the tracking; limit [rad]: its bound on |beta|.
-    Raises InputError for what no scenario is, or a resolution [N] that is not positive.
+    Raises InputError for what no scenario takes, or a resolution that is not positive.
     """
 
     tracking: str
+    """Name of the inner controller."""
     stride: bool
+    """Whether the PI from step to step goes around it."""
     preset: str = "identified-bare"
+    """Of RABBIT."""
     gait: str = "v0.5"
+    """Name of a stored gait."""
     direction: tuple[float, ...] = STANCE_KNEE
+    """(p,) in which the PI moves the gait's curve."""
     limit: float = 0.5
+    """Bound of the PI on |beta| [rad]."""
     steps: int = 25
+    """Steps asked for."""
     resolution: float = 0.1
+    """Forces tried are multiples of it [N]."""
     h: float = 1e-3
+    """Integration step [s]: of RK4 under NPD, of the exponential method under ADRC."""
 
     def __post_init__(self) -> None:
         self.scenario(0.0)
@@ -72,7 +88,7 @@ class HipCase:
 
     @property
     def name(self) -> str:
-        """Of the controller."""
+        """Of the controller, for a reader."""
         return f"{self.tracking} with PI" if self.stride else self.tracking
 
     def scenario(self, force: float) -> Scenario:
@@ -92,17 +108,19 @@ class HipCase:
         )
 
     def parts(self) -> Parts:
-        """What walks; the gains of the PI are those of the triple pole."""
-        scene = Scene.of(self.scenario(0.0))
+        """Robot, gait and controller; the gains of the PI are those of the triple pole."""
+        scene = RobotAndGait.of(self.scenario(0.0))
         walker = build(self.scenario(0.0), scene)
         return Parts(scene.biped, scene.walked, walker.controller)
 
     def walk(self, force: float) -> Walk:
-        """The walk under this force [N]."""
+        """The simulated walk under this force [N]."""
         return walk_scenario(self.scenario(force))
 
     def predicted(self) -> float:
-        """The force [N] that stops it according to the quadratures."""
+        """The force [N] that stops it according to the quadratures on the zero dynamics, without a
+        simulation.
+        """
         biped, gait, law = self.parts()
         stride = law if isinstance(law, StridePI) else None
         return stopping_force(gait, biped, self.steps, stride)
@@ -115,6 +133,7 @@ class PushedWalk:
     force: float
     """Rearward [N]."""
     status: Status
+    """How the simulation ended."""
     speeds: tuple[float, ...]
     """L / T of every finished step [m/s]."""
     legality: Legality | None
@@ -124,7 +143,10 @@ class PushedWalk:
 
     @classmethod
     def of(cls, case: HipCase, force: float) -> PushedWalk:
-        """Simulate it."""
+        """Simulate the case under this force [N].
+
+        The last step, in which the robot fell, is left out of speeds and legality: it says nothing of walking.
+        """
         made = case.walk(force)
         count = len(made.trajectory.events(FOOT_STRIKE))
         arcs = tuple(arc for arc in made.trajectory.arcs if arc.mode.step <= count)
@@ -149,7 +171,7 @@ class PushedWalk:
         return outcome_of(self.status, False) if self.legality is None else self.legality.outcome
 
     def speed(self, last: int = 5) -> float | None:
-        """Mean of the last steps [m/s]."""
+        """Mean of the last steps [m/s]; None without one."""
         return float(np.mean(self.speeds[-last:])) if self.speeds else None
 
 
@@ -159,18 +181,23 @@ MOST = 1000
 
 @dataclass(frozen=True)
 class HipLimit:
-    """A case, the force [N] that stops it by quadrature, and the walks simulated just below it and at it."""
+    """The smallest force that stops a case."""
 
     case: HipCase
+    """Who walks."""
     predicted: float
+    """The force by quadrature [N]."""
     below: PushedWalk
+    """The walk one resolution below."""
     stops: PushedWalk
+    """The walk at the force that stops it."""
 
 
 def first_failure(walks: Callable[[int], bool], guess: int) -> int:
-    """The smallest k >= 1 with walks(k) False, given that it stays False; searched outwards from `guess`.
+    """The smallest k >= 1 with walks(k) False, assuming that it stays False above; bracketed outwards from
+    `guess`.
 
-    walks(0) is asked too. Raises SimulationError when it is False, or when walks holds up to MOST.
+    walks(0) is asked too. Raises SimulationError when it is False, or when walks(MOST) is True.
     """
     low, high, stride = max(guess - 1, 0), min(max(guess, 1), MOST), 1
     while not walks(low):
@@ -192,7 +219,11 @@ def first_failure(walks: Callable[[int], bool], guess: int) -> int:
 
 
 def hip_limit(case: HipCase) -> HipLimit:
-    """The smallest force that stops a case. Raises as its parts do, and as `first_failure`."""
+    """The smallest force that stops a case, as a multiple of its resolution.
+
+    The search starts at the prediction, so that two or three walks are enough where that is right; each force
+    is simulated once. Raises SimulationError as `first_failure`.
+    """
     known: dict[int, PushedWalk] = {}
 
     def walks(k: int) -> bool:
@@ -207,13 +238,14 @@ def hip_limit(case: HipCase) -> HipLimit:
 
 @dataclass(frozen=True)
 class HipPush:
-    """The study: limits of all cases, the PI's walks at and above what stops the tracking, and directions."""
+    """The limits of all cases, what the PI makes of the forces that stop tracking alone, and its directions."""
 
     limits: tuple[HipLimit, ...]
+    """Of all cases."""
     kept: tuple[tuple[HipCase, PushedWalk], ...]
     """With the PI, at the force that stops the same tracking alone, and `above` more."""
     directions: dict[str, tuple[DirectionMerit, ...]]
-    """By preset."""
+    """By preset: how well each direction of the PI regulates the speed."""
 
     def limit(self, preset: str, tracking: str, stride: bool) -> HipLimit:
         """One of `limits`. Raises InputError where it was not studied."""
@@ -224,7 +256,7 @@ class HipPush:
         raise InputError(f"{tracking}, {preset}, was not studied; choose a case of `limits`")
 
     def text(self) -> str:
-        """For a reader."""
+        """Three tables for a reader: limits, walks with the PI, directions."""
         stops = (
             f"{_named(x.case)} {x.stops.force:12.1f} {x.predicted:14.2f} {_shown(x.below.speed()):>18}"
             for x in self.limits
@@ -249,10 +281,12 @@ class HipPush:
 
 
 def _named(case: HipCase) -> str:
+    """Preset and controller in columns."""
     return f"{case.preset:<17} {case.name:<14}"
 
 
 def _shown(x: float | None, digits: int = 4) -> str:
+    """The number with so many decimals, "-" for none."""
     return "-" if x is None else f"{x:.{digits}f}"
 
 
@@ -263,9 +297,10 @@ def hip_push(
     workers: int = 2,
     progress: TaskProgress | None = None,
 ) -> HipPush:
-    """The study, in `workers` processes. base: gait, direction and numbers of all cases; above [N].
+    """The study, in `workers` processes.
 
-    Raises InputError, GaitError or SimulationError as its parts do.
+    base: gait, direction and numbers of all cases; above: more force on the PI than stops the tracking alone
+    [N]. Raises InputError, GaitError or SimulationError as its parts do.
     """
     if not presets:
         raise InputError(
@@ -279,8 +314,8 @@ def hip_push(
     alone = [x for x in limits if not x.case.stride]
     forces = [(x.case, x.stops.force + more) for x in alone for more in (0.0, above)]
     kept = [(replace(case, stride=True), force) for case, force in forces]
-    tasks = [Task(f"{c.preset}, {c.name}, {F:g} N", PushedWalk.of, (c, F)) for c, F in kept]
-    walks = [found.value for found in run_tasks(tasks, workers, progress)]
+    pushed = [Task(f"{c.preset}, {c.name}, {F:g} N", PushedWalk.of, (c, F)) for c, F in kept]
+    walks = [found.value for found in run_tasks(pushed, workers, progress)]
     pairs = tuple((c, w) for (c, _), w in zip(kept, walks, strict=True))
     parts = {preset: replace(base, preset=preset).parts() for preset in presets}
     merits = {preset: direction_merits(one.gait, one.biped) for preset, one in parts.items()}

@@ -1,12 +1,14 @@
-"""Systems without motors: the hybrid loop alone, and three walkers that gravity drives down a slope.
+"""Systems without motors: the hybrid loop alone, and walkers that gravity drives down a slope.
 
     bouncing ball     dropped from height h, restitution e: t_k = sqrt(2 h / g) (1 + 2 (e + ... + e^(k-1)))
     rimless wheel     after impact cot(2 alpha) sqrt(4 (g / l) sin alpha sin gamma), multiplier cos^2(2 alpha)
     simplest walker   theta, theta' after heel strike in units of sqrt(l / g), in the limit of massless feet
     compass gait      hip 10 kg, legs 5 kg at mid-leg, 1 m long, 3 degrees
 
-McGeer, Int. J. Robotics Research 9(2), 1990; Garcia et al., J. Biomech. Eng. 120(2), 1998; Goswami et al.,
-Int. J. Robotics Research 17(12), 1998.
+Without a controller nothing can hide an error of dynamics, impact or event location, and each of these has a
+closed form or digits that were published. McGeer, Int. J. Robotics Research 9(2), 1990; Garcia et al., J.
+Biomech. Eng. 120(2), 1998; Goswami et al., Int. J. Robotics Research 17(12), 1998. Called by
+`validation.groups`; the published digits are in published.toml.
 """
 
 from __future__ import annotations
@@ -27,21 +29,27 @@ from biped_adrc.types import Array
 from validation.row import Row, published
 
 CLOSED = "closed form"
+"""Source of the ball's rows."""
 MCGEER = "McGeer 1990, closed form"
+"""Source of the wheel's rows."""
 SCRIPT = "M. Garcia, pointfoot simulation of 1998 that goes with the paper"
+"""Source of a multiplier that the paper does not print."""
 FEET = 1e-7  # of the hip's mass, of the robot "simplest"
 
 
 # -- the hybrid loop alone -------------------------------------------------------------------------
 class Ball(HybridSystem):
-    """A bouncing ball, x = (height [m], velocity [m/s])."""
+    """A bouncing ball, x = (height [m], velocity [m/s]); the mode counts bounces."""
 
     e, g = 0.8, 9.81
 
     def flow(self, t: float, x: Array, mode: int) -> Array:
+        """x' = (v, -g)."""
         return np.array([x[1], -self.g])
 
     def guards(self, mode: int) -> tuple[Guard, ...]:
+        """Impact at height 0, with restitution e."""
+
         def bounce(t: float, x: Array) -> tuple[Array, int]:
             return np.array([0.0, -self.e * x[1]]), mode + 1
 
@@ -49,7 +57,10 @@ class Ball(HybridSystem):
 
 
 def ball_rows() -> tuple[Row, ...]:
-    """Time of the sixth bounce and speed before it, by both methods."""
+    """Time of the sixth bounce [s] and speed before it [m/s], by a fixed-step and an adaptive method.
+
+    Events are located in time, and their errors add up from bounce to bounce.
+    """
     ball, count = Ball(), 6
     first = math.sqrt(2.0 / ball.g)
     time = first * (1.0 + 2.0 * sum(ball.e**j for j in range(1, count)))
@@ -70,7 +81,7 @@ def ball_rows() -> tuple[Row, ...]:
 
 # -- walkers ---------------------------------------------------------------------------------------
 def solved(cycle: Cycle) -> tuple[StepDerivative, Array, Array]:
-    """The cycle's step by the variational equation, and (q+, q'+) after its impact."""
+    """The cycle's step by the variational equation, and (q+, q'+), (n,) each, after its impact."""
     orbit, step = periodic_orbit(cycle.P, cycle.guess, 1e-9)
     q, v = np.split(orbit.x_minus, 2)
     after = cycle.P.walker.plant.impact(q, v)
@@ -78,7 +89,7 @@ def solved(cycle: Cycle) -> tuple[StepDerivative, Array, Array]:
 
 
 def wheel_rows() -> tuple[Row, ...]:
-    """Rate after impact and multiplier on two slopes."""
+    """Rate after impact [rad/s] and multiplier on two slopes, by the closed forms above."""
     wheel, alpha, rows = Biped.load("rimless_wheel"), math.pi / 8, []
     for slope in (0.12, 0.2):
         step, _, v = solved(known_cycle(wheel, slope))
@@ -109,14 +120,19 @@ def started_at(cycle: Cycle, theta: float, rate: float) -> Cycle:
 
 
 def garcia_angles(cycle: Cycle, q: Array, v: Array) -> tuple[float, float]:
-    """(theta, theta') of Garcia et al. after heel strike."""
+    """(theta [rad], theta' in units of sqrt(g / l)) of Garcia et al. after heel strike, from q, v (2,) after
+    impact.
+    """
     walker = cycle.P.walker
     unit = math.sqrt(walker.plant.description.gravity)
     return float(q[1]) - math.pi + walker.slope, float(v[1]) / unit
 
 
 def simplest_rows() -> tuple[Row, ...]:
-    """The longer of the two steps: fixed point, period and multiplier."""
+    """The longer of the two steps: fixed point, period and multiplier.
+
+    The published multiplier is that of massless feet; here it is extrapolated from two small masses.
+    """
     cycle = simplest()
     step, q, v = solved(cycle)
     theta, rate = garcia_angles(cycle, q, v)
@@ -136,7 +152,7 @@ def simplest_rows() -> tuple[Row, ...]:
 
 
 def short_step_rows() -> tuple[Row, ...]:
-    """The shorter, unstable step."""
+    """The shorter, unstable step: fixed point and multipliers, one of them outside of the unit circle."""
     cycle = started_at(simplest(), 0.19393736960624, -0.20386692731962)
     step, q, v = solved(cycle)
     multipliers = (float(m.real) for m in step.multipliers[:2])
@@ -145,7 +161,7 @@ def short_step_rows() -> tuple[Row, ...]:
 
 
 def heavy_feet_rows() -> tuple[Row, ...]:
-    """Feet of a thousandth of the hip's mass: their inertia counts."""
+    """Feet of a thousandth of the hip's mass: their inertia changes the fixed point in the printed digits."""
     cycle = simplest(1e-3)
     _, q, v = solved(cycle)
     spread = -float(v[0]) / math.sqrt(cycle.P.walker.plant.description.gravity)

@@ -11,6 +11,9 @@ Westervelt, Grizzle, Koditschek, IEEE TAC 48(1), 2003, walk at 1.05 m/s, with
 
 The force at the hip that stops the gait of 0.50 m/s is predicted by a quadrature on the zero dynamics; walks
 are simulated. Every designed gait is walked two steps under NPD, and its certificate is taken from that walk.
+
+Rows beside numbers of another gait or robot have no tolerance: they show the order of magnitude and assert
+nothing.
 """
 
 from __future__ import annotations
@@ -40,17 +43,22 @@ from validation.hip_push import HipCase, PushedWalk
 from validation.row import PRESETS, Row, at_most, nothing
 
 PAPER = "the paper, section VI"
+"""Source of what the paper prints."""
 
 
 def poles_row() -> tuple[Row, ...]:
-    """Table I is printed in whole rad/s."""
+    """Table I, printed in whole rad/s, follows 180 x 1.8^k."""
     gap = np.abs(np.array(PRINTED_TABLE_I, dtype=float) - np.array(TABLE_I))
     quantity = "180 x 1.8^k, k = 0..8: largest gap to Table I [rad/s]"
     return (nothing("observer", quantity, np.max(gap), 0.5, "the paper, Table I"),)
 
 
 def fixed_point_rows(preset: str) -> tuple[Row, ...]:
-    """The published gait under NPD: x* within half a unit of its last printed digits, and its multiplier."""
+    """The published gait under NPD: x* within half a unit of its last printed digits, and its multiplier.
+
+    The multiplier is compared with (sigma+ / sigma-)^2 at the printed x*, for which no simulation is needed.
+    The height of the swing foot at x* shows how exact the printed angles are.
+    """
     biped, (q, v) = Biped.load("rabbit", preset), np.split(X_STAR, 2)
     cycle = gait_cycle(Scenario("NPD", preset=preset))
     _, step = periodic_orbit(cycle.P, cycle.guess, 1e-8)
@@ -76,12 +84,15 @@ def fixed_point_rows(preset: str) -> tuple[Row, ...]:
 
 
 TAC = "Westervelt, Grizzle, Koditschek 2003, example at 1.05 m/s"
+"""Source of the printed digits of the example."""
 ZETA, DELTA2, V_END, K = 979.0, 0.638, -354.4, 260.4
+"""zeta*, delta^2, V_zero(Theta-) and K as printed, zeta, V and K in [kg^2 m^4/s^2]."""
 UNIT = "[kg^2 m^4/s^2]"
+"""Of zeta."""
 
 
 def printed_rows() -> tuple[Row, ...]:
-    """The printed digits among themselves: the formulae of the zero dynamics are theirs."""
+    """The printed digits among themselves: do they satisfy the formulae of the zero dynamics?"""
     existence = DELTA2 / (1.0 - DELTA2) * V_END + K
     name = "RABBIT tac2003, 1.05 m/s, as printed"
     return (
@@ -91,7 +102,10 @@ def printed_rows() -> tuple[Row, ...]:
 
 
 def designed_rows(step: float | None = None) -> tuple[Row, ...]:
-    """The gait found at 1.05 m/s beside the example; step [m], None leaves it free."""
+    """The gait found at 1.05 m/s beside the example of the literature; step length [m], None leaves it free.
+
+    zeta*, delta^2 and V_zero of another gait of the same speed have no target: the rows show them side by side.
+    """
     found = design_gait("rabbit", 1.05, step, preset="tac2003")
     biped = Biped.load("rabbit", "tac2003")
     orbits = ZeroOrbits.of(ZeroDynamics.of(biped, found.gait.constraint))
@@ -108,7 +122,10 @@ def designed_rows(step: float | None = None) -> tuple[Row, ...]:
 
 
 def _own_rows(name: str, found: DesignedGait, orbits: ZeroOrbits) -> tuple[Row, ...]:
-    """Of the designed gait alone: its speed, and zeta* against the walk; the torques in the note."""
+    """Of the designed gait alone: its speed, and zeta* of its zero dynamics against a simulated step.
+
+    Torques, step length and friction of the gait are in the note.
+    """
     gait, biped = found.gait, orbits.zero.biped
     P = ReturnMap(Walker(biped, NPDController(gait.constraint)), Adaptive(1e-10, 1e-10))
     s = P.project(np.concatenate((gait.q_minus, gait.v_minus)))
@@ -126,20 +143,28 @@ def _own_rows(name: str, found: DesignedGait, orbits: ZeroOrbits) -> tuple[Row, 
 
 
 ANOTHER = "Westervelt, Grizzle, Canudas de Wit 2003, another gait"
+"""Source of the published force."""
 PREDICTED = "quadrature on the zero dynamics"
+"""Source of the predicted force."""
 BESIDE = 0.05
-"""How far below and above the predicted force the walks are, share of it."""
+"""How far below and above the predicted force the walks are, relative to it."""
 
 
 def published_force_rows() -> tuple[Row, ...]:
-    """The force that stops the gait, beside the published 3 N, in every preset."""
+    """The force that stops the gait [N], beside the published 3 N, in every preset; of another gait, so no
+    target.
+    """
     forces = {p: HipCase("NPD", stride=False, preset=p).predicted() for p in PRESETS}
     said = "rearward force that stops it, by quadrature [N]"
     return tuple(Row(f"RABBIT {p}, v0.5", said, 3.0, F, None, ANOTHER) for p, F in forces.items())
 
 
 def hip_rows(tracking: str, steps: int = 25) -> tuple[Row, ...]:
-    """Just below the predicted force the walk goes on, just above it stops; with the PI it keeps its speed."""
+    """The predicted force against walks 5 % below and above it.
+
+    Below all steps are made, above they are not; with the PI from step to step the walk keeps its speed above
+    too.
+    """
     case = HipCase(tracking, stride=False, steps=steps)
     force, name = case.predicted(), f"RABBIT identified-bare, v0.5, {tracking}"
     below, above = (1.0 - BESIDE) * force, (1.0 + BESIDE) * force
@@ -156,14 +181,18 @@ def hip_rows(tracking: str, steps: int = 25) -> tuple[Row, ...]:
 
 
 SPEEDS = tuple(round(0.4 + 0.1 * k, 1) for k in range(8))
-"""[m/s]."""
+"""For which gaits are designed [m/s]."""
 SECONDS = 10.0
+"""Limit of the processor time of a design [s]."""
 ASKED, CERTIFICATE = "as asked", "certificate of the walk"
+"""Sources of the rows of designed gaits."""
 OWN = "this package's own limit"
 
 
 def design_rows(preset: str, speed: float) -> tuple[Row, ...]:
-    """The gait of least torque at this speed [m/s]."""
+    """The gait of least torque at this speed [m/s], as any user gets it: speed, certificate,
+    periodicity, time.
+    """
     begin = process_time()
     found = design_gait("rabbit", speed, preset=preset)
     spent, name = process_time() - begin, f"RABBIT {preset}, {speed:g} m/s"
@@ -174,7 +203,7 @@ def design_rows(preset: str, speed: float) -> tuple[Row, ...]:
 def through_rows(preset: str) -> tuple[Row, ...]:
     """The gait through x* of the paper, beside the stored one, which another optimiser found.
 
-    Its impulse is what x* makes it, so that it has no limit.
+    x* determines its impulse, so that the impulse has no limit here.
     """
     biped = Biped.load("rabbit", preset)
     q, v = onto_section(biped, X_STAR[: biped.n]), np.array(X_STAR[biped.n :])
@@ -194,7 +223,7 @@ def through_rows(preset: str) -> tuple[Row, ...]:
 
 
 def torque_squared(biped: Biped, gait: Gait) -> float:
-    """int u'u dt / step [N^2 m s] on the zero dynamics."""
+    """int u'u dt / step length [N^2 m s] on the zero dynamics."""
     zero = ZeroDynamics.of(biped, gait.constraint)
     orbit = zero.orbit(zero.sigma_minus * zero.delta)
     length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
@@ -202,6 +231,7 @@ def torque_squared(biped: Biped, gait: Gait) -> float:
 
 
 def _common(name: str, found: DesignedGait, spent: float) -> tuple[Row, ...]:
+    """What every designed gait has to show: its certificate, periodicity of the walk, processor time [s]."""
     broken = float(len(found.certificate.violations()))
     return (
         at_most(name, "broken limits of its certificate", 0.0, broken, CERTIFICATE),

@@ -1,10 +1,11 @@
-"""One line of the verification: what was published, what is found, and how far apart they may be.
+"""One line of the verification: an expected value, the value found here, and how far apart they may be.
 
     relative    |found - expected| / |expected| <= tolerance
     absolute    |found - expected| <= tolerance
     at most     found <= expected
 
-A row without a tolerance only shows the two numbers beside each other. NaN never holds.
+A row without a tolerance shows the two numbers beside each other and asserts nothing. NaN never holds. Made by
+all modules of `validation`; tests assert `holds`, and the page shows `cells`.
 """
 
 from __future__ import annotations
@@ -33,20 +34,29 @@ COLUMNS = (
     *("system", "quantity", "expected", "found", "difference"),
     *("tolerance", "source", "note", "verdict"),
 )
+"""Of the table."""
 
 
 @dataclass(frozen=True)
 class Row:
-    """`source`: where the expected value comes from; `quantity` with its unit in brackets."""
+    """One comparison. Raises InputError for a negative tolerance, or a relative one of an expected 0."""
 
     system: str
+    """What was computed."""
     quantity: str
+    """With its unit in brackets."""
     expected: float
+    """The published value, or the limit."""
     found: float
+    """Here."""
     tolerance: float | None
+    """In the measure's terms; None for a row without a target."""
     source: str
+    """Where the expected value comes from."""
     measure: Measure = Measure.RELATIVE
+    """How the two are compared."""
     note: str = ""
+    """For a reader."""
 
     def __post_init__(self) -> None:
         if self.tolerance is not None and not self.tolerance >= 0.0:
@@ -107,19 +117,22 @@ class Row:
 
 
 def at_most(system: str, quantity: str, limit: float, found: float, source: str) -> Row:
-    """A row that holds up to its limit."""
+    """A row that holds where found <= limit."""
     return Row(system, quantity, limit, found, 0.0, source, Measure.AT_MOST)
 
 
 def nothing(
     system: str, quantity: str, found: float, tolerance: float, source: str, note: str = ""
 ) -> Row:
-    """A row that holds where the number found is within its tolerance of 0."""
+    """A row that expects 0, and holds where |found| <= tolerance: for gaps that have no other scale."""
     return Row(system, quantity, 0.0, float(found), tolerance, source, Measure.ABSOLUTE, note)
 
 
 def published(name: str, *found: float, note: str = "") -> tuple[Row, ...]:
-    """The rows of published.toml by name, each beside what was found here."""
+    """Rows of published.toml by name, one for each number found, in its order.
+
+    Expected values, tolerance, source and note come from the file; a note given here replaces that of the file.
+    """
     said = packaged("validation", "published.toml")[name]
     note = note or said.get("note", "")
     return tuple(

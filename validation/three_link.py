@@ -5,7 +5,9 @@ Locomotion, 2007. Absolute angles th = (stance leg, swing leg, torso), clockwise
 
     y1 = th3 - p3(th1),   y2 = th2 + th1 - p2(th1) (th1^2 - th1d^2),   th1d = pi / 8
 
-A step ends at th1 = th1d, as in the source: with this constraint the swing foot passes below the ground.
+A step ends at th1 = th1d, as in the source, and not at foot contact: with this constraint the swing foot passes
+below the ground. The outputs are those of a `LinearOutputs` in our coordinates q. Called by
+`validation.groups`.
 """
 
 from __future__ import annotations
@@ -37,17 +39,21 @@ from validation.row import Row
 END = math.pi / 8
 """th1d [rad]."""
 A = (0.512, 0.073, 0.035, -0.819, -2.27, 3.26, 3.11, 1.89)
+"""Coefficients of p3 and p2 as printed."""
 P3 = Polynomial(A[:4])
+"""p3(th1) [rad]."""
 P2 = Polynomial(A[4:]) * Polynomial([-(END**2), 0.0, 1.0])
-"""p2(th1) (th1^2 - th1d^2), the whole of it."""
+"""p2(th1) (th1^2 - th1d^2), the whole of it [rad]."""
 
 TO_Q: Array = np.array([[-1.0, 0.0, 1.0], [0.0, -1.0, 1.0], [0.0, 0.0, -1.0]])
-"""q = TO_Q th + ZERO: absolute angles counter-clockwise, a hanging leg at pi; hips from the torso."""
+"""(3, 3) of q = TO_Q th + ZERO: absolute angles counter-clockwise, a hanging leg at pi; hips from the torso."""
 ZERO: Array = np.array([math.pi, math.pi, 0.0])
+"""(3,) [rad]."""
 
 SOURCE = (
     "model and outputs: Grizzle et al. 2001, Westervelt et al. 2007; digits recomputed from them"
 )
+"""Of the expected values."""
 
 
 @lru_cache(maxsize=1)
@@ -57,7 +63,10 @@ def robot() -> Biped:
 
 
 def outputs() -> LinearOutputs:
-    """y = H0 q - h_d(Theta), Theta = pi - th1, s = (th1 + th1d) / (2 th1d)."""
+    """y = H0 q - h_d(Theta), with Theta = pi - th1 and s = (th1 + th1d) / (2 th1d).
+
+    The published polynomials in th1 are expanded in s, of which a `VirtualConstraint` takes the coefficients.
+    """
     th1 = Polynomial([-END, 2.0 * END])
     torso, swing = P3(th1), P2(th1) - 2.0 * math.pi
     a = np.zeros((2, 6))
@@ -67,7 +76,7 @@ def outputs() -> LinearOutputs:
 
 
 def before_impact(omega: float) -> tuple[Array, Array]:
-    """(q-, q'-) with y = y' = 0 at th1 = th1d, th1' = omega [rad/s]."""
+    """(q-, q'-), (3,) each, with y = y' = 0 at th1 = th1d and th1' = omega [rad/s]."""
     th = np.array([END, P2(END) - END, P3(END)])
     slope = np.array([1.0, P2.deriv()(END) - 1.0, P3.deriv()(END)])
     return TO_Q @ th + ZERO, TO_Q @ slope * omega
@@ -75,7 +84,7 @@ def before_impact(omega: float) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class EndsAtPhase(HybridSystem):
-    """The walker, with impact where the stance leg has come to th1d."""
+    """The walker, with the impact where the stance leg has come to th1d instead of at foot contact."""
 
     walker: Walker
 
@@ -93,7 +102,10 @@ class EndsAtPhase(HybridSystem):
 
 
 def step(controller: Controller, omega: float, method: OneStepMethod) -> tuple[float, float]:
-    """P(omega) [rad/s] and the period [s]. Raises SimulationError where the step does not end."""
+    """One step from th1' = omega [rad/s]: P(omega) [rad/s] and its period [s].
+
+    Raises SimulationError where the step does not end.
+    """
     walker = Walker(robot(), controller)
     impact = robot().impact(*before_impact(omega))
     x = walker.initial_state(impact.q, impact.v)
@@ -107,14 +119,21 @@ def step(controller: Controller, omega: float, method: OneStepMethod) -> tuple[f
 
 
 def cycle(controller: Controller, method: OneStepMethod) -> tuple[float, float, float]:
-    """omega* [rad/s], the period [s] and dP/domega. Raises RuntimeError where the search does not end."""
+    """omega* [rad/s], the period [s] and dP/domega, by Newton's method and a central difference.
+
+    Raises RuntimeError where the search does not end.
+    """
     omega = float(newton(lambda w: step(controller, w, method)[0] - w, 1.55, tol=1e-8))
     high, low = (step(controller, omega + h, method)[0] for h in (1e-3, -1e-3))
     return omega, step(controller, omega, method)[1], (high - low) / 2e-3
 
 
 def three_link_rows() -> tuple[Row, ...]:
-    """The cycle under proportional-derivative feedback; that of the finite-time feedback in the note."""
+    """The cycle under proportional-derivative feedback of the outputs: stance rate, period, slope of the return
+    map.
+
+    The cycle under the finite-time feedback of the source is in the note.
+    """
     y, gains = outputs(), Gains(400.0, 40.0)
     omega, period, slope = cycle(OutputNPDController(y, gains), Adaptive())
     other = cycle(FiniteTimeController(y, alpha=0.9, eps=0.1), Adaptive(1e-6, 1e-8))[0]

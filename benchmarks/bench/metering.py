@@ -24,7 +24,7 @@ from report import Table, arguments, rounds
 from biped_adrc.bench.build import case
 from biped_adrc.bench.parameters import trial
 from biped_adrc.bench.run import measured
-from biped_adrc.engine.batch import Case, Walked, run_case, simulate_many
+from biped_adrc.engine.batch import BatchWalk, Case, run_case, simulate_many
 from biped_adrc.scenario.scenario import Scenario
 
 
@@ -42,12 +42,12 @@ def without(metered: Case) -> Case:
     return replace(metered, walker=replace(metered.walker, meter=None))
 
 
-def walk(cases: Sequence[Case]) -> list[Walked]:
+def walk(cases: Sequence[Case]) -> list[BatchWalk]:
     """All of them, one after the other."""
     return list(simulate_many(cases, threads=1))
 
 
-def study(given: Sequence[Scenario], known: Sequence[Walked], metered: bool) -> None:
+def study(given: Sequence[Scenario], known: Sequence[BatchWalk], metered: bool) -> None:
     """Each made ready and walked; the rows are those of the walks `known`, which were metered."""
     for s, walked in zip(given, known, strict=True):
         made = case(s)
@@ -55,7 +55,7 @@ def study(given: Sequence[Scenario], known: Sequence[Walked], metered: bool) -> 
         measured(s, made, walked)
 
 
-def check(one: Sequence[Walked], other: Sequence[Walked]) -> None:
+def check(one: Sequence[BatchWalk], other: Sequence[BatchWalk]) -> None:
     """That the meter reads and does not act. Raises RuntimeError."""
     for a, b in zip(one, other, strict=True):
         if not (a.status is b.status and np.allclose(a.times, b.times, rtol=0.0, atol=1e-9)):

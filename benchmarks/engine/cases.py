@@ -14,11 +14,11 @@ BENCHMARKS = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(BENCHMARKS), str(BENCHMARKS / "peers")]
 
 import biped_adrc as ba  # noqa: E402
-from biped_adrc.engine.batch import Case, Walked, run_case  # noqa: E402
+from biped_adrc.engine.batch import BatchWalk, Case, run_case  # noqa: E402
 from biped_adrc.engine.run import simulate_by  # noqa: E402
 from biped_adrc.hybrid.integrators import OneStepMethod  # noqa: E402
 from biped_adrc.paper.plan import PAPER_PUSH  # noqa: E402
-from biped_adrc.scenario.build import Scene, build  # noqa: E402
+from biped_adrc.scenario.build import RobotAndGait, build  # noqa: E402
 from biped_adrc.scenario.scenario import Scenario  # noqa: E402
 
 simulate = partial(simulate_by, "compiled")
@@ -51,14 +51,14 @@ class Setting(NamedTuple):
 def paper(controller: str = "ADRC", period: float | None = None, push: bool = True) -> Setting:
     """The paper's run; period [s] of sampled control, or continuous time."""
     run = Scenario(controller, period=period, pushes=(PAPER_PUSH,) if push else ())
-    scene = Scene.of(run)
+    scene = RobotAndGait.of(run)
     return Setting(build(run, scene), scene.walked)
 
 
 def with_observer(order: int, bandwidth: float, period: float | None) -> Setting:
     """ADRC with the observer of that order, all poles at -bandwidth [rad/s], no push."""
     run = Scenario("ADRC", period=period, bandwidth=bandwidth, order=order)
-    scene = Scene.of(run)
+    scene = RobotAndGait.of(run)
     return Setting(build(run, scene), scene.walked)
 
 
@@ -67,10 +67,10 @@ def with_controller(setting: Setting, controller: ba.Controller) -> Setting:
     return setting._replace(walker=replace(setting.walker, controller=controller))
 
 
-def ready(case: Case) -> Callable[[], Walked]:
+def ready(case: Case) -> Callable[[], BatchWalk]:
     """What carries a case out from its start, as often as it is called; compiled before."""
 
-    def walked() -> Walked:
+    def walked() -> BatchWalk:
         return run_case(case)()
 
     walked()

@@ -28,11 +28,11 @@ import json, time
 begin = time.perf_counter()
 import biped_adrc as ba
 from biped_adrc.paper.plan import PAPER_PUSH
-from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 run = Scenario("ADRC", pushes=(PAPER_PUSH,), period=PERIOD, first_step=19)
-scene = Scene.of(run)
+scene = RobotAndGait.of(run)
 walker, gait = build(run, scene), scene.walked
 ready = time.perf_counter()
 ba.walk(walker, gait, 1, method_of(run, walker), first_step=19, engine="compiled")

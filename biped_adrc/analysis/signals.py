@@ -14,7 +14,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from biped_adrc.analysis.quadrature import largest
-from biped_adrc.closed_loop.system import Reading, reading
+from biped_adrc.closed_loop.system import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
@@ -122,7 +122,7 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     return signals_of(walker, trajectory, readings(walker, trajectory, reference))
 
 
-def readings(walker: Walker, trajectory: Trajectory, reference: Reference) -> Reading:
+def readings(walker: Walker, trajectory: Trajectory, reference: Reference) -> InstantSignals:
     """What is read off the closed loop at all nodes of a walk, in NumPy; arrays (K, ...)."""
 
     def tracked(s: Array, m: Measurement) -> ReferencePoint:
@@ -131,14 +131,14 @@ def readings(walker: Walker, trajectory: Trajectory, reference: Reference) -> Re
         return r(m.t, m.q, m.v)
 
     rows = [
-        reading(walker, float(t), x, arc.mode, tracked)
+        signals_at(walker, float(t), x, arc.mode, tracked)
         for arc in trajectory.arcs
         for t, x in zip(arc.seen, arc.x, strict=True)
     ]
-    return Reading(*(np.array(column) for column in zip(*rows, strict=True)))
+    return InstantSignals(*(np.array(column) for column in zip(*rows, strict=True)))
 
 
-def signals_of(walker: Walker, trajectory: Trajectory, r: Reading) -> Signals:
+def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Signals:
     """The signals from the readings at the nodes: adds what follows from the states and the footholds."""
     arcs, n, p = trajectory.arcs, walker.plant.n, walker.plant.p
     x = np.vstack([arc.x for arc in arcs])

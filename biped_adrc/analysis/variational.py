@@ -42,6 +42,7 @@ from biped_adrc.control.passive import Passive
 from biped_adrc.control.tracking import Gains
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.curves import piece
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.linear import solve
@@ -119,7 +120,7 @@ def third_derivative(h: VirtualConstraint, theta: float) -> Array:
     """d3h/dTheta3 (p,) [1/rad^2] at theta [rad], from the power coefficients of the curve."""
     k = h.parameters
     s = k.rate * (theta - k.theta_plus)
-    second = k.curve.stacked[-(k.curve.stacked.shape[0] // 3) :, 1:]
+    second = piece(k.curve, s)[-(k.curve.stacked.shape[0] // 3) :, 1:]
     power = k.curve.powers[1:]
     return k.rate**3 * (second * power) @ s ** (power - 1.0)
 

@@ -18,8 +18,9 @@ from biped_adrc.columns import columns
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import CLOSES
+from biped_adrc.gait.zero_domain import UNLIMITED, Bound, Domain, DomainLimits, domain
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration
-from biped_adrc.gait.zero_orbits import UNLIMITED, Bound, Domain, Limits, ZeroOrbits, domain, grid
+from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
@@ -37,7 +38,7 @@ class ZeroDynamicsReport(Shown):
 
     orbits: ZeroOrbits
     """Quadratures of the zero dynamics, and what follows from them."""
-    limits: Limits
+    limits: DomainLimits
     """Friction, torque and slope that the domain respects."""
     domain: Domain
     """The range of zeta in which a step keeps the limits."""
@@ -144,7 +145,7 @@ class ZeroDynamicsReport(Shown):
 
 
 def zero_report(
-    biped: Biped, constraint: VirtualConstraint, limits: Limits | None = None
+    biped: Biped, constraint: VirtualConstraint, limits: DomainLimits | None = None
 ) -> ZeroDynamicsReport:
     """The report of a constraint; limits None: the friction of the robot's record, on level ground.
 
@@ -152,7 +153,7 @@ def zero_report(
     when the curve does not end on the ground or the next step does not begin where it begins.
     """
     check_part(biped, "biped", Biped)
-    limits = Limits(biped.description.friction_coefficient) if limits is None else limits
+    limits = DomainLimits(biped.description.friction_coefficient) if limits is None else limits
     orbits = ZeroOrbits.of(ZeroDynamics.of(biped, constraint))
     _check_ends(biped, constraint, limits.slope)
     zeta = orbits.zeta_star
@@ -190,7 +191,7 @@ def _because(bound: Bound) -> str:
     return f"{bound.cause} at Theta = {bound.theta:.4f} rad"
 
 
-def _show(limits: Limits) -> str:
+def _show(limits: DomainLimits) -> str:
     found = ["F_N > 0"]
     if limits.friction is not None:
         found.append(f"friction {limits.friction:g}")

@@ -1,6 +1,12 @@
-"""The walks of a study: its values made into scenarios at ticks, whose torques and forces are metered.
+"""From a trial's scenario to a walker that is ready to run, and what a study's numbers depend on besides
+values.
 
-What is in the files and in the classes of the user's own that trials name belongs to the numbers.
+Walks of a study are sampled and run on the compiled engine with a meter, which counts errors, torques and
+ground forces at sample instants. Robots and gaits are loaded once per process and shared by its trials. A
+study may name files (a robot's TOML and URDF, a gait) and classes of the user: their contents are hashed into
+the versions of the results, so that results of two different robots never end in one file.
+
+Called by `bench.run` (walks), `bench.study.rehearse` (checks) and `bench.sweep` (hashes).
 """
 
 from __future__ import annotations
@@ -10,39 +16,41 @@ import tomllib
 from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 from biped_adrc.bench.study import Study
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.engine.batch import Case
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import InputError
-from biped_adrc.scenario.build import Scene, build, start
+from biped_adrc.scenario.build import RobotAndGait, build, start
 from biped_adrc.scenario.registry import find, is_own, source_hash
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 
 SUFFIXES = {"robot": ".toml", "gait": ".json"}
-"""By parameter: how a path is told from a name."""
+"""By parameter the suffix by which a path is told from a registered name."""
 
 OWN = {name: name for name in ("controller", "observer", "robot", "gait")}
+"""Parameters that may name a class of the user as module:Class, and the registry's kind of it."""
 OWN |= {"own.inner": "controller", "push": "disturbance"}
 """Parameters that may name a class of the user's own, and its kind."""
 
 
 def files_of_study(study: Study) -> tuple[Path, ...]:
-    """Those that any of its points names, in a fixed order."""
+    """The files that any of its points names, sorted."""
     return tuple(sorted({path for pair in study.given() for path in files_of(*pair)}))
 
 
 def own_of_study(study: Study) -> dict[str, str]:
-    """What the user's own classes are by their source, those that a point names. Raises InputError."""
+    """Hashes of the source of the user's classes that any point names, by "source name". Raises InputError."""
     named = {(OWN[name], str(x)) for name, x in study.given() if name in OWN and is_own(str(x))}
     return {f"source {x}": source_hash(find(kind, x).load()) for kind, x in sorted(named)}
 
 
-def files_of(name: str, value: Any) -> tuple[Path, ...]:
-    """The file that a parameter names, and a robot's URDF; none for other values."""
+def files_of(name: str, value: object) -> tuple[Path, ...]:
+    """The files that a parameter's value names: of a robot its TOML and its URDF; empty for a
+    registered name.
+    """
     if not isinstance(value, str) or Path(value).suffix != SUFFIXES.get(name):
         return ()
     path = Path(value)
@@ -55,7 +63,7 @@ def files_of(name: str, value: Any) -> tuple[Path, ...]:
 
 
 def hashes(paths: Iterable[Path]) -> dict[str, str]:
-    """What is in the files, to be put beside the versions of what the numbers depend on."""
+    """Twelve digits of the SHA-256 of each file, by "file path"; "none" for a file that is not there."""
     there = {path: path.read_bytes() if path.is_file() else None for path in paths}
     return {
         f"file {path}": "none" if text is None else hashlib.sha256(text).hexdigest()[:12]
@@ -64,26 +72,36 @@ def hashes(paths: Iterable[Path]) -> dict[str, str]:
 
 
 Stamp = tuple[tuple[str, int, int], ...]
-"""Of files: path, time of the last change [ns] and size."""
-OF_SCENE = ("robot", "preset", "gait", "friction", "continued")
-"""Values of a scenario that a scene is made of."""
+"""Of each file: path, time of the last change [ns] and size [bytes]; another stamp means to load it again."""
 
 
-def scene_of(s: Scenario) -> Scene:
-    """Loaded once in a process, and again when a file has changed. Raises InputError where there is none."""
+def scene_of(s: Scenario) -> RobotAndGait:
+    """The robot and gait of a scenario, loaded once per process and again when one of their files has changed.
+
+    Raises InputError where there is none.
+    """
     paths = (*files_of("robot", s.robot), *files_of("gait", s.gait))
     there = [(str(path), path.stat()) for path in paths if path.is_file()]
     stamp = tuple((path, found.st_mtime_ns, found.st_size) for path, found in there)
-    return _scene(tuple((name, getattr(s, name)) for name in OF_SCENE), stamp)
+    return _scene(s.robot, s.preset, s.gait, s.friction, s.continued, stamp)
 
 
 @lru_cache(maxsize=16)
-def _scene(values: tuple[tuple[str, Any], ...], stamp: Stamp) -> Scene:
-    return Scene.of(Scenario(**dict(values)))
+def _scene(
+    robot: str, preset: str | None, gait: str, friction: bool, continued: bool, stamp: Stamp
+) -> RobotAndGait:
+    """The cached part of `scene_of`: the fields that robot and gait depend on, and the stamp of their files."""
+    alone = Scenario(robot=robot, preset=preset, gait=gait, friction=friction, continued=continued)
+    return RobotAndGait.of(alone)
 
 
 def case(s: Scenario) -> Case:
-    """The walk of a scenario. Raises InputError for values that do not fit together, or not in a study."""
+    """The walk of a scenario, metered, with its start and method.
+
+    The meter counts at sample instants and takes one integration step per period, which is why a study asks for
+    a period. Raises InputError for values that do not fit together, or that a study cannot use: continuous
+    time, fine steps besides, another engine.
+    """
     if s.period is None or s.fine is not None:
         what = "has no period" if s.period is None else f"has fine = {s.fine:g} s"
         raise InputError(

@@ -1,7 +1,11 @@
-"""One controller under one condition: shares of walks, why the others do not count, medians.
+"""One cell of the comparison's table: the walks of one controller under one condition, and their statistics.
 
-A walk is in one of: fell or ended otherwise (by its status), made all steps, made all steps legally. What
-counts is the last.
+Every walk is in one of three classes: it fell or ended otherwise, it made all steps, or it made all steps
+legally, that is within dry friction, torque limits and without scuffing. Only the last class counts as
+success, since the model's foot is pinned to the ground and would walk where no real ground holds it.
+
+Shares are over the walks for which the answer is known, with Wilson's interval; medians have bootstrap
+intervals (`analysis.statistics`). Made by `bench.comparison`, read by `bench.findings` and the page.
 """
 
 from __future__ import annotations
@@ -9,25 +13,28 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from biped_adrc.analysis.statistics import Interval, median, share
+from biped_adrc.campaign.chunk import Row
 from biped_adrc.errors import InputError
 from biped_adrc.viz.comparison_text import MEASURES, NEEDS, REASONS
 
-Row = Mapping[str, Any]
-"""Of a trial, by the names of `run.COLUMNS`."""
 IMPULSE = "bad_impulse"
-"""Judged in a column of its own: it does not make a walk illegal."""
+"""Column of the impulse at impact. It is reported apart and does not make a walk illegal: the gait itself
+breaks the limit undisturbed in some presets.
+"""
 
 
 def is_made(row: Row) -> bool:
-    """Whether the walk made all steps."""
+    """Whether the walk made all steps that were asked for."""
     return row["survived"] == 1
 
 
 def is_legal(row: Row) -> bool:
-    """Whether it made all steps legally. Raises InputError where that is not known."""
+    """Whether the walk made all steps, each of them legally.
+
+    Raises InputError where the row does not say so, as rows of older versions.
+    """
     if is_made(row) and row.get("legal") is None:
         raise InputError(
             "a walk made all steps and does not say whether legally (column 'legal'); expected 0 or 1. It was "
@@ -37,9 +44,9 @@ def is_legal(row: Row) -> bool:
 
 
 def number(row: Row, name: str) -> float | None:
-    """A finite number of the row, or None."""
+    """The value of a column where it is a finite number, else None."""
     x = row.get(name)
-    return float(x) if x is not None and math.isfinite(x) else None
+    return float(x) if isinstance(x, float | int) and math.isfinite(x) else None
 
 
 @dataclass(frozen=True)
@@ -47,38 +54,46 @@ class Cell:
     """The walks of one controller under one condition, a row per seed, at least one."""
 
     controller: str
+    """Its name."""
     condition: str
+    """Its name."""
     walks: tuple[Row, ...]
+    """Rows with the columns of `bench.run.COLUMNS`, in the order of the seeds."""
     bandwidth: float | None = None
-    """Of the observer's poles, all of them [rad/s]; None for the controller's own settings."""
+    """Of all observer poles [rad/s]; None for the controller's own settings."""
 
     @property
     def survived(self) -> Interval:
-        """Share of the walks that make all steps."""
+        """Share of the walks that make all steps, with its interval."""
         return share(sum(is_made(w) for w in self.walks), len(self.walks))
 
     @property
     def legal(self) -> Interval:
-        """Share of the walks that make all steps legally."""
+        """Share of the walks that make all steps legally, with its interval."""
         return share(sum(is_legal(w) for w in self.walks), len(self.walks))
 
     @property
     def falls(self) -> dict[str, int]:
-        """How the others ended: status and number."""
+        """How the walks that do not make all steps ended: number by status."""
         ended = [str(w["status"]) for w in self.walks if not is_made(w)]
         return {status: ended.count(status) for status in sorted(set(ended))}
 
     @property
     def reasons(self) -> dict[str, Interval]:
-        """Share of the walks that make all steps and are not legal for this reason."""
+        """By limit: share of the walks that make all steps and break it. One walk may break several."""
         return self._shares(REASONS)
 
     @property
     def impulse(self) -> Interval | None:
-        """Share of the walks that make all steps in which an impact needs more friction than there is."""
+        """Share of the walks that make all steps in which an impact needs more friction than there is; None if
+        unknown.
+        """
         return self._shares({IMPULSE: ""}).get(IMPULSE)
 
     def _shares(self, names: Mapping[str, str]) -> dict[str, Interval]:
+        """For each 0/1 column the share of ones among the walks that make all steps; columns without values are
+        left out.
+        """
         rows = [w for w in self.walks if is_made(w)]
         told = {name: [w[name] for w in rows if w.get(name) is not None] for name in names}
         return {name: share(x.count(1), len(x)) for name, x in told.items() if x}
@@ -86,12 +101,14 @@ class Cell:
     def medians(
         self, names: Mapping[str, str], which: Callable[[Row], bool] = is_legal
     ) -> dict[str, Interval | None]:
-        """Over the walks that are of this kind."""
+        """Medians of these columns over the walks of the class `which`; None where no walk has a number."""
         rows = [w for w in self.walks if which(w)]
         return {name: median([number(w, name) for w in rows]) for name in names}
 
-    def row(self) -> dict[str, Any]:
-        """As plain values; the measures are medians over legal walks."""
+    def row(self) -> dict[str, object]:
+        """All of it in plain values, as in summary.json; the measures at top level are medians over legal
+        walks.
+        """
         return {
             "controller": self.controller,
             "condition": self.condition,
@@ -109,4 +126,5 @@ class Cell:
 
 
 def _plain(found: Mapping[str, Interval | None]) -> dict[str, list[float] | None]:
+    """Intervals as lists [value, low, high]."""
     return {name: None if x is None else list(x) for name, x in found.items()}

@@ -1,7 +1,11 @@
-"""The comparison carried out, stored run by run, and written: comparison.sqlite, figures, page, summary.
+"""The comparison of controllers as a command: walked, stored run by run, and written as figures, page, summary.
 
-A comparison that is killed goes on where it was: every walk, those of the bisections too, lies in the file by
-its record.
+`bench.comparison` decides what is walked and what follows from it; this module provides how: `Stored` walks
+trials through the same store as a sweep, so that a comparison that is killed goes on where it was, the walks
+of the bisections for the largest push included. Rows are looked up by the hash of the trial's record.
+
+Written to the folder `out`: comparison.sqlite (all runs), comparison.html, summary.json, one SVG per figure.
+Called by the command `compare`; the pages come from `viz.pages`.
 """
 
 from __future__ import annotations
@@ -16,14 +20,14 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from biped_adrc.bench.build import scene_of
-from biped_adrc.bench.cell import IMPULSE, Row, is_legal, number
+from biped_adrc.bench.cell import IMPULSE, is_legal, number
 from biped_adrc.bench.comparison import NOMINAL, Comparison, check, compare
 from biped_adrc.bench.conditions import BASE, COMPARED, CONDITIONS, NOT_ALIKE, OWN
 from biped_adrc.bench.findings import answers, sentences
 from biped_adrc.bench.parameters import trial
 from biped_adrc.bench.run import run_trials
 from biped_adrc.bench.sweep import check_folder
-from biped_adrc.campaign.chunk import Point, key_of, text_of
+from biped_adrc.campaign.chunk import Point, Record, Row, key_of, text_of
 from biped_adrc.campaign.execute import LARGEST_CHUNK, Progress, run_study
 from biped_adrc.campaign.store import About, Store
 from biped_adrc.campaign.store_open import open_store
@@ -38,24 +42,32 @@ from biped_adrc.viz.plots.comparison_figure import legal_figure, measure_figure,
 from biped_adrc.viz.style import render
 
 RESULTS = "comparison.sqlite"
+"""Name of the file with all runs, in the folder of the comparison."""
 TITLES = {
     "peak_error": "largest tracking error [rad]",
     "rms_torque": "torque, root mean square [N m]",
     "cost_of_transport": "cost of transport",
 }
+"""Measures that have a figure of their own, with the text of its axis."""
 
 
 @dataclass
 class Stored:
-    """Walks trials by `run_study` and takes their rows from the store."""
+    """A function from trials to rows, which walks what the store does not have yet and takes the
+    rest from it.
+    """
 
     store: Store
+    """The open file of results."""
     workers: Workers | Executor | int | None
+    """Who walks, as of `campaign.workers.workers_of`."""
     progress: Callable[[Progress], None] | None
+    """Called now and then; None for nobody."""
     walks: int = 0
-    """Walked or found, so far."""
+    """Trials asked for so far, walked now or found in the store."""
 
-    def __call__(self, records: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+    def __call__(self, records: Sequence[Record]) -> list[Row]:
+        """The row of each trial, in order."""
         points = [_point(record) for record in records]
         keys = [key_of(text_of(point.record)) for point in points]
         run_study(
@@ -73,7 +85,8 @@ class Stored:
         return [rows[key] for key in keys]
 
 
-def _point(record: Mapping[str, Any]) -> Point:
+def _point(record: Record) -> Point:
+    """The record of a trial, and the values by which a reader finds it in the file."""
     told = ("controller", "seed", "push", "on", "onset", "amplitude")
     return Point(trial(record).record(), {k: record[k] for k in told if k in record})
 
@@ -89,8 +102,9 @@ def run_comparison(
     progress: Callable[[Progress], None] | None = None,
     other_versions: bool = False,
 ) -> dict[str, Any]:
-    """Walk everything that is not in `out` yet and write the page; returns the summary.
+    """Walk everything that is not in `out` yet and write figures, page and summary; returns the summary.
 
+    command: as typed, for the page. seeds: per controller and condition. pushes: search the largest pushes too.
     Raises InputError for unknown names or a file of another comparison, OutputError.
     """
     check(controllers, conditions, seeds)
@@ -114,7 +128,10 @@ def run_comparison(
 
 
 def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, Any]:
-    """Figures, summary.json and comparison.html; returns the summary. Raises OutputError."""
+    """Draw and write what was found to `out`; returns what summary.json holds. Raises OutputError.
+
+    walks: how many trials it took, for the page.
+    """
     found_out = answers(found)
     summary = {
         "command": command,
@@ -144,8 +161,11 @@ def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, A
     return summary
 
 
-def nominal(row: Row) -> dict[str, Any]:
-    """What the undisturbed gait needs of ground and motors, and what is illegal about it, in words."""
+def nominal(row: Row) -> dict[str, object]:
+    """What the gait itself needs of ground and motors, undisturbed, beside the robot's limits, in plain values.
+
+    `broken`: which limits it breaks, in words. A gait that is illegal by itself makes every walk illegal.
+    """
     needs = {name: number(row, name) for name in NEEDS}
     reasons = {**REASONS, IMPULSE: "impulse at impact"}
     broken = [words for name, words in reasons.items() if row.get(name) == 1]
@@ -165,7 +185,7 @@ def draw(summary: Mapping[str, Any]) -> dict[str, bytes]:
 
 
 def figures(summary: Mapping[str, Any]) -> dict[str, Figure]:
-    """The figures by name, in the order of the page."""
+    """The figures by name, in the order of the page; drawn from the summary alone, which a reader has too."""
     cells, pushes = summary["cells"], summary["pushes"]
     drawn = {"legal": legal_figure(cells)}
     drawn |= {name: measure_figure(cells, name, title) for name, title in TITLES.items()}

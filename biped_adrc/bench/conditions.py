@@ -1,69 +1,79 @@
-"""What walks are disturbed with in a comparison: named values of a trial, on top of a base.
+"""Under what controllers are compared: named disturbances, model errors, sensors; numbers in comparison.toml.
 
-The base is a sampled controller with exact sensors and RABBIT's 150 N m; every walk starts a little off the
-gait's speed, by its seed. What is random in a condition is drawn anew for every seed, and is the same for all
-controllers. Each controller runs at its author's or its example's settings, and those with an observer once
-more with all poles at the geometric mean of Table I, so that what is left between two of them is not bandwidth.
+Each condition is a set of values of a trial, put on top of a common base: a controller sampled at 1 kHz with
+exact sensors and RABBIT's torque limit of 150 N m, and a start a little off the gait's speed. What is random
+in a condition is drawn from the trial's seed and is the same for all controllers.
+
+Controllers run at the settings of their author or of their example. Those with an observer are walked once
+more with all observer poles at the geometric mean of Table I: what then still differs between two of them is
+not a difference of bandwidth.
+
+Pure data and functions on it; `bench.comparison` and `bench.largest_push` make their trials here.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
+from biped_adrc.campaign.chunk import Record
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.registry import find
 
 
-class Condition(NamedTuple):
-    """words: for a reader. values: of a scenario."""
+class ComparisonCondition(NamedTuple):
+    """One condition: `words` for a reader, and `values` of a scenario in SI units, on top of `BASE`."""
 
     words: str
-    values: Mapping[str, Any]
+    values: Record
 
 
-SAID: Mapping[str, Any] = packaged("biped_adrc.bench", "comparison.toml")
-"""The file comparison.toml."""
-BASE: Mapping[str, Any] = SAID["base"]
+SAID = packaged("biped_adrc.bench", "comparison.toml")
+"""The tables of comparison.toml: base, conditions, push, directions, phases, and texts of the page."""
+BASE: Record = SAID["base"]
+"""Values that all trials of a comparison share."""
 COMPARED = ("PD", "NPD", "ADRC", "ADRC output", "LESO", "DOB", "CLF-QP")
-"""Controllers, in the order of the tables."""
+"""Controllers compared by default, in the order of the tables."""
 CONDITIONS = {
-    name: Condition(said["words"], {k: x for k, x in said.items() if k != "words"})
+    name: ComparisonCondition(said["words"], {k: x for k, x in said.items() if k != "words"})
     for name, said in SAID["conditions"].items()
 }
-"""By name, in the order of the table."""
+"""Conditions by name, in the order of the tables."""
 
 BANDWIDTH = math.exp(sum(math.log(abs(p)) for p in TABLE_I) / len(TABLE_I))
-"""Geometric mean of the poles of Table I [rad/s]."""
+"""Geometric mean of the observer poles of Table I [rad/s]."""
 OWN = {
     **dict.fromkeys(("ADRC", "ADRC output"), BANDWIDTH),
     **{name: float(find("controller", name).defaults["bandwidth"]) for name in ("LESO", "DOB")},
 }
-"""The controllers with an observer, and the bandwidth of their own settings [rad/s]: of Table I the geometric
-mean; LESO's walks with encoders at 1 kHz."""
+"""The bandwidth [rad/s] of each controller that has an observer, at its own settings.
+
+With the poles of Table I it is their geometric mean. LESO's is what walks with encoders at 1 kHz allow.
+"""
 ORDER = dict.fromkeys(("ADRC", "ADRC output"), len(TABLE_I) - 2)
-"""m of the observer, where the trial has to say it with a bandwidth."""
+"""m, the number of extended states, of the GPI observers: a bandwidth alone would not say it."""
 NOT_ALIKE: str = SAID["texts"]["settings"].format(**OWN)
+"""The warning of the page that settings are not tuned alike, with the bandwidths in it."""
 
 
-def record(condition: str, controller: str, seed: int) -> dict[str, Any]:
-    """The values of one trial."""
+def record(condition: str, controller: str, seed: int) -> dict[str, object]:
+    """The values of one trial of the table."""
     return {**BASE, **CONDITIONS[condition].values, "controller": controller, "seed": seed}
 
 
 def walked_again(controllers: Sequence[str]) -> list[str]:
-    """Those of the controllers that have an observer."""
+    """Those of the controllers that have an observer, and so a bandwidth to be made equal."""
     return [c for c in controllers if c in OWN]
 
 
-def equal_values(controller: str) -> dict[str, Any]:
-    """Of a trial, beside what it has."""
-    order = {"order": ORDER[controller]} if controller in ORDER else {}
+def equal_values(controller: str) -> dict[str, float]:
+    """Values that put all observer poles of this controller at `BANDWIDTH` [rad/s]."""
+    order: dict[str, float] = {"order": ORDER[controller]} if controller in ORDER else {}
     return {"bandwidth": BANDWIDTH, **order}
 
 
-def equal_record(condition: str, controller: str, seed: int) -> dict[str, Any]:
-    """The values of one trial at equal bandwidth."""
+def equal_record(condition: str, controller: str, seed: int) -> dict[str, object]:
+    """The values of one trial of the table at equal bandwidth."""
     return record(condition, controller, seed) | equal_values(controller)

@@ -1,4 +1,9 @@
-"""Results as CSV or Parquet, row by row: what is varied, then the results; and drawn as maps."""
+"""Results of a sweep written for other programs: CSV, Parquet, and maps as PNG.
+
+Rows are read from the results file and written one block at a time, so that a study larger than memory can be
+exported. A row has what is varied, then the results (`Sweep.names`). Called by the command `sweep`
+(--export, --plot); what a map shows is decided by `viz.plots.sweep_maps`.
+"""
 
 from __future__ import annotations
 
@@ -19,8 +24,9 @@ if TYPE_CHECKING:
     from biped_adrc.viz.plots.sweep_maps import Maps
 
 KINDS = ("csv", "parquet")
+"""Suffixes of the files that can be written."""
 BLOCK = 10_000
-"""Rows of a group of Parquet."""
+"""Rows of one row group of Parquet, which are in memory at once."""
 
 
 def export(results: Sweep, path: Path) -> None:
@@ -37,7 +43,10 @@ def export(results: Sweep, path: Path) -> None:
 
 
 def export_csv(results: Sweep, path: Path) -> None:
-    """Floats come back to the last bit; an empty field is no value. Raises OutputError."""
+    """Write CSV: floats in the shortest form that reads back to the same bits; an empty field is no value.
+
+    The file appears only when it is complete. Raises OutputError.
+    """
     names = results.names()
     with replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
@@ -48,7 +57,7 @@ def export_csv(results: Sweep, path: Path) -> None:
 
 
 def check_kind(kind: str) -> None:
-    """Raises InputError for a kind of file that there is not, or where Parquet cannot be written."""
+    """Raises InputError for a kind of file that cannot be written, or Parquet without pyarrow installed."""
     if kind not in KINDS:
         raise InputError(f"--export is '{kind}', expected one of {list(KINDS)}")
     if kind == "parquet" and find_spec("pyarrow") is None:
@@ -58,7 +67,10 @@ def check_kind(kind: str) -> None:
 
 
 def export_parquet(results: Sweep, path: Path) -> None:
-    """A column has one type: whole numbers, floats, true or false, text. Raises InputError and OutputError."""
+    """Write Parquet with one type per column: whole numbers, floats, booleans or text.
+
+    The rows are read twice, first for the types. Raises InputError and OutputError.
+    """
     check_kind("parquet")
     import pyarrow as pa
     from pyarrow import parquet
@@ -75,7 +87,7 @@ def export_parquet(results: Sweep, path: Path) -> None:
 
 
 def _kinds(results: Sweep) -> dict[str, type]:
-    """The type of each column that all its values fit in."""
+    """For each column the type that holds all its values."""
     seen: dict[str, set[type]] = {name: set() for name in results.names()}
     for row in results.rows():
         for name, x in row.items():
@@ -85,13 +97,16 @@ def _kinds(results: Sweep) -> dict[str, type]:
 
 
 def _kind(types: set[type]) -> type:
+    """The type for these types: the only one, float for ints and floats, otherwise text."""
     if len(types) == 1:
         return next(iter(types))
     return float if types and types <= {int, float} else str
 
 
 def sweep_map(results: Sweep, maps: Maps) -> Figure:
-    """A figure of what is finished. Raises InputError for a column that there is not."""
+    """A figure of the finished points over one or two axes. Raises InputError for a column that
+    there is not.
+    """
     from biped_adrc.viz.plots.sweep_maps import sweep_map_figure
 
     known = results.names()
@@ -103,7 +118,9 @@ def sweep_map(results: Sweep, maps: Maps) -> Figure:
 
 
 def write_map(results: Sweep, maps: Maps, folder: Path) -> Path:
-    """The figure as a PNG in `folder`, named by what it shows. Raises InputError and OutputError."""
+    """The figure as a PNG in `folder`, with the names of axes and value in its name. Raises InputError,
+    OutputError.
+    """
     from biped_adrc.viz.style import render
 
     shown = filter(None, (maps.x, maps.y, maps.panel, maps.value))

@@ -1,17 +1,24 @@
-"""What a comparison says in words: a sentence is there when a test of paired walks carries it, or absent.
+"""What a comparison says in words: a sentence appears if a test of paired walks supports it, otherwise not.
 
-Controllers are held against NPD, which has the same gains and no observer, and a sentence about one with an
-observer has to hold at equal bandwidth too; two observers are held against each other at both. Walks are paired
-by seed, and what is compared of a pair asks both to be legal. Each family of questions has a sign test or
-McNemar's, corrected by Holm for all questions of the family; an effect must lie beyond a margin with its whole
-interval of 95 %.
+A table of medians invites conclusions that noise explains. Each sentence has to pass three conditions here:
+
+    test         sign test, or McNemar's for shares, on pairs of walks with the same seed, p < 5 % after Holm's
+                 correction over all questions of its family
+    effect       the whole 95 % interval lies beyond a margin (ratio 1.1, relative change of speed 1 %)
+    bandwidth    for a controller with an observer it holds at equal bandwidth too, so that it is not a sentence
+                 about two settings
+
+Controllers are compared with NPD, which has the same gains and no observer; observers are compared with each
+other. Errors, torques and costs are compared where both walks of a pair are legal.
+
+Takes a `Comparison`, gives `Question`s and sentences; `bench.compare_study` writes them.
 """
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -35,37 +42,42 @@ from biped_adrc.bench.parameters import trial
 EQUAL = "equal_bandwidth"
 """The family of questions about observers at equal bandwidth."""
 REFERENCE = "NPD"
-"""Whom the others are held against."""
+"""The controller that all others are compared with."""
 MARGIN = 1.1
-"""A ratio of two medians nearer to 1 than this is not worth a sentence."""
+"""Ratios of medians nearer to 1 than this factor are not worth a sentence."""
 SPEED = 0.01
-"""Changes of speed that differ by less than this are alike."""
+"""Relative changes of speed that differ by less than this are called alike."""
 RATIOS = ("peak_error", "rms_torque", "cost_of_transport")
-"""Measures of which ratios are taken."""
+"""Measures that are compared by ratios: positive numbers."""
 
 
 class Question(NamedTuple):
-    """One question to the numbers, and what its test says."""
+    """One question to the numbers, the result of its test, and the words for it."""
 
     family: str
+    """Questions of a family are corrected together: a measure, "legal", "pushes", or `EQUAL`."""
     condition: str
+    """Under which the walks were made."""
     controller: str
+    """Of which something may be said."""
     pairs: int
+    """Pairs of walks, or of pushes, that the test uses."""
     words: str
-    """What is said of this controller where the test carries it."""
+    """What is said of this controller if the test supports it."""
     p: float
-    """Of this question alone, or corrected for all of its family."""
+    """p-value of this question alone, or corrected for all of its family."""
     beyond: bool
-    """Whether the effect lies beyond the margin with its whole interval."""
+    """Whether the effect lies beyond the margin with its whole interval, at every setting."""
     value: Interval | None = None
+    """The effect with its 95 % interval; None for shares and pushes."""
 
     @property
     def carried(self) -> bool:
-        """Whether it may be said, of a corrected p."""
+        """Whether it may be said; of a p that is corrected."""
         return self.beyond and self.p < 1.0 - CONFIDENCE
 
-    def row(self) -> dict[str, Any]:
-        """As plain values."""
+    def row(self) -> dict[str, object]:
+        """In plain values, as in summary.json."""
         found = self._asdict()
         del found["beyond"]
         words, value = found.pop("words"), found.pop("value")
@@ -75,7 +87,7 @@ class Question(NamedTuple):
 
 
 def answers(c: Comparison) -> list[Question]:
-    """All questions that the walks allow, their p-values corrected for all of their family."""
+    """All questions that the walks allow, with p-values corrected by Holm within their family."""
     families: dict[str, list[Question]] = {}
     for q in _questions(c):
         families.setdefault(q.family, []).append(q)
@@ -87,7 +99,7 @@ def answers(c: Comparison) -> list[Question]:
 
 
 def sentences(found: Sequence[Question]) -> dict[str, list[str]]:
-    """What is carried, by family: one sentence for each condition, and no family without one."""
+    """What may be said, by family: one sentence for each condition; families without one are absent."""
     said: dict[str, list[str]] = {}
     for family, what in dict.fromkeys((q.family, q.condition) for q in found if q.carried):
         words = [q.words for q in found if q.carried and (q.family, q.condition) == (family, what)]
@@ -97,13 +109,17 @@ def sentences(found: Sequence[Question]) -> dict[str, list[str]]:
 
 
 def bandwidth_decides(condition: str) -> bool:
-    """Whether sensors or a delay limit the bandwidth: there another bandwidth or a filter reverses an order."""
+    """Whether a condition has sensor noise or delay, which limit the bandwidth.
+
+    There no order of controllers is stated: another bandwidth or a filter would reverse it.
+    """
     s = trial(record(condition, REFERENCE, 0))
     noisy = s.counts is not None or s.noise + s.pitch_noise + s.rate_noise > 0.0
     return noisy or s.delay > 0.0 or s.velocity != "measured"
 
 
 def _questions(c: Comparison) -> Iterable[Question]:
+    """All questions, with p-values of their own."""
     others = [name for name in c.controllers if name != REFERENCE]
     if REFERENCE in c.controllers:
         for condition in (what for what in c.conditions if not bandwidth_decides(what)):
@@ -116,7 +132,11 @@ def _questions(c: Comparison) -> Iterable[Question]:
 
 
 def _against(cell: Cell, again: Cell | None, usual: Cell) -> Iterable[Question]:
-    """One controller against the reference under one condition; again: the same at equal bandwidth."""
+    """The questions about one controller under one condition: legality, ratios, and the change of speed.
+
+    usual: the reference's cell; again: the controller's cell at equal bandwidth, None without an observer. The
+    change of speed is asked about only where the disturbance reaches the unactuated row.
+    """
     settings = [cell] if again is None else [cell, again]
     yield _legality(settings, usual)
     for name in RATIOS:
@@ -136,13 +156,14 @@ def _against(cell: Cell, again: Cell | None, usual: Cell) -> Iterable[Question]:
 
 
 def _side(found: Tested | None) -> int:
-    """-1, 1: the interval of the ratio lies below, above 1 by more than the margin; 0: neither."""
+    """-1 or 1 where the whole interval of a ratio lies below or above 1 by more than the margin, else 0."""
     if found is None:
         return 0
     return int(found.value.low > MARGIN) - int(found.value.high < 1.0 / MARGIN)
 
 
 def _question(family: str, cell: Cell, found: Tested, beyond: bool, text: str = "") -> Question:
+    """A question about one measure; text: in place of "controller, interval, number of pairs"."""
     words = text or f"{cell.controller} {_interval(found.value)} in {found.pairs} pairs"
     return Question(
         family, cell.condition, cell.controller, found.pairs, words, found.p, beyond, found.value
@@ -150,7 +171,10 @@ def _question(family: str, cell: Cell, found: Tested, beyond: bool, text: str = 
 
 
 def _legality(settings: Sequence[Cell], usual: Cell) -> Question:
-    """The first of the settings is the controller's own; the others have to agree with it."""
+    """Whether the controller walks legally more or less often than the reference: McNemar's test.
+
+    The first of the settings is the controller's own; the others have to agree in direction and significance.
+    """
     b = [is_legal(w) for w in usual.walks]
     each = [[is_legal(w) for w in cell.walks] for cell in settings]
     more = {sum(a) > sum(b) for a in each}
@@ -161,7 +185,7 @@ def _legality(settings: Sequence[Cell], usual: Cell) -> Question:
 
 
 def _both_legal(cells: Sequence[Cell], name: str, positive: bool = True) -> list[list[float]]:
-    """The numbers of each cell, for the seeds that are legal in all of them and have a number there."""
+    """The measure in each cell, for the seeds whose walks are legal and have a number in all of these cells."""
     found = []
     for walks in zip(*(cell.walks for cell in cells), strict=True):
         values = [number(w, name) for w in walks]
@@ -172,12 +196,13 @@ def _both_legal(cells: Sequence[Cell], name: str, positive: bool = True) -> list
 
 
 def _pair(x: Cell, y: Cell, name: str, positive: bool = True) -> tuple[list[float], list[float]]:
+    """The measure of two cells for the seeds that are legal in both."""
     a, b = _both_legal([x, y], name, positive)
     return a, b
 
 
 def _equal(c: Comparison) -> Iterable[Question]:
-    """Whether the ratio of two observers' errors is another at equal bandwidth."""
+    """For each pair of observers and condition: does the ratio of their errors change at equal bandwidth?"""
     for pair in itertools.combinations(c.equal, 2):
         if pair[0].condition == pair[1].condition:
             own = [c.cell(x.controller, x.condition) for x in pair]
@@ -185,6 +210,7 @@ def _equal(c: Comparison) -> Iterable[Question]:
 
 
 def _changed(own: Sequence[Cell], equal: Sequence[Cell]) -> Iterable[Question]:
+    """The question about one pair; own, equal: their cells at their own settings and at equal bandwidth."""
     errors = [np.array(x) for x in _both_legal([*own, *equal], "peak_error")]
     before, after = errors[0] / errors[1], errors[2] / errors[3]
     found = paired_ratio(before.tolist(), after.tolist(), MARGIN)
@@ -202,8 +228,8 @@ def _changed(own: Sequence[Cell], equal: Sequence[Cell]) -> Iterable[Question]:
 def _pushes(pushes: Sequence[Largest], name: str) -> Iterable[Question]:
     """Whether one controller's largest legal pushes on the joints are larger or smaller than the reference's.
 
-    The units of the test are the combinations of joints and phase; one counts where the medians' intervals do
-    not overlap.
+    The units of the sign test are the combinations of joint pattern and phase; one counts where the intervals
+    of the two medians do not overlap.
     """
     settings: dict[float | None, tuple[int, int]] = {}
     spans = {
@@ -230,6 +256,6 @@ def _pushes(pushes: Sequence[Largest], name: str) -> Iterable[Question]:
 
 
 def _interval(x: Interval) -> str:
-    """Two digits, and 180 rather than 1.8e+02."""
+    """ "value (low to high)" with two digits, 180 rather than 1.8e+02."""
     value, low, high = (f"{float(f'{number:.2g}'):g}" for number in x)
     return f"{value} ({low} to {high})"

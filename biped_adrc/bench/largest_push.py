@@ -1,9 +1,17 @@
-"""The largest push under which a walk makes all steps, and that under which it is legal, by bisection.
+"""The largest push under which a walk makes all steps, and under which all are legal, by bisection.
 
-Per direction and phase. Neither need be monotone in the amplitude: a ladder of amplitudes is walked first, and
-the interval between the last rung below all failures and the first failure is halved until it is as narrow as
-asked, for both criteria. All searches go on in step, so that each round is one batch of walks. What is found is
-an interval of one seed: over seeds it stays one, open above where the highest rung was passed.
+For each controller, direction, phase of the step and seed. Neither criterion need be monotone in the
+amplitude, so a coarse ladder of amplitudes is walked first; then the interval between the last rung below all
+failures and the first failure is halved until it is narrower than `RESOLUTION`. Both criteria share walks.
+All searches advance together: each round is one batch of walks, which keeps all workers busy.
+
+A search returns an interval and not a number. The median over seeds is therefore an interval too: its ends
+are the medians of the lower and of the upper ends, open above where the highest rung was passed.
+
+Called by `bench.comparison`; `carry` walks the trials, here or anywhere.
+
+One search: passed at 0, 20 and 40, failed at 80 N m (rungs); then 60 passes, 70, 65 and 62.5 fail, and the
+result is the interval (60, 62.5) N m.
 """
 
 from __future__ import annotations
@@ -12,35 +20,39 @@ import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.bench.cell import is_legal, is_made
 from biped_adrc.bench.conditions import BASE, SAID
+from biped_adrc.campaign.chunk import Record, Row
 
 LADDER = (0.0, 20.0, 40.0, 80.0, 160.0, 320.0)
-"""[N m] or [N]."""
+"""Amplitudes walked first: torques [N m] on joints, or a force [N]."""
 RESOLUTION = 2.5
-"""[N m] or [N], of the answer."""
+"""Width of the intervals returned [N m] or [N]."""
 DIRECTIONS: Mapping[str, str] = SAID["directions"]
-"""Joint patterns; the last two are unmatched."""
+"""Joint patterns by name, as the scenario's `on`; the last two act on the torso, where no motor is
+(unmatched).
+"""
 MATCHED = tuple(DIRECTIONS)[:4]
+"""Names of the patterns on actuated joints."""
 PHASES: Mapping[str, float] = SAID["phases"]
-"""Onset [s] in a step of about 0.42 s; pushes last 0.2 s."""
+"""Onset of the push in the step [s] by name; a step takes about 0.42 s and a push 0.2 s."""
 
-Carry = Callable[[Sequence[Mapping[str, Any]]], Sequence[Mapping[str, Any]]]
-"""Walks trials and returns their rows, in order."""
+Carry = Callable[[Sequence[Record]], Sequence[Row]]
+"""A function that walks trials and returns their rows, in order."""
 
 
 class Bracket(NamedTuple):
-    """Where the largest push lies: `low` passed, `high` did not [N m]; None for none yet."""
+    """The interval of the largest push of one search: `low` passed, `high` did not [N m]; None for none yet."""
 
     low: float | None = None
     high: float | None = None
 
     def walked(self, amplitude: float, passed: bool) -> Bracket:
-        """After a walk; one that is not inside says nothing."""
+        """The interval after one more walk; a walk outside of the interval changes nothing."""
         above = self.low is None or amplitude > self.low
         if not (above and (self.high is None or amplitude < self.high)):
             return self
@@ -48,48 +60,55 @@ class Bracket(NamedTuple):
 
     @property
     def middle(self) -> float | None:
-        """What to walk next; None where the interval is narrow enough, or open."""
+        """The amplitude to walk next [N m]; None where the interval is narrow enough, or open at one end."""
         if self.low is None or self.high is None or self.high - self.low <= RESOLUTION:
             return None
         return 0.5 * (self.low + self.high)
 
     @property
     def ends(self) -> tuple[float, float]:
-        """The largest push lies between them: (0, 0) where none passes, infinity where all do."""
+        """Bounds of the largest push [N m]: (0, 0) where no amplitude passes, infinity above where all do."""
         if self.low is None:
             return 0.0, 0.0
         return self.low, math.inf if self.high is None else self.high
 
 
 NOTHING = Bracket()
+"""No walk yet."""
 
 
 @dataclass(frozen=True)
 class Search:
-    """One controller, direction, phase and seed."""
+    """The search of one controller, direction, phase and seed, with its two intervals."""
 
     controller: str
+    """Its name."""
     direction: str
+    """One of `DIRECTIONS`."""
     phase: str
+    """One of `PHASES`."""
     seed: int
+    """Of the scenario."""
     survived: Bracket = NOTHING
+    """Interval of the largest push with which all steps are made."""
     legal: Bracket = NOTHING
-    setting: Mapping[str, Any] = field(default_factory=dict)
-    """Values of the trial in place of the controller's own."""
+    """Interval of the largest push with which all steps are legal."""
+    setting: Mapping[str, float] = field(default_factory=dict)
+    """Numbers of the trial in place of the controller's own, such as an observer bandwidth [rad/s]."""
 
-    def record(self, amplitude: float) -> dict[str, Any]:
-        """The trial with this amplitude."""
+    def record(self, amplitude: float) -> dict[str, object]:
+        """The values of the trial with this amplitude [N m]."""
         push = {"onset": PHASES[self.phase], "on": DIRECTIONS[self.direction]}
         who = {"amplitude": amplitude, "controller": self.controller, "seed": self.seed}
         return {**BASE, **SAID["push"], **push, **who, **self.setting}
 
     def middles(self) -> list[float]:
-        """The amplitudes to walk next."""
+        """The amplitudes to walk next, at most one for each criterion; empty when the search is done."""
         found = {b.middle for b in (self.survived, self.legal)}
         return sorted(a for a in found if a is not None)
 
-    def walked(self, amplitude: float, row: Mapping[str, Any]) -> Search:
-        """After a walk with this amplitude."""
+    def walked(self, amplitude: float, row: Row) -> Search:
+        """The search after a walk with this amplitude [N m] and this row."""
         survived = self.survived.walked(amplitude, is_made(row))
         return replace(self, survived=survived, legal=self.legal.walked(amplitude, is_legal(row)))
 
@@ -97,15 +116,15 @@ class Search:
 def searches(
     controllers: Sequence[str],
     seeds: int,
-    setting: Callable[[str], Mapping[str, Any]] = lambda controller: {},
+    setting: Callable[[str], Mapping[str, float]] = lambda controller: {},
 ) -> list[Search]:
-    """All of them, not yet begun; setting: of a controller, in place of its own."""
+    """All searches of these controllers, not yet begun; setting: numbers of the trial by controller."""
     every = itertools.product(controllers, DIRECTIONS, PHASES, range(seeds))
     return [Search(*one, setting=setting(one[0])) for one in every]
 
 
 def largest_pushes(begun: Sequence[Search], carry: Carry) -> list[Search]:
-    """The searches, done."""
+    """Carry the searches out; returns them in their order, done."""
     found = list(begun)
 
     def walk(asked: Sequence[tuple[int, float]]) -> None:
@@ -121,41 +140,46 @@ def largest_pushes(begun: Sequence[Search], carry: Carry) -> list[Search]:
     return found
 
 
-class Span(NamedTuple):
-    """Between what a number lies [N m]; infinity for "at least"."""
+class PushSpan(NamedTuple):
+    """Bounds of a number over seeds [N m]; an infinite `high` reads "at least low"."""
 
     low: float
     high: float
 
     def plain(self) -> list[float | None]:
-        """For JSON: None for infinity."""
+        """[low, high] for JSON, which has no infinity: None in its place."""
         return [self.low, None if math.isinf(self.high) else self.high]
 
 
-def median_span(brackets: Sequence[Bracket]) -> Span:
-    """Between what the median over seeds lies, whatever the values inside their intervals."""
+def median_span(brackets: Sequence[Bracket]) -> PushSpan:
+    """Bounds of the median over seeds, wherever in its interval each largest push lies."""
     lows, highs = zip(*(b.ends for b in brackets), strict=True)
-    return Span(float(np.median(lows)), float(np.median(highs)))
+    return PushSpan(float(np.median(lows)), float(np.median(highs)))
 
 
-def whole_span(brackets: Sequence[Bracket]) -> Span:
-    """Between what all seeds lie."""
-    return Span(min(b.ends[0] for b in brackets), max(b.ends[1] for b in brackets))
+def whole_span(brackets: Sequence[Bracket]) -> PushSpan:
+    """Bounds that hold for every seed."""
+    return PushSpan(min(b.ends[0] for b in brackets), max(b.ends[1] for b in brackets))
 
 
 class Largest(NamedTuple):
-    """The largest push of one controller, over seeds: all steps made (`survived`), and legal."""
+    """The largest pushes of one controller in one direction and phase, over seeds."""
 
     controller: str
+    """Its name."""
     direction: str
+    """One of `DIRECTIONS`."""
     phase: str
+    """One of `PHASES`."""
     bandwidth: float | None
-    """Of the observer [rad/s]; None for the controller's own settings."""
+    """Of all observer poles [rad/s]; None for the controller's own settings."""
     survived: tuple[Bracket, ...]
+    """One interval per seed: all steps made."""
     legal: tuple[Bracket, ...]
+    """One interval per seed: all steps legal."""
 
-    def row(self) -> dict[str, Any]:
-        """As plain values; beyond: seeds that passed the highest rung."""
+    def row(self) -> dict[str, object]:
+        """In plain values; `beyond`: seeds that passed the highest rung, `none`: seeds that passed none."""
         found = self._asdict()
         kinds = {kind: found.pop(kind) for kind in ("survived", "legal")}
         return {
@@ -174,7 +198,9 @@ class Largest(NamedTuple):
 
 
 def gathered(done: Sequence[Search]) -> list[Largest]:
-    """The searches by controller, direction, phase and bandwidth."""
+    """The searches grouped by controller, direction, phase and bandwidth, in the order of their
+    first search.
+    """
     found: dict[tuple[str, str, str, float | None], list[Search]] = {}
     for s in done:
         key = (s.controller, s.direction, s.phase, s.setting.get("bandwidth"))

@@ -1,9 +1,22 @@
-"""What a study may vary: the values of a scenario by name, read with their units, types and ranges.
+"""What a study may vary: the fields of `scenario.Scenario` by name, read with unit, type and range.
 
-A table of values is written with dots: "start.v5" stands for the value v5 of `start`, "own.gain" for a gain
-that a controller of one's own takes. A quantity may be text, such as "1.5 ms" or "30 N m": a unit is a product
-of powers, "kg m^2/s^2", each symbol may carry a prefix, what follows a slash divides. Angles have a dimension
-of their own, so that a frequency [Hz] is not taken for a rate [rad/s].
+Fields that are tables are written with dots: "start.v5" is the value v5 of `start`, "own.gain" the parameter
+`gain` of a controller of one's own. Everything else, such as units, ranges and what is a whole number, comes
+from the declaration of the scenario's fields, so that a new field can be varied without a line here.
+
+A quantity may be text, "1.5 ms" or "30 N m". A unit is a product of powers, "kg m^2/s^2"; each symbol may
+carry an SI prefix, and what follows a slash divides. An angle has a dimension of its own here, so that a
+frequency [Hz] cannot be taken for an angular rate [rad/s], a factor of 2 pi that no check of SI would find.
+
+`bench.study_file` reads values with `read`; `bench.study`, `bench.run` and the comparison make scenarios of
+them with `trial`.
+
+What `read` makes of what is given, by name of the parameter:
+
+    period         "1.5 ms"    0.0015    [s]
+    amplitude      "30 N m"    30.0      [N m]
+    torque_limit   "none"      None      no limit
+    start.v5       0.1         0.1       [rad/s]
 """
 
 from __future__ import annotations
@@ -21,10 +34,12 @@ from biped_adrc.scenario.values import unknown
 
 
 class Unit(NamedTuple):
-    """A factor to SI, and powers of (m, kg, s, rad)."""
+    """A unit as its value in SI units and its dimension."""
 
     factor: float
+    """How many SI units one of it is: 1e-3 for g, since the SI unit of mass is kg."""
     powers: tuple[int, int, int, int]
+    """Exponents of (m, kg, s, rad)."""
 
 
 SYMBOLS: dict[str, Unit] = {
@@ -37,7 +52,7 @@ SYMBOLS: dict[str, Unit] = {
     "W": Unit(1.0, (2, 1, -3, 0)),
     "rad": Unit(1.0, (0, 0, 0, 1)),
 }
-"""These take prefixes; N m of a torque and J are the same."""
+"""Symbols that take an SI prefix; the N m of a torque and J are the same unit."""
 WHOLE: dict[str, Unit] = {
     "1": Unit(1.0, (0, 0, 0, 0)),
     "%": Unit(1e-2, (0, 0, 0, 0)),
@@ -46,17 +61,23 @@ WHOLE: dict[str, Unit] = {
     "rev": Unit(2.0 * math.pi, (0, 0, 0, 1)),
     "rpm": Unit(2.0 * math.pi / 60.0, (0, 0, -1, 1)),
 }
-"""These do not."""
+"""Symbols that take no prefix: "mmin" or "krpm" is refused."""
 PREFIXES = {"k": 1e3, "M": 1e6, "c": 1e-2, "m": 1e-3, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "n": 1e-9}
+"""SI prefixes and their factors; the two letters for micro are different characters that look alike."""
 MOST_POWER = 9
-"""Of a symbol in a unit."""
+"""Largest exponent of a symbol; more is a mistake and would overflow."""
 
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+"""A decimal number, and what follows it."""
 _FACTOR = re.compile(r"([^\d\s/*^·+-]+|1)(?:\^?(-?\d+))?")
+"""A symbol and its exponent, such as "m", "s2" or "s^-2"."""
 
 
 def quantity(text: str, unit: str) -> float:
-    """The number of `text` in `unit`, which it has where it names none. Raises ValueError with the reason."""
+    """The number of a text such as "1.5 ms" in the unit `unit`; a number without a unit is in `unit` already.
+
+    Raises ValueError, which says why, for what is no number, another dimension, or out of range.
+    """
     match = _QUANTITY.fullmatch(text)
     if match is None:
         raise ValueError(f"expected a number [{unit}] or a number and its unit")
@@ -75,7 +96,10 @@ def quantity(text: str, unit: str) -> float:
 
 
 def unit_of(text: str) -> Unit:
-    """A unit from its text. Raises ValueError for an unknown symbol or a power beyond `MOST_POWER`."""
+    """The unit that a text such as "kg m^2/s^2" names.
+
+    Raises ValueError for an unknown symbol, an exponent beyond `MOST_POWER`, or a factor out of range.
+    """
     factor, powers = 1.0, (0, 0, 0, 0)
     over, *under = text.split("/")
     for sign, part in [(1, over), *((-1, part) for part in under)]:
@@ -91,6 +115,7 @@ def unit_of(text: str) -> Unit:
 
 
 def _factor(word: str, text: str) -> tuple[Unit, int]:
+    """One symbol of a unit's text and its exponent; `text` is the whole of it, for the error."""
     match = _FACTOR.fullmatch(word)
     symbol = None if match is None else _symbol(match[1])
     if match is None or symbol is None:
@@ -103,6 +128,9 @@ def _factor(word: str, text: str) -> tuple[Unit, int]:
 
 
 def _symbol(name: str) -> Unit | None:
+    """The unit of one symbol, with or without a prefix; None where it is unknown ("min" is minutes, not
+    milli-in).
+    """
     if name in WHOLE or name in SYMBOLS:
         return WHOLE.get(name) or SYMBOLS[name]
     prefix, rest = PREFIXES.get(name[:1]), SYMBOLS.get(name[1:])
@@ -110,7 +138,10 @@ def _symbol(name: str) -> Unit | None:
 
 
 def _scaled(number: float, factor: float) -> float:
-    """number factor; by a decimal shift where it is one, so that 1.5 ms is 1.5e-3 and not its neighbour."""
+    """number x factor. A factor 10^k shifts the decimal point of the text of the number:
+
+    1.5 ms becomes the float nearest to 1.5e-3, where 1.5 * 1e-3 may be its neighbour and another key of a run.
+    """
     digits = math.log10(factor)
     shift = round(digits)
     if abs(digits - shift) < 1e-12:
@@ -119,26 +150,32 @@ def _scaled(number: float, factor: float) -> float:
 
 
 TABLES = {"start": ("q1", "v1"), "own": ("NAME",), "mass": ("BODY",), "inertia": ("BODY",)}
-"""Tables of a scenario, and what is in them."""
+"""The scenario's fields that are tables, and examples of the names in them."""
 START_UNITS = {"q": "rad", "v": "rad/s"}
+"""Units of the table `start`: coordinates q1, q2, ... and rates v1, v2, ..."""
 
 NONE = "none"
 """Text for no value, such as no limit of a torque."""
 
 Value = float | int | bool | str | None | tuple[float, ...]
+"""What a parameter may be: a number in the SI unit, a text, no value, or a tuple of an own parameter."""
 
 
 class Refused(ValueError):
     """A value cannot be used: its text says what was found and what was expected."""
 
 
-def trial(values: Mapping[str, Any]) -> Scenario:
-    """The scenario of values by name, at 1 kHz where they say nothing of sampling. Raises InputError."""
+def trial(values: Mapping[str, object]) -> Scenario:
+    """The scenario of values by name; where they say nothing of sampling it is sampled at 1 kHz, ideally.
+
+    That is `hardware = "ideal"`: what a study reports is counted at sample instants, so each trial needs some.
+    Raises InputError for values that do not fit together.
+    """
     return Scenario(**{"hardware": "ideal", **nested(values)})
 
 
 def names() -> list[str]:
-    """All parameters, in the order of the scenario."""
+    """All parameters, in the order of the scenario's fields; of the tables their examples."""
     return [
         *(name for name in FIELDS if name not in TABLES),
         *(f"{table}.{key}" for table, keys in TABLES.items() for key in keys),
@@ -146,13 +183,13 @@ def names() -> list[str]:
 
 
 def unit(name: str) -> str:
-    """The SI unit of a parameter, "1" for none."""
+    """The SI unit of a parameter, "1" for none: "rad" for "start.q5", "N m" for "amplitude"."""
     table, _, key = name.partition(".")
     return START_UNITS.get(key[:1], "1") if table == "start" else UNITS[table]
 
 
 def check_name(name: str) -> None:
-    """Raises Refused with the nearest names for one that there is not."""
+    """Raises Refused, with the nearest names, for a parameter that there is not."""
     table, _, key = name.partition(".")
     if name in FIELDS and name not in TABLES:
         return
@@ -165,7 +202,10 @@ def check_name(name: str) -> None:
 
 
 def read(name: str, given: Any) -> Value:
-    """A value as the scenario takes it: a number in the SI unit, or text with a unit. Raises Refused."""
+    """A value as the scenario takes it: a number in the SI unit, also from text with a unit, or as it is given.
+
+    "none" is no value, where the field allows it. Raises Refused for an unknown name or a value out of range.
+    """
     check_name(name)
     if name.startswith("own."):
         return _read_own(given)
@@ -180,7 +220,8 @@ def read(name: str, given: Any) -> Value:
     return float(x) if is_number(name) and not is_whole(name) else x
 
 
-def _read_own(given: Any) -> Value:
+def _read_own(given: object) -> Value:
+    """A value of the table `own`, whose names and units only the user's class knows."""
     if isinstance(given, list) and all(type(x) in (int, float) for x in given):
         return tuple(given)
     if given is None or isinstance(given, bool | int | float | str):
@@ -189,6 +230,9 @@ def _read_own(given: Any) -> Value:
 
 
 def _in_unit(name: str, given: float | str) -> float | int:
+    """A number, or the number of a text, in the parameter's SI unit; an int where the field is one and it is
+    whole.
+    """
     x: float | int
     try:
         x = quantity(given, unit(name)) if isinstance(given, str) else given
@@ -197,8 +241,12 @@ def _in_unit(name: str, given: float | str) -> float | int:
     return int(x) if is_whole(name) and isinstance(x, float) and x.is_integer() else x
 
 
-def _check(name: str, x: Any, given: Any = None) -> None:
-    """Raises Refused, in the scenario's words, for a value that it does not take whatever the others are."""
+def _check(name: str, x: object, given: object = None) -> None:
+    """Raises Refused, in the scenario's words, where it takes this value in no combination with others.
+
+    A scenario with this one value is built. Errors that concern several fields together are not of this value
+    alone and are left to `study_file`, which builds whole points. given: as in the file, for the sentence.
+    """
     try:
         Scenario(**nested({name: x}))
     except InputError as error:
@@ -215,7 +263,8 @@ def _check(name: str, x: Any, given: Any = None) -> None:
         raise Refused(f"{said}{text}{of}") from None
 
 
-def _types(name: str) -> tuple[Any, ...]:
+def _types(name: str) -> tuple[object, ...]:
+    """The types of a parameter, as its field is annotated."""
     if "." in name:
         return () if name.startswith("own.") else (float,)
     annotation = FIELDS[name].annotation
@@ -223,17 +272,17 @@ def _types(name: str) -> tuple[Any, ...]:
 
 
 def is_number(name: str) -> bool:
-    """Whether a parameter is a number, so that it has ranges; an own one may be."""
+    """Whether a parameter is a number, so that it has a range; a parameter of `own` may be one."""
     return bool({int, float} & set(_types(name))) or name.startswith("own.")
 
 
 def is_whole(name: str) -> bool:
-    """Whether a parameter is a whole number."""
+    """Whether a parameter takes whole numbers only."""
     return is_number(name) and float not in _types(name) and not name.startswith("own.")
 
 
-def nested(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Values by name as the scenario takes them: those with a dot in a table."""
+def nested(values: Mapping[str, object]) -> dict[str, Any]:
+    """Values by name with those of tables gathered: {"start.v5": 0.1} becomes {"start": {"v5": 0.1}}."""
     made: dict[str, Any] = {}
     for name, x in values.items():
         table, dot, key = name.partition(".")
@@ -244,9 +293,9 @@ def nested(values: Mapping[str, Any]) -> dict[str, Any]:
     return made
 
 
-def flat(values: Mapping[str, Any]) -> dict[str, Any]:
-    """The inverse of `nested`; TOML reads start.v5 = .. as a table in a table."""
-    made: dict[str, Any] = {}
+def flat(values: Mapping[str, object]) -> dict[str, object]:
+    """The inverse of `nested`, needed since TOML reads start.v5 = .. as a table in a table."""
+    made: dict[str, object] = {}
     for name, x in values.items():
         if name in TABLES and isinstance(x, Mapping):
             made |= {f"{name}.{key}": inner for key, inner in x.items()}

@@ -1,7 +1,12 @@
-"""Scenarios carried out: a row of plain numbers from each, whatever becomes of it.
+"""A trial walked on the compiled engine and reported as one row of plain numbers, whatever becomes of it.
 
-One whose values do not fit is a row with the status REFUSED, one whose controller raises with RAISED; what
-has no value is None, and no number is a NaN.
+Nothing raises: values that do not fit give a row with the status REFUSED, a controller that raises one with
+RAISED, so that one bad trial of a study spoils no other. A number that does not exist is None and never NaN,
+which JSON and SQL do not have. What is reported is counted during the walk at sample instants by the meter
+(`hardware.meter`), so that no trajectory has to be stored.
+
+`run_trials` is the function that `sweep` and the comparison hand to `campaign.execute`; it runs in worker
+processes or threads. The meaning of the columns is in columns.toml.
 """
 
 from __future__ import annotations
@@ -9,42 +14,42 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from threading import Lock
-from typing import Any
 
 import numpy as np
 
 from biped_adrc.analysis.legality import outcome_of
 from biped_adrc.bench.build import case, scene_of
 from biped_adrc.bench.parameters import trial
-from biped_adrc.campaign.chunk import NO_WALK, REFUSED
-from biped_adrc.engine.batch import Case, Walked, run_case
+from biped_adrc.campaign.chunk import NO_WALK, REFUSED, Record
+from biped_adrc.engine.batch import BatchWalk, Case, run_case
 from biped_adrc.errors import BipedError
 from biped_adrc.hardware.meter import LARGEST_RATIO, Reading, reading
 from biped_adrc.hybrid.status import Status
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.scenario import Scenario
 
-Row = dict[str, float | int | str | None]
+WalkRow = dict[str, float | int | str | None]
+"""Results by column name."""
 
 COLUMNS: Mapping[str, str] = packaged("biped_adrc.bench", "columns.toml")
-"""Of a row."""
+"""The columns of a row and what each means, with units."""
 WORDS = ("status", "detail", "outcome", "engine")
-"""Columns that are no numbers."""
+"""Columns that hold text."""
 
 COUNTED = ("peak_error", "peak_torque", "work", "net_work", "peak_matched", "peak_unmatched")
-"""Columns that a meter counts under the same names."""
+"""Columns that the meter counts under the same names: errors [rad], torques [N m], work [J], xi [rad/s^2]."""
 
 _PREPARING = Lock()
-"""Robots and generated code are shared by the threads of a process."""
+"""Held while a walker is built or its plant is used: threads of a process share robots and compiled code."""
 
 
-def run_trials(records: Sequence[Mapping[str, Any]]) -> list[Row]:
-    """A row for each trial, in their order."""
+def run_trials(records: Sequence[Record]) -> list[WalkRow]:
+    """A row for each trial, in their order: the function that workers run."""
     return [run_trial(record) for record in records]
 
 
-def run_trial(record: Mapping[str, Any]) -> Row:
-    """The row of one trial, by its record."""
+def run_trial(record: Record) -> WalkRow:
+    """The row of one trial. record: values of a scenario by name; those not given have their defaults."""
     try:
         s = trial(record)
         with _PREPARING:
@@ -55,10 +60,13 @@ def run_trial(record: Mapping[str, Any]) -> Row:
     return _row(measured(s, made, run()))
 
 
-def measured(s: Scenario, made: Case, walked: Walked) -> Row:
-    """The numbers of a walk."""
+def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
+    """The row of a walk that has been carried out.
+
+    s: its scenario; made: the walker and its start; walked: final state, impacts and status.
+    """
     status = walked.status.name
-    row: Row = {
+    row: WalkRow = {
         "status": status,
         "detail": walked.detail,
         "survived": None if status in NO_WALK else int(walked.status is Status.COMPLETED),
@@ -75,8 +83,12 @@ def measured(s: Scenario, made: Case, walked: Walked) -> Row:
     return row
 
 
-def _pace(s: Scenario, made: Case, walked: Walked) -> Row:
-    """How far and how fast."""
+def _pace(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
+    """Distance [m], mean speed and speed of the last two steps [m/s], relative change of speed against the
+    gait's.
+
+    Without an impact there is a distance of 0 and no speed.
+    """
     if walked.impacts == 0:
         return {"distance": 0.0}
     plant, gait = made.walker.plant, scene_of(s).walked
@@ -92,8 +104,11 @@ def _pace(s: Scenario, made: Case, walked: Walked) -> Row:
     }
 
 
-def _meter(made: Case, walked: Walked, row: Row) -> Row:
-    """What the ticks counted."""
+def _meter(made: Case, walked: BatchWalk, row: WalkRow) -> WalkRow:
+    """What the meter counted: root mean squares over ticks and joints, cost of transport, and legality.
+
+    The cost is work / (weight x distance), None without forward motion.
+    """
     w = made.walker
     g, distance = reading(w.held_at(walked.final_state).g), row["distance"]
     ticks = max(g.ticks, 1.0) * w.plant.p
@@ -108,8 +123,12 @@ def _meter(made: Case, walked: Walked, row: Row) -> Row:
     }
 
 
-def _legality(made: Case, walked: Walked, g: Reading) -> Row:
-    """What ground and motors had to give, and whether they can."""
+def _legality(made: Case, walked: BatchWalk, g: Reading) -> WalkRow:
+    """What the walk asked of ground and motors, whether that is possible, and which limit it broke.
+
+    Forces averaged over the window of `Limits` decide; peaks at single ticks are reported beside them. A ratio
+    F_T / F_N without a positive normal force has no number.
+    """
     k = made.walker.meter.limits.of(made.walker.plant.description)  # type: ignore[union-attr]
     legal, known = g.illegal_step == 0.0, g.windows > 0.0
     before = g.illegal_step - made.mode.step
@@ -135,8 +154,8 @@ def _legality(made: Case, walked: Walked, g: Reading) -> Row:
     }
 
 
-def _row(known: Row) -> Row:
-    """All columns, None where there is no number."""
+def _row(known: WalkRow) -> WalkRow:
+    """All columns in order, None where there is no number or it is not finite."""
     found = {k: float(x) if isinstance(x, float) else x for k, x in known.items()}
     finite = {k: x for k, x in found.items() if not isinstance(x, float) or math.isfinite(x)}
     return dict.fromkeys(COLUMNS) | finite

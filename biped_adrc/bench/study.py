@@ -1,12 +1,22 @@
-"""A study: trials that have some values in common and others varied.
+"""A study: trials that share some values (`fixed`) and differ in others (`grid`, `draw`, `seeds`, `cases`).
 
-Its points are all combinations of cases, levels of the grid, samples and seeds, the seeds fastest; they are
-made one after the other, when they are asked for. Samples of a range, at random or of a Sobol sequence, are
+What is varied is declared once, as a `Study`, and the number of trials may be too large for memory: `points`
+therefore is a generator. It takes the Cartesian product of cases, levels of the grid, samples and seeds, in
+that order, the seeds varying fastest. Samples of a range come from a random generator or a Sobol sequence:
 
-    p = low + (high - low) w,   or   p = low (high / low)^w on a logarithmic scale,   w in [0, 1]
+    p = low + (high - low) w,   or   p = low (high / low)^w on a logarithmic scale,   w in [0, 1)
 
-Before a study starts `some_points` stand for all: every level of each axis with the first of all others (of
-very many numbers some, evenly), all combinations of what is named by words, and points spread over the whole.
+A study with a misspelt gait should fail before its first walk and not after an hour. `rehearse` therefore
+builds the walker of a subset of the points (`some_points`), without simulating it: every level of each axis
+with the first level of all others (at most about `MOST_LEVELS` of each axis, evenly spaced), all combinations
+of values that are text, and points spread evenly over the whole study.
+
+`bench.study_file` makes a `Study` from TOML; `bench.sweep` rehearses it and runs it with `campaign.execute`.
+
+The first point of the example in `bench.study_file`:
+
+    record   {"amplitude": 60.0, "hardware": "ideal", "push": "pulse"}     what is run, defaults left out
+    at       {"case": "ideal", "delay": 0.0, "seed": 0}                    where it lies in the study
 """
 
 from __future__ import annotations
@@ -14,7 +24,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
@@ -25,15 +35,29 @@ from biped_adrc.errors import BipedError, InputError
 from biped_adrc.types import Array
 
 BLOCK = 1024
-"""Samples that are drawn at once; a power of two, as Sobol's sequences ask for."""
+"""Samples drawn at once; a power of two, since only those blocks of a Sobol sequence are balanced."""
 
 Scale = Literal["linear", "log"]
+"""How w in [0, 1) is mapped to a range: proportionally, or so that equal steps of w are equal ratios."""
+Kind = Literal["random", "sobol"]
+"""How samples are drawn: independent uniform numbers, or a scrambled Sobol sequence, which fills
+space evenly.
+"""
 
 
-class Range(BaseModel):
-    """From low to high, in the parameter's SI unit; `whole` for numbers without a fraction."""
+class Part(BaseModel):
+    """A part of a study, checked by pydantic: it cannot be changed, and takes no other keys."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class Range(Part):
+    """An interval of one parameter, in the parameter's SI unit.
+
+    low, high: its ends; with scale "log" both are positive. whole: integers only, both ends included.
+    """
+
+    model_config = ConfigDict(allow_inf_nan=False)
 
     low: float
     high: float
@@ -41,7 +65,11 @@ class Range(BaseModel):
     whole: bool = False
 
     def at(self, w: float) -> float | int:
-        """The value at w in [0, 1)."""
+        """The value at w in [0, 1): low at w = 0, and high only in the limit.
+
+        Integers get intervals of w of equal length, so that each of the high - low + 1 values is equally
+        likely.
+        """
         if self.whole:
             return int(self.low) + min(
                 int(w * (self.high - self.low + 1)), int(self.high - self.low)
@@ -51,7 +79,10 @@ class Range(BaseModel):
         return self.low + (self.high - self.low) * w
 
     def levels(self, count: int) -> list[float]:
-        """So many values with both ends among them, exactly."""
+        """`count` values from low to high, evenly spaced on the scale.
+
+        Both ends are returned exactly as given, without the round-off of exp(log(x)); a single level is low.
+        """
         if count == 1:
             return [self.low]
         a, b = self.low, self.high
@@ -63,24 +94,25 @@ class Range(BaseModel):
         return [self.low, *inner, self.high]
 
 
-class Draw(BaseModel):
-    """`count` samples of all ranges together, by a generator of this seed."""
+class Draw(Part):
+    """`count` samples of all ranges together: each sample gives one value to every parameter of `ranges`.
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    kind: "random" or "sobol". seed: of NumPy's generator; the same seed gives the same samples on any machine.
+    """
 
-    kind: Literal["random", "sobol"]
+    kind: Kind
     count: int = Field(ge=1)
     seed: int = Field(ge=0)
     ranges: dict[str, Range] = Field(min_length=1)
 
-    def samples(self) -> Iterator[dict[str, float | int]]:
-        """The samples in their order, the same each time."""
+    def samples(self) -> Iterator[dict[str, Value]]:
+        """The `count` samples in their order, each a value by parameter name; the same at every call."""
         for w in itertools.islice(self._points(), self.count):
             ranges = zip(self.ranges.items(), w.tolist(), strict=True)
             yield {name: r.at(x) for (name, r), x in ranges}
 
     def _points(self) -> Iterator[Array]:
-        """(number of ranges,) each in [0, 1), without end."""
+        """Points w, each of shape (number of ranges,) in [0, 1), drawn in blocks and without end."""
         random, n = np.random.default_rng(self.seed), len(self.ranges)
         if self.kind == "random":
             while True:
@@ -93,48 +125,59 @@ class Draw(BaseModel):
 
 
 CASE, SEED = "case", "seed"
+"""Names under which the case and the seed of a point stand beside its parameters."""
 MOST_POINTS = 10**9
-"""Of a study."""
+"""Largest number of points that a study may have; more is taken for a mistake in the file."""
 
 
-class Named(BaseModel):
-    """A partial set of parameters by name; they go before the study's fixed ones."""
+class Named(Part):
+    """A case: values by parameter under a name, such as {"counts": 8192} as "encoders".
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    They take precedence over the fixed values of the study.
+    """
 
     name: str
     values: dict[str, Value] = {}
 
 
-class Study(BaseModel):
-    """What is varied and what is not, in SI units: as `read_study` makes it of a file or of plain tables."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
+class Study(Part):
+    """What is varied and what is not, in SI units, checked: `read_study` makes it of a file or of
+    plain tables.
+    """
 
     name: str
+    """How results, tables and errors call it."""
     description: str = ""
+    """A text for the reader; it takes no part in the hash."""
     fixed: dict[str, Value] = {}
+    """Values by parameter that all points share, unless their case says otherwise."""
     grid: dict[str, tuple[Value, ...]] = {}
+    """Levels by parameter; all combinations are run."""
     draw: Draw | None = None
+    """Samples, each combined with every combination of the grid; None for none."""
     seeds: tuple[int, ...] = Field(default=(), description="The trial's own seed without.")
+    """Seeds of the scenario, run for each combination; empty: the scenario's own seed."""
     cases: tuple[Named, ...] = ()
+    """Sets of values, each run over the whole grid and all samples; empty: the fixed values alone."""
 
     @property
     def count(self) -> int:
-        """The number of its points."""
+        """The number of its points: levels x samples x cases x seeds."""
         levels = math.prod(len(levels) for levels in self.grid.values())
         samples = 1 if self.draw is None else self.draw.count
         return levels * samples * max(len(self.cases), 1) * max(len(self.seeds), 1)
 
     @property
     def varied(self) -> tuple[str, ...]:
-        """What a point is told apart by: the case, parameters by name, the seed."""
+        """The names by which two points differ, in the order of the columns: the case, the parameters, the
+        seed.
+        """
         drawn = () if self.draw is None else tuple(self.draw.ranges)
         case = (CASE,) if self.cases else ()
         return (*case, *self.grid, *drawn, *((SEED,) if self.seeds else ()))
 
     def levels(self, name: str) -> int:
-        """How many values of one of `varied` there may be."""
+        """How many values the axis `name` of `varied` takes at most; 1 for a name that is not varied."""
         if name == CASE:
             return len(self.cases)
         if name in self.grid:
@@ -147,45 +190,57 @@ class Study(BaseModel):
         return min(count, int(drawn.high - drawn.low) + 1) if drawn.whole else count
 
     def given(self) -> Iterator[tuple[str, Value]]:
-        """Names and values of all points, but for what is drawn."""
+        """Names and values that any point uses, apart from samples: where files and classes of the user may be
+        named.
+        """
         yield from self.fixed.items()
         for case in self.cases:
             yield from case.values.items()
         yield from ((name, x) for name, levels in self.grid.items() for x in levels)
 
-    def configuration(self) -> dict[str, Any]:
-        """All of it as plain values."""
+    def configuration(self) -> dict[str, object]:
+        """The whole study as plain values, from which `load_sweep` makes it again; stored with the results."""
         return self.model_dump(mode="json")
 
     @property
     def hash(self) -> str:
-        """The same for two studies that differ in their description only."""
+        """A hash of everything but the description: results of a study with another hash are never mixed with
+        these.
+        """
         return key_of(text_of(self.model_dump(mode="json", exclude={"description"})))
 
     def points(self) -> Iterator[Point]:
-        """One after the other; where values do not fit together the record has them as they are."""
+        """All points, one after the other: the record of the trial, and the varied values that locate it.
+
+        Values that do not fit together (a rate limit without sampling, say) still make a point. Its record has
+        the values as they are, and its run becomes a row with the status REFUSED.
+        """
         for case in self.cases or (None,):
             values = self.fixed | ({} if case is None else case.values)
             named: dict[str, Value] = {} if case is None else {CASE: case.name}
             for levels in itertools.product(*self.grid.values()):
                 level = dict(zip(self.grid, levels, strict=True))
-                for sample in self._samples():
+                for sample in self.samples():
                     for seed in self.seeds or (None,):
                         at = level | sample | ({} if seed is None else {SEED: seed})
                         yield Point(record_of(values | at), named | at)
 
-    def _samples(self) -> Iterator[dict[str, Any]]:
+    def samples(self) -> Iterator[dict[str, Value]]:
+        """What is drawn, by parameter, for each sample; one empty sample where nothing is drawn."""
         return iter([{}]) if self.draw is None else self.draw.samples()
 
 
 def too_many(study: Study) -> str:
-    """In words, of a study with more than `MOST_POINTS`."""
+    """The sentence for a study with more than `MOST_POINTS` points, behind its name."""
     found, most = f"{study.count:.3g}", f"{MOST_POINTS:.0e}"
     return f"has {found} points, expected at most {most}; give fewer levels, samples or seeds"
 
 
-def record_of(values: dict[str, Value]) -> dict[str, Any]:
-    """The trial's record of values by name, or the values themselves where no scenario has them together."""
+def record_of(values: dict[str, Value]) -> dict[str, object]:
+    """The trial's record: the values that differ from the scenario's defaults, by which runs are identified.
+
+    Where no scenario takes these values together, the values themselves, sorted by name.
+    """
     try:
         return trial(values).record()
     except InputError:
@@ -193,18 +248,20 @@ def record_of(values: dict[str, Value]) -> dict[str, Any]:
 
 
 MOST_LEVELS = 200
-"""Numbers of one axis that are looked at."""
+"""Levels of one axis, and samples, that a rehearsal looks at."""
 MOST_WORDS = 200
-"""Combinations of words."""
+"""Combinations of values given as text that a rehearsal looks at."""
 
 At = dict[str, Value]
+"""Values by name: of a trial, or those that locate a point."""
 
 
 def rehearse(study: Study, spread: int = 100) -> None:
-    """Make walks, without walking them, of points that stand for all; `spread` of them all over the study.
+    """Build the walkers of points that stand for all of the study, without simulating them.
 
-    Raises InputError for robots, gaits, presets, controllers, joints or coordinates that there are not, and
-    for values that do not fit together.
+    spread: how many of them lie evenly over the whole study. Two points with the same scenario are built once.
+    Raises InputError, with the study, the case and the point, for a robot, gait, preset, controller, joint or
+    coordinate that does not exist, and for values that do not fit together.
     """
     from biped_adrc.bench.build import case
 
@@ -223,7 +280,11 @@ def rehearse(study: Study, spread: int = 100) -> None:
 
 
 def some_points(study: Study, spread: int) -> Iterator[tuple[At, At]]:
-    """Values of a trial by name, and where the point lies; each case in turn, what stands out first."""
+    """Points that stand for all: (values of the trial by name, values that locate the point).
+
+    Case by case; first the extremes of each axis, then combinations of text, then about `spread` points in all
+    that lie evenly over the study.
+    """
     for named in study.cases or (Named(name=""),):
         told: At = {CASE: named.name} if named.name else {}
         for at in _some_of_a_case(study, spread // max(len(study.cases), 1) + 1):
@@ -231,10 +292,11 @@ def some_points(study: Study, spread: int) -> Iterator[tuple[At, At]]:
 
 
 def _some_of_a_case(study: Study, spread: int) -> Iterator[At]:
+    """The points of `some_points` for one case, as values by axis."""
     axes: dict[str, Sequence[Value]] = dict(study.grid)
     if study.seeds:
         axes[SEED] = study.seeds
-    samples = _samples(study)
+    samples = itertools.cycle(itertools.islice(study.samples(), MOST_LEVELS))
     sample, first = next(samples), {name: levels[0] for name, levels in axes.items()}
     for name, levels in axes.items():
         yield from (first | {name: x} | sample for x in _spaced(levels))
@@ -248,15 +310,10 @@ def _some_of_a_case(study: Study, spread: int) -> Iterator[At]:
         yield at | next(samples)
 
 
-def _samples(study: Study) -> Iterator[dict[str, Any]]:
-    """Samples without end."""
-    if study.draw is None:
-        return itertools.repeat({})
-    return itertools.cycle(itertools.islice(study.draw.samples(), MOST_LEVELS))
-
-
 def _spaced(levels: Sequence[Value]) -> Iterator[Value]:
-    """All words; of many numbers some, with both ends."""
+    """At most about `MOST_LEVELS` levels of an axis, evenly spaced, the last one included; every text among
+    them.
+    """
     step = max(1, math.ceil(len(levels) / MOST_LEVELS))
     for i, x in enumerate(levels):
         if i % step == 0 or i == len(levels) - 1 or not isinstance(x, (int, float)):
@@ -264,7 +321,11 @@ def _spaced(levels: Sequence[Value]) -> Iterator[Value]:
 
 
 def _spread(axes: dict[str, Sequence[Value]], most: int) -> Iterator[At]:
-    """Combinations at even distances in the order of the study, the last among them."""
+    """At most `most` combinations at even distances in the order of the study, the first and the last among
+    them.
+
+    The index of a combination is a number in a mixed radix whose digits are the levels of the axes.
+    """
     count = math.prod(map(len, axes.values()))
     some = min(most, count)
     places = {round(k * (count - 1) / max(some - 1, 1)) for k in range(some)}

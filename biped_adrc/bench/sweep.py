@@ -1,7 +1,19 @@
-"""A study from its file to its results: `sweep`, and what it leaves to look at.
+"""A study carried out, from its file to its table of results: `sweep`, `load_sweep` and what they return.
 
-Everything is checked before the first walk: the study, walks of points that stand for all, the workers, the
-file that the results go to.
+Order of what is done: the study is read and rehearsed, the folder and the workers are checked, the results
+file is opened (and locked), and only then the first walk starts. Whatever can fail without a walk fails
+before it. Results stay in the SQLite file; `Sweep` reads them when it is asked, a few rows at a time, so that a
+study may be larger than memory. `Sweep.table` alone loads columns as arrays.
+
+Calls `campaign.execute.run_study` with `bench.run.run_trials`; called by the command `sweep` and by scripts of
+the user, and read by `bench.export`.
+
+In a script, which worker processes import, so that it needs the main guard:
+
+    if __name__ == "__main__":
+        found = sweep("study.toml", "out/study", workers=4)
+        rows = found.table("delay", "survived", "peak_error").where({"survived": 1})
+        print(rows["peak_error"].max())
 """
 
 from __future__ import annotations
@@ -11,7 +23,6 @@ from concurrent.futures import Executor
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,27 +42,34 @@ from biped_adrc.shown import Shown
 from biped_adrc.versions import numerical_versions
 
 RESULTS = "results.sqlite"
-"""In the folder of a sweep."""
+"""Name of the results file in the folder of a sweep."""
 PARAMETER = "parameter."
-"""Put before a parameter whose name a column of results has too."""
+"""Put before the name of a varied parameter that a column of results has too, such as "parameter.friction"."""
 
 
 @dataclass(frozen=True)
 class Table(Shown):
-    """Columns (N,) by name: floats, with NaN for none, where all values are numbers; else objects."""
+    """Columns of results by name, each of shape (N,), one row for each finished point.
 
-    columns: Mapping[str, NDArray[Any]]
+    A column of whole numbers is an array of ints; other numbers are floats with NaN for no value; anything else
+    (texts, mixtures) is an array of objects with None for no value.
+    """
 
-    def __getitem__(self, name: str) -> NDArray[Any]:
+    columns: Mapping[str, NDArray[np.generic]]
+
+    def __getitem__(self, name: str) -> NDArray[np.generic]:
+        """One column, (N,). Raises InputError, with the names there are, for an unknown one."""
         if name not in self.columns:
             raise InputError(f"there is no column '{name}'; choose from {list(self.columns)}")
         return self.columns[name]
 
     def __len__(self) -> int:
+        """The number of rows N."""
         return len(next(iter(self.columns.values()), ()))
 
-    def where(self, keep: NDArray[np.bool_] | Mapping[str, Any]) -> Table:
-        """The rows of a mask (N,), or those that have these values, None for no value.
+    def where(self, keep: NDArray[np.bool_] | Mapping[str, object]) -> Table:
+        """The rows of a boolean mask (N,), or those with all of these values by column; None asks for "no
+        value".
 
         Raises InputError for an unknown column.
         """
@@ -66,52 +84,64 @@ class Table(Shown):
 
 @dataclass(frozen=True)
 class Sweep(Shown):
-    """The results of a study, in its file; they are read when they are asked for."""
+    """The results of a study in its file, finished or not; they are read each time they are asked for."""
 
     path: Path
+    """The SQLite file of results."""
     study: Study
+    """The study that it holds."""
     summary: Summary | None = None
+    """What the call that made this did: points, fresh runs, workers that died; None where it was
+    only loaded.
+    """
 
     def results(self) -> Iterator[Result]:
-        """Of the points whose runs are finished, in the order of the study, a few at a time in memory."""
+        """Finished points in the order of the study, with their rows; a few at a time in memory."""
         with closing(read_store(self.path)) as store:
             yield from store.results()
 
-    def rows(self) -> Iterator[dict[str, Any]]:
-        """What is varied and the results of a point in one, by the names of `names`."""
+    def rows(self) -> Iterator[dict[str, object]]:
+        """For each finished point its varied values and its results in one mapping, with the keys
+        of `names`.
+        """
         taken = set(self._of_rows())
         for result in self.results():
             at = {f"{PARAMETER}{k}" if k in taken else k: x for k, x in result.at.items()}
             yield at | result.row
 
     def names(self) -> list[str]:
-        """Of all columns: what is varied, then the results."""
+        """All columns: what is varied, then the results. A parameter of the same name as a result gets
+        `PARAMETER`.
+        """
         found = self._of_rows()
         return [*(f"{PARAMETER}{k}" if k in found else k for k in self.study.varied), *found]
 
     def table(self, *names: str) -> Table:
-        """These columns, or all, of the points that are finished. Raises InputError for an unknown one."""
+        """These columns of the finished points, or all columns, in memory. Raises InputError for an unknown
+        one.
+        """
         known = self.names()
         for name in names:
             if name not in known:
                 raise InputError(f"the results have no column '{name}'; choose from {known}")
-        columns: dict[str, list[Any]] = {name: [] for name in names or known}
+        columns: dict[str, list[object]] = {name: [] for name in names or known}
         for row in self.rows():
             for name, column in columns.items():
                 column.append(row.get(name))
         return Table({name: _array(column) for name, column in columns.items()})
 
     def statuses(self) -> dict[str, int]:
-        """How many runs ended with each status."""
+        """The number of runs by status: how walks ended, or REFUSED, RAISED, CRASHED."""
         with closing(read_store(self.path)) as store:
             return store.statuses()
 
     def no_walks(self) -> dict[str, str]:
-        """What one run says of each status that is no walk, such as REFUSED."""
+        """For each status that is no walk, such as REFUSED, the explanation of one such run."""
         with closing(read_store(self.path)) as store:
             return store.no_walks()
 
     def _of_rows(self) -> list[str]:
+        """Names of the columns of results, in the order in which they first appear."""
         found: dict[str, None] = {}
         for result in self.results():
             found |= dict.fromkeys(result.row)
@@ -128,11 +158,13 @@ def sweep(
     progress: Callable[[Progress], None] | None = None,
     other_versions: bool = False,
 ) -> Sweep:
-    """Run what is not yet in the folder `out` of a study, from its file or as it is.
+    """Run all points of a study whose results are not yet in the folder `out`; returns all of its results.
 
-    workers: processes (one per core if None), `Threads`, `Cluster`, or any executor. function: what makes rows
-    of records; walks if None. other_versions: go on with results of other versions.
-    Raises InputError, OutputError, WorkersError; Ctrl-C leaves what is finished, and the same call goes on.
+    study: a `Study`, or the name of its file. workers: processes (one per core if None), `Threads`, `Cluster`,
+    or any executor. function: what makes rows of records, walks if None. chunk: runs handed to a worker at
+    once; it changes no number. progress: called now and then. other_versions: go on though other versions of
+    the package or its dependencies made what is there. Raises InputError, OutputError, WorkersError. After
+    Ctrl-C what is finished is kept, and the same call goes on.
     """
     study = study if isinstance(study, Study) else load_study(study)
     if function is None:
@@ -158,7 +190,12 @@ def sweep(
 
 
 def about_study(study: Study, crew: Workers) -> About:
-    """What its results are of and made with, the files that it names included. Raises InputError."""
+    """What is stored to recognise a study: its hash, configuration, and the versions of all its numbers depend
+    on.
+
+    The contents of robot and gait files and the source of the user's classes count as versions. Raises
+    InputError for too many points, or files that workers on other machines may not have.
+    """
     if study.count > MOST_POINTS:
         raise InputError(f"study '{study.name}' {too_many(study)}")
     files = files_of_study(study)
@@ -172,13 +209,13 @@ def about_study(study: Study, crew: Workers) -> About:
 
 
 def check_folder(out: Path | str) -> None:
-    """Raises InputError for a file."""
+    """Raises InputError where the folder for results is a file."""
     if Path(out).is_file():
         raise InputError(f"the results are to go to '{out}', which is a file; expected a folder")
 
 
 def load_sweep(out: Path | str) -> Sweep:
-    """The results in a folder, or in a file, finished or not. Raises InputError."""
+    """The results in a folder, or in a file, finished or not. Raises InputError where there are none."""
     path = Path(out) / RESULTS if Path(out).is_dir() else Path(out)
     with closing(read_store(path)) as store:
         configuration = store.about.configuration
@@ -190,8 +227,8 @@ def load_sweep(out: Path | str) -> Sweep:
         ) from error
 
 
-def _equal(column: NDArray[Any], x: Any) -> NDArray[np.bool_]:
-    """Rows with this value; NaN in a column of numbers is no value."""
+def _equal(column: NDArray[np.generic], x: object) -> NDArray[np.bool_]:
+    """Mask (N,) of the rows with this value; None asks for no value, which is NaN in a column of numbers."""
     if x is not None:
         return np.asarray(column == x, dtype=bool)
     if column.dtype == object:
@@ -199,12 +236,14 @@ def _equal(column: NDArray[Any], x: Any) -> NDArray[np.bool_]:
     return np.asarray(column != column, dtype=bool)
 
 
-def _array(values: list[Any]) -> NDArray[Any]:
-    """Ints where all are, floats where all are numbers or None, else objects."""
+def _array(values: list[object]) -> NDArray[np.generic]:
+    """A column (N,) of the narrowest kind: ints where all are, floats where all are numbers or None, else
+    objects.
+    """
     if values and all(type(x) is int for x in values):
         return np.array(values)
     if all(x is None or isinstance(x, (int, float)) for x in values):
-        return np.array([np.nan if x is None else float(x) for x in values])
+        return np.array(values, dtype=float)
     column = np.empty(len(values), dtype=object)
     column[:] = values
     return column

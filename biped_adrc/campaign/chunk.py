@@ -1,4 +1,17 @@
-"""A record of a study and where it lies, its key, and what a worker makes of it: a row ready to be stored."""
+"""The unit of work of a campaign: records in, rows out, and how both are written as text.
+
+A campaign carries out many independent runs and knows nothing of robots. A run is given by its *record*, plain
+values by name; its *row* is what came out of it, plain values again. The JSON text of a record, with sorted
+keys, identifies the run: its hash is the key under which the store keeps the row, so that a run which two
+studies or two calls have in common is made once. JSON writes a float such that it reads back to the same bits.
+
+`run_chunk` is what a worker executes. `campaign.execute` hands out chunks and `campaign.store` keeps the rows.
+
+An example, with the function `run_trials` of `bench.run`:
+
+    record   {"controller": "NPD", "hardware": "ideal", "seed": 3}
+    row      {"status": "COMPLETED", "survived": 1, "peak_error": 0.0113, ...}
+"""
 
 from __future__ import annotations
 
@@ -6,52 +19,69 @@ import hashlib
 import json
 import time
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
+
+Record = Mapping[str, object]
+"""Values of one run by name, plain as JSON has them: what a worker is handed."""
+Row = Mapping[str, object]
+"""Results of one run by name, numbers, text or None: what a worker hands back."""
 
 
 class Point(NamedTuple):
-    """A record in plain values, and the values by which the study tells the point from others."""
+    """A run of a study and where it lies in it."""
 
-    record: Mapping[str, Any]
-    at: Mapping[str, Any]
+    record: Record
+    """All values that make the run."""
+    at: Record
+    """The values by which the study tells the point from its others: what is varied."""
 
 
-def point(of: Mapping[str, Any] | Point) -> Point:
-    """A point as it is; a plain record lies at its own values."""
+def point(of: Record | Point) -> Point:
+    """A `Point` as it is; for a plain record all of its values tell it from others."""
     return of if isinstance(of, Point) else Point(of, of)
 
 
-def text_of(values: Mapping[str, Any]) -> str:
-    """As JSON, from which floats come back to the last bit; the same values give the same text."""
+def text_of(values: Record) -> str:
+    """The values as JSON with sorted keys: equal values give equal texts, floats read back to the same bits."""
     return json.dumps(values, sort_keys=True)
 
 
 def key_of(record: str) -> str:
-    """A name for a run, from the text of its record."""
+    """The key of a run: 32 hexadecimal digits of the SHA-256 of its record's text."""
     return hashlib.sha256(record.encode()).hexdigest()[:32]
 
 
 REFUSED, RAISED, CRASHED = "REFUSED", "RAISED", "CRASHED"
-"""Status of a record whose values do not fit, of a run that raised, and of one whose process died, which is
-tried again when the study goes on."""
+"""Statuses that are no result of a run. REFUSED: the values do not fit together. RAISED: the function raised.
+CRASHED: the worker process died; such a run is tried again when the study goes on.
+"""
 NO_WALK = (REFUSED, RAISED, CRASHED)
-"""What neither makes all steps nor falls."""
+"""Statuses of rows that count neither as a success nor as a fall."""
 
-Function = Callable[[Sequence[Mapping[str, Any]]], Sequence[Mapping[str, Any]]]
-"""A row of plain values for each record, in their order."""
+Function = Callable[[Sequence[Record]], Sequence[Row]]
+"""What workers run: a row of plain values for each record, in their order."""
 
 
 class Made(NamedTuple):
-    """The text of a row, and the time it took [s]: in a chunk as a whole its share."""
+    """A row ready to be stored."""
 
     row: str
+    """Its text, JSON."""
     status: str | None
+    """Its status, if it has one: a column of its own in the store."""
     engine: str | None
+    """What ran, if the row says so."""
     seconds: float
+    """Wall time of the run [s]; of a chunk that was run as a whole, its share."""
 
 
-def run_chunk(function: Function, records: Sequence[Mapping[str, Any]]) -> list[Made]:
-    """A row of each record. Where the function raises, record by record, so that one spoils no other."""
+def run_chunk(function: Function, records: Sequence[Record]) -> list[Made]:
+    """A row of each record, in their order. Runs in a worker process.
+
+    Where the function raises on the chunk, it is called again with one record at a time, so that one bad record
+    spoils no other; that record's row has the status RAISED and the error's text. A SystemExit counts as an
+    error too: a library that calls exit() must not end the worker.
+    """
     begin = time.perf_counter()
     try:
         rows = _rows(function, records)
@@ -64,15 +94,16 @@ def run_chunk(function: Function, records: Sequence[Mapping[str, Any]]) -> list[
         return [made({"status": RAISED, "detail": detail}, time.perf_counter() - begin)]
 
 
-def _rows(function: Function, records: Sequence[Mapping[str, Any]]) -> Sequence[Mapping[str, Any]]:
+def _rows(function: Function, records: Sequence[Record]) -> Sequence[Row]:
+    """What the function gives. Raises ValueError for another number of rows than records."""
     rows = function(records)
     if len(rows) != len(records):
         raise ValueError(f"the function gave {len(rows)} rows for {len(records)} records")
     return rows
 
 
-def made(row: Mapping[str, Any], seconds: float) -> Made:
-    """Ready to be stored. Raises TypeError for a value that is not plain."""
+def made(row: Row, seconds: float) -> Made:
+    """The row, checked and as text. Raises TypeError for a value that is not a number, text or None."""
     for name, x in row.items():
         if x is not None and not isinstance(x, (float, int, str)):
             raise TypeError(
@@ -82,5 +113,5 @@ def made(row: Mapping[str, Any], seconds: float) -> Made:
     return Made(json.dumps(dict(row)), _text(status), _text(engine), seconds)
 
 
-def _text(x: Any) -> str | None:
+def _text(x: object) -> str | None:
     return None if x is None else str(x)

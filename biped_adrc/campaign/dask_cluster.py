@@ -1,7 +1,11 @@
-"""The workers of an existing Dask cluster, by the address of its scheduler (the extra `[cluster]`).
+"""The workers of an existing Dask cluster, reached by the address of its scheduler (the extra `[cluster]`).
 
-Each chunk asks its worker for the versions of what the numbers depend on, so that one that joins late cannot
-spoil a study.
+Results must not depend on where a run was made. Each worker is therefore asked for the versions of all that
+decides the numbers, once when the study starts and again with every chunk: a worker that joins late, with
+another NumPy, cannot spoil a study. Dask replaces workers that die by itself; what it gives up is run again by
+`campaign.execute`, as for processes.
+
+A `Cluster` is handed to `sweep` in place of a number of processes.
 """
 
 from __future__ import annotations
@@ -10,33 +14,48 @@ import re
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from functools import partial
+from typing import ClassVar, ParamSpec, TypeVar, cast
 
 from biped_adrc.campaign.workers import Workers, WorkersError
 from biped_adrc.errors import InputError
+from biped_adrc.types import DaskClient
 from biped_adrc.versions import differences, numerical_versions
 
 TIMEOUT = 10.0
-"""[s] for a scheduler to answer, and for its first worker."""
+"""Time for a scheduler to answer, and for its first worker to appear [s]."""
+
+P = ParamSpec("P")
+"""Arguments of what is submitted."""
+T = TypeVar("T")
+"""What is returned from a worker."""
+Versions = Mapping[str, str]
+"""Version by package name, as `versions.numerical_versions` gives them."""
 
 PRINTED = "tcp://host:8786, which 'dask scheduler' prints when it starts"
+"""An example of an address, for errors."""
 ADDRESS = re.compile(r"(?:(?:tcp|tls)://)?(?:\[[0-9a-fA-F:.]+\]|[\w.-]+):([0-9]{1,5})")
+"""An address: protocol (optional), host or bracketed IPv6 address, and port."""
 
 
 @dataclass(frozen=True)
 class Cluster(Workers):
-    """Workers of the scheduler at `address`, such as tcp://host:8786, which has `timeout` [s] to answer."""
+    """The workers of a Dask scheduler. address: such as tcp://host:8786; timeout: for its answer [s]."""
 
     address: str
     timeout: float = TIMEOUT
     elsewhere: ClassVar[bool] = True
 
     def prepare(self) -> None:
-        """Raises InputError as `start`."""
+        """Connect once and leave. Raises InputError as `start`."""
         self.stop(self.start(), True)
 
     def start(self) -> Executor:
-        """Raises InputError for no address, when none answers, has no workers, or some with other versions."""
+        """Connect and check all workers.
+
+        Raises InputError for what is no address, when no scheduler answers, it has no workers, or some of them
+        have other versions.
+        """
         client = _client(self.address, self.timeout)
         try:
             _check_workers(client, self.address, self.timeout)
@@ -45,24 +64,28 @@ class Cluster(Workers):
             raise
         return _Checked(client, client.get_executor(pure=False), numerical_versions())
 
-    def count(self, executor: Any) -> int:
-        return max(1, sum(executor.client.nthreads().values()))
+    def count(self, executor: Executor) -> int:
+        """Threads of all workers."""
+        return max(1, sum(_client_of(executor).nthreads().values()))
 
-    def stop(self, executor: Any, now: bool) -> None:
+    def stop(self, executor: Executor, now: bool) -> None:
+        """Give up what has not begun where `now`, and close the connection; the cluster itself goes on."""
         executor.shutdown(wait=not now)
-        executor.client.close(timeout=2)
+        _client_of(executor).close(timeout=2)
 
     def restart(self, executor: Executor) -> Executor:
-        """The scheduler has put others in the place of workers that died."""
+        """The same executor: the scheduler replaces workers that died."""
         return executor
 
     def broken(self, error: BaseException) -> bool:
+        """Also what Dask says of a task that has killed several workers."""
         from distributed import KilledWorker
 
         return super().broken(error) or isinstance(error, KilledWorker)
 
-    def check(self, executor: Any) -> None:
-        client = executor.client
+    def check(self, executor: Executor) -> None:
+        """Raises WorkersError where the connection to the scheduler is closed."""
+        client = _client_of(executor)
         comm = client.scheduler_comm
         if client.status != "running" or comm is None or comm.comm.closed():
             raise WorkersError(
@@ -71,8 +94,13 @@ class Cluster(Workers):
             )
 
 
-def _check_workers(client: Any, address: str, timeout: float) -> None:
-    """Raises InputError."""
+def _client_of(executor: Executor) -> DaskClient:
+    """The client of an executor that `Cluster.start` made."""
+    return cast("_Checked", executor).client
+
+
+def _check_workers(client: DaskClient, address: str, timeout: float) -> None:
+    """Raises InputError where there is no worker after `timeout` [s], or one has other versions."""
     try:
         client.wait_for_workers(1, timeout=timeout)
     except TimeoutError as error:
@@ -86,19 +114,23 @@ def _check_workers(client: Any, address: str, timeout: float) -> None:
             raise InputError(_refusal(f"worker {worker} of the scheduler at {address}", text))
 
 
-def difference(found: Mapping[str, str] | str, expected: Mapping[str, str]) -> str:
-    """Which versions differ; empty when none does. Text in their place is what went wrong there."""
+def difference(found: Versions | str, expected: Versions) -> str:
+    """Which versions differ, in words; empty when none does. A text in place of `found` is what went wrong
+    there.
+    """
     return found if isinstance(found, str) else differences(found, expected)
 
 
 def _refusal(who: str, text: str) -> str:
+    """The sentence for a worker with other versions."""
     return (
         f"{who} would give other numbers: {text}. Give all workers the versions of this machine, or run the "
         "study where they are"
     )
 
 
-def _client(address: str, timeout: float) -> Any:
+def _client(address: str, timeout: float) -> DaskClient:
+    """A connection to the scheduler. Raises InputError without Dask, for no address, or without an answer."""
     try:
         from distributed import Client as connect
     except ImportError as error:
@@ -119,10 +151,10 @@ def _client(address: str, timeout: float) -> Any:
         ) from error
 
 
-def _asked() -> Callable[[], Any]:
-    """A function that workers can run which do not have this package."""
+def _asked() -> Callable[[], Versions | str]:
+    """A function that also workers without this package can run: Dask sends a nested function by value."""
 
-    def versions() -> Any:
+    def versions() -> Versions | str:
         try:
             from biped_adrc.versions import numerical_versions
         except ImportError as error:
@@ -132,23 +164,25 @@ def _asked() -> Callable[[], Any]:
     return versions
 
 
-def _run(expected: Mapping[str, str], function: Callable[..., Any], *arguments: Any) -> Any:
+def _run(expected: Versions, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
+    """Runs on the worker: function(*args) if the versions there are the expected ones. Raises InputError."""
     text = difference(numerical_versions(), expected)
     if text:
         raise InputError(_refusal("a worker of the cluster", text))
-    return function(*arguments)
+    return function(*args, **kwargs)
 
 
 @dataclass(frozen=True)
 class _Checked(Executor):
-    """Dask's executor and its client; workers look at their versions first."""
+    """Dask's executor, which lets each worker look at its versions before it runs anything."""
 
-    client: Any
-    inner: Any
-    versions: Mapping[str, str]
+    client: DaskClient
+    inner: Executor
+    versions: Versions
 
-    def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        return self.inner.submit(_run, dict(self.versions), function, *args, **kwargs)
+    def submit(self, function: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
+        checked: Callable[..., T] = partial(_run, dict(self.versions), function)
+        return self.inner.submit(checked, *args, **kwargs)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         self.inner.shutdown(wait=wait and not cancel_futures)

@@ -1,25 +1,41 @@
-"""A study carried out: in chunks, a bounded number of them at once, each stored when it is finished.
+"""A study carried out: records are handed out in chunks, and every finished chunk is stored at once.
 
-What is in the store is not run again. When a worker dies, what was on its way is run again, each chunk alone;
-where that kills a worker too, record by record, and the record that does it has a row that says so. Rows do not
-depend on workers, their number, or the size of chunks.
+The data flow: records -> look up in the store which are missing -> chunks -> workers -> rows -> store. Records
+come from a generator and only a bounded number of chunks is on its way, so that neither a million records nor
+their rows are in memory. A kill at any moment loses the chunks on their way and nothing else.
+
+A worker may die (memory, a fault in compiled code) and take its chunk with it; the pool then reports all chunks
+on their way as lost, without saying which one was to blame. Each of them is therefore run again with nothing
+beside it. A chunk that kills its worker again is run record by record, and a record that does it alone gets a
+row with the status CRASHED. Two limits end a study in which everything dies.
+
+Rows depend on their records alone, not on the workers, their number, or the size of chunks. Knows no robots.
+Called by `bench.sweep` and `bench.compare_study`.
+
+What becomes of a chunk:
+
+    finished              rows stored in one transaction
+    the function raised   the worker has split it already (`campaign.chunk`): rows with the status RAISED
+    the worker died       a new executor; all lost chunks again, one at a time; then record by record
+    Ctrl-C, an error      chunks that are finished are stored, the others are dropped; the same call goes on
 """
 
 from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from biped_adrc.campaign.chunk import (
     CRASHED,
     Function,
     Made,
     Point,
+    Record,
     key_of,
     made,
     point,
@@ -37,53 +53,63 @@ from biped_adrc.campaign.workers import (
 from biped_adrc.errors import BipedError, InputError
 
 LOOK_UP = 256
-"""Points that are made and looked up at once."""
+"""Points that are made and looked up in the store at once."""
 LARGEST_CHUNK = 16
+"""Most runs handed to a worker at once: what a kill may lose, and what progress is counted in."""
 AHEAD = 3
-"""Chunks on their way for each worker."""
+"""Chunks on their way for each worker, so that none waits for this process."""
 PATIENCE = 5.0
-"""[s] without a result, after which the workers are asked whether they are still there."""
+"""Time without a result [s] after which the workers are asked whether they are still there."""
 MOST_DEATHS = 6
-"""Workers that die one after the other, without a run between them or a record to blame, after which the
-study ends."""
+"""Workers that die one after the other, without a finished chunk or a culprit between them, that
+end the study.
+"""
 MOST_CRASHED = 20
-"""New records one after the other that kill their workers, after which the study ends."""
+"""Records new to the store that kill their workers one after the other, and so end the study."""
 
 
 class Progress(NamedTuple):
-    """Points done, in all, and run just now; time left [s]. What is not known is None."""
+    """What is told while a study runs."""
 
     done: int
+    """Points with a row, found in the store or run now."""
     total: int | None
+    """Points of the study; None where unknown."""
     fresh: int
+    """Runs made by this call."""
     left: float | None
+    """Estimated time left [s]; None while unknown."""
     note: str = ""
     """What the user should hear of, such as a worker that died."""
 
 
 class Summary(NamedTuple):
-    """Points of the study, runs made now, and workers that died."""
+    """What a call did."""
 
     points: int
+    """Points with a row at the end."""
     fresh: int
+    """Runs made by this call."""
     deaths: int
+    """Workers that died."""
 
 
 class Job(NamedTuple):
-    """A run to be made."""
+    """A run to be made: its key, its record as text and as values, and its seed where it has one."""
 
     key: str
     text: str
-    record: Mapping[str, Any]
+    record: Record
     seed: int | None
 
 
 Chunk = tuple[Job, ...]
+"""Runs that are handed to a worker together."""
 
 
 def run_study(
     function: Function,
-    records: Iterable[Mapping[str, Any] | Point],
+    records: Iterable[Record | Point],
     store: Store,
     workers: Workers | Executor | int | None = None,
     *,
@@ -92,12 +118,12 @@ def run_study(
     progress: Callable[[Progress], None] | None = None,
     first: int = 0,
 ) -> Summary:
-    """Run what the store does not have yet of the records, a generator perhaps.
+    """Run what the store does not have yet of the records; they may come from a generator.
 
-    first: the place in the study of the first of them.
-    function: a row for each record of a list; it and its module can be found by name where the workers are.
-    chunk: runs that are handed out at once, by `total` and the number of workers if None. Ctrl-C ends it, with
-    all that is finished in the store. Raises InputError, OutputError, and WorkersError when the workers die.
+    function: a row for each record of a list; workers have to be able to import it by name. chunk: runs handed
+    out at once, chosen by `total` and the number of workers if None. total: number of records, for progress.
+    first: the place in the study of the first of them. After Ctrl-C all that is finished is in the store.
+    Raises InputError, OutputError, and WorkersError when the workers die.
     """
     if chunk is not None and chunk < 1:
         raise InputError(f"the study asks for chunks of {chunk} runs, expected at least 1")
@@ -122,36 +148,51 @@ def run_study(
 
 
 def _chunk_size(workers: int, runs: int | None) -> int:
-    """So that every worker has several."""
+    """So small that every worker gets several chunks, and at most `LARGEST_CHUNK`."""
     return LARGEST_CHUNK if runs is None else max(1, min(LARGEST_CHUNK, runs // (4 * workers)))
 
 
 @dataclass
 class _Flight:
-    """What is on its way, and what has come of it."""
+    """The chunks on their way and the counters of one call of `run_study`."""
 
     function: Function
+    """What makes rows of records."""
     store: Store
+    """Where rows are looked up and kept."""
     crew: Workers
+    """What starts executors, and knows when one is broken."""
     executor: Executor
+    """The one in use; replaced when a worker has died."""
     total: int | None
+    """Number of points of the study, for progress."""
     progress: Callable[[Progress], None] | None
+    """Called after each change."""
     first: int = 0
+    """Place in the study of the first point."""
     pending: dict[Future[list[Made]], tuple[Chunk, Executor]] = field(default_factory=dict)
+    """Chunks on their way, each with the executor that has it."""
     keys: set[str] = field(default_factory=set)
+    """Keys of the runs on their way: a record that comes twice is not run twice."""
     done: int = 0
+    """Points with a row."""
     fresh: int = 0
+    """Runs made by this call."""
     deaths: int = 0
+    """Workers that died in this call."""
     in_a_row: int = 0
+    """Workers that died since the last finished chunk."""
     crashed_in_a_row: int = 0
+    """Records without a row before that killed their workers, since the last finished chunk."""
     known: set[str] = field(default_factory=set)
-    """Keys on their way that had killed their workers before."""
+    """Keys on their way whose runs had crashed in an earlier call: their next crash is no news."""
     begin: float = field(default_factory=time.monotonic)
+    """When the call began [s], for the time left."""
 
     def missing(self, points: Iterator[Point]) -> Iterator[Job]:
-        """The runs that have to be made, each once, those that killed their workers before at the end.
+        """The runs to be made, each once; where all points lie is stored on the way.
 
-        Where the points lie is stored on the way.
+        Runs that crashed in an earlier call come last, so that they do not stop the others.
         """
         late: list[Job] = []
         places = itertools.count(self.first)
@@ -170,6 +211,7 @@ class _Flight:
         yield from late
 
     def send(self, chunk: Chunk) -> None:
+        """Hand a chunk to the executor. If that is broken, the chunk counts as lost with it."""
         records = [job.record for job in chunk]
         try:
             with held_back():
@@ -182,7 +224,11 @@ class _Flight:
         self.pending[future] = chunk, self.executor
 
     def collect(self) -> None:
-        """Store what is finished; wait for it where nothing is."""
+        """Store what is finished, waiting for it where nothing is; chunks whose worker died are run again
+        alone.
+
+        When one worker dies the pool gives up all chunks on their way, so all of them are waited for first.
+        """
         suspects = self.died()
         while suspects and self.pending:  # they would be suspects too
             suspects += self.died()
@@ -190,14 +236,14 @@ class _Flight:
             self.alone(chunk)
 
     def died(self) -> list[Chunk]:
-        """Wait for chunks and store them; those of them whose worker died."""
+        """Wait for finished chunks and store them; returns those whose worker died."""
         finished, _ = wait(self.pending, PATIENCE, FIRST_COMPLETED)
         if not finished:
             self.crew.check(self.executor)
         return [chunk for future in finished if (chunk := self.take(future)) is not None]
 
     def take(self, future: Future[list[Made]]) -> Chunk | None:
-        """Store what has come; the chunk itself where its worker died."""
+        """Store the rows of a finished chunk; returns the chunk itself where its worker died."""
         chunk, executor = self.pending[future]
         try:
             rows = future.result()
@@ -213,7 +259,10 @@ class _Flight:
         return None
 
     def alone(self, chunk: Chunk) -> None:
-        """Run a chunk again with nothing beside it, so that it is known who kills a worker."""
+        """Run a chunk again with nothing else on its way, so that a second death has one possible cause.
+
+        A chunk of several is then split; a single record gets a row with the status CRASHED.
+        """
         self.send(chunk)
         died: list[Chunk] = []
         while self.pending:
@@ -229,7 +278,7 @@ class _Flight:
             self.blame(chunk[0])
 
     def blame(self, job: Job) -> None:
-        """Count a record that killed its worker. Raises WorkersError when all of them seem to."""
+        """Count a record that killed its worker. Raises WorkersError when all of them seem to do so."""
         self.crashed_in_a_row += job.key not in self.known
         if self.crashed_in_a_row >= MOST_CRASHED:
             raise WorkersError(
@@ -239,6 +288,7 @@ class _Flight:
             )
 
     def restart(self, error: BaseException) -> None:
+        """Another executor for one that broke. Raises WorkersError when workers keep dying without a result."""
         self.deaths += 1
         self.in_a_row += 1
         if self.in_a_row >= MOST_DEATHS:
@@ -250,6 +300,7 @@ class _Flight:
         self.tell("a worker process died; what it was running is run again")
 
     def keep(self, chunk: Chunk, rows: list[Made], died: bool = False) -> None:
+        """Store the rows of a chunk in one transaction, and count them; died: they say that the worker died."""
         self.store.add(map(_ran, chunk, rows))
         self.in_a_row = 0
         self.crashed_in_a_row = self.crashed_in_a_row if died else 0
@@ -259,7 +310,7 @@ class _Flight:
         self.tell()
 
     def abandon(self) -> None:
-        """End the workers, and store what they had finished."""
+        """Stop the workers, and store what they had finished: on an error or Ctrl-C."""
         for future in self.pending:
             future.cancel()
         self.crew.stop(self.executor, True)
@@ -270,7 +321,7 @@ class _Flight:
                     self.store.add(map(_ran, chunk, future.result()))
 
     def named(self, error: BaseException) -> BaseException:
-        """An error of what is between this process and its workers."""
+        """The error to raise for one on the way to the workers or back, such as what cannot be pickled."""
         self.crew.check(self.executor)
         if isinstance(error, BipedError):
             return error
@@ -280,6 +331,7 @@ class _Flight:
         )
 
     def tell(self, note: str = "") -> None:
+        """Report progress; the time left is estimated from the runs of this call."""
         if self.progress is None:
             return
         seconds, left = time.monotonic() - self.begin, None
@@ -289,9 +341,11 @@ class _Flight:
 
 
 def _job(p: Point) -> Job:
+    """The run of a point. Its seed, if any, gets a column in the store."""
     text, seed = text_of(p.record), p.at.get("seed", p.record.get("seed"))
     return Job(key_of(text), text, p.record, seed if isinstance(seed, int) else None)
 
 
 def _ran(job: Job, row: Made) -> Ran:
+    """A run and its row as the store keeps them."""
     return Ran(job.key, job.text, row.row, row.status, row.engine, job.seed, row.seconds)

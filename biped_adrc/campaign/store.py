@@ -1,12 +1,18 @@
-"""The results of a study in one SQLite file, which opens after a kill at any moment.
+"""The results of a study in one SQLite file, which can be opened after a kill at any moment.
 
     study     configuration, hash and versions of the study; its only row
-    versions  the versions that runs were made with
-    runs      a row of results for each record, by the record's hash
-    points    where the study's points lie, and which run each has
+    versions  sets of versions that runs were made with
+    runs      the row of results of each record, by the record's hash
+    points    place in the study, varied values, and key of the run of each point
 
-What is handed in together is one transaction of SQLite's write-ahead log: all of it is kept, or nothing. A lock
-beside the file, which the system gives up with its process, keeps a second writer away.
+Runs and points are separate tables, since two points may share a run. Rows that are handed in together are one
+transaction of SQLite's write-ahead log with synchronous = FULL: all of them are on the disk, or none. A lock
+file, which the operating system releases with its process, keeps a second writer away.
+
+`campaign.store_open` opens files, `campaign.execute` writes them, `bench.sweep` reads them.
+
+A study with two points that have the same record (two cases whose values are the same, say) has two rows in
+`points` and one in `runs`. Reading while another process writes is possible at any time.
 """
 
 from __future__ import annotations
@@ -17,7 +23,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from json import JSONDecodeError, loads
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from filelock import FileLock
 
@@ -27,29 +33,41 @@ from biped_adrc.errors import InputError, OutputError
 
 
 class About(NamedTuple):
-    """Which study a file is of; points: how many there are in all, where that is known."""
+    """Which study a results file is of."""
 
     name: str
+    """Of the study."""
     hash: str
-    configuration: Mapping[str, Any]
+    """By which the study is recognised."""
+    configuration: Mapping[str, object]
+    """The whole study in plain values."""
     versions: Mapping[str, str]
+    """Of all that decides the numbers, by name."""
     points: int | None = None
+    """How many there are in all; None where unknown."""
 
 
 class Ran(NamedTuple):
-    """A finished run: texts of record and row, and its wall time [s]."""
+    """A finished run as it is stored."""
 
     key: str
+    """Hash of the record."""
     record: str
+    """Its text, JSON."""
     row: str
+    """Text of the results, JSON."""
     status: str | None
+    """How it ended."""
     engine: str | None
+    """What ran it."""
     seed: int | None
+    """Of the record, if it has one."""
     seconds: float
+    """Wall time [s]."""
 
 
 class Placed(NamedTuple):
-    """A point: its place in the study, the key of its run, and the text of where it lies."""
+    """A point of the study: its place, the key of its run, and its varied values as JSON."""
 
     position: int
     key: str
@@ -57,30 +75,38 @@ class Placed(NamedTuple):
 
 
 class Result(NamedTuple):
-    """A point and the row of its run."""
+    """A finished point: its place, the key of its run, its varied values and its row."""
 
     position: int
     key: str
-    at: dict[str, Any]
-    row: dict[str, Any]
+    at: dict[str, object]
+    row: dict[str, object]
 
 
 @dataclass(frozen=True)
 class Store:
-    """An open file of results, made by `open_store` or `read_store`; `about` has the versions of now."""
+    """An open results file. Made by `open_store` to write or by `read_store` to read; a context manager."""
 
     path: Path
+    """The file."""
     connection: sqlite3.Connection
+    """Without implicit transactions."""
     about: About
+    """The study; its versions are those of this process when writing, and those of the file when reading."""
     lock: FileLock | None = None
+    """Held while the file is open to write; None to read."""
 
     def place(self, points: Iterable[Placed]) -> None:
-        """Keep where points lie. Raises OutputError."""
+        """Keep where points lie; one that is there already stays as it is. Raises OutputError."""
         with self._writing() as db:
             db.executemany("INSERT OR IGNORE INTO points VALUES (?, ?, ?)", points)
 
     def add(self, runs: Iterable[Ran]) -> None:
-        """Keep finished runs, all of them or none. Raises OutputError."""
+        """Keep finished runs in one transaction, all of them or none. Raises OutputError.
+
+        A run that crashed before is replaced; the versions of this process are kept once and referred to by
+        number.
+        """
         with self._writing() as db:
             versions = text_of(self.about.versions)
             db.execute("INSERT OR IGNORE INTO versions (versions) VALUES (?)", (versions,))
@@ -93,14 +119,17 @@ class Store:
             )
 
     def crashed(self, keys: Sequence[str]) -> dict[str, bool]:
-        """Those of the keys that there are; true where the process died, the last time it was tried."""
-        return {key: status == CRASHED for key, status in self._of("status", keys)}
+        """Those of the keys that have a row; True where it says that the process died."""
+        return {key: status == CRASHED for key, status in self._of("coalesce(status, '')", keys)}
 
-    def rows(self, keys: Sequence[str]) -> dict[str, dict[str, Any]]:
-        """Rows of results by key, of those of the keys that are finished."""
+    def rows(self, keys: Sequence[str]) -> dict[str, dict[str, object]]:
+        """The rows of those of the keys that have one."""
         return {key: self._plain(key, row) for key, row in self._of("row", keys)}
 
-    def _of(self, column: str, keys: Sequence[str]) -> Iterator[tuple[str, Any]]:
+    def _of(self, column: str, keys: Sequence[str]) -> Iterator[tuple[str, str]]:
+        """One column of the runs with these keys, 500 at a time, since SQLite limits the parameters of a
+        statement.
+        """
         for begin in range(0, len(keys), 500):
             part = keys[begin : begin + 500]
             marks = ",".join("?" * len(part))
@@ -109,25 +138,29 @@ class Store:
                 yield from self.connection.execute(text, tuple(part))
 
     def __len__(self) -> int:
-        """Finished runs."""
+        """Number of runs with a row."""
         with self._reading():
             return int(self.connection.execute("SELECT count(*) FROM runs").fetchone()[0])
 
     def statuses(self) -> dict[str, int]:
-        """How many runs ended with each status."""
+        """Number of runs by status."""
         text = "SELECT coalesce(status, ''), count(*) FROM runs GROUP BY 1 ORDER BY 1"
         with self._reading():
             return dict(self.connection.execute(text).fetchall())
 
     def no_walks(self) -> dict[str, str]:
-        """What one run says of each status that is no walk."""
+        """For each status that is no walk, the explanation of one such run; the one with the smallest key.
+
+        One is shown to the user: a thousand refused points of a study mostly have the same reason.
+        """
         marks = ",".join("?" * len(NO_WALK))
         text = f"SELECT status, row, min(key) FROM runs WHERE status IN ({marks}) GROUP BY 1"
         with self._reading():
             found = self.connection.execute(text, NO_WALK).fetchall()
         return {s: str(self._plain(key, row).get("detail") or "") for s, row, key in found}
 
-    def _plain(self, key: str, text: str) -> dict[str, Any]:
+    def _plain(self, key: str, text: str) -> dict[str, object]:
+        """The values in a text of the file. Raises InputError where that is damaged."""
         try:
             found = loads(text)
             if isinstance(found, dict):
@@ -138,14 +171,16 @@ class Store:
         raise damaged(self.path, f"the run {key} has no values, {reason}")
 
     def results(self) -> Iterator[Result]:
-        """Points with finished runs, in the order of the study, a few at a time in memory."""
+        """Points with a row, in the order of the study; read one after the other."""
         text = "SELECT position, key, at, row FROM points JOIN runs USING (key) ORDER BY position"
         with self._reading():
             for position, key, at, row in self.connection.execute(text):
                 yield Result(position, key, self._plain(key, at), self._plain(key, row))
 
     def close(self) -> None:
-        """Leave one file behind, and let go of the lock; a second Ctrl-C does not come between."""
+        """Merge the write-ahead log, so that one file is left, and release the lock; Ctrl-C waits until that is
+        done.
+        """
         with undisturbed():
             try:
                 if self.lock is not None:
@@ -166,6 +201,9 @@ class Store:
 
     @contextmanager
     def _writing(self) -> Iterator[sqlite3.Connection]:
+        """A transaction, undone on any error. Raises OutputError, and InputError for an integer
+        beyond 64 bits.
+        """
         try:
             with self.connection as db:
                 db.execute("BEGIN IMMEDIATE")
@@ -180,6 +218,7 @@ class Store:
 
     @contextmanager
     def _reading(self) -> Iterator[None]:
+        """Raises InputError, which calls the file damaged, for an error of SQLite."""
         try:
             yield
         except sqlite3.DatabaseError as error:
@@ -187,7 +226,7 @@ class Store:
 
 
 def damaged(path: Path, reason: object) -> InputError:
-    """The error to raise for a file that cannot be read."""
+    """The error for a results file that cannot be read."""
     return InputError(
         f"the results file '{path}' cannot be read: {reason}; it is damaged, take a copy of it or begin anew "
         "in another folder"
@@ -195,7 +234,7 @@ def damaged(path: Path, reason: object) -> InputError:
 
 
 def cannot_write(path: Path, error: Exception) -> OutputError:
-    """The error to raise."""
+    """The error for a results file that cannot be written."""
     reason = getattr(error, "strerror", None) or error
     return OutputError(
         f"cannot write the results file '{path}': {reason}; what was finished before is kept. Make room, or "

@@ -1,6 +1,11 @@
-"""Opening a file of results: a new one, one of this study to go on with, or any to read.
+"""Opening a results file: a new one, one of the same study to go on with, or any one to read.
 
-Nothing is written into a file before it is known to be one of this study.
+Two rules keep results apart. Nothing is written into a file before it is known to be a results file of the same
+study (the hash of its configuration) made with the same versions: otherwise rows of two programs would stand in
+one table without a mark. And one process writes at a time: a lock file beside the results is held by the
+operating system for as long as the process lives, so that a kill releases it and no stale lock stays.
+
+Called by `bench.sweep` and `bench.compare_study`; what is read and written is in `campaign.store`.
 """
 
 from __future__ import annotations
@@ -8,6 +13,7 @@ from __future__ import annotations
 import os
 import sqlite3
 import time
+from contextlib import ExitStack, closing
 from json import loads
 from pathlib import Path
 
@@ -19,9 +25,9 @@ from biped_adrc.errors import InputError
 from biped_adrc.versions import differences
 
 APPLICATION = 0x62614452
-"""SQLite's application_id of these files."""
+"""SQLite's application_id, by which a results file is told from other databases."""
 FORMAT = 1
-"""SQLite's user_version of these files."""
+"""SQLite's user_version: the version of the schema below."""
 SCHEMA = """
 CREATE TABLE study (id INTEGER PRIMARY KEY CHECK (id = 1), name TEXT NOT NULL, hash TEXT NOT NULL,
   configuration TEXT NOT NULL, versions TEXT NOT NULL, points INTEGER, created TEXT NOT NULL);
@@ -30,59 +36,62 @@ CREATE TABLE runs (key TEXT PRIMARY KEY, record TEXT NOT NULL, seed INTEGER, eng
   row TEXT NOT NULL, seconds REAL NOT NULL, versions INTEGER NOT NULL REFERENCES versions) WITHOUT ROWID;
 CREATE TABLE points (position INTEGER PRIMARY KEY, key TEXT NOT NULL, at TEXT NOT NULL);
 """
+"""The tables, as described in `campaign.store`."""
 
 
 def open_store(path: Path, about: About, other_versions: bool = False) -> Store:
-    """Make the file, or go on with it. Raises InputError for a file that is not one of this study, OutputError.
+    """Make the results file, or open it to go on; locked until the store is closed.
 
-    other_versions: go on though other versions made what is there; each run names its own.
+    about: the study that is to be run. other_versions: go on though other versions made what is there; each run
+    names its own. Raises InputError for a file that is not one of this study, or that another process writes,
+    and OutputError.
     """
-    lock = _locked(path)
-    connection = None
     try:
-        connection = _connected(path, "rwc")
-        if _is_new(path, connection):
-            _create(connection, about)
-        else:
-            _check_study(path, _about(path, connection), about, other_versions)
-        connection.execute("PRAGMA journal_mode = WAL")
-        connection.execute("PRAGMA synchronous = FULL")
-        return Store(path, connection, about, lock)
-    except BaseException as error:
-        if connection is not None:
-            connection.close()
-        lock.release()
-        if isinstance(error, sqlite3.Error):
-            raise cannot_write(path, error) from error
-        raise
+        with ExitStack() as undo:
+            lock = _locked(path)
+            undo.callback(lock.release)
+            connection = undo.enter_context(closing(_connected(path, "rwc")))
+            if _is_new(path, connection):
+                _create(connection, about)
+            else:
+                _check_study(path, _about(path, connection), about, other_versions)
+            connection.execute("PRAGMA journal_mode = WAL")
+            connection.execute("PRAGMA synchronous = FULL")
+            undo.pop_all()  # it stays open
+            return Store(path, connection, about, lock)
+    except sqlite3.Error as error:
+        raise cannot_write(path, error) from error
 
 
 def read_store(path: Path) -> Store:
-    """To read only, while it grows as well. Raises InputError for a file that is not one of results."""
+    """Open a results file to read only; another process may write it at the same time.
+
+    Raises InputError for a file that does not exist, is empty, or is not one of results.
+    """
     if not path.is_file():
         raise InputError(f"there is no results file '{path}'; expected one of a sweep")
-    connection = None
     try:
-        connection = _connected(path, "rw" if os.access(path, os.W_OK) else "ro")
-        connection.execute("PRAGMA query_only = ON")
-        if _is_new(path, connection):
-            raise InputError(f"the results file '{path}' is empty; nothing was begun in it")
-        return Store(path, connection, _about(path, connection))
-    except BaseException as error:
-        if connection is not None:
-            connection.close()
-        if isinstance(error, sqlite3.Error):
-            raise InputError(f"the results file '{path}' cannot be read: {error}") from error
-        raise
+        with ExitStack() as undo:
+            mode = "rw" if os.access(path, os.W_OK) else "ro"
+            connection = undo.enter_context(closing(_connected(path, mode)))
+            connection.execute("PRAGMA query_only = ON")
+            if _is_new(path, connection):
+                raise InputError(f"the results file '{path}' is empty; nothing was begun in it")
+            about = _about(path, connection)
+            undo.pop_all()  # it stays open
+            return Store(path, connection, about)
+    except sqlite3.Error as error:
+        raise InputError(f"the results file '{path}' cannot be read: {error}") from error
 
 
 def _connected(path: Path, mode: str) -> sqlite3.Connection:
+    """A connection without implicit transactions; waits up to 10 s for another process that is writing."""
     uri = f"{path.absolute().as_uri()}?mode={mode}"
     return sqlite3.connect(uri, uri=True, isolation_level=None, timeout=10.0)
 
 
 def _is_new(path: Path, db: sqlite3.Connection) -> bool:
-    """Whether nothing is in it yet. Raises InputError where something else is."""
+    """Whether nothing is in the file yet. Raises InputError where something other than results is in it."""
     try:
         application = db.execute("PRAGMA application_id").fetchone()[0]
         tables = db.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
@@ -109,7 +118,9 @@ def _is_new(path: Path, db: sqlite3.Connection) -> bool:
 
 
 def _create(db: sqlite3.Connection, about: About) -> None:
-    """All of it in one transaction."""
+    """Make the tables and the row of the study in one transaction: a kill leaves an empty file, or
+    all of it.
+    """
     created = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
     db.execute("PRAGMA journal_mode = WAL")
     db.execute("BEGIN IMMEDIATE")
@@ -124,6 +135,7 @@ def _create(db: sqlite3.Connection, about: About) -> None:
 
 
 def _about(path: Path, db: sqlite3.Connection) -> About:
+    """The study that a file is of. Raises InputError where that cannot be read."""
     text = "SELECT name, hash, configuration, versions, points FROM study"
     try:
         name, key, configuration, versions, points = db.execute(text).fetchone()
@@ -133,7 +145,11 @@ def _about(path: Path, db: sqlite3.Connection) -> About:
 
 
 def _check_study(path: Path, found: About, asked: About, other_versions: bool) -> None:
-    """Raises InputError."""
+    """Raises InputError where the file is of another study, or made with other versions.
+
+    Another version of NumPy may change the last digit, which a chaotic walk amplifies; `other_versions` allows
+    it.
+    """
     if found.hash != asked.hash:
         raise InputError(
             f"'{path}' holds the study '{found.name}' ({found.hash[:8]}), and the study asked for is "
@@ -149,13 +165,17 @@ def _check_study(path: Path, found: About, asked: About, other_versions: bool) -
 
 
 def _difference(found: About, asked: About) -> str:
+    """Which parts of the configuration differ, in words."""
     keys = sorted({*found.configuration, *asked.configuration})
     differ = [key for key in keys if found.configuration.get(key) != asked.configuration.get(key)]
     return f", other in {', '.join(differ)}" if differ else ""
 
 
 def _locked(path: Path) -> FileLock:
-    """The lock, with the number of this process in it. Raises InputError where another has it, OutputError."""
+    """The lock beside the file. Raises InputError where another process has it, OutputError.
+
+    The number of this process is written into it, so that the error of a second process can name the first.
+    """
     beside = path.with_name(f"{path.name}.lock")
     lock = FileLock(beside, blocking=False, thread_local=False)
     try:

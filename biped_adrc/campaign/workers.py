@@ -1,6 +1,21 @@
 """Who carries a study out: processes or threads of this machine, or any `concurrent.futures.Executor`.
 
-Workers make an executor, and another one when it breaks; an executor that is handed in is used as it is.
+A `Workers` object describes executors and makes them; a `ProcessPoolExecutor` of which one process has died is
+useless, so that a new one must be made in the middle of a study. An executor that the user hands in is used as
+it is and never ended (`Given`).
+
+Two things are done here that the standard library leaves open. Ctrl-C reaches every process of a terminal at
+once: the workers ignore it and the parent alone answers, by storing what is finished; signals are held back
+while processes start, so that none is left running unknown. And workers end when their parent is killed.
+
+Used by `campaign.execute` and `campaign.pool`; `campaign.dask_cluster` adds the workers of a cluster.
+
+What a number, a class or an executor means where workers are asked for (`workers_of`):
+
+    None, 4          processes of this machine, one per core or four
+    Threads(4)       threads of this process
+    Cluster("..")    workers of a Dask scheduler (`campaign.dask_cluster`)
+    an Executor      any other of `concurrent.futures`, used as it is
 """
 
 from __future__ import annotations
@@ -9,51 +24,54 @@ import multiprocessing
 import os
 import signal
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing import forkserver, resource_tracker
+from multiprocessing.process import BaseProcess
 from threading import Thread, current_thread, main_thread
-from typing import Any, ClassVar
+from types import FrameType
+from typing import ClassVar
 
 from biped_adrc.errors import InputError, SimulationError
 
 PRELOADED = ("biped_adrc.bench.run",)
-"""Imported once, before the processes are forked."""
+"""Modules imported once by the process from which the workers are forked."""
 GUARD = (
     "Worker processes import the script that starts them: what starts a study has to stand under "
     "if __name__ == '__main__': in it. Otherwise use Threads, and look for lack of memory, or for a fault in "
     "what they import"
 )
+"""The hint for a script without a main guard, whose workers would start the study again."""
 
 
 class WorkersError(SimulationError):
-    """Workers, or what is between them and this process, are gone: no walk is to blame (exit code 3)."""
+    """Workers, or the connection to them, are gone; no walk is to blame (exit code 3)."""
 
     exit_code = 3
 
 
 class Workers(ABC):
-    """What runs chunks."""
+    """What makes executors and knows their failures."""
 
     elsewhere: ClassVar[bool] = False
-    """Whether on other machines, with files of their own."""
+    """Whether they run on other machines, with files of their own."""
 
     @abstractmethod
     def start(self) -> Executor:
         """An executor that works. Raises InputError."""
 
     def prepare(self) -> None:
-        """Raise what `start` would, as far as that is soon known; asked before anything is written."""
+        """Raises what `start` would, as far as that is quickly known; called before anything is written."""
         return
 
     @abstractmethod
     def count(self, executor: Executor) -> int:
-        """How many chunks it runs at once."""
+        """How many chunks it runs at the same time."""
 
     def stop(self, executor: Executor, now: bool) -> None:
-        """End the executor; `now` without waiting for what runs, where that can be."""
+        """End the executor; `now`: without waiting for what runs, where that is possible."""
         executor.shutdown(wait=True, cancel_futures=now)
 
     def restart(self, executor: Executor) -> Executor:
@@ -62,17 +80,20 @@ class Workers(ABC):
         return self.start()
 
     def broken(self, error: BaseException) -> bool:
-        """Whether an error says that a worker died, and not what it was doing."""
+        """Whether an error means that a worker died, rather than an error in what it ran."""
         return isinstance(error, BrokenExecutor)
 
     def check(self, executor: Executor) -> None:
-        """Asked when nothing has come for a while. Raises WorkersError when nothing will."""
+        """Called when nothing has come for a while. Raises WorkersError when nothing will."""
         return
 
 
 @dataclass(frozen=True)
 class Threads(Workers):
-    """Threads of this process; what they run is to be compiled code that lets go of Python's lock."""
+    """Threads of this process; useful where most time is spent in compiled code that releases Python's lock.
+
+    number: how many, one per core if None. Raises InputError for less than 1.
+    """
 
     number: int | None = None
 
@@ -89,17 +110,24 @@ class Threads(Workers):
 
 @dataclass(frozen=True)
 class Processes(Threads):
-    """Processes of this machine, forked from one with `preload` imported; they end with this one."""
+    """Processes of this machine, forked from a server process that has imported `preload`.
+
+    A fork server has no threads and no locks of this process, which a fork of it would copy in any state; and
+    what it has imported is shared by all workers.
+    """
 
     preload: tuple[str, ...] = PRELOADED
 
     def prepare(self) -> None:
-        """Raises InputError in a process that is itself just starting."""
+        """Raises InputError in a process that is itself being started: its script has no main guard."""
         if getattr(multiprocessing.current_process(), "_inheriting", False):
             raise InputError(GUARD)
 
     def start(self) -> ProcessPoolExecutor:
-        """Raises InputError, and WorkersError when the first process ends before it has done anything."""
+        """Start the processes and wait until one of them answers.
+
+        Raises InputError, and WorkersError when the first process ends before it has done anything.
+        """
         self.prepare()
         context = multiprocessing.get_context("forkserver")
         context.set_forkserver_preload(list(self.preload))
@@ -119,16 +147,24 @@ class Processes(Threads):
         return executor
 
     def stop(self, executor: Executor, now: bool) -> None:
-        processes: list[Any] = list((getattr(executor, "_processes", None) or {}).values())
+        """End the processes; now: also terminate those in the middle of a run, for which a pool alone would
+        wait.
+        """
+        processes: dict[int, BaseProcess] = getattr(executor, "_processes", None) or {}
+        running = list(processes.values())
         if now:
             executor.shutdown(wait=False, cancel_futures=True)
-            for process in processes:
+            for process in running:
                 process.terminate()
         super().stop(executor, now)
 
 
 def _start_forkserver() -> None:
-    """With Ctrl-C blocked, so that it and its children begin so; what keeps track of them would let it in."""
+    """Start the fork server with Ctrl-C blocked, a state that its children inherit.
+
+    The resource tracker, which multiprocessing would otherwise start in between, lets the signal in; it is
+    started before.
+    """
     resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
@@ -137,9 +173,13 @@ def _start_forkserver() -> None:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+Handler = signal.Handlers | Callable[[int, FrameType | None], object]
+"""What answers a signal."""
+
+
 @contextmanager
-def undisturbed(handler: Any = signal.SIG_IGN) -> Iterator[None]:
-    """Without Ctrl-C, where it would be heard; `handler` hears it instead."""
+def undisturbed(handler: Handler = signal.SIG_IGN) -> Iterator[None]:
+    """Ignore Ctrl-C within the block, or have `handler` answer it; does nothing outside of the main thread."""
     if current_thread() is not main_thread():
         yield
         return
@@ -152,7 +192,7 @@ def undisturbed(handler: Any = signal.SIG_IGN) -> Iterator[None]:
 
 @contextmanager
 def held_back() -> Iterator[None]:
-    """Ctrl-C is heard at the end, so that no process is started and not known of."""
+    """Ctrl-C within the block is raised at its end, so that no process starts without being known."""
     came: list[int] = []
     try:
         with undisturbed(lambda number, _: came.append(number)):
@@ -163,7 +203,7 @@ def held_back() -> Iterator[None]:
 
 
 def _begin() -> None:
-    """Ctrl-C reaches every process of the terminal, the parent alone answers it; without it no worker stays."""
+    """First call in each worker: ignore Ctrl-C, and end with the parent, even where that is killed."""
 
     def end_with_parent() -> None:
         if (parent := multiprocessing.parent_process()) is not None:
@@ -177,7 +217,7 @@ def _begin() -> None:
 
 @dataclass(frozen=True)
 class Given(Workers):
-    """An executor of the caller's, who ends it; it cannot be started anew."""
+    """An executor of the user's, who ends it; it cannot be started anew."""
 
     executor: Executor
 
@@ -195,7 +235,7 @@ class Given(Workers):
 
 
 def workers_of(given: Workers | Executor | int | None) -> Workers:
-    """Workers as they are, an executor of the caller's, or so many processes (None: one per core)."""
+    """`Workers` as they are, the user's executor, or this many processes (None: one per core)."""
     if isinstance(given, Workers):
         return given
     if given is None or isinstance(given, int):
@@ -204,7 +244,7 @@ def workers_of(given: Workers | Executor | int | None) -> Workers:
 
 
 def cores() -> int:
-    """Those that this process may use."""
+    """Cores that this process may use; fewer than the machine has under a batch system."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1

@@ -19,7 +19,7 @@ from biped_adrc.errors import GaitError, InputError
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
-    from biped_adrc.gait.design.ipopt import Progress
+    from biped_adrc.gait.design.ipopt import IpoptProgress
     from biped_adrc.types import Array
 
 
@@ -110,7 +110,7 @@ def gait_library(
         raise GaitError("; ".join(missed))
 
 
-def _progress(shown: Status) -> Progress:
+def _progress(shown: Status) -> IpoptProgress:
     """Shows the iterations of IPOPT: number, objective, and how far the constraints are missed."""
 
     def say(iteration: int, objective: float, missed: float) -> None:

@@ -146,7 +146,7 @@ def gait_zero(
     """Say what the zero dynamics of a gait allow: orbit, stability, domain of attraction, speeds."""
     from biped_adrc.analysis.zero_report import zero_report
     from biped_adrc.gait.gait import load_gait
-    from biped_adrc.gait.zero_orbits import Limits
+    from biped_adrc.gait.zero_domain import DomainLimits
     from biped_adrc.model.biped import Biped
 
     plot = None if plot is None else output_path(plot, FIGURES)
@@ -154,7 +154,7 @@ def gait_zero(
     mu = biped.description.friction_coefficient if friction is None else friction
     found = load_gait(gait, biped)
     angle = found.slope if slope is None else slope
-    report = zero_report(biped, found.constraint, Limits(mu, torque, angle))
+    report = zero_report(biped, found.constraint, DomainLimits(mu, torque, angle))
     say(report.text())
     if plot is not None:
         from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure

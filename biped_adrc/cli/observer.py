@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped
     from biped_adrc.observer_design.observer_report import ObserverReport
     from biped_adrc.observers.gpi import GPIObserver
-    from biped_adrc.studies.observer_check import DelayCheck, Walked
+    from biped_adrc.studies.observer_check import CheckedWalk, DelayCheck
 
 
 @app.command("observer")
@@ -143,7 +143,7 @@ def _confirm(
     _print_walks(checks, walks)
 
 
-def _print_walks(checks: list[DelayCheck], walks: list[Walked]) -> None:
+def _print_walks(checks: list[DelayCheck], walks: list[CheckedWalk]) -> None:
     """Print how each walk ended and whether its errors stay, and the delay margins in [us]."""
     header = ("walk", "status", "errors stay", escape("error of later steps [rad]"))
     table = Table(*header, title="Confirmed by walking", title_justify="left")

@@ -111,7 +111,7 @@ def _option(name: str, flag: str, usual: str | bool) -> Parameter:
     ]
     kind: Any = kinds[0] if kinds else str
     unit = "" if UNITS[name] == "1" else f" [{UNITS[name]}]"
-    help_text = f"{field.description.removesuffix('.')}{unit}."
+    help_text = f"{str(field.description).removesuffix('.')}{unit}."
     kind = kind if default is not None else kind | None
     option = Annotated[kind, typer.Option(flag, help=help_text, show_default=usual)]
     return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=option)

@@ -1,9 +1,10 @@
-"""An arm under a controller, as a system to be simulated; the same controllers and observers as for walkers.
+"""A fixed-base arm under a controller, with the controllers and observers that walkers use.
 
     D q'' + Omega = sat(u)
 
-`closed_loop.semantics` says what it does. The controller's terms come from the nominal `model`, which may know
-less than the `plant`: what the hand carries, say. There are no events.
+`closed_loop.semantics` defines the loop; here are its torque limits and a run in one call. The
+controller's terms come from the nominal `model`, which may know less than the `plant`, for instance
+not the load in the hand. There are no events and one mode, so a run is a single arc.
 """
 
 from __future__ import annotations
@@ -27,10 +28,14 @@ from biped_adrc.types import Array
 
 @dataclass(frozen=True)
 class ArmSystem(ClosedLoop[Arm]):
-    """plant and controller; model: what the controller knows, the plant itself when None.
+    """An arm and its controller as a hybrid system with every joint actuated (p = n).
 
-    Motors saturate at the efforts of the plant's URDF unless `limited` is False; observers are fed what is
-    applied. Raises InputError for a model with another number of joints, a computation delay, which is for
+    - plant: the arm that moves. model: what the controller knows, the plant itself when None.
+    - controller, timing: as of a walker, without a computation delay.
+    - limited: whether motors saturate at the efforts of the plant's URDF [N m]; observers are fed
+      what is applied.
+
+    Raises InputError for a model with another number of joints, a computation delay, which is for
     walkers, or a controller that needs the ground.
     """
 
@@ -41,6 +46,7 @@ class ArmSystem(ClosedLoop[Arm]):
     limited: bool = True
 
     def __post_init__(self) -> None:
+        """Raise InputError for what is no arm's: a delay, or a controller that needs the ground."""
         self.check()
         if isinstance(self.timing, SampledTime) and self.timing.delay > 0.0:
             raise InputError(
@@ -53,26 +59,30 @@ class ArmSystem(ClosedLoop[Arm]):
 
     @property
     def limit(self) -> Array | None:
-        """The efforts of the URDF (n,) [N m]."""
+        """The efforts of the URDF (n,) [N m]; None with `limited=False`."""
         return self.plant.effort if self.limited else None
 
     def run(
         self, q: Array, v: Array, duration: float, method: OneStepMethod, store_every: int = 1
     ) -> Trajectory:
-        """From (q, v) for `duration` [s]. Raises InputError; what happens on the way is in the status."""
+        """The motion from q (n,) [rad], v (n,) [rad/s] for `duration` [s]; every `store_every`-th
+        step is kept.
+
+        Raises InputError for a start that does not fit; what happens on the way is in the status.
+        """
         x = self.initial_state(q, v)
         return simulate(self, x, Mode(), method, t_end=duration, store_every=store_every)
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode | None = None) -> Measurement:
-        """What the controller is given; an arm has one mode."""
+        """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s]; an arm has one mode."""
         return super().measure(t, q, v, Mode())
 
     def applied(self, t: float, x: Array) -> Array:
-        """u (n,) that acts at (t, x)."""
+        """Torque u (n,) [N m] that acts at (t, x), t in [s]."""
         return self.instant(t, x, Mode()).u
 
     def error(self, trajectory: Trajectory, reference: Reference) -> Array:
-        """q - q_d (K, n) at the nodes of a run."""
+        """Tracking error q - q_d (K, n) [rad] at the K nodes of a run."""
         n = self.plant.n
         rows = trajectory.sample(lambda t, x, _: x[:n] - reference(t, x[:n], x[n : 2 * n]).q_d)
         return np.array(rows)

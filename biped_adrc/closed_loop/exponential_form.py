@@ -2,7 +2,11 @@
 
     E' = A E + N_E,   w' = N_w          E (k, p): one column per actuated joint
 
-With the observer in A, e = S (q_b, q_b') - Z its error, scale by which it has velocities multiplied:
+An observer with poles far to the left makes x' = f(x) stiff: an explicit method would need steps
+far below 1 ms. In these coordinates the stiff part is the constant matrix A, which
+`hybrid.integrators` integrates exactly; the remainder N is slow. There are two forms. With the
+observer in A, e = S (q_b, q_b') - Z is its error, S the scaling by which it has velocities
+multiplied (`scale`):
 
     w = (q, q', rest),   E = e,   N_E = scale xi_total in row 1,   xi_total = q_b'' - kappa u
 
@@ -12,23 +16,26 @@ With the feedback in A too, around a virtual constraint, for n = p + 1 and phase
     q_b = h + eps,   q_N = (Theta - c_b q_b) / c_N,   q_b' = h' Theta' + eps',   likewise q_N'
     eps'' = -K_d (eps' - e2) - K_p (eps - e1) + e3 + N
 
-N_E has scale N in row 1 and scale xi_total in row 3. N is the true eps'' without the linear part, so that
-torque limits, a wrong model and forces from outside are in it; else it is xi_total and what the law misses of
-q_d''.
+N_E has scale N in row 1 and scale xi_total in row 3. N is the true eps'' without the linear part,
+so that torque limits, a wrong model and forces from outside are in it; without them it is xi_total
+and what the law misses of q_d''. `rest` is what follows the observer in the controller's state.
 
-r(Theta) (n,) is any row for which r dq/dTheta on the constraint is not zero. With r = c the coordinate is
-Theta', but its derivative has the fast parts of q_b'' in it: RK4 sums them wrongly, and at 1 ms the time of
-impact is off by 1e-5 to 1e-4 s. D_N q' with the row of q_N of the plant's D_s is the angular momentum about the
-stance foot, in whose derivative no motor acts. So r is D_N on the constraint, a polynomial fitted once: fast
-parts of the size of eps are left, and what the fit misses costs accuracy alone. `rest` is what follows the
-observer in the controller's state.
+r(Theta) (n,) is any row for which r dq/dTheta on the constraint is not zero. With r = c the
+coordinate is Theta', but its derivative has the fast parts of q_b'' in it: RK4 sums them wrongly,
+and at 1 ms the time of impact is off by 1e-5 to 1e-4 s. D_N q', with the row D_N of the plant's D_s
+that belongs to q_N, is the angular momentum about the stance foot, in whose derivative no motor
+acts. So r is D_N on the constraint, a polynomial fitted once: fast parts of the size of eps are
+left, and what the fit misses costs accuracy alone.
+
+The laws are pure functions of (parameters, arrays): `Walker.split` binds them for the Python
+method, `engine.equations` traces them for the compiled one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -42,13 +49,16 @@ from biped_adrc.observers.base import ErrorSystem
 from biped_adrc.types import Array
 
 DEGREE = 8
-"""Of the polynomial r, dimensionless."""
+"""Degree of the polynomial r [1]."""
 MARGIN = 0.05
 """Share of the phase range by which the fit of r goes past both ends."""
 
 
 class ErrorParameters(NamedTuple):
-    """n coordinates, p of them actuated, states per joint, `scale` [s] of velocities."""
+    """Sizes for the form with the observer alone in A.
+
+    n coordinates, p of them actuated, `order` observer states per joint, `scale` [s] of velocities.
+    """
 
     n: int
     p: int
@@ -57,26 +67,33 @@ class ErrorParameters(NamedTuple):
 
 
 class LoopParameters(NamedTuple):
-    """The same with h, the row of A that holds the feedback (order + 2,) [1/s], and r over the phase of h."""
+    """Numbers for the form with the feedback in A too."""
 
     n: int
+    """Coordinates."""
     p: int
+    """Actuated joints; n = p + 1."""
     order: int
+    """Observer states per joint."""
     scale: float
+    """Factor of velocities in the observer's scaled states [s]."""
     h: ConstraintParameters
+    """The virtual constraint q_b = h(Theta)."""
     row: Array
+    """The row of A that holds the feedback (order + 2,) [1/s]."""
     r: CurveParameters
+    """The row r over the phase of h, as a curve of n components [kg m^2]."""
 
 
 class SplitLaws(NamedTuple):
     """The pure functions behind a split, and its linear part as data."""
 
-    parameters: Any
-    """k, a NamedTuple."""
+    parameters: ErrorParameters | LoopParameters
+    """First argument k of the three functions."""
     A: Array
-    """(k, k) [1/s]."""
+    """Linear part (k, k) [1/s], the same for every joint."""
     rows: tuple[int, ...]
-    """Of E, those that N_E enters."""
+    """Rows of E that N_E enters; it is zero in all others."""
     to: Callable[..., tuple[Array, Array]]
     """to(k, x) -> (w, E)."""
     back: Callable[..., Array]
@@ -85,7 +102,7 @@ class SplitLaws(NamedTuple):
     """remainder(k, w, E, q'', kappa u, rest') -> (N_w, the forced rows of N_E)."""
 
     def spread(self, forced: Array) -> Array:
-        """N_E (k, p) from its forced rows."""
+        """N_E (k, p) from its forced rows (r, p), zero elsewhere."""
         N = np.zeros((len(self.A), forced.shape[1]))
         for row, values in zip(self.rows, forced, strict=True):
             N[row] = values
@@ -94,7 +111,7 @@ class SplitLaws(NamedTuple):
 
 # -- the observer in the linear part -------------------------------------------------------------
 def error_to(k: ErrorParameters, x: Array) -> tuple[Array, Array]:
-    """w (2 n + rest,) and E (order, p)."""
+    """w (2 n + rest,) and E (order, p) of x: the observer's state is replaced by its error."""
     n, p, end = k.n, k.p, 2 * k.n + k.order * k.p
     z = x[2 * n : end]
     e = np.concatenate((x[:p] - z[:p], k.scale * x[n : n + p] - z[p : 2 * p], -z[2 * p :]))
@@ -102,7 +119,7 @@ def error_to(k: ErrorParameters, x: Array) -> tuple[Array, Array]:
 
 
 def error_back(k: ErrorParameters, w: Array, E: Array) -> Array:
-    """x, linear in (w, E)."""
+    """x (nx,), linear in w (2 n + rest,) and E (order, p)."""
     n, p = k.n, k.p
     z = (w[:p] - E[0], k.scale * w[n : n + p] - E[1], -E[2:].ravel())
     return np.concatenate((w[: 2 * n], *z, w[2 * n :]))
@@ -111,20 +128,23 @@ def error_back(k: ErrorParameters, w: Array, E: Array) -> Array:
 def error_remainder(
     k: ErrorParameters, w: Array, E: Array, a: Array, kappa_u: Array, ds: Array
 ) -> tuple[Array, Array]:
-    """N_w and scale xi_total (1, p), for q'' (n,), kappa u (p,) and the derivative of the rest."""
+    """N_w (2 n + rest,) and scale xi_total (1, p).
+
+    a = q'' (n,) [rad/s^2], kappa_u (p,) [rad/s^2], ds the derivative of the rest.
+    """
     forced = k.scale * (a[: k.p] - kappa_u)
     return np.concatenate((w[k.n : 2 * k.n], a, ds)), forced.reshape(1, -1)
 
 
 # -- the feedback in it too ----------------------------------------------------------------------
-def loop_row(k: LoopParameters, theta: Any) -> tuple[Array, Array]:
+def loop_row(k: LoopParameters, theta: float) -> tuple[Array, Array]:
     """r and dr/dTheta at theta [rad], each (n,)."""
     r, dr, _ = curve(k.r, k.h.rate * (theta - k.h.theta_plus))
     return r, k.h.rate * dr
 
 
 def loop_to(k: LoopParameters, x: Array) -> tuple[Array, Array]:
-    """w (2 + rest,) and E (order + 2, p)."""
+    """w (2 + rest,) and E (order + 2, p) of x."""
     n, p, end = k.n, k.p, 2 * k.n + k.order * k.p
     q, v, z = x[:n], x[n : 2 * n], x[2 * n : end]
     c = k.h.c.reshape(1, -1)
@@ -138,7 +158,7 @@ def loop_to(k: LoopParameters, x: Array) -> tuple[Array, Array]:
 
 
 def loop_back(k: LoopParameters, w: Array, E: Array) -> Array:
-    """x."""
+    """x (nx,) of w (2 + rest,) and E (order + 2, p); not linear, since h is not."""
     h, _, _ = path(k.h, w[0])
     q, v = _with_unactuated(k, w[0], h + E[0]), loop_velocity(k, w, E)
     z = (q[: k.p] - E[2], k.scale * v[: k.p] - E[3], -E[4:].ravel())
@@ -146,22 +166,25 @@ def loop_back(k: LoopParameters, w: Array, E: Array) -> Array:
 
 
 def loop_velocity(k: LoopParameters, w: Array, E: Array) -> Array:
-    """q' (n,): with the Theta' for which r q' = w[1]."""
+    """q' (n,) [rad/s] of (w, E): Theta' is the one for which r q' = w[1], then q_b' = h' Theta' + eps'."""
     _, dh, _ = path(k.h, w[0])
     r, _ = loop_row(k, w[0])
     along, aside = _with_unactuated(k, 1.0, dh), _with_unactuated(k, 0.0, E[1] / k.scale)
     return along * ((w[1] - r @ aside) / (r @ along)) + aside
 
 
-def _with_unactuated(k: LoopParameters, theta: Any, q_b: Array) -> Array:
-    """(q_b, q_N) with phase theta; of angles, rates or displacements."""
+def _with_unactuated(k: LoopParameters, theta: float, q_b: Array) -> Array:
+    """(q_b, q_N) (n,) whose phase c q is theta; serves angles, rates and displacements alike."""
     return np.concatenate((q_b, (theta - k.h.c[: k.p] @ q_b) / k.h.c[k.p :]))
 
 
 def loop_remainder(
     k: LoopParameters, w: Array, E: Array, a: Array, kappa_u: Array, ds: Array
 ) -> tuple[Array, Array]:
-    """N_w, and scale N and scale xi_total (2, p), for q'' (n,), kappa u (p,) and the derivative of the rest."""
+    """N_w (2 + rest,), and scale N and scale xi_total (2, p).
+
+    a = q'' (n,) [rad/s^2], kappa_u (p,) [rad/s^2], ds the derivative of the rest.
+    """
     v, c, a_b = loop_velocity(k, w, E), k.h.c.reshape(1, -1), a[: k.p]
     _, dh, ddh = path(k.h, w[0])
     r, dr = loop_row(k, w[0])
@@ -173,9 +196,10 @@ def loop_remainder(
 
 
 def loop_matrix(error: ErrorSystem, K_p: float, K_d: float) -> Array:
-    """A (order + 2, order + 2) [1/s].
+    """A (order + 2, order + 2) [1/s] of (eps, scale eps', e) for gains K_p [1/s^2], K_d [1/s].
 
-    xi^ is what the observer adds to x2^' beside injection and input, so e3 has the coefficients of e2'.
+    xi^ is what the observer adds to x2^' beside injection and input, so e3 enters with the
+    coefficients that it has in e2'.
     """
     order, scale = error.A.shape[0], error.velocity_scale
     A = np.zeros((order + 2, order + 2))
@@ -188,7 +212,7 @@ def loop_matrix(error: ErrorSystem, K_p: float, K_d: float) -> Array:
 
 # -- of a controller -----------------------------------------------------------------------------
 def error_laws(law: Controller, n: int, p: int) -> SplitLaws | None:
-    """With the observer in the linear part; None for a controller without a linear observer."""
+    """The form with the observer in the linear part; None for a controller without a linear observer."""
     error = law.error_system()
     if error is None:
         return None
@@ -197,10 +221,11 @@ def error_laws(law: Controller, n: int, p: int) -> SplitLaws | None:
 
 
 def loop_laws(law: Controller, n: int, p: int, inertia: Callable[[Array], Array]) -> SplitLaws:
-    """With the feedback in the linear part too. Raises InputError for a controller without such coordinates.
+    """The form with the feedback in the linear part too.
 
-    inertia: D_s(q) (n, n) of the plant, to take r from; other rows would do, with less accuracy.
-    Of gains that differ from joint to joint A has the mean; the remainder takes up the rest.
+    inertia: D_s(q) (n, n) [kg m^2] of the plant, to take r from; other rows would do, with less
+    accuracy. Of gains that differ from joint to joint A has the mean; the remainder takes up the
+    rest. Raises InputError, with the reason, for a controller without such coordinates.
     """
     name, error = type(law).__name__, law.error_system()
     if error is None:
@@ -234,7 +259,10 @@ def loop_laws(law: Controller, n: int, p: int, inertia: Callable[[Array], Array]
 
 
 def _momentum_row(h: VirtualConstraint, inertia: Callable[[Array], Array]) -> CurveParameters:
-    """D_N on the constraint over its phase s, fitted at Chebyshev's nodes of [-MARGIN, 1 + MARGIN]."""
+    """D_N on the constraint over its phase s, fitted at Chebyshev's nodes of [-MARGIN, 1 + MARGIN].
+
+    The margin keeps the polynomial good where a disturbed step runs past the nominal phase.
+    """
     nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
     s = 0.5 + (0.5 + MARGIN) * nodes
     rows = []
@@ -247,6 +275,7 @@ def _momentum_row(h: VirtualConstraint, inertia: Callable[[Array], Array]) -> Cu
 
 
 def _refused(reason: str) -> InputError:
+    """The error for a controller without these coordinates; reason: what is missing."""
     return InputError(
         f"feedback=True needs coordinates (Theta, q_b - h(Theta)), and there are none: {reason}; use "
         "Exponential(h), which has the observer alone in its linear part"
@@ -257,7 +286,7 @@ def _refused(reason: str) -> InputError:
 def remainder(
     loop: Loop, laws: SplitLaws, t: float, w: Array, E: Array, mode: Mode
 ) -> tuple[Array, Array]:
-    """N_w, and N_E in its forced rows, of the closed loop at (t, w, E)."""
+    """N_w, and N_E in its forced rows (r, p), of the closed loop at (t, w, E), t in [s]."""
     i = instant(loop, t, laws.back(laws.parameters, w, E), mode)
     rest = len(i.s) > laws.parameters.order * laws.parameters.p
     ds = loop.law.flow(i.s, i.measurement, i.u) if rest else i.s
@@ -265,13 +294,16 @@ def remainder(
 
 
 def forcing(laws: SplitLaws, w: Array, E: Array, i: Instant, ds: Array) -> tuple[Array, Array]:
-    """As `remainder`, for what acts there and s'."""
+    """As `remainder`, for what acts at the instant i and s' = ds: N_w, and N_E in its forced rows (r, p)."""
     k = laws.parameters
     return laws.remainder(k, w, E, i.a, i.measurement.terms.kappa @ i.u, ds[k.order * k.p :])
 
 
-def split_of(loop: Loop, laws: SplitLaws, mode: Any) -> Split:
-    """The closed loop in these coordinates."""
+def split_of(loop: Loop, laws: SplitLaws, mode: Mode) -> Split:
+    """The closed loop in these coordinates, as the Python integrator takes it.
+
+    `node` gives remainder, x and x' from a single evaluation of the dynamics.
+    """
     k = laws.parameters
 
     def on_all_rows(t: float, w: Array, E: Array) -> tuple[Array, Array]:

@@ -1,17 +1,26 @@
-"""What a closed loop does: its flow, its tick, its impact, and what can be read off it at one instant.
+"""The closed loop, written once: flow, sample instant, impact, and the quantities read at one instant.
 
     q'' = f(q, q') + D_s^-1 (B_s u + zeta)        between impacts   (10)
-    (q, q')+ = R Delta(q-, q'-)                   at foot strike    (10)
+    (q, q')+ = R Delta(q-, q'-)                   at an impact      (10)
 
-State x = (q, q', s) in continuous time, (q, q', s, held) in sampled time, with `held` of `hardware.held`. The
-controller's terms come from the nominal model, the motion from the plant.
+State: x = (q, q', s) in continuous time and x = (q, q', s, held) in sampled time. s is the state of
+the controller (observer included); `held` is the tail that `hardware.sample_hold` lays out:
+sensors, meter, torques on their way to the motors. The controller's terms come from the nominal
+model, the motion from the plant, and the two may differ.
 
-These functions are the only place where this is said. They run on NumPy's arrays for `Walker` and `ArmSystem`,
-and on symbols for compiled code; nothing here may branch on a number that is not an int of the structure.
+These pure functions are the only place where the closed loop is defined. On NumPy arrays
+`closed_loop.system.ClosedLoop` calls them (`Walker`, `ArmSystem`, `SteppingLoop`); on symbols
+`engine.equations` calls the same lines to generate code. For that reason nothing here branches on a
+real number: only integers of the structure (sizes, whether a part exists) decide, because a branch
+on a symbol cannot be traced.
+
+The protocols say what a loop and its plant must offer. They are satisfied by `model.biped.Biped`,
+`model.arm.Arm`, `engine.mechanics.PlanarRobot` and any plant of the user's own.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -28,148 +37,230 @@ from biped_adrc.hardware.sample_hold import (
     read,
     written,
 )
-from biped_adrc.hardware.sensors import sense
 from biped_adrc.linear import solve_positive
 from biped_adrc.model.reduction import BodyTerms, Reduction, unknown_force
-from biped_adrc.types import Array
+from biped_adrc.observers.base import Estimate
+from biped_adrc.types import Array, Indices
 
 
 class Mode(NamedTuple):
-    """Single support `step` (from 1) that began at `start` [s]."""
+    """The discrete state of a walk: single support `step` (from 1), which began at `start` [s]."""
 
     step: int = 1
     start: float = 0.0
 
 
 class Plant(Protocol):
-    """What moves: n coordinates, the first p of them with motors. Angles q, rates v and forces are (n,)."""
+    """What moves: n coordinates, of which the first p have motors. q [rad], v [rad/s] and forces
+    [N m] are (n,).
+
+    Enough for a plant without ground, such as an arm; a walker needs a `WalkingPlant`.
+    """
 
     @property
-    def n(self) -> int: ...
+    def n(self) -> int:
+        """Number of coordinates."""
+
     @property
-    def p(self) -> int: ...
+    def p(self) -> int:
+        """Number of motors; they act on the first p coordinates."""
+
     def reduction(self, q: Array, v: Array) -> Reduction:
-        """The terms of (11)-(15)."""
+        """The terms of (11)-(15) at q (n,) [rad] and v (n,) [rad/s]."""
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
-        """q'' (n,) under the generalised force B_s u + zeta, friction included."""
+        """q'' (n,) [rad/s^2] under the generalised force B_s u + zeta (n,) [N m]; joint friction included."""
+
+
+class AfterImpact(Protocol):
+    """What an impact leaves behind; `model.contact.Impact` is one, its symbolic twin another."""
+
+    @property
+    def q(self) -> Array:
+        """Angles after relabelling (n,) [rad]."""
+
+    @property
+    def v(self) -> Array:
+        """Rates after impact and relabelling (n,) [rad/s]."""
+
+    @property
+    def impulse(self) -> Array:
+        """Of the ground on the foot that strikes (2,) [N s]."""
 
 
 class WalkingPlant(Plant, Protocol):
-    """A plant that stands on the ground with one foot and strikes it with the other."""
+    """A plant that stands on the ground with one foot (pinned) and strikes it with the other.
+
+    Points and forces are (x, z): x along the horizontal in the direction of walking, z up.
+    """
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
-        """G, C' q', and the force of the ground as F_a q'' + F_0."""
+        """G, C' q' (n,) [N m], and the ground's force as F_a q'' + F_0 (2,) [N]."""
 
-    def impact(self, q: Array, v: Array) -> Any:
-        """With q and v (n,) after the impact (7) and relabelling (8), and the ground's impulse (2,) [N s]."""
+    def impact(self, q: Array, v: Array) -> AfterImpact:
+        """The plastic impact (7) from q (n,) [rad], v (n,) [rad/s], then the relabelling (8)."""
 
     def momentum(self, q: Array, v: Array) -> Array:
-        """m v_com (2,) [N s]."""
+        """Linear momentum m v_com (2,) [N s] of the whole robot."""
 
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
-        """Of the ground on the stance foot (2,) [N], without forces from outside."""
+        """Force of the ground on the stance foot (2,) [N] for q'' = a, without forces from outside."""
 
     def swing_foot(self, q: Array) -> Array:
-        """(x, z) from the stance foot [m]."""
+        """Position (x, z) of the swing foot from the stance foot (2,) [m]."""
 
     def hip(self, q: Array) -> Array:
-        """(x, z) from the stance foot [m]."""
+        """Position (x, z) of the hip from the stance foot (2,) [m]."""
+
+
+class ControlLaw(Protocol):
+    """The controller in its time base: those methods of `control.base.Controller` that a closed loop calls.
+
+    Declared as properties so that a controller's methods and traced functions in a record both fit.
+    """
+
+    @property
+    def output(self) -> Callable[[Array, Measurement], Array]:
+        """output(s, m) -> torque asked for (p,) [N m], before saturation."""
+
+    @property
+    def flow(self) -> Callable[[Array, Measurement, Array], Array]:
+        """flow(s, m, u) -> s' in continuous time, u (p,) [N m] the torque applied."""
+
+    @property
+    def jump(self) -> Callable[..., Array]:
+        """jump(s, m, swap) -> s after an impact; m is the measurement after it."""
+
+    @property
+    def correct(self) -> Callable[[Array, Measurement], Array]:
+        """correct(s, m) -> s at a sample instant, with the new measurement."""
+
+    @property
+    def predict(self) -> Callable[[Array, Measurement, Array], Array]:
+        """predict(s, m, u) -> s at the next sample instant, u (p,) [N m] the torque that will act."""
+
+    @property
+    def estimate(self) -> Callable[[Array, Measurement], Estimate | None]:
+        """estimate(s, m) -> what an observer inside says, None without one."""
 
 
 class Loop(Protocol):
-    """The parts of a closed loop, and what acts on it from outside."""
+    """The parts of a closed loop, and what acts on it from outside: all that these functions ask for.
+
+    Arrays of NumPy in `ClosedLoop`, symbols in `engine.equations.SymbolicLoop`.
+    """
 
     @property
     def plant(self) -> Any:
-        """A `Plant`; a `WalkingPlant` where there are impacts or a meter."""
+        """What moves: a `Plant`; a `WalkingPlant` where there are impacts or a meter."""
 
     @property
     def nominal(self) -> Any:
-        """The controller's model: a plant too, or the plant itself."""
+        """The controller's model: a plant of the same kind, or the plant itself."""
 
     @property
     def exact(self) -> bool:
-        """Whether the nominal model is the plant, without friction that it does not know."""
+        """Whether the nominal model is the whole plant: no other model and no friction that it ignores.
+
+        Then D_s and Omega are computed once for controller and motion.
+        """
 
     @property
-    def law(self) -> Any:
-        """The controller in its time base, with the methods of `control.base.Controller`."""
+    def law(self) -> ControlLaw:
+        """The controller in its time base."""
 
     @property
     def held(self) -> HeldParameters | None:
-        """Of what is held between ticks; None in continuous time."""
+        """Parameters of what is held between sample instants; None in continuous time."""
 
     @property
-    def swap(self) -> Any:
-        """Relabelling of the actuated joints (p,), dtype int."""
+    def swap(self) -> Indices:
+        """Relabelling of the actuated joints at an impact (p,), dtype int: new joint i is old joint swap[i]."""
 
     @property
     def gain(self) -> Array:
-        """Errors of the impact map: v+ = (1 + gain) v+, (n,) or empty for none."""
+        """Relative errors of the impact map: v+ = (1 + gain) v+, (n,) [1], or empty for none."""
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """What the controller is given: `measurement`."""
+        """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s]: `measurement`."""
 
     def saturate(self, u: Array) -> Array:
         """u (p,) [N m] within the torque limit."""
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
-        """zeta (n,) [N m]."""
+        """The disturbance zeta (n,) [N m] at t [s]."""
 
     def outside(self, t: float, mode: Mode) -> Outside:
-        """Force from outside at a tick and since the last one, and how far the ground drops; for the meter."""
+        """For the meter at a sample instant t [s]: force from outside now, its impulse since the
+        last sample instant, and how far the ground drops.
+        """
 
 
 class Instant(NamedTuple):
-    """What acts at one state."""
+    """What acts at one state: everything between the state x and its slope x'."""
 
     measurement: Measurement
+    """What the controller was given; in continuous time the true q and v."""
     s: Array
+    """State of the controller."""
     u: Array
     """Torque applied (p,) [N m]."""
     zeta: Array
-    """External torque (n,) [N m]."""
+    """Disturbance (n,) [N m]."""
     force: Array
-    """B_s u + zeta (n,) [N m]."""
+    """Generalised force B_s u + zeta (n,) [N m]."""
     a: Array
     """q'' (n,) [rad/s^2]."""
 
 
 def parts(loop: Loop, x: Array) -> tuple[Array, Array, Array, Array]:
-    """q, v, s of x, and the tail that is held between ticks."""
+    """q (n,) [rad], v (n,) [rad/s] and s of x, and the tail held between sample instants (empty in
+    continuous time).
+    """
     n, k = loop.plant.n, loop.held
     end = len(x) if k is None else len(x) - k.sizes.total
     return x[:n], x[n : 2 * n], x[2 * n : end], x[end:]
 
 
 def measurement(loop: Loop, t: float, q: Array, v: Array, mode: Mode, body: bool) -> Measurement:
-    """What the controller is given at (t, q, v), with the terms of a body if it needs them."""
+    """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s].
+
+    The nominal model's terms are computed here once and passed on; `body` adds gravity and ground
+    force for controllers that ask for them (`Controller.needs_body`).
+    """
     terms = loop.nominal.body_terms(q, v) if body else None
     return Measurement(t, mode.step, t - mode.start, q, v, loop.nominal.reduction(q, v), terms)
 
 
 def applied(u: Array, zeta: Array) -> Array:
-    """The generalised force B_s u + zeta (n,) [N m]."""
+    """The generalised force B_s u + zeta (n,) [N m], for u (p,) and zeta (n,) [N m]; B_s = (1; 0)."""
     force = zeta.copy()
     force[: len(u)] = force[: len(u)] + u
     return force
 
 
 def torque_held(k: HeldParameters, tail: Array) -> Array:
-    """The torque on the joints (p,) [N m] between ticks."""
+    """The torque that the motors give between sample instants (p,) [N m], read from the held tail of x."""
     return motor_torque(read(k.sizes, tail).line)
 
 
 def acceleration(loop: Loop, terms: Reduction, q: Array, v: Array, force: Array) -> Array:
-    """q'' of the plant (n,); where it is the nominal model, D_s and Omega are in `terms` already."""
+    """q'' of the plant (n,) [rad/s^2] under `force` (n,) [N m], at q (n,) [rad], v (n,) [rad/s].
+
+    Where the nominal model is the plant, D_s and Omega are in `terms` already and are not computed
+    a second time. Raises SingularError for a singular D_s.
+    """
     if loop.exact:
         return solve_positive(terms.D, force - terms.Omega, "D_s")
     return loop.plant.acceleration(q, v, force)
 
 
 def instant(loop: Loop, t: float, x: Array, mode: Mode) -> Instant:
-    """Measurement, torque, force and acceleration at (t, x)."""
+    """Measurement, torque, disturbance and acceleration at (t, x), t in [s].
+
+    In sampled time u is the torque that is held; in continuous time the saturated output of the
+    controller.
+    """
     q, v, s, tail = parts(loop, x)
     m, k = loop.measure(t, q, v, mode), loop.held
     u = torque_held(k, tail) if k is not None else loop.saturate(loop.law.output(s, m))
@@ -179,7 +270,11 @@ def instant(loop: Loop, t: float, x: Array, mode: Mode) -> Instant:
 
 
 def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
-    """x' between events; between ticks the controller rests and the torque is held."""
+    """x' (nx,) between events, at t [s].
+
+    Continuous time: (q', q'', s'). Sampled time: the controller rests, the torque is held, and of
+    the held tail only lagging motors move.
+    """
     k = loop.held
     if k is None:
         i = instant(loop, t, x, mode)
@@ -191,18 +286,29 @@ def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
 
 
 def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
-    """x after a tick of the control clock: sensors, controller, motors, meter."""
+    """x (nx,) after one sample instant at t [s]: sensors, controller, motors and meter in this
+    order; q and q' do not change.
+
+    Behind sensors the controller sees the measured (q, q') of the sensors' state w in place of the
+    true ones. The meter always uses the true state.
+    """
     (q, v, s, tail), k = parts(loop, x), loop.held
     assert k is not None
-    h, n = read(k.sizes, tail), k.sizes.n
-    w = sense(k.sensors, h.w, q, v) if k.sizes.sensors > 0 else h.w
-    seen = (w[:n], w[n : 2 * n]) if k.sizes.sensors > 0 else (q, v)
+    h = read(k.sizes, tail)
+    w = k.sensors.sense(k.sensors.parameters, h.w, q, v) if k.sizes.sensors > 0 else h.w
+    seen = as_seen(k, w, q, v)
     m = loop.measure(t, *seen, mode)
     (s, line), g = decided(loop, k, s, m, h.line), h.g
     if k.sizes.meter > 0:
         terms = loop.nominal.reduction(q, v) if k.sizes.sensors > 0 else m.terms
         g = measured_by_meter(loop, t, g, q, v, line, terms, mode)
     return np.concatenate((q, v, s, written(Held(w, g, line, h.own))))
+
+
+def as_seen(k: HeldParameters, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+    """(q, v) as the sensors in their state w show it, each (n,)."""
+    sight: tuple[Array, Array] = q, v
+    return k.sensors.seen(k.sensors.parameters, w, q, v) if k.sizes.sensors > 0 else sight
 
 
 def asked(loop: Loop, s: Array, m: Measurement) -> tuple[Array, Array]:
@@ -214,7 +320,12 @@ def asked(loop: Loop, s: Array, m: Measurement) -> tuple[Array, Array]:
 def decided(
     loop: Loop, k: HeldParameters, s: Array, m: Measurement, line: Line
 ) -> tuple[Array, Line]:
-    """The controller's state and the line of torques after it has acted on a measurement."""
+    """The controller's state and the queue of torques after it has acted on a measurement; torques
+    are (p,) [N m].
+
+    Order: correct, output, saturation, rate limit, queue, predict. With a known computation delay
+    the observer is fed the torque that acts in the coming period, otherwise the one just asked for.
+    """
     s, u = asked(loop, s, m)
     if k.sizes.rate > 0:
         u = limited(k.motors, line, u)
@@ -225,7 +336,11 @@ def decided(
 def measured_by_meter(
     loop: Loop, t: float, g: Array, q: Array, v: Array, line: Line, terms: Reduction, mode: Mode
 ) -> Array:
-    """The meter's state g after a tick at which `line` is sent; terms of the nominal model at (q, v)."""
+    """The meter's state g after a sample instant at which `line` is sent to the motors.
+
+    q (n,) [rad], v (n,) [rad/s] are the true state, terms those of the nominal model there; the
+    meter takes ground force, torque and the unknown force xi~ (n,) [N m].
+    """
     k = loop.held
     assert k is not None
     u, zeta = motor_torque(line), loop.external(t, q, v, mode)
@@ -237,19 +352,31 @@ def measured_by_meter(
 
 
 def release(loop: Loop, x: Array) -> Array:
-    """x once the torque that waited for a part of the period acts."""
+    """x once the torque that waited for a fraction of the period acts: `waiting` replaces u, both
+    (p,) [N m].
+
+    For a computation delay that is no whole number of periods.
+    """
     p, x = loop.plant.p, x.copy()
     x[-p:] = x[-2 * p : -p]
     return x
 
 
 def unknown(loop: Loop, terms: Reduction, a: Array, u: Array, zeta: Array) -> Array:
-    """xi~ of (11) (n,) [N m]: zeta, and with a plant that is not the model all that is wrong with it."""
+    """xi~ of (11) (n,) [N m], the generalised force that the nominal model does not know.
+
+    It is zeta where the model is the plant; otherwise D a + Omega - B_s u with the model's terms
+    and the plant's q'' = a (n,) [rad/s^2], so that errors of the model count too.
+    """
     return zeta if loop.exact else unknown_force(terms, a, u)
 
 
 def struck(loop: Loop, t: float, x: Array, after: Mode) -> Array:
-    """x+ after impact, relabelling and the controller's jump; `after` is the single support that begins."""
+    """x+ after impact, relabelling and the controller's jump, for x- at t [s].
+
+    `after` is the single support that begins. The impact map of the plant may be wrong by
+    `loop.gain`.
+    """
     q, v = parts(loop, x)[:2]
     impact = loop.plant.impact(q, v)
     v_plus = impact.v * (1.0 + loop.gain) if len(loop.gain) > 0 else impact.v
@@ -259,39 +386,42 @@ def struck(loop: Loop, t: float, x: Array, after: Mode) -> Array:
 def landed(
     loop: Loop, t: float, x: Array, q_plus: Array, v_plus: Array, impulse: Array, after: Mode
 ) -> Array:
-    """x+ after an impact at x that left the plant in (q+, q'+): what is held, and the controller's jump.
+    """x+ (nx,) after an impact at x- that left the plant at q_plus (n,) [rad], v_plus (n,) [rad/s].
 
-    impulse: of the ground (2,) [N s], for the meter.
+    Shared by plants with an impact map and by those that compute their own contacts. Controller
+    state and held tail are relabelled. A rate that the sensors derive from differences is reset to
+    what the nominal model's impact predicts, since no difference across an impact is a rate.
+    impulse (2,) [N s]: of the ground, for the meter.
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     seen = q_plus, v_plus
     if k is not None:
-        h, n, expected, hit = read(k.sizes, tail), k.sizes.n, v_plus, None
+        h, expected, hit = read(k.sizes, tail), v_plus, None
         if k.sizes.sensors > 0:
-            expected = loop.nominal.impact(h.w[:n], h.w[n : 2 * n]).v
+            expected = loop.nominal.impact(*as_seen(k, h.w, q, v)).v
         if k.sizes.meter > 0:
             hit = Hit(t, after.step - 1.0, loop.plant.momentum(q, v), impulse)
         h = after_impact(k, h, loop.swap, q, q_plus, v_plus, expected, hit)
-        if k.sizes.sensors > 0:
-            seen = h.w[:n], h.w[n : 2 * n]
+        seen = as_seen(k, h.w, q_plus, v_plus)
         tail = written(h)
     s = loop.law.jump(s, loop.measure(t, *seen, after), loop.swap)
     return np.concatenate((q_plus, v_plus, s, tail))
 
 
-def clearance(tan_slope: float, drop: float, foot: Array) -> Any:
-    """Height of the swing foot (x, z) above the ground, along the vertical [m]; 0 at touchdown.
+def clearance(tan_slope: float, drop: float, foot: Array) -> float:
+    """Height of the swing foot (x, z) (2,) [m] above the ground, along the vertical [m]; 0 at touchdown.
 
-    The ground is a slope through the stance foot, and `drop` [m] lower where this single support ends.
+    The ground is a plane through the stance foot, falling in the direction of walking with
+    tan_slope, and `drop` [m] lower where this single support ends.
     """
     return foot[1] + tan_slope * foot[0] + drop
 
 
-def hip_margin(lowest: float, hip: Array) -> Any:
-    """Height of the hip (x, z) above the lowest that is no fall [m]."""
+def hip_margin(lowest: float, hip: Array) -> float:
+    """Height of the hip (x, z) (2,) [m] above `lowest` [m]; the run ends as a fall where it falls through 0."""
     return hip[1] - lowest
 
 
-def time_left(longest: float, start: float, t: float) -> Any:
-    """Of the longest single support, for one that began at `start` [s]."""
+def time_left(longest: float, start: float, t: float) -> float:
+    """Time [s] until a single support that began at `start` [s] is as long as `longest` [s] (then STALLED)."""
     return start + longest - t

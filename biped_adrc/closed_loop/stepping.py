@@ -1,10 +1,12 @@
-"""Sampled control of a plant that moves by itself: without x' = f(x) or guards; it reports its touchdowns.
+"""Sampled control of a plant that moves by itself, such as a simulator with contacts of its own.
 
-    x = (q, q', s, own, held)       own: what else the plant needs to go on, with the rest of `hardware.held`
+    x = (q, q', s, own, held)       own: numbers that the plant needs to go on
 
-A simulator with contacts of its own is such a plant. Ticks, sensors, motors, controller and recording are those
-of every closed loop; how the plant moves is its own affair. What acted is recorded, since it cannot be computed
-again from the states.
+There is no x' = f(x) and there are no event functions: the plant is asked to advance to the next
+sample instant and reports its touchdowns (`closed_loop.stepping_plant` defines what it has to
+give). Sample instants, sensors, motors, controller and recording are those of every closed loop, so
+a controller is tested unchanged on a plant of another kind. Torque, disturbance and estimate are
+recorded at the nodes, since they cannot be computed again from the states.
 """
 
 from __future__ import annotations
@@ -29,21 +31,27 @@ from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.hardware.motors import Motors
-from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import Record, RunOptions
-from biped_adrc.hybrid.system import Found, Mover
+from biped_adrc.hybrid.system import FoundEvent, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
 from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 
 @dataclass(frozen=True)
 class SteppingLoop(ClosedLoop[Any]):
-    """A `SteppingPlant` under a controller; model: what the controller knows of it, a `semantics.Plant`.
+    """A `SteppingPlant` under a controller at sample instants.
 
-    torque_limit [N m] saturates every motor. Raises InputError for what does not fit: a motor's lag, too, since
-    between ticks the plant is given one torque.
+    - plant: what moves. model: what the controller knows of it, a `semantics.Plant`.
+    - timing: sampled, since between sample instants the plant is given one torque.
+    - disturbance: zeta (n,) [N m], asked for by the plant as often as it likes.
+    - torque_limit [N m]: saturates every motor; None for no limit.
+    - sensors, motors: between controller and plant.
+
+    Raises InputError for what does not fit: continuous time, or a motor's lag, which belongs into
+    the plant.
     """
 
     plant: SteppingPlant
@@ -52,10 +60,11 @@ class SteppingLoop(ClosedLoop[Any]):
     timing: SampledTime
     disturbance: Disturbance | None = None
     torque_limit: float | None = None
-    sensors: Sensors | None = None
+    sensors: Sensor | None = None
     motors: Motors | None = None
 
     def __post_init__(self) -> None:
+        """Raise InputError for what does not fit; see the class."""
         if not isinstance(self.timing, SampledTime):
             raise InputError(
                 f"a plant that moves by itself is controlled at ticks, found {type(self.timing).__name__}; "
@@ -71,49 +80,62 @@ class SteppingLoop(ClosedLoop[Any]):
 
     @property
     def exact(self) -> bool:
+        """Never: the model is not the plant."""
         return False
 
     @property
     def limit(self) -> float | None:
-        """torque_limit."""
+        """Largest torque of every motor [N m]; None for none."""
         return self.torque_limit
 
     @property
-    def swap(self) -> Any:
+    def swap(self) -> Indices:
+        """Relabelling of the motors at a touchdown (p,), dtype int."""
         return self.plant.swap
 
     @property
     def own(self) -> int:
+        """How many numbers of its own the plant keeps, found by starting it once at rest."""
         still = np.zeros(self.plant.n)
         return len(started(self.plant, 0.0, still, still, None).own)
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
+        """zeta (n,) [N m] at t [s], q (n,) [rad], v (n,) [rad/s]."""
         if self.disturbance is None:
             return np.zeros(self.plant.n)
         return self.disturbance.torque(t, mode.step, mode.start, q, v)
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
+        """x (nx,) at the start of a single support in q (n,) [rad], v (n,) [rad/s], the plant started there."""
         x, mode = super().initial_state(q, v, mode), Mode() if mode is None else mode
         n = self.plant.n
         return self.with_plant(x, started(self.plant, mode.start, x[:n], x[n : 2 * n], self.own))
 
     def run(self, x0: Array, options: RunOptions, mode: Mode | None = None) -> Trajectory:
-        """From x0; what happens on the way is in the status. Raises InputError for a start that is none."""
+        """A run from x0 (nx,); what happens on the way is in the status. Raises InputError for a
+        start that is none.
+        """
         return simulator.run(self, x0, Mode() if mode is None else mode, None, options)
 
     def with_plant(self, x: Array, state: PlantState) -> Array:
-        """x with the plant in another state."""
+        """x (nx,) with the plant in another state, all else kept."""
         n, size = self.plant.n, 2 * self.plant.n + self.controller_size(x)
         after = size + len(state.own)
         return np.concatenate((state.q, state.v, x[2 * n : size], state.own, x[after:]))
 
     def mover(self, fired: str | None) -> Mover:
+        """One function for all arcs; the plant does not need to know what fired."""
         return self.move
 
     def move(
         self, t: float, x: Array, mode: Mode, until: float, record: Record
-    ) -> tuple[float, Array, Found | None]:
-        """From a tick to the next, or to a contact, as `hybrid.system.Mover`."""
+    ) -> tuple[float, Array, FoundEvent | None]:
+        """From a sample instant at t [s] to the next, or to a contact: time, x (nx,), and the event
+        if there is one.
+
+        Finite nodes are recorded before a state that is not finite raises NotFiniteError, so that
+        the last good motion can be looked at.
+        """
         (q, v, _, tail), k = parts(self, x), self.held
         assert k is not None
         u, state = torque_held(k, tail), PlantState(t, q, v, tail[: k.sizes.own])
@@ -132,23 +154,28 @@ class SteppingLoop(ClosedLoop[Any]):
         t, x_minus = moved.state.t, rows[-1]
         return t, x_minus, self.found(t, x_minus, mode, moved) if moved.contacts else None
 
-    def found(self, t: float, x: Array, mode: Mode, moved: Advanced) -> Found:
-        """The event of the contacts, and the controller's jump."""
+    def found(self, t: float, x: Array, mode: Mode, moved: Advanced) -> FoundEvent:
+        """The event of the contacts at t [s], x (nx,) the state just before, with the controller's jump.
+
+        A contact with a status ends the run. Raises NotFiniteError for an impulse or a state after
+        it that is not finite.
+        """
         (name, impulse, ends), state = together(moved.contacts), moved.state
         if ends is not None:
-            return Found(Event(name, t, x, None), None, ends)
+            return FoundEvent(Event(name, t, x, None), None, ends)
         if not np.all(np.isfinite([*state.q, *state.v, *state.own, *impulse])):
             raise NotFiniteError(
                 f"{name} at t = {t:.6g} s: its impulse or the state after it is not finite"
             )
         after = Mode(mode.step + 1, t)
         x_plus = self.with_plant(landed(self, t, x, state.q, state.v, impulse, after), state)
-        return Found(Event(name, t, x, x_plus), (x_plus, after))
+        return FoundEvent(Event(name, t, x, x_plus), (x_plus, after))
 
     def keep(self, t: Array, x: Array, u: Array, mode: Mode, record: Record) -> None:
-        """Each `store_every`-th of K nodes, t (K,) and x (K, ..), both ends among them.
+        """Record each `store_every`-th of K nodes, t (K,) [s] and x (K, nx), both ends among them.
 
-        With u, zeta and the observer's estimate; slopes of the rates are their differences.
+        Beside them u (p,) and zeta (n,) [N m] and the observer's estimate (p,) [rad/s^2]. Slopes of
+        the rates are their differences, since the plant does not give q''.
         """
         if len(t) == 0:
             return
@@ -168,7 +195,7 @@ class SteppingLoop(ClosedLoop[Any]):
 
 
 def together(contacts: tuple[Contact, ...]) -> Contact:
-    """Those of one moment as one, as `Advanced.contacts` says."""
+    """Contacts of one moment as one: names joined by +, impulses added; if some end the run, those alone."""
     ends = tuple(contact for contact in contacts if contact.ends is not None)
     names, impulses, statuses = zip(*(ends or contacts), strict=True)
     return Contact("+".join(dict.fromkeys(names)), np.sum(impulses, axis=0), statuses[0])

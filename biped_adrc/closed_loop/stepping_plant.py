@@ -1,44 +1,52 @@
-"""The door for a plant that moves by itself, such as a simulator with contacts of its own: what it has to give.
+"""What a plant that moves by itself has to give, and the checks of what it gives.
 
     advance(state, u, zeta, until) -> state, contacts, nodes
 
-`started` and `advanced` call the plant and check once what it gives. What breaks this contract is an
-InputError that names the plant's class, what was found and what was expected; an exception of the plant's own
-is a SimulationError. Values that are not finite pass: the loop ends the run with NOT_FINITE, as for any plant.
+`closed_loop.stepping.SteppingLoop` drives such a plant, for instance MuJoCo or Drake behind a class
+of the user's. `started` and `advanced` call the plant and check once what it gives. What breaks
+this contract is an InputError that names the plant's class, what was found and what was expected;
+an exception of the plant's own is a SimulationError. Values that are not finite pass: the loop ends
+the run with NOT_FINITE, as for any plant.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from biped_adrc.errors import BipedError, InputError, SimulationError
 from biped_adrc.hybrid.integrators import StepFailed
 from biped_adrc.hybrid.status import Status
-from biped_adrc.types import Array, read_only
+from biped_adrc.types import Array, Indices, read_only
 
 ROUND_OFF = 1e-9
-"""[s] by which a plant's own clock may differ from the time that it was to reach."""
+"""Largest difference [s] between a plant's own clock and the time that it was to reach."""
 
 
 class PlantState(NamedTuple):
-    """At t [s]: q and v (n,), and what else the plant needs to go on, numbers of its own (k,)."""
+    """The whole state of such a plant at one time."""
 
     t: float
+    """[s]"""
     q: Array
+    """Angles (n,) [rad]."""
     v: Array
+    """Rates (n,) [rad/s]."""
     own: Array
+    """What else the plant needs to go on, numbers of its own (k,)."""
 
 
 class Contact(NamedTuple):
     """A touchdown, which ends a single support; or, with a status, what ends the run, such as a fall."""
 
     name: str
+    """Name of the event in the trajectory."""
     impulse: Array = np.zeros(2)
     """Of the ground (2,) [N s]."""
     ends: Status | None = None
+    """Status with which the run ends; None for a touchdown."""
 
 
 class Advanced(NamedTuple):
@@ -48,6 +56,7 @@ class Advanced(NamedTuple):
     """
 
     state: PlantState
+    """At `until`, or just after the contacts."""
     contacts: tuple[Contact, ...]
     """All at the time of `state`, later than where `advance` began. They are one event: names joined by +,
     impulses added. Where some of them end the run, only those count: a fall with a touchdown is a fall."""
@@ -60,15 +69,19 @@ class SteppingPlant(Protocol):
     """n coordinates, the first p of them with motors. Arrays that it is given are read-only."""
 
     @property
-    def n(self) -> int: ...
+    def n(self) -> int:
+        """Number of coordinates."""
+
     @property
-    def p(self) -> int: ...
+    def p(self) -> int:
+        """Number of motors."""
+
     @property
-    def swap(self) -> Any:
+    def swap(self) -> Indices:
         """Relabelling of the motors at a touchdown (p,), dtype int; `arange(p)` for none."""
 
     def start(self, t: float, q: Array, v: Array) -> PlantState:
-        """The plant at rest in itself, moving with (q, v)."""
+        """The plant at t [s] in q (n,) [rad], v (n,) [rad/s], at rest inside (solver state, contacts)."""
 
     def advance(
         self,
@@ -79,7 +92,8 @@ class SteppingPlant(Protocol):
     ) -> Advanced:
         """On to `until` [s] or to the next contact, under u (p,) [N m] and zeta(t, q, v) (n,) [N m].
 
-        Where it cannot go on it raises `hybrid.integrators.StepFailed`, which ends the run with that status.
+        Where it cannot go on it raises `hybrid.integrators.StepFailed`, which ends the run with
+        that status.
         """
 
 
@@ -95,7 +109,11 @@ def check_swap(plant: SteppingPlant) -> None:
 
 
 def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None) -> PlantState:
-    """What `plant.start` gives, with `own` numbers of its own; any number of them for None."""
+    """What `plant.start` gives at t [s] for q (n,) [rad], v (n,) [rad/s], checked.
+
+    own: how many numbers of its own are expected; None accepts any. Raises InputError where the
+    plant starts elsewhere.
+    """
     who = f"{type(plant).__name__}.start"
     found = _called(who, plant.start, t, read_only(q), read_only(v))
     state = _state(who, found, len(q), own)
@@ -114,7 +132,11 @@ def advanced(
     zeta: Callable[[float, Array, Array], Array],
     until: float,
 ) -> Advanced:
-    """What `plant.advance` gives, its last times at `until` without round-off."""
+    """What `plant.advance` gives under u (p,) [N m], checked, its last times at `until` [s] without
+    round-off.
+
+    Raises InputError for what breaks the contract.
+    """
     who, (t, *arrays) = f"{type(plant).__name__}.advance", state
     given = PlantState(t, *(read_only(numbers) for numbers in arrays)), read_only(u)
     found = _called(who, plant.advance, *given, lambda *at: read_only(zeta(*at)), until)
@@ -133,8 +155,8 @@ def advanced(
     return _in_time(who, state.t, until, Advanced(after, tuple(contacts), tuple(nodes)))
 
 
-def _called(who: str, method: Callable[..., Any], *given: Any) -> Any:
-    """method(*given); what it raises of its own is a SimulationError that names it."""
+def _called(who: str, method: Callable[..., object], *given: object) -> object:
+    """method(*given); what it raises of its own becomes a SimulationError that names it."""
     try:
         return method(*given)
     except (BipedError, StepFailed):
@@ -146,8 +168,8 @@ def _called(who: str, method: Callable[..., Any], *given: Any) -> Any:
         ) from error
 
 
-def _numbers(what: str, found: Any, shape: tuple[int, ...]) -> Array:
-    """A copy in float64."""
+def _numbers(what: str, found: object, shape: tuple[int, ...]) -> Array:
+    """A copy in float64 of the expected shape. Raises InputError."""
     try:
         numbers = np.array(found, dtype=float)
     except (TypeError, ValueError):
@@ -157,13 +179,15 @@ def _numbers(what: str, found: Any, shape: tuple[int, ...]) -> Array:
     return numbers
 
 
-def _tuple(what: str, found: Any) -> tuple[Any, ...]:
+def _tuple(what: str, found: object) -> tuple[object, ...]:
+    """`found`, if it is a tuple. Raises InputError."""
     if type(found) is not tuple:
         raise InputError(f"{what} is {found!r:.60}, expected a tuple")
     return found
 
 
-def _state(what: str, found: Any, n: int, own: int | None) -> PlantState:
+def _state(what: str, found: object, n: int, own: int | None) -> PlantState:
+    """`found` as a PlantState of n coordinates with float64 copies. Raises InputError."""
     if not isinstance(found, PlantState):
         raise InputError(f"{what} is {found!r:.60}, expected a PlantState(t, q, v, own)")
     return PlantState(
@@ -174,7 +198,8 @@ def _state(what: str, found: Any, n: int, own: int | None) -> PlantState:
     )
 
 
-def _contact(what: str, found: Any) -> Contact:
+def _contact(what: str, found: object) -> Contact:
+    """`found` as a Contact with a float64 impulse (2,) [N s]. Raises InputError."""
     if not isinstance(found, Contact) or not isinstance(found.name, str):
         raise InputError(f"{what} is {found!r:.60}, expected a Contact(name, impulse, ends)")
     if found.ends is not None and (not isinstance(found.ends, Status) or found.ends.ok):
@@ -218,4 +243,5 @@ def _check_times(who: str, begin: float, until: float, moved: Advanced) -> None:
 
 
 def _same(a: Array, b: Array) -> bool:
+    """Whether two arrays are equal; NaN equals NaN here, since such values pass to the loop."""
     return np.array_equal(a, b, equal_nan=True)

@@ -1,6 +1,13 @@
-"""A closed loop in NumPy as a hybrid system; what `Walker` and `ArmSystem` have in common.
+"""A closed loop on NumPy arrays, as a hybrid system that a simulator can run.
 
-`reading` is what can be read off any closed loop at one instant; NumPy and compiled code share its source.
+`ClosedLoop` has what `Walker`, `ArmSystem` and `SteppingLoop` share: a plant, a controller in its
+time base (continuous or sampled), the model that the controller knows, and the methods of
+`hybrid.system.HybridSystem`, each of which calls the function of `closed_loop.semantics` with the
+same name. It adds what pure functions cannot do: checks of what a user's controller returns, with
+sentences that name the culprit.
+
+`signals_at` computes every signal of one instant. Compiled code traces the same function
+(`engine.compiled_signals`), so that both engines report the same quantities.
 """
 
 from __future__ import annotations
@@ -8,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from functools import cached_property
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -22,25 +29,35 @@ from biped_adrc.hardware import sample_hold as held
 from biped_adrc.hardware.meter import MeterParameters, Outside
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import Held, HeldParameters
-from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.system import Clock, HybridSystem
 from biped_adrc.model.reduction import disturbance_parts
 from biped_adrc.parts import check_fields
 from biped_adrc.timing import ContinuousTime, SampledTime, check_timing
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 P = TypeVar("P", bound=Plant)
 
 
 class ClosedLoop(HybridSystem, Generic[P]):
-    """`semantics` for arrays, with a plant, a controller, its timing, and the model that it knows."""
+    """`semantics` on arrays, with a plant, a controller, its timing, and the model that it knows.
+
+    Subclasses are frozen dataclasses that name these fields; what they do not override here is: no
+    torque limit, no disturbance, no meter, no relabelling.
+    """
 
     plant: P
+    """What moves."""
     controller: Controller
+    """As the user wrote it; `law` is the same in the time base of `timing`."""
     timing: ContinuousTime | SampledTime
+    """Continuous, or sampled with a period [s]."""
     model: P | None
-    sensors: Sensors | None = None
+    """What the controller knows; None where it knows the plant."""
+    sensors: Sensor | None = None
+    """Between plant and controller, in sampled time; None for exact measurements."""
     motors: Motors | None = None
+    """Between controller and plant, in sampled time; None for ideal ones."""
 
     def check(self) -> None:
         """Raise InputError for a part that is none, or a model with another number of coordinates."""
@@ -76,20 +93,26 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     @cached_property
     def held(self) -> HeldParameters | None:
-        """What is held between ticks; None in continuous time."""
+        """Parameters of what is held between sample instants (`hardware.sample_hold`); None in
+        continuous time.
+        """
         time, n, p = self.timing, self.plant.n, self.plant.p
         if not isinstance(time, SampledTime):
             return None
         given = (self.sensors, self.motors, self.metering(time), self.own)
         return held.held_parameters(n, p, time, *given)
 
+    def __getstate__(self) -> dict[str, object]:
+        """Without what is made again where it is needed."""
+        return {name: value for name, value in vars(self).items() if name != "held"}
+
     @property
     def own(self) -> int:
-        """How many numbers a plant that moves by itself keeps."""
+        """How many numbers of x a plant that moves by itself keeps for its own use; 0 for all others."""
         return 0
 
     def metering(self, timing: SampledTime) -> MeterParameters | None:
-        """Of the meter; None without one."""
+        """Parameters of the meter for these sample instants; None without a meter."""
         return None
 
     @property
@@ -99,49 +122,53 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     @cached_property
     def torques(self) -> tuple[int]:
-        """Shape of u."""
+        """Shape of u, (p,); kept because `saturate` compares it at every step."""
         return (self.plant.p,)
 
     @property
     def gain(self) -> Array:
-        """As `semantics.Loop`."""
+        """No error of the impact map: an empty array (0,) [1]."""
         return np.zeros(0)
 
     @property
-    def swap(self) -> Any:
-        """As `semantics.Loop`."""
+    def swap(self) -> Indices:
+        """No relabelling: 0, 1, .., p - 1, (p,)."""
         return np.arange(self.plant.p)
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
-        """zeta (n,) [N m]."""
+        """zeta (n,) [N m]; zero unless a subclass has a disturbance."""
         return np.zeros(self.plant.n)
 
     def outside(self, t: float, mode: Mode) -> Outside:
-        """As `semantics.Loop`."""
+        """Nothing from outside, and flat ground."""
         return Outside(np.zeros(2), np.zeros(2), 0.0)
 
     # -- the state ---------------------------------------------------------------------------------
     @cached_property
     def behind(self) -> int:
-        """How many numbers of x come after the controller's state."""
+        """How many numbers of x come after the controller's state s."""
         return 0 if self.held is None else self.held.sizes.total
 
     def controller_size(self, x: Array | int) -> int:
-        """Numbers in s, from x or its length."""
+        """Numbers in s, from x (nx,) or from its length nx: nx - 2 n - `behind`."""
         length = x if isinstance(x, int) else len(x)
         return length - 2 * self.plant.n - self.behind
 
     def split_state(self, x: Array) -> tuple[Array, Array, Array]:
-        """q, v, s of x."""
+        """q (n,) [rad], v (n,) [rad/s] and s of x (nx,)."""
         return semantics.parts(self, x)[:3]
 
     def held_at(self, x: Array) -> Held:
-        """What x holds between ticks, in sampled time."""
+        """What x (nx,) holds between sample instants, by name. In sampled time only."""
         assert self.held is not None
         return held.read(self.held.sizes, x[len(x) - self.behind :])
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
-        """x at the start of single support in (q, v). Raises InputError for a controller that does not fit."""
+        """x (nx,) at the start of a single support in q (n,) [rad], v (n,) [rad/s].
+
+        Here, once, the controller's first output, its state's laws and its reference are tried:
+        raises InputError for shapes that do not fit, NotFiniteError for a first torque that is NaN.
+        """
         mode = Mode() if mode is None else mode
         m = self.measure(mode.start, np.asarray(q, dtype=float), np.asarray(v, dtype=float), mode)
         for part in _with_inner(self.law):
@@ -155,11 +182,15 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     # -- what it does --------------------------------------------------------------------------------
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """What the controller is given at (t, q, v)."""
+        """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s]."""
         return semantics.measurement(self, t, q, v, mode, self.law.needs_body)
 
     def saturate(self, u: Array) -> Array:
-        """u within the torque limit. Raises NotFiniteError, SimulationError for another number of torques."""
+        """u (p,) [N m] within the torque limit.
+
+        Raises SimulationError for another number of torques and NotFiniteError for NaN or infinity;
+        one dot product tests all of them, since this is called at every stage of every step.
+        """
         u, limit = np.asarray(u, dtype=float), self.limit
         if u.shape != self.torques:
             raise SimulationError(misshapen(self.controller, u, self.plant.p))
@@ -170,7 +201,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return u
 
     def instant(self, t: float, x: Array, mode: Mode) -> Instant:
-        """Measurement, torque, force and acceleration at (t, x)."""
+        """Measurement, torque, force and acceleration at (t, x), t in [s]."""
         return semantics.instant(self, t, x, mode)
 
     def unknown(self, i: Instant) -> Array:
@@ -178,16 +209,21 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return semantics.unknown(self, i.measurement.terms, i.a, i.u, i.zeta)
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
+        """x' (nx,) between events, at t [s]."""
         return semantics.flow(self, t, x, mode)
 
     def tick(self, t: float, x: Array, mode: Mode) -> Array:
-        """x after a tick of the control clock: sensors, controller, line of torques, meter."""
+        """x (nx,) after a sample instant: sensors, controller, queue of torques, meter."""
         return semantics.tick(self, t, x, mode)
 
     def _release(self, t: float, x: Array, mode: Mode) -> Array:
+        """x once the torque that waited for a fraction of the period acts."""
         return semantics.release(self, x)
 
     def clocks(self) -> tuple[Clock, ...]:
+        """None in continuous time; the control clock, and with a fractional delay a second one that
+        releases the waiting torque.
+        """
         time, k = self.timing, self.held
         if not isinstance(time, SampledTime) or k is None:
             return ()
@@ -199,7 +235,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
 
 def _with_inner(controller: Controller | None) -> Iterator[Controller]:
-    """A controller, and those inside it."""
+    """A controller and the controllers nested in it (`inner`)."""
     while controller is not None:
         yield controller
         controller = getattr(controller, "inner", None)
@@ -225,43 +261,61 @@ def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
     check_point(reference, point, p, len(m.q))
 
 
-class Reading(NamedTuple):
-    """At one instant, or at N of them with N rows; meanings as in `analysis.signals.Signals`."""
+class InstantSignals(NamedTuple):
+    """All signals at one instant, or at N instants with N rows each; n coordinates, p motors."""
 
-    a: Any
-    q_d: Any
-    dq_d: Any
-    u: Any
-    zeta: Any
-    xi: Any
-    xi_estimate: Any
-    xi_external: Any
-    xi_matched: Any
-    xi_nominal: Any
-    zeta_estimate: Any
-    ground_reaction: Any
-    """Forces from outside not yet taken off."""
-    kinetic: Any
-    potential: Any
-    """Zero at the height of this stance foot."""
-    swing_foot: Any
-    hip: Any
+    a: Array
+    """q'' of the plant (n,) [rad/s^2]."""
+    q_d: Array
+    """Reference of the joints (p,) [rad]."""
+    dq_d: Array
+    """Its rate (p,) [rad/s]."""
+    u: Array
+    """Torque applied (p,) [N m]."""
+    zeta: Array
+    """Disturbance (n,) [N m]."""
+    xi: Array
+    """Total disturbance q_b'' - kappa u (p,) [rad/s^2], from the plant's own q''."""
+    xi_estimate: Array
+    """What the observer says of it (p,) [rad/s^2]; NaN without an observer."""
+    xi_external: Array
+    """The part of xi that the nominal model does not know (p,) [rad/s^2]: matched + unmatched."""
+    xi_matched: Array
+    """Of that, what enters where the motors act (p,) [rad/s^2]."""
+    xi_nominal: Array
+    """The part of xi that the nominal model knows, (14) with xi~ = 0 (p,) [rad/s^2]."""
+    zeta_estimate: Array
+    """The disturbance torque that explains the estimate, kappa^-1 (xi^ - xi_nominal) (p,) [N m]."""
+    ground_reaction: Array
+    """On the stance foot (2,) [N], forces from outside not yet taken off."""
+    kinetic: Array
+    """Energy [J]."""
+    potential: Array
+    """Energy [J], zero at the height of this stance foot."""
+    swing_foot: Array
+    """(x, z) from the stance foot (2,) [m]."""
+    hip: Array
+    """(x, z) from the stance foot (2,) [m]."""
 
 
-def reading(
+def signals_at(
     loop: Loop,
     t: float,
     x: Array,
     mode: Mode,
     reference: Callable[[Array, Measurement], ReferencePoint],
-) -> Reading:
-    """At (t, x); reference(s, m) is what is looked at, usually what the controller tracks."""
+) -> InstantSignals:
+    """The signals at (t, x), t in [s], x (nx,).
+
+    reference(s, m) is the curve that errors refer to, usually the one the controller tracks; a run
+    may be read against another one. Runs on numbers and on symbols.
+    """
     i = instant(loop, t, x, mode)
     m, plant, terms, p = i.measurement, loop.plant, i.measurement.terms, loop.plant.p
     r, estimate = reference(i.s, m), loop.law.estimate(i.s, m)
     xi_estimate = np.full(p, np.nan) if estimate is None else estimate.disturbance
     matched, unmatched = disturbance_parts(terms, unknown(loop, terms, i.a, i.u, i.zeta))
-    return Reading(
+    return InstantSignals(
         a=i.a,
         q_d=r.q_d,
         dq_d=r.dq_d,

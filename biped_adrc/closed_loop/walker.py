@@ -1,7 +1,12 @@
-"""The walker: plant, controller, disturbance and timing make a hybrid system.
+"""The walker: plant, controller, disturbance and timing as one hybrid system.
 
-`closed_loop.semantics` says what it does; here are its ground, its disturbance, and what ends a single support
-or a run. The controller's terms come from the nominal `model`, the motion from the `plant`.
+A single support is a flow; it ends at the impact of the swing foot, which maps the state by (7),
+(8) and begins the next. This module holds what is particular to walking: the ground (slope, steps
+up and down), the disturbance, and the event functions that end a single support or the run. The
+flow, the sample instants and the impact are those of `closed_loop.semantics`.
+
+`hybrid.simulator` runs a Walker in Python; `engine` compiles the same Walker. `scenario.build`
+makes one from plain values.
 """
 
 from __future__ import annotations
@@ -9,7 +14,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -25,27 +29,40 @@ from biped_adrc.ground import StepDown, StepUp, check_slope
 from biped_adrc.hardware.meter import Meter, MeterParameters, Outside
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import check_parts
-from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Guard, Split
 from biped_adrc.model.biped import Biped
 from biped_adrc.timing import ContinuousTime, SampledTime, check_ends
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 FOOT_STRIKE = "foot_strike"
+"""Name of the event function whose zero is the impact."""
 LEAST_STEP = 1e-3
-"""[m]: legs without knees cross with the swing foot at the ground; what is nearer than this is no step."""
+"""Minimum step length [m]; shorter ground contacts are ignored. Legs without knees scuff the ground
+in mid-swing, when the swing foot passes the stance foot.
+"""
 
 
 @dataclass(frozen=True)
 class Walker(ClosedLoop[Biped]):
-    """torque_limit [N m] saturates every motor; the observer is fed the torque applied.
+    """A planar biped under a controller on a plane with steps, as a hybrid system.
 
-    slope [rad]: of the ground, positive downhill. ground_steps: where it falls or rises by steps.
-    sensors, motors, meter: what is between the controller and the plant; in sampled time only.
-    impact_gain (n,): v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
-    fall_height: the run ends as a fall when the hip is below this fraction of |p_hip| at q = 0.
-    max_step_time [s]: a longer single support ends as stalled.
+    - plant: the robot that moves. model: the robot that the controller knows, the plant itself when
+      None.
+    - controller, timing: in continuous time, or sampled with a period, a delay and restart at
+      impacts.
+    - disturbance: zeta (n,) [N m] and forces from outside; None for none.
+    - torque_limit [N m]: saturates every motor; the observer is fed the torque applied, not the one
+      asked for.
+    - slope [rad]: of the ground, positive downhill. ground_steps: where it falls or rises by steps.
+    - sensors, motors, meter: between controller and plant; in sampled time only.
+    - impact_gain (n,) [1]: v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
+    - fall_height [1]: the run ends as a fall when the hip is below this fraction of |p_hip| at q =
+      0.
+    - max_step_time [s]: a longer single support ends as stalled.
+
+    Raises InputError for values that do not fit together, such as sensors in continuous time.
     """
 
     plant: Biped
@@ -58,12 +75,13 @@ class Walker(ClosedLoop[Biped]):
     max_step_time: float = 2.0
     slope: float = 0.0
     ground_steps: tuple[StepDown | StepUp, ...] = ()
-    sensors: Sensors | None = None
+    sensors: Sensor | None = None
     motors: Motors | None = None
     meter: Meter | None = None
     impact_gain: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
+        """Raise InputError for values that do not fit together; see the class."""
         self.check()
         self.plant.check_motors()
         check_slope(self.slope)
@@ -77,22 +95,22 @@ class Walker(ClosedLoop[Biped]):
     # -- parts -------------------------------------------------------------------------------------
     @property
     def exact(self) -> bool:
-        """Whether the controller knows the plant: the model is the plant, and has no friction."""
+        """Whether the controller knows the plant: no other model is given and the plant has no friction."""
         return self.model is None and not self.plant.friction
 
     @property
     def limit(self) -> float | None:
-        """torque_limit."""
+        """Largest torque of every motor [N m]; None for none."""
         return self.torque_limit
 
     @cached_property
     def gain(self) -> Array:
-        """impact_gain (n,), or empty."""
+        """Relative errors of v+ (n,) [1], or empty (0,)."""
         return np.array(self.impact_gain, dtype=float)
 
     @cached_property
-    def swap(self) -> Any:
-        """Relabelling of the actuated joints (p,), dtype int."""
+    def swap(self) -> Indices:
+        """Relabelling of the actuated joints at an impact (p,), dtype int."""
         if self.plant.p == 0:
             return np.zeros(0, dtype=int)
         return self.plant.relabelling[: self.plant.p]
@@ -104,6 +122,10 @@ class Walker(ClosedLoop[Biped]):
 
     # -- from outside ------------------------------------------------------------------------------
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
+        """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s].
+
+        Raises InputError where a user's disturbance returns another shape.
+        """
         if self.disturbance is None:
             return np.zeros(self.plant.n)
         zeta = np.asarray(self.disturbance.torque(t, mode.step, mode.start, q, v))
@@ -115,12 +137,13 @@ class Walker(ClosedLoop[Biped]):
         return zeta
 
     def resultant(self, t: float, mode: Mode) -> Array:
-        """Force from outside on the robot as a whole (2,) [N]."""
+        """Force from outside on the robot as a whole (2,) [N] at t [s]; needed for the ground reaction."""
         if self.disturbance is None:
             return np.zeros(2)
         return self.disturbance.resultant(t, mode.step, mode.start)
 
     def outside(self, t: float, mode: Mode) -> Outside:
+        """Force now, impulse since the last sample instant, drop of the ground; for the meter."""
         impulse = np.zeros(2)
         if self.disturbance is not None:
             assert self.held is not None
@@ -128,46 +151,61 @@ class Walker(ClosedLoop[Biped]):
         return Outside(self.resultant(t, mode), impulse, self.drop(mode.step))
 
     def switching_times(self, mode: Mode) -> tuple[float, ...]:
+        """Times [s] at which the disturbance is not smooth; no step of the integrator goes across one."""
         if self.disturbance is None:
             return ()
         return self.disturbance.switching_times(mode.step, mode.start)
 
     def ground_reaction(self, i: Instant, mode: Mode) -> Array:
-        """Force of the ground on the stance foot (F_T, F_N) [N], forces from outside taken off."""
+        """Force of the ground on the stance foot (F_T, F_N) (2,) [N], forces from outside taken off.
+
+        By Newton's law the ground carries what gravity and motion ask for minus what outside forces
+        carry.
+        """
         m = i.measurement
         return self.plant.ground_reaction(m.q, m.v, i.a) - self.resultant(m.t, mode)
 
     # -- impact and ground -------------------------------------------------------------------------
     def strike(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode] | None:
-        """x+ after impact and relabelling; None unless the swing foot is ahead of the stance foot."""
+        """x+ (nx,) after impact and relabelling at t [s], with the mode that begins.
+
+        None unless the swing foot is more than LEAST_STEP ahead of the stance foot: then the
+        crossing is no event.
+        """
         if self.plant.swing_foot(x[: self.plant.n])[0] <= LEAST_STEP:
             return None
         return self.struck(t, x, mode)
 
     def struck(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode]:
-        """x+ after impact and relabelling, wherever the swing foot is."""
+        """x+ (nx,) after impact and relabelling at t [s], wherever the swing foot is, and the mode
+        that begins.
+        """
         after = Mode(mode.step + 1, t)
         return semantics.struck(self, t, x, after), after
 
     def drop(self, step: int) -> float:
-        """How far the steps of the ground in single support `step` lower where it ends [m]."""
+        """How far the steps of the ground in single support `step` lower the ground where it ends [m]."""
         return sum((d.drop for d in self.ground_steps if d.step == step), 0.0)
 
     def clearance(self, q: Array, step: int | None = None) -> float:
-        """Height of the swing foot above the ground [m], measured along the vertical.
+        """Height of the swing foot above the ground [m] along the vertical, at q (n,) [rad].
 
-        With `step`, above the ground on which that single support ends; without, where no step down is.
+        With `step`, above the ground on which that single support ends; without, above the plane of
+        the stance foot.
         """
         drop = 0.0 if step is None else self.drop(step)
         return float(semantics.clearance(math.tan(self.slope), drop, self.plant.swing_foot(q)))
 
     @cached_property
     def lowest_hip(self) -> float:
-        """Height of the hip below which the run ends as a fall [m]."""
+        """Height of the hip [m] above the stance foot below which the run ends as a fall."""
         straight = np.zeros(self.plant.n)
         return self.fall_height * float(np.linalg.norm(self.plant.hip(straight)))
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
+        """Three event functions: touchdown (an impact), hip too low (FELL), single support too long
+        (STALLED).
+        """
         n = self.plant.n
         return (
             Guard(
@@ -188,7 +226,12 @@ class Walker(ClosedLoop[Biped]):
         )
 
     def split_laws(self, feedback: bool = False) -> SplitLaws | None:
-        """The laws behind `split`, or behind `feedback_split`, which raises InputError and says why not."""
+        """The laws of the coordinates in which the exponential method steps.
+
+        Without `feedback`: observer error only; None for sampled time or no linear observer. With
+        it: tracking error too; raises InputError and says why such coordinates do not exist.
+        Compiled code takes these laws, Python `split` and `feedback_split`.
+        """
         n, p = self.plant.n, self.plant.p
         if not feedback:
             return None if self.sampled else error_laws(self.law, n, p)
@@ -202,15 +245,17 @@ class Walker(ClosedLoop[Biped]):
     def split(self, mode: Mode) -> Split | None:
         """Error coordinates of the observer: e' = A e + b (q_b'' - kappa u), independent of u itself.
 
-        The observer's states are the first of s; what follows them is taken with (q, q').
+        The observer's states are the first of s; what follows them is integrated with (q, q'). None
+        where the controller has no linear observer. `back` is linear here, so no `node` is needed.
         """
         laws = self.split_laws()
         return None if laws is None else replace(split_of(self, laws, mode), node=None)
 
     def feedback_split(self, mode: Mode) -> Split | None:
-        """Those with the tracking error q_b - h(Theta) too, beside Theta and the angular momentum.
+        """As `split`, with the tracking error q_b - h(Theta) in the linear part too.
 
-        Raises InputError for a walker without such coordinates.
+        The remaining coordinates are the phase Theta and the angular momentum about the stance
+        foot. Raises InputError for a walker without such coordinates.
         """
         laws = self.split_laws(feedback=True)
         return None if laws is None else split_of(self, laws, mode)

@@ -22,7 +22,7 @@ from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.types import Array
 
 
-def npd_torque(k: TrackingParameters, r: ReferencePoint, m: Measurement) -> Array:
+def npd_torque(k: TrackingParameters, r: ReferencePoint, s: Array, m: Measurement) -> Array:
     """u (p,) [N m] of (28) about the point r of the reference."""
     return tracking_torque(k, r, measured(m), m.terms)
 
@@ -37,4 +37,5 @@ class NPDController(Controller):
 
     @property
     def laws(self) -> ControllerLaws:
-        return tracked_laws(self.reference, self.gains.parameters(self.solve_theta), npd_torque)
+        k = self.gains.parameters(self.solve_theta)
+        return tracked_laws(self.reference, ControllerLaws(k, npd_torque))

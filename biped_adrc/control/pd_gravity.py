@@ -30,7 +30,7 @@ class JointGains(Gains):
     K_d: Array | float = 250.0
 
 
-def pd_gravity_torque(k: TrackingParameters, r: ReferencePoint, m: Measurement) -> Array:
+def pd_gravity_torque(k: TrackingParameters, r: ReferencePoint, s: Array, m: Measurement) -> Array:
     """u (p,) [N m] about the point r of the reference."""
     p = m.terms.kappa.shape[0]
     return feedback(k, r, m.q[:p], m.v[:p]) + body_of(m).G[:p]
@@ -48,4 +48,4 @@ class PDGravityController(Controller):
     @property
     def laws(self) -> ControllerLaws:
         k = self.gains.parameters(solve_theta=False)
-        return tracked_laws(self.reference, k, pd_gravity_torque)
+        return tracked_laws(self.reference, ControllerLaws(k, pd_gravity_torque))

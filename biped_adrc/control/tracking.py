@@ -111,29 +111,43 @@ def printed_acceleration(r: ReferencePoint, f: Array) -> Array:
 
 
 class TrackedParameters(NamedTuple):
-    """Of the reference's law, and the gains with the choice of loop."""
+    """Of the reference's law, and of the controller's own laws."""
 
     h: Any
-    tracking: TrackingParameters
+    own: Any
 
 
-Torque = Callable[[TrackingParameters, ReferencePoint, Measurement], Array]
-"""torque(k, r, m) -> u (p,) [N m] about the point r of a reference."""
+def tracked_laws(reference: Reference, own: ControllerLaws) -> ControllerLaws:
+    """The laws of a controller that tracks any reference.
 
-
-def tracked_laws(reference: Reference, k: TrackingParameters, torque: Torque) -> ControllerLaws:
-    """The laws of a controller without a state that tracks any reference."""
+    own: its laws with the point r of the reference put before the state, such as output(k, r, s, m), and
+    initial_state(k, r, m).
+    """
     r = reference_laws(reference)
-    laws = _tracked(r.point, torque)
-    return laws._replace(parameters=TrackedParameters(r.parameters, k), obstacle=r.obstacle)
+    laws = _tracked(r.point, own.functions)
+    return laws._replace(
+        parameters=TrackedParameters(r.parameters, own.parameters), obstacle=r.obstacle
+    )
 
 
 @lru_cache(maxsize=64)
-def _tracked(point: Callable[..., ReferencePoint], torque: Torque) -> ControllerLaws:
-    def output(k: TrackedParameters, s: Array, m: Measurement) -> Array:
-        return torque(k.tracking, point(k.h, m.t, m.q, m.v), m)
+def _tracked(point: Callable[..., ReferencePoint], own: ControllerLaws) -> ControllerLaws:
+    start: Any = own.initial_state
 
-    return ControllerLaws(None, output)
+    def about_the_point(law: Callable[..., Any]) -> Callable[..., Any]:
+        def tracked(k: TrackedParameters, s: Array, m: Measurement, *rest: Any) -> Any:
+            return law(k.own, point(k.h, m.t, m.q, m.v), s, m, *rest)
+
+        return tracked
+
+    def initial_state(k: TrackedParameters, m: Measurement) -> Array:
+        state: Array = start(k.own, point(k.h, m.t, m.q, m.v), m)
+        return state
+
+    given = {name: law for name, law in own._asdict().items() if callable(law)}
+    tracked: dict[str, Any] = {name: about_the_point(law) for name, law in given.items()}
+    laws = own._replace(**tracked)
+    return laws if start is None else laws._replace(initial_state=initial_state)
 
 
 def body_of(m: Measurement) -> BodyTerms:

@@ -168,14 +168,14 @@ class WindowParameters(NamedTuple):
 
 def onset(k: WindowParameters, t_start: float) -> Any:
     """When the window opens [s]."""
-    return np.where(k.step > 0, t_start, 0.0) + k.start
+    return 1.0 * (k.step > 0) * t_start + k.start
 
 
 def within(k: WindowParameters, t: float, step: int, t_start: float) -> Any:
     """Above 0 in the window."""
-    stop = np.where(k.step > 0, t_start, 0.0) + k.stop
-    here = np.where(k.step > 0, 1.0 * (step == k.step), 1.0)
-    return here * (t >= onset(k, t_start)) * (t < stop)
+    counted = 1.0 * (k.step > 0)  # from the start of its step; else from that of the run
+    here = 1.0 - counted + counted * (step == k.step)
+    return here * (t >= onset(k, t_start)) * (t < counted * t_start + k.stop)
 
 
 def window_acts(k: Any, t: float, step: int, t_start: float) -> Any:

@@ -1,7 +1,13 @@
-"""Many walks at once: compiled, in threads, each by itself, so that their number does not change a bit of any.
+"""Many walks at once: compiled, in threads, each by itself, so that their number changes no bit of
+any result.
 
-What a run needs is made when it starts and given up when it ends: memory does not grow with the number of runs,
-but for the few numbers that each of them leaves.
+For return maps, basins and sweeps, where thousands of walks are made and only their impacts matter.
+What touches Python (checks, controllers in plain Python, Pinocchio) is done in the caller's thread,
+when a case is prepared; the threads then run kernels without the GIL, each on arrays of its own.
+What a run needs is made when it starts and given up when it ends: memory does not grow with the
+number of runs, but for the few numbers that each of them leaves.
+
+`analysis` asks for `Strides`, studies and `bench` for `simulate_many`.
 """
 
 from __future__ import annotations
@@ -18,10 +24,10 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.tables import STATUS
+from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
-from biped_adrc.engine.run import COMPILED, PINOCCHIO
-from biped_adrc.engine.simulate import COMPILED_PLANT, on_compiled_plant
+from biped_adrc.engine.run import COMPILED, COMPILED_PLANT, PINOCCHIO
+from biped_adrc.engine.simulate import on_compiled_plant
 from biped_adrc.errors import BipedError, InputError, ModelError, NotFiniteError, SingularError
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -32,21 +38,27 @@ from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 AHEAD = 4
-"""Runs handed to each thread beforehand."""
+"""Cases prepared beforehand for each thread, so that none of them waits for Python."""
 STORE = 1_000_000
-"""Of runs in Python the ends of the arcs are kept."""
+"""Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
 
 
 @dataclass(frozen=True)
 class Case(Shown):
-    """One walk to be made: from (q, v) (n,) at the start of single support `mode.step`, for some strikes."""
+    """One walk to be made, from q (n,) [rad], v (n,) [rad/s] at the start of single support `mode.step`."""
 
     walker: Walker
+    """Plant, controller and all the rest."""
     q: Array
+    """Start (n,) [rad]."""
     v: Array
+    """Start (n,) [rad/s]."""
     method: OneStepMethod
+    """One-step method."""
     impacts: int = 25
+    """End after so many."""
     mode: Mode = Mode()  # noqa: RUF009
+    """Single support in which it starts."""
 
     def __post_init__(self) -> None:
         """Raises InputError for a part that is none."""
@@ -54,43 +66,45 @@ class Case(Shown):
 
     @property
     def t_end(self) -> float:
-        """When it ends at the latest [s]."""
+        """Latest end of the walk [s]: every single support as long as it may be."""
         return self.mode.start + self.impacts * self.walker.max_step_time
 
     @property
     def options(self) -> RunOptions:
-        """Of its run in Python: the ends of the arcs are kept."""
+        """Of its run in Python, where it cannot be compiled; the ends of the arcs are kept."""
         strikes = FOOT_STRIKE, self.impacts
         return RunOptions(self.t_end, self.mode.start, strikes, store_every=STORE)
 
 
 @dataclass(frozen=True)
-class Walked(Shown):
+class BatchWalk(Shown):
     """What one walk of a batch leaves; M impacts, states of nx numbers."""
 
     status: Status
+    """How it ended."""
     detail: str
+    """The error's own text, where one ended it."""
     times: Array
-    """(M,) of the foot strikes [s]."""
+    """Of the impacts (M,) [s]."""
     x_minus: Array
-    """(M, nx) before them."""
+    """States just before them (M, nx)."""
     final_state: Array
-    """(nx,), x+ where the last of the strikes asked for was made."""
+    """State at the end (nx,); x+ where the last of the impacts asked for was made."""
     t_end: float
-    """[s]"""
+    """End of the walk [s]."""
     engine: str
-    """What ran."""
+    """What ran: compiled, compiled plant, or pinocchio."""
     t_start: float = 0.0
-    """[s]"""
+    """Start of the walk [s]."""
 
     @property
     def impacts(self) -> int:
-        """M."""
+        """Their number M."""
         return len(self.times)
 
     @property
     def durations(self) -> Array:
-        """(M,) of the single supports that ended in a strike, from the start of the run [s]."""
+        """Of the single supports that ended in an impact (M,) [s]."""
         return np.diff(self.times, prepend=self.t_start)
 
 
@@ -98,12 +112,15 @@ def simulate_many(
     cases: Iterable[Case],
     threads: int | None = None,
     progress: Callable[[int], None] | None = None,
-) -> Iterator[Walked]:
+) -> Iterator[BatchWalk]:
     """The walks in the order of their cases, made in parallel threads and handed over as they come.
 
-    threads: number of cores without. `cases` may be a generator, of which a few are taken ahead. progress is
-    told how many are done. A fall, a NaN or a part in Python that raises ends its own run, with a status.
-    Raises InputError for a case whose parts do not fit together.
+    - cases: may be a generator, of which a few are taken ahead.
+    - threads: the number of cores without.
+    - progress: told how many are done.
+
+    A fall, a NaN or a part in Python that raises ends its own run, with a status. Raises InputError
+    for a case whose parts do not fit together.
     """
     count = threads if threads is not None else os.cpu_count() or 1
     if count < 1:
@@ -113,8 +130,13 @@ def simulate_many(
 
 def _in_order(
     cases: Iterator[Case], threads: int, progress: Callable[[int], None] | None
-) -> Iterator[Walked]:
-    waiting: deque[Future[Walked]] = deque()
+) -> Iterator[BatchWalk]:
+    """As `simulate_many`: a queue of futures, whose first is handed over when it is done or the
+    queue is full.
+
+    Whoever stops asking (closes the generator) cancels what has not begun.
+    """
+    waiting: deque[Future[BatchWalk]] = deque()
     kernels()  # here, so that no two threads compile at once
     with ThreadPoolExecutor(threads) as pool:
         try:
@@ -136,8 +158,12 @@ def _in_order(
                 future.cancel()
 
 
-def run_case(case: Case) -> Callable[[], Walked]:
-    """What carries a case out, in any thread; parts of Python's and Pinocchio's are touched here only."""
+def run_case(case: Case) -> Callable[[], BatchWalk]:
+    """Prepare a case; the function that comes back carries it out, in any thread.
+
+    Parts of Python's and Pinocchio's are touched here only. An error of theirs becomes the status
+    of this walk; InputError, a mistake of the caller's, is raised.
+    """
     try:
         return _prepared(case)
     except NotFiniteError as error:
@@ -150,7 +176,8 @@ def run_case(case: Case) -> Callable[[], Walked]:
         return _ended(case, Status.RAISED, f"{type(error).__name__}: {error}")
 
 
-def _prepared(case: Case) -> Callable[[], Walked]:
+def _prepared(case: Case) -> Callable[[], BatchWalk]:
+    """As `run_case`. What has no compiled form is run here and now, in Python."""
     x = case.walker.initial_state(case.q, case.v, case.mode)
     if case.impacts < 1:
         raise InputError(f"the case asks for {case.impacts} impacts, expected at least 1")
@@ -164,20 +191,25 @@ def _prepared(case: Case) -> Callable[[], Walked]:
     return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
 
 
-def _ended(case: Case, status: Status, detail: str) -> Callable[[], Walked]:
+def _ended(case: Case, status: Status, detail: str) -> Callable[[], BatchWalk]:
+    """A walk that ended before it began."""
     x, start = np.concatenate((case.q, case.v)), case.mode.start
     none = np.zeros((0, len(x)))
-    walked = Walked(status, detail, np.zeros(0), none, x, start, COMPILED, start)
+    walked = BatchWalk(status, detail, np.zeros(0), none, x, start, COMPILED, start)
     return lambda: walked
 
 
-def _strides(compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impacts: int) -> Walked:
-    """The walk from x at the start of the single support `mode`, in compiled code."""
+def _strides(
+    compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impacts: int
+) -> BatchWalk:
+    """The walk from x (nx,) at the start of the single support `mode`, in compiled code; t_end [s]
+    at the latest.
+    """
     plan, nx = compiled.plan, len(x)
     s = plan.start(x, mode.start, mode.step, mode.start, t_end)
     strikes = np.zeros((impacts, 1 + 2 * nx))
     code, made = kernels().stride(plan.P, plan.F, compiled.K, plan.work(), s, impacts, strikes)
-    return Walked(
+    return BatchWalk(
         STATUS[code],
         "",
         strikes[:made, 0].copy(),
@@ -189,12 +221,12 @@ def _strides(compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impac
     )
 
 
-def _in_python(case: Case, x: Array, reason: BipedError) -> Walked:
-    """On the compiled plant, or on Pinocchio's where there is none."""
+def _in_python(case: Case, x: Array, reason: BipedError) -> BatchWalk:
+    """The walk on the compiled plant, or on Pinocchio's where there is none; reason: why it is not compiled."""
     run = on_compiled_plant if isinstance(reason, NotCompiled) else simulator.run
     made = run(case.walker, x, case.mode, case.method, case.options)
     events = made.events(FOOT_STRIKE)
-    return Walked(
+    return BatchWalk(
         made.status,
         made.detail,
         np.array([event.t for event in events]),
@@ -208,20 +240,23 @@ def _in_python(case: Case, x: Array, reason: BipedError) -> Walked:
 
 @dataclass(frozen=True)
 class Strides:
-    """Single supports of one walker from many states, for return maps: the next strike, or a status."""
+    """Single supports of one walker from many states, for return maps: up to the next impact, or a status.
+
+    compiled: the walker; t_end [s]: longest time for one of them.
+    """
 
     compiled: CompiledWalker
     t_end: float
 
     def __call__(
         self, starts: Sequence[tuple[Array, Mode]], threads: int | None = None
-    ) -> list[Walked]:
-        """From every (x, mode), in their order."""
+    ) -> list[BatchWalk]:
+        """From every (x, mode), x (nx,), in parallel threads; results in the order of the starts."""
         kernels()
         with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
             return list(pool.map(self.one, starts))
 
-    def one(self, start: tuple[Array, Mode]) -> Walked:
-        """From x+ after an impact that began the single support of `mode`: its foot strike has just fired."""
+    def one(self, start: tuple[Array, Mode]) -> BatchWalk:
+        """One single support from x+ (nx,) right after the impact that began it; mode says which and when."""
         x, mode = start
         return _strides(self.compiled, x, mode, mode.start + self.t_end, 1)

@@ -1,27 +1,33 @@
 """A robot whose dynamics are compiled, for controllers in plain Python.
 
-Kinematics, contact and everything that is not asked for at every instant stay Pinocchio's.
+    terms      (q, v) -> D, Omega, kappa, xi, ... of (11)-(15)
+    body       (q, v) -> G, C' q', F_a, F_0
+    accelerate (q, v, force) -> q''
+    ground     (q, v, a) -> F
 
-terms (q, v) -> D, Omega, kappa, xi, ... of (11)-(15),   body (q, v) -> G, C' q', F_a, F_0
-accelerate (q, v, force) -> q'',   ground (q, v, a) -> F
+A `CompiledBiped` is a `model.biped.Biped` with these four replaced by machine code, traced from
+`engine.mechanics`; kinematics, contact and all that is not asked for at every instant stay
+Pinocchio's. Before it is handed out it is compared with Pinocchio at random states.
+`engine.simulate` puts it in the place of the plant when a controller has no compiled form.
+`pointer_call`, `parts_of` and `Call` are how the rest of the engine calls generated code from
+Python.
 """
 
 from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, fields
 from functools import cached_property, partial
-from typing import Any
 
 import numpy as np
 
-from biped_adrc.engine.equations import Function, count
-from biped_adrc.engine.fingerprint import hash_of, skeleton, versions_text
+from biped_adrc.engine.equations import SymbolicFunction, count
+from biped_adrc.engine.fingerprint import hash_of, structure_text, versions_text
 from biped_adrc.engine.ir import generated
-from biped_adrc.engine.machine import Machine
-from biped_adrc.engine.mechanics import PlanarRobot, Robot, Structure, once_each, robot_of
+from biped_adrc.engine.machine import LoadedCode
+from biped_adrc.engine.mechanics import PlanarRobot, RobotData, RobotStructure, once_each, robot_of
 from biped_adrc.engine.symbols import Vector, column, floats
 from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
@@ -29,13 +35,19 @@ from biped_adrc.model.planar import EXACT, PlantArrays
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.types import Array
 
+Shape = tuple[int, ...]
+"""Shape of an array."""
+
 SAMPLES = 50
-"""Random states at which the code is held against Pinocchio."""
+"""Number of random states at which the code is compared with Pinocchio."""
 _C = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 
 
-def pointer_call(machine: Machine, name: str, K: Array, inp: Array, out: Array) -> None:
-    """A function for every row of inp (N, inputs) and out (N, outputs), both contiguous float64."""
+def pointer_call(machine: LoadedCode, name: str, K: Array, inp: Array, out: Array) -> None:
+    """Call a function for every row of inp (N, inputs) and write out (N, outputs), both contiguous float64.
+
+    By addresses: one ctypes call per row, no array is made.
+    """
     function = _C(machine.addresses[name])
     at, given, result = K.ctypes.data, inp.ctypes.data, out.ctypes.data
     for _ in range(len(inp)):
@@ -43,8 +55,8 @@ def pointer_call(machine: Machine, name: str, K: Array, inp: Array, out: Array) 
         given, result = given + inp.strides[0], result + out.strides[0]
 
 
-def parts_of(rows: Array, shapes: Any) -> Iterator[Array]:
-    """Arrays of these shapes that lie one after the other in `rows` (size,) or (N, size)."""
+def parts_of(rows: Array, shapes: Iterable[Shape]) -> Iterator[Array]:
+    """Arrays of these shapes that lie one after the other in `rows` (size,) or (N, size); views, no copies."""
     at = 0
     for shape in shapes:
         part = rows[..., at : at + math.prod(shape)]
@@ -53,16 +65,22 @@ def parts_of(rows: Array, shapes: Any) -> Iterator[Array]:
 
 
 class Call:
-    """One function with its own input and output arrays."""
+    """One generated function with its own input and output arrays; not to be shared between threads.
 
-    def __init__(self, machine: Machine, name: str, K: Array, inputs: int, outputs: int):
+    machine: keeps the code in memory. K: its parameters. inputs, outputs: how many numbers.
+    """
+
+    def __init__(self, machine: LoadedCode, name: str, K: Array, inputs: int, outputs: int):
+        """K (size,) are the parameters; the arrays `inp` (inputs,) and `out` (outputs,) are made
+        once and reused.
+        """
         self.owner, self.K = machine, K
         self.inp, self.out = np.zeros(inputs), np.zeros(max(1, outputs))
         self._function = _C(machine.addresses[name])
         self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
 
     def __call__(self, *given: Array) -> Array:
-        """The outputs of what is in `inp`, or of these inputs."""
+        """The outputs (outputs,) of what is in `inp`, or of these inputs joined; a copy."""
         if given:
             np.concatenate(given, out=self.inp)
         self._function(*self._at)
@@ -71,21 +89,28 @@ class Call:
 
 @dataclass(frozen=True)
 class CompiledBiped(Biped):
-    """A Biped with `reduction`, `acceleration` and `ground_reaction` in machine code; make it with `of`."""
+    """A Biped with `reduction`, `body_terms`, `acceleration` and `ground_reaction` in machine code.
 
-    robot: Robot | None = None
+    Make it with `of`; robot: structure and numbers that the code is called with.
+    """
+
+    robot: RobotData | None = None
 
     @classmethod
     def of(cls, biped: Biped) -> CompiledBiped:
         """Compile, or take from memory or disk, and check.
 
-        Raises ModelError for a robot that is no planar tree of rigid links, or where the code differs from
-        Pinocchio by more than 1e-11 relative.
+        Raises ModelError for a robot that is no planar tree of rigid links, or where the code
+        differs from Pinocchio by more than 1e-11 relative.
         """
         return _compiled(biped)
 
     def checked(self, biped: Biped, samples: int = SAMPLES) -> CompiledBiped:
-        """Itself, when its terms are Pinocchio's at random states and q'' obeys (1). Raises ModelError."""
+        """Itself, when its terms are Pinocchio's at random states and q'' obeys (1). Raises ModelError.
+
+        The gap of q'' is measured as a force, D_s q'' against the free force on the scale of |D_s|
+        |q''|, so that the conditioning of D_s does not count.
+        """
         random = np.random.default_rng(3)
         for _ in range(samples):
             q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)
@@ -109,9 +134,12 @@ class CompiledBiped(Biped):
 
     @cached_property
     def _calls(self) -> dict[str, Call]:
+        """The four functions by name, compiled on first use."""
         robot = self.robot
         assert robot is not None
-        key = hash_of("plant", skeleton(robot.structure), skeleton(robot.arrays), versions_text())
+        key = hash_of(
+            "plant", structure_text(robot.structure), structure_text(robot.arrays), versions_text()
+        )
         code = generated(key, plant_functions(robot.structure, robot.arrays))
         K, n = np.array([*floats(robot.arrays), 0.0]), self.n
         sizes = {
@@ -123,10 +151,10 @@ class CompiledBiped(Biped):
         return {name: Call(code, name, K, *size) for name, size in sizes.items()}
 
     @cached_property
-    def shapes(self) -> Reduction:
+    def shapes(self) -> tuple[Shape, ...]:
         """Of the parts of a `Reduction`, which `terms` gives one after the other."""
         n, p = self.n, self.p
-        return Reduction(*((n, n), (n,), (p, p), (p,), (p, p), (n - p, p), (n - p,)))  # type: ignore[arg-type]
+        return (n, n), (n,), (p, p), (p,), (p, p), (n - p, p), (n - p,)
 
     @property
     def size(self) -> int:
@@ -134,42 +162,48 @@ class CompiledBiped(Biped):
         return sum(map(math.prod, self.shapes))
 
     def reduction(self, q: Array, v: Array) -> Reduction:
+        """The terms of (11)-(15) at q (n,) [rad], v (n,) [rad/s]."""
         terms = self._calls["terms"](self._angles(q), self._angles(v))
         return Reduction(*parts_of(terms, self.shapes))
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
+        """G, C' q' (n,) [N m], F_a (2, n), F_0 (2,) [N] at q (n,) [rad], v (n,) [rad/s]."""
         out, n = self._calls["body"](self._angles(q), self._angles(v)), self.n
         return BodyTerms(out[:n], out[n : 2 * n], out[2 * n : 4 * n].reshape(2, n), out[4 * n :])
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
+        """q'' (n,) [rad/s^2] under `force` (n,) [N m]; friction is added in Python, where the robot has any."""
         if self.friction:
             force = force + self.friction_torque(v)
         return self._calls["accelerate"](self._angles(q), self._angles(v), force)
 
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
+        """On the stance foot (2,) [N] for q'' = a (n,) [rad/s^2]."""
         return self._calls["ground"](self._angles(q), self._angles(v), a)
 
 
 @once_each
 def _compiled(biped: Biped) -> CompiledBiped:
+    """As `CompiledBiped.of`, remembered for the last robots."""
     given = {f.name: getattr(biped, f.name) for f in fields(Biped)}
     return CompiledBiped(**given, robot=robot_of(biped)).checked(biped)
 
 
 def plant_functions(
-    structure: Structure, example: PlantArrays
-) -> dict[str, Callable[[], Function]]:
-    """By name; `terms` and `body` give the parts of their tuples one after the other.
+    structure: RobotStructure, example: PlantArrays
+) -> dict[str, Callable[[], SymbolicFunction]]:
+    """The four functions by name, each to be traced when it is needed; q, v, force, a are (n,).
 
-    K has symbols for the floats of the example.
+    `terms` and `body` give the parts of their tuples one after the other. K has symbols for the
+    floats of the example.
     """
     K = Vector("K", count(example))
     robot = PlanarRobot.of(structure, K.like(example))
 
-    def function(law: Callable[..., Any], given: int) -> Function:
+    def function(law: Callable[..., Iterable[Array]], given: int) -> SymbolicFunction:
         inp = Vector("inp", given * robot.n)
         parts = law(*(inp.take(robot.n) for _ in range(given)))
-        return Function(K.symbol, inp.symbol, column(*parts))
+        return SymbolicFunction(K.symbol, inp.symbol, column(*parts))
 
     return {
         "terms": partial(function, robot.reduction, 2),

@@ -1,80 +1,101 @@
-"""`closed_loop.system.reading` in compiled code, at every node of a run.
+"""`closed_loop.system.signals_at` in compiled code, at every node of a run.
 
-observe (t, step, t_start, x, zeta) -> the parts of a `Reading`, in its order
+    observe (t, step, t_start, x, zeta) -> the parts of an `InstantSignals`, in its order
+
+Signals are not stored with a run but computed again from the states, at tens of thousands of nodes.
+`analysis.signals` does that with this function, and in Python where a part has no compiled form.
+The disturbance zeta is an input, since it may be a function in plain Python.
 """
 
 from __future__ import annotations
 
 from math import prod
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.closed_loop.system import Reading, reading
+from biped_adrc.closed_loop.system import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
-from biped_adrc.engine.equations import Equations, Function, Make, Numbers, count
-from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
+from biped_adrc.engine.equations import (
+    Equations,
+    SymbolicFunction,
+    WalkerNumbers,
+    WalkerStructure,
+    count,
+)
+from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.kernels.layout import OUTSIDE
-from biped_adrc.engine.machine import Machine
+from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.symbols import Untraceable, Vector, floats, run
 from biped_adrc.errors import ModelError
-from biped_adrc.gait.reference import Reference, ReferenceLaws, reference_laws
+from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint, reference_laws
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.types import Array
 
 
-class Watched(NamedTuple):
-    """The walker's numbers, and those of the reference that is looked at."""
+class SignalNumbers(NamedTuple):
+    """What `observe` is given as K: the walker's numbers, and those of the reference that is looked at."""
 
-    walker: Numbers
-    h: Any
+    walker: WalkerNumbers
+    """All numbers of the walker."""
+    h: object
+    """Parameters of the reference."""
 
 
-def observe(make: Make, example: Watched, h: ReferenceLaws) -> Function:
-    """The function for one make of walker and reference, with symbols for the floats of an example."""
+def observe(make: WalkerStructure, example: SignalNumbers, h: ReferenceLaws) -> SymbolicFunction:
+    """The function for one structure of walker and reference, with symbols for the floats of an example.
+
+    make: structure of the walker; h: laws of the reference. The expressions are those of
+    `signals_at`.
+    """
     K = Vector("K", count(example))
     watched = K.like(example)
     equations = Equations(make, K.symbol, watched.walker)
     at = equations.at()
 
-    def tracked(s: Any, m: Measurement) -> Any:
+    def tracked(s: Array, m: Measurement) -> ReferencePoint:
         return run(at.trace, h.point, watched.h, m.t, m.q, m.v)
 
-    return equations.made(at.inp, *at.does(reading, tracked))
+    return equations.made(at.inp, *at.does(signals_at, tracked))
 
 
 def compiled_readings(
     walker: Walker, trajectory: Trajectory, reference: Reference
-) -> Reading | None:
-    """At all nodes of a run; None where a part has no compiled form."""
+) -> InstantSignals | None:
+    """All signals at all N nodes of a run, N rows of each; None where a part has no compiled form.
+
+    reference: the curve that is looked at, which need not be the one the controller tracked. Nodes
+    at jumps are read just before them (`Arc.seen`), where the disturbance has its limit from the
+    left.
+    """
     h = reference_laws(reference)
     if h.obstacle:
         return None
     nx = trajectory.arcs[0].x.shape[1]
     try:
         program = Program.of(walker, walker.controller_size(nx))
-        watched = Watched(program.numbers, h.parameters)
+        watched = SignalNumbers(program.numbers, h.parameters)
         code = _code(program.make, watched, h)
     except (NotCompiled, Untraceable, ModelError):
         return None
     K = np.array([*floats(watched), 0.0])
     first = trajectory.arcs[0]
-    example = reading(
+    example = signals_at(
         walker, first.t[0], first.x[0], first.mode, lambda s, m: reference(m.t, m.q, m.v)
     )
     shapes = [np.shape(part) for part in example]
     inp = np.vstack([_inputs(walker, arc) for arc in trajectory.arcs])
     out = np.empty((len(inp), sum(map(prod, shapes))))
     pointer_call(code, "observe", K, inp, out)
-    return Reading(*parts_of(out, shapes))
+    return InstantSignals(*parts_of(out, shapes))
 
 
 def _inputs(walker: Walker, arc: Arc) -> Array:
-    """Rows of what `observe` is given at the nodes of an arc."""
+    """Rows (K, inputs) of what `observe` is given at the K nodes of an arc; the meter's inputs are zero."""
     n, mode, ones = walker.plant.n, arc.mode, np.ones((len(arc.t), 1))
     rows = zip(arc.seen, arc.x, strict=True)
     zeta = [walker.external(float(t), x[:n], x[n : 2 * n], mode) for t, x in rows]
@@ -82,10 +103,11 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
     return np.hstack((*head, arc.x, np.array(zeta), np.zeros((len(arc.t), OUTSIDE))))
 
 
-def _code(make: Make, watched: Watched, h: ReferenceLaws) -> Machine:
+def _code(make: WalkerStructure, watched: SignalNumbers, h: ReferenceLaws) -> LoadedCode:
+    """Machine code of `observe`, under a hash of the walker's structure, its laws and the reference's."""
     laws = "\n".join(law_text(law) for law in (*make.laws[1:], h.point))
     key = hash_of(
-        *("observe", skeleton(make.robot), laws, make.size, make.held),
-        *(skeleton(watched), versions_text()),
+        *("observe", structure_text(make.robot), laws, make.size, make.held),
+        *(structure_text(watched), versions_text()),
     )
     return generated(key, {"observe": lambda: observe(make, watched, h)})

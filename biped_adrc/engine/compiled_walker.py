@@ -1,38 +1,50 @@
-"""A walker, a one-step method and a disturbance, ready for the compiled loops.
+"""A walker, a one-step method and a disturbance, made ready for the compiled loops.
 
-The laws of disturbances are functions `void f(double* K, double* inp, double* out)` of their own: inp is (t,
-step, t_start, q, v), out zeta (n,) or the force (2,). A law's `active` is looked at first: where it is not
-above 0, out is zero and the rest is not computed.
+Three things come together here: the program of the walker (`engine.program`: flow, tick, strike,
+..), the matrices or tolerances of the method (`engine.kernels.methods`), and the laws of the
+disturbance, which are compiled by themselves so that another disturbance does not recompile the
+walker. The result is a `RunPlan`, which the kernels take.
+
+The laws of disturbances are functions `void f(double* K, double* inp, double* out)`: inp is (t,
+step, t_start, q, v), out zeta (n,) [N m] or the force (2,) [N]. A law's `active` is evaluated
+first: where it is not above 0, out is zero and the rest is not computed, since most pushes act for
+a small part of a walk.
+
+What cannot be compiled raises `NotCompiled` with the reason; `engine.simulate` then runs in Python
+on the compiled plant.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from biped_adrc.closed_loop.exponential_form import SplitLaws
 from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.composed import written_over
 from biped_adrc.control.passive import Passive
 from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, disturbance_laws
-from biped_adrc.engine.equations import Function, count
-from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
+from biped_adrc.engine.equations import SymbolicFunction, count
+from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.kernels import methods
-from biped_adrc.engine.kernels.tables import (
-    Clock,
-    Code,
-    Method,
-    Plan,
-    PushCode,
-    Scene,
-    Sizes,
+from biped_adrc.engine.kernels.run_plan import (
+    ClockTable,
+    DisturbanceTable,
+    GroundTable,
+    LawAddresses,
+    MethodTable,
+    RunPlan,
+    StateSizes,
     plan,
 )
-from biped_adrc.engine.machine import Machine, Text, remembered
+from biped_adrc.engine.machine import LoadedCode, ModuleText, remembered
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.symbols import Tracer, Untraceable, Vector, column, floats, run
 from biped_adrc.errors import InputError
@@ -43,15 +55,18 @@ from biped_adrc.types import Array
 
 @dataclass(frozen=True)
 class CompiledWalker:
-    """`plan` and `K` are what the loops take; `program` keeps the code they call in memory."""
+    """A walker that the compiled loops can run."""
 
     walker: Walker
+    """As it was given, or the held plant alone."""
     program: Program
-    plan: Plan
+    """Keeps the code in memory and holds the parameters."""
+    plan: RunPlan
+    """Sizes, addresses and settings of the run, as vectors."""
 
     @property
     def K(self) -> Array:
-        """The numbers."""
+        """Parameters of the walker's functions (size,), in their own units."""
         return self.program.K
 
     @classmethod
@@ -60,22 +75,27 @@ class CompiledWalker:
     ) -> CompiledWalker:
         """For a controller with `size` states and a run that begins at t_first [s].
 
-        Raises NotCompiled where a part has no laws or the method no compiled form, InputError for a method
-        without the coordinates that it needs.
+        Compiles the walker's functions where they are not in memory or on disk, and makes the plan.
+        Raises NotCompiled where a part has no laws or the method no compiled form, InputError for a
+        method without the coordinates that it needs.
         """
         split, made = _method(walker, method)
         program = Program.of(walker, size, split)
         time = walker.timing
-        clock = Clock()
+        clock = ClockTable()
         if isinstance(time, SampledTime):
             assert walker.held is not None
             part = walker.held.motors.fraction * time.period if walker.held.sizes.waiting else 0.0
-            clock = Clock(time.period, int(time.restart), t_first, part)
+            clock = ClockTable(time.period, int(time.restart), t_first, part)
         return cls(walker, program, _plan(walker, program, split, clock, made))
 
     @classmethod
     def held(cls, walker: Walker, method: OneStepMethod) -> CompiledWalker:
-        """The plant alone under a torque that is held; x = (q, q', u), with lag (q, q', u_m, u). As `of`."""
+        """The plant alone under a torque that is held; x = (q, q', u), with lagging motors (q, q', u_m, u).
+
+        For controllers in plain Python (`engine.ticks`). A period longer than any run takes the
+        place of the clock. Raises as `of`.
+        """
         bare = replace(
             walker,
             controller=Passive(),
@@ -86,37 +106,56 @@ class CompiledWalker:
         )
         split, made = _method(bare, method)
         program = Program.of(bare, 0, split)
-        return cls(bare, program, _plan(bare, program, split, Clock(), made))
+        return cls(bare, program, _plan(bare, program, split, ClockTable(), made))
 
 
 def _plan(
-    walker: Walker, program: Program, split: SplitLaws | None, clock: Clock, method: Method
-) -> Plan:
+    walker: Walker,
+    program: Program,
+    split: SplitLaws | None,
+    clock: ClockTable,
+    method: MethodTable,
+) -> RunPlan:
+    """The plan of a run: addresses, sizes, ground, disturbance, clock and method in one record.
+
+    Of a held state only q and v flow, so the step methods may skip the rest; with lagging motors
+    all of it does.
+    """
     n, p, nx = walker.plant.n, walker.plant.p, program.nx
     stiff = 0 if split is None else len(split.A)
     flows = walker.held is None or walker.held.sizes.lag  # the torque of the motors, then all does
     drops = np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2)
     return plan(
-        Code(*(program.address(name) for name in Code._fields)),
-        Sizes(n, nx, p, nx - stiff * p, stiff, nx if flows else 2 * n),
-        Scene(LEAST_STEP, drops),
+        LawAddresses(*(program.address(name) for name in LawAddresses._fields)),
+        StateSizes(n, nx, p, nx - stiff * p, stiff, nx if flows else 2 * n),
+        GroundTable(LEAST_STEP, drops),
         _push(walker.disturbance, n),
         clock,
         method,
     )
 
 
-FORMS: dict[str, Callable[[Any], Method] | None] = {
+FORMS: Mapping[str, Callable[[Any], MethodTable] | None] = {
     "rk4": lambda m: methods.rk4(m.h),
     "dop853": lambda m: methods.dop853(m.rtol, m.atol, m.max_step),
     "etd": None,
 }
-"""By `OneStepMethod.compiled_form`; None for the one that needs coordinates too."""
-_MATRICES: dict[tuple[Any, ...], Method] = {}
-"""Of the exponential method, by its step and linear part; made once, by one thread."""
+"""Tables of the methods by `OneStepMethod.compiled_form`; None for the one that needs coordinates too."""
 
 
-def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Method]:
+@lru_cache(maxsize=64)
+def _matrices(h: float, A: bytes, rows: tuple[int, ...]) -> MethodTable:
+    """The table of the exponential method for a step h [s], A (k, k) as bytes, and forced rows."""
+    k = math.isqrt(len(A) // 8)
+    return methods.etd(h, np.frombuffer(A).reshape(k, k), np.array(rows, dtype=np.int64))
+
+
+def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, MethodTable]:
+    """The coordinates that a method needs, if any, and its table.
+
+    Raises NotCompiled for a method of the user's own, which has no compiled form or writes over the
+    steps of one that has; InputError for coordinates that the walker does not have.
+    """
     form: Any = method
     written = written_over(method, "compiled_form", frozenset(("steps", "split")))
     known = method.compiled_form in FORMS
@@ -131,24 +170,23 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Me
     split = walker.split_laws(form.feedback)
     if split is None:
         raise no_coordinates()
-    key = form.h, split.A.tobytes(), split.rows
-    if key not in _MATRICES:
-        while len(_MATRICES) >= 64:
-            _MATRICES.pop(next(iter(_MATRICES)))
-        _MATRICES[key] = methods.etd(form.h, split.A, np.array(split.rows, dtype=np.int64))
-    return split, _MATRICES[key]
+    return split, _matrices(form.h, split.A.tobytes(), split.rows)
 
 
-def _push(disturbance: Disturbance | None, n: int) -> PushCode:
+def _push(disturbance: Disturbance | None, n: int) -> DisturbanceTable:
+    """The laws of a disturbance as addresses and numbers; none without a disturbance.
+
+    Raises NotCompiled for a part that is a method in plain Python, with its obstacle.
+    """
     if disturbance is None:
-        return PushCode()
+        return DisturbanceTable()
     laws = disturbance_laws(disturbance)
     for law in laws:
         if law.obstacle:
             raise NotCompiled(f"{law.obstacle}; the run goes on in Python on the compiled plant")
     codes = [disturbance_code(law, n) for law in laws]
     numbers = [np.array([*floats(law.parameters), 0.0]) for law in laws]
-    return PushCode(
+    return DisturbanceTable(
         np.array([code.addresses["torque"] for code in codes], dtype=np.int64),
         np.concatenate([np.zeros(0), *numbers]),
         np.cumsum([0, *(len(k) for k in numbers)]),
@@ -172,33 +210,54 @@ rest:
   ret void
 }}
 """
+"""A function that looks at `active` first."""
 
 
-def disturbance_code(law: DisturbanceLaw, n: int) -> Machine:
-    """With the functions `torque` and, where there is one, `resultant`. Raises NotCompiled."""
-    parts = {"torque": (law.torque, n), "resultant": (law.resultant, 2)}
-    given = {name: part for name, part in parts.items() if part[0] is not None}
+Part = tuple[Callable[..., Array], int]
+"""A law, and how many numbers it gives."""
+
+
+def disturbance_code(law: DisturbanceLaw, n: int) -> LoadedCode:
+    """Machine code with the functions `torque` and, where there is one, `resultant`, for n coordinates.
+
+    Raises NotCompiled for a law that cannot be traced, with the reason.
+    """
+    given: dict[str, Part] = {"torque": (law.torque, n)}
+    if law.resultant is not None:
+        given["resultant"] = law.resultant, 2
     try:
         texts = [law_text(part[0]) for part in given.values()]
-        texts += [law_text(law.active), skeleton(law.parameters), versions_text()]
+        texts += [law_text(law.active), structure_text(law.parameters), versions_text()]
         key = hash_of("disturbance", n, *given, *texts)
         return remembered(key, list(given), lambda: _text(law, given, n))
     except Untraceable as error:
         raise NotCompiled(f"{error}; the run goes on in Python on the compiled plant") from error
 
 
-def _text(law: DisturbanceLaw, parts: dict[str, Any], n: int) -> Text:
+def _text(law: DisturbanceLaw, parts: dict[str, Part], n: int) -> ModuleText:
+    """The module of a disturbance's functions.
+
+    A law with `active` gets three: `active`, the function proper, and one that calls it only where
+    the first is above 0.
+    """
     if law.active is None:
-        return Text(module_text({name: _function(law, n, *part) for name, part in parts.items()}))
+        return ModuleText(
+            module_text({name: _function(law, n, *part) for name, part in parts.items()})
+        )
     functions = {"active": _function(law, n, law.active, 1, timed=True)}
     functions |= {f"{name}_acting": _function(law, n, *part) for name, part in parts.items()}
     guarded = [GUARDED.format(name=name, bytes=8 * size) for name, (_, size) in parts.items()]
     clear = "declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)"
-    return Text("\n".join([module_text(functions), clear, *guarded]))
+    return ModuleText("\n".join([module_text(functions), clear, *guarded]))
 
 
-def _function(law: DisturbanceLaw, n: int, part: Any, size: int, timed: bool = False) -> Function:
-    """A law of n coordinates on symbols. Raises InputError where it gives another number than `size`."""
+def _function(
+    law: DisturbanceLaw, n: int, part: Callable[..., ArrayLike], size: int, timed: bool = False
+) -> SymbolicFunction:
+    """A law for n coordinates on symbols; timed: it takes no q and v.
+
+    Raises InputError where it gives another number of numbers than `size`.
+    """
     K, inp = Vector("K", count(law.parameters)), Vector("inp", 3 + 2 * n)
     k, at = K.like(law.parameters), (inp.take(), inp.take(), inp.take())
     state = () if timed else (inp.take(n), inp.take(n))
@@ -207,4 +266,4 @@ def _function(law: DisturbanceLaw, n: int, part: Any, size: int, timed: bool = F
         raise InputError(
             f"law '{part.__qualname__}' of a disturbance gives {found.numel()} numbers, expected {size}"
         )
-    return Function(K.symbol, inp.symbol, found)
+    return SymbolicFunction(K.symbol, inp.symbol, found)

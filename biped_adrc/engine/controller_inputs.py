@@ -1,12 +1,17 @@
-"""What a controller in plain Python is told, in machine code: the model's terms, and its reference beside them.
+"""The inputs of a controller in plain Python, in machine code: the model's terms, and its reference
+beside them.
 
-told  (t, q, v) -> the parts of a `Reduction`, then those of a `ReferencePoint`
-point (t, q, v) -> the parts of a `ReferencePoint`
+    inputs (t, q, v) -> the parts of a `Reduction`, then those of a `ReferencePoint`
+    point  (t, q, v) -> the parts of a `ReferencePoint`
+
+A controller written as a Python method cannot be compiled, but nearly all that it needs can: the
+nominal model's terms and the reference. The call that moves the plant to a sample instant computes
+them and leaves them there (`engine.ticks`). The controller does not notice: its reference is
+replaced by one that returns what is known already.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from copy import copy
 from dataclasses import fields, is_dataclass, replace
 from math import prod
@@ -15,10 +20,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from biped_adrc.engine.compiled_biped import Call, CompiledBiped, parts_of
-from biped_adrc.engine.equations import Function, count
-from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
-from biped_adrc.engine.ir import module_text
-from biped_adrc.engine.machine import Machine, Text, remembered
+from biped_adrc.engine.equations import SymbolicFunction, count
+from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text
+from biped_adrc.engine.ir import generated
 from biped_adrc.engine.mechanics import PlanarRobot
 from biped_adrc.engine.symbols import Tracer, Untraceable, Vector, column, floats, run
 from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint
@@ -27,40 +31,52 @@ from biped_adrc.model.planar import PlantArrays
 from biped_adrc.types import Array
 
 
-class Point:
-    """A law of references for n coordinates, called as it is; `now` are arguments and what it says of them."""
+class CompiledReference:
+    """The law of a reference for n coordinates in machine code, called as the law itself is.
+
+    `now` is (q, v, point): arguments and the reference at them, where `ControllerInputs` has
+    computed it already. They are recognised by identity, which is safe since those arrays are
+    read-only and made anew each time.
+    """
 
     def __init__(self, laws: ReferenceLaws, n: int):
+        """Compiles the law, whose shapes are found by calling it once at zero. Raises Untraceable."""
         self.laws, self.n = laws, n
-        self.now: tuple[Any, Any, Any] = (None, None, None)
+        self.now: tuple[Array | None, Array | None, ReferencePoint | None] = (None, None, None)
         example = laws.point(laws.parameters, 0.0, np.zeros(n), np.zeros(n))
         self.shapes = [np.shape(part) for part in example]
         sizes = 1 + 2 * n, sum(map(prod, self.shapes))
         K = np.array([*floats(laws.parameters), 0.0])
-        key = law_text(laws.point), skeleton(laws.parameters), versions_text()
-        self.call = Call(_machine(("point", n, *key), "point", self.function), "point", K, *sizes)
+        key = law_text(laws.point), structure_text(laws.parameters), versions_text()
+        code = generated(hash_of("point", n, *key), {"point": self.function})
+        self.call = Call(code, "point", K, *sizes)
 
-    def function(self) -> Function:
+    def function(self) -> SymbolicFunction:
         """The law on symbols."""
         K, inp = Vector("K", count(self.laws.parameters)), Vector("inp", 1 + 2 * self.n)
         k, t, q, v = K.like(self.laws.parameters), inp.take(), inp.take(self.n), inp.take(self.n)
-        return Function(K.symbol, inp.symbol, column(*self.traced(k, t, q, v)))
+        return SymbolicFunction(K.symbol, inp.symbol, column(*self.traced(k, t, q, v)))
 
-    def traced(self, k: Any, t: Any, q: Any, v: Any) -> Any:
-        """The reference at symbols. Raises Untraceable."""
+    def traced(self, k: object, t: float, q: Array, v: Array) -> ReferencePoint:
+        """The reference at symbols of t, q (n,), v (n,). Raises Untraceable."""
         return run(Tracer(), self.laws.point, k, t, q, v)
 
-    def __call__(self, k: Any, t: float, q: Array, v: Array) -> ReferencePoint:
+    def __call__(self, k: object, t: float, q: Array, v: Array) -> ReferencePoint:
+        """The reference at t [s], q (n,) [rad], v (n,) [rad/s]; k is not needed, its numbers are in K."""
         seen_q, seen_v, known = self.now
-        if q is seen_q and v is seen_v:  # both read only
+        if q is seen_q and v is seen_v and known is not None:  # both arrays are read only
             return known
         inp = self.call.inp
         inp[0], inp[1 : 1 + self.n], inp[1 + self.n :] = t, q, v
         return ReferencePoint(*parts_of(self.call(), self.shapes))
 
 
-def compiled_references(part: Any, n: int, points: list[Point]) -> Any:
-    """A controller, or a part of one, with the references in its fields compiled; `points` gets their laws."""
+def compiled_references(part: object, n: int, points: list[CompiledReference]) -> Any:
+    """A controller, or a part of one, with the references in its fields compiled.
+
+    Controllers nest (`inner`), so fields of dataclasses are searched to any depth. `points` is
+    extended by the laws found. What cannot be compiled stays as it is.
+    """
     if isinstance(part, Reference):
         return _compiled(part, n, points)
     if not is_dataclass(part) or isinstance(part, type | Biped):
@@ -71,13 +87,13 @@ def compiled_references(part: Any, n: int, points: list[Point]) -> Any:
     return replace(part, **changed) if changed else part
 
 
-def _compiled(reference: Reference, n: int, points: list[Point]) -> Reference:
-    """The reference with its law in machine code; itself where it has none, or none to be compiled."""
+def _compiled(reference: Reference, n: int, points: list[CompiledReference]) -> Reference:
+    """The reference with its law in machine code; itself where it has no law that can be compiled."""
     laws: ReferenceLaws | None = reference._laws
     if laws is None or reference._obstacle or laws.obstacle:
         return reference
     try:
-        points.append(Point(laws, n))
+        points.append(CompiledReference(laws, n))
     except Untraceable:
         return reference
     made = copy(reference)
@@ -85,41 +101,52 @@ def _compiled(reference: Reference, n: int, points: list[Point]) -> Reference:
     return made
 
 
-class ToldNumbers(NamedTuple):
-    """Of the model and of the reference."""
+class InputNumbers(NamedTuple):
+    """What the function is given as K: numbers of the model and of the reference."""
 
     robot: PlantArrays
-    k: Any
+    """Of the model."""
+    k: object
+    """Of the reference, () without one."""
 
 
-class Told:
-    """`told` for a model and one reference, or none."""
+class ControllerInputs:
+    """The function `inputs` for a nominal model and at most one reference.
 
-    def __init__(self, model: Biped, point: Point | None):
+    model: a CompiledBiped. K: numbers of both, as the function takes them; shapes: of the parts
+    that it gives.
+    """
+
+    def __init__(self, model: Biped, point: CompiledReference | None):
+        """Compiles the function for the model's structure and the reference's law; `point` None for
+        no reference.
+        """
         assert isinstance(model, CompiledBiped)
         assert model.robot is not None
         robot = self.robot = model.robot
         self.point, self.shapes = point, [*model.shapes, *(point.shapes if point else ())]
-        self.numbers = ToldNumbers(robot.arrays, () if point is None else point.laws.parameters)
+        self.numbers = InputNumbers(robot.arrays, () if point is None else point.laws.parameters)
         self.K = np.array([*floats(self.numbers), 0.0])
         law = "" if point is None else law_text(point.laws.point)
-        key = "told", skeleton(robot.structure), skeleton(self.numbers), law, versions_text()
-        self.machine = _machine(key, "told", self.function)
+        key = (
+            "inputs",
+            structure_text(robot.structure),
+            structure_text(self.numbers),
+            law,
+            versions_text(),
+        )
+        self.machine = generated(hash_of(*key), {"inputs": self.function})
 
     @property
     def address(self) -> int:
-        """Of the function."""
-        return self.machine.addresses["told"]
+        """Address of the function."""
+        return self.machine.addresses["inputs"]
 
-    def function(self) -> Function:
+    def function(self) -> SymbolicFunction:
         """Model and reference on symbols."""
         n = self.robot.structure.n
         K, inp = Vector("K", count(self.numbers)), Vector("inp", 1 + 2 * n)
         numbers, t, q, v = K.like(self.numbers), inp.take(), inp.take(n), inp.take(n)
         terms = PlanarRobot.of(self.robot.structure, numbers.robot).reduction(q, v)
         r = () if self.point is None else self.point.traced(numbers.k, t, q, v)
-        return Function(K.symbol, inp.symbol, column(*terms, *r))
-
-
-def _machine(key: tuple[Any, ...], name: str, function: Callable[[], Function]) -> Machine:
-    return remembered(hash_of(*key), [name], lambda: Text(module_text({name: function()})))
+        return SymbolicFunction(K.symbol, inp.symbol, column(*terms, *r))

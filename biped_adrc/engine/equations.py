@@ -1,30 +1,39 @@
-"""The equations of a walker on symbols, one straight-line function each, from the laws' own lines.
+"""The equations of a walker on symbols, one straight-line function each, traced from the laws' own lines.
 
-    flow    (t, step, t_start, x, zeta) -> x'            (10); between ticks the torque is held
-    tick    (t, step, t_start, x, zeta, outside) -> x, q''   sensors, controller, motors and meter at a tick
-    strike  (t, step, x) -> x+                           (7), (8), relabelling, and the controller's jump
-    watch   (t, t_start, drop, q) -> what the guards look at, x of the swing foot
+    flow      (t, step, t_start, x, zeta) -> x'               (10); in sampled time the torque is held
+    tick      (t, step, t_start, x, zeta, outside) -> x, q''  sensors, controller, motors, meter
+    strike    (t, step, x) -> x+                              (7), (8), relabelling, controller's jump
+    watch     (t, t_start, drop, q) -> event functions, x of the swing foot
+    to, back, remainder                                       coordinates of the exponential method
 
-`outside`, for the meter: forces [N], impulse since the last tick [N s], drop of the ground [m]. flow, tick and
-strike add, after x, the least pivot of the matrices that the controller inverts.
+`outside`, for the meter: force (2,) [N], impulse since the last sample instant (2,) [N s], drop of
+the ground [m]. zeta (n,) [N m] is an input, since disturbances are compiled by themselves
+(`engine.compiled_walker`) and may differ from run to run. flow, tick, strike and remainder add,
+after their result, the least pivot of the matrices that the controller inverts.
+
+`WalkerStructure` decides the code, `WalkerNumbers` are given at run time as the vector K.
+`engine.program` asks for these functions and compiles them; the loops in `engine.kernels` call them
+by address. The names tick and strike are those of the kernels' tables: a sample instant, an impact.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar
 
+import casadi as ca
 import numpy as np
+from numpy.typing import ArrayLike
 
-from biped_adrc.closed_loop import exponential_form as split
-from biped_adrc.closed_loop import semantics
-from biped_adrc.closed_loop.exponential_form import SplitLaws
+from biped_adrc.closed_loop import exponential_form, semantics
+from biped_adrc.closed_loop.exponential_form import ErrorParameters, LoopParameters, SplitLaws
 from biped_adrc.closed_loop.semantics import Mode
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.engine.kernels.layout import OUTSIDE
-from biped_adrc.engine.mechanics import PlanarRobot, Structure
+from biped_adrc.engine.mechanics import PlanarRobot, RobotStructure
 from biped_adrc.engine.symbols import (
+    Scalar,
     Tracer,
     Vector,
     column,
@@ -37,157 +46,219 @@ from biped_adrc.errors import InputError
 from biped_adrc.hardware.meter import Outside
 from biped_adrc.hardware.sample_hold import HeldParameters, HeldSizes
 from biped_adrc.model.planar import PlantArrays
-from biped_adrc.types import Array
+from biped_adrc.observers.base import Estimate
+from biped_adrc.types import Array, Indices
+
+T = TypeVar("T")
+NONE = np.zeros(0)
 
 
-class Numbers(NamedTuple):
-    """All that is given at run time, in the order of the vector K."""
+class WalkerNumbers(NamedTuple):
+    """All numbers of a walker that are given at run time, in the order of the vector K."""
 
     plant: PlantArrays
+    """Numbers of the robot that moves."""
     model: PlantArrays | None
-    """Of the controller, None where it is the plant."""
-    k: Any
+    """Numbers of the controller's model, None where it is the plant."""
+    k: tuple[object, ...]
     """Parameters of the controller's laws."""
     torque_limit: float
-    """[N m], infinite without."""
+    """[N m], infinite without one."""
     tan_slope: float
+    """Tangent of the ground's slope [1], positive downhill."""
     lowest_hip: float
-    """[m]"""
+    """Height of the hip below which the robot has fallen [m]."""
     longest: float
-    """Single support [s]."""
+    """Longest single support [s]."""
     friction: tuple[Array, Array] | tuple[()]
-    """Viscous [N m s] and static [N m] of the coordinates, empty without."""
+    """Viscous [N m s] and static [N m] of the coordinates, each (n,); empty without."""
     held: HeldParameters | tuple[()] = ()
-    """Of what is held between ticks, empty in continuous time."""
-    impact_gain: Any = ()
-    """(n,) of v+, empty without."""
-    split: Any = ()
-    """Parameters of the split's laws, empty without."""
+    """Parameters of what is held between sample instants, empty in continuous time."""
+    impact_gain: Array = NONE
+    """Relative errors of v+ (n,) [1], empty without."""
+    split: ErrorParameters | LoopParameters | tuple[()] = ()
+    """Parameters of the split's laws, empty without a split."""
 
 
-class Make(NamedTuple):
-    """What the equations are made of, besides numbers."""
+class WalkerStructure(NamedTuple):
+    """What decides the generated code: sizes, laws, and which parts there are. Numbers are in WalkerNumbers."""
 
-    robot: Structure
+    robot: RobotStructure
+    """Links, signs and sparsity."""
     laws: ControllerLaws
+    """The controller's laws, without parameters."""
     size: int
-    """Of the controller's state."""
+    """Numbers in the controller's state."""
     held: HeldSizes | None
-    """What is held between ticks, None in continuous time."""
+    """Sizes of what is held between sample instants, None in continuous time."""
     split: SplitLaws | None = None
     """Coordinates of the exponential method."""
     gained: bool = False
-    """With an error of the impact map."""
+    """Whether there is an error of the impact map."""
 
     @property
     def nx(self) -> int:
-        """Numbers in a state."""
+        """Numbers in a state: 2 n, the controller's, and what is held."""
         return 2 * self.robot.n + self.size + (0 if self.held is None else self.held.total)
 
 
-class Function(NamedTuple):
-    """`void f(double* K, double* inp, double* out)` as CasADi's columns."""
+class SymbolicFunction(NamedTuple):
+    """`void f(double* K, double* inp, double* out)` as CasADi's columns: out as an expression of K and inp."""
 
-    K: Any
-    inp: Any
-    out: Any
+    K: ca.SX
+    """Symbols of the parameters."""
+    inp: ca.SX
+    """Symbols of the inputs."""
+    out: ca.SX
+    """Expressions of the outputs."""
 
 
-def laws_on(trace: Tracer, laws: ControllerLaws, k: Any, p: int, size: int) -> ControllerLaws:
-    """The laws for symbols, without their parameters k; one that is not there leaves the state as it is.
+class TracedLaws(NamedTuple):
+    """The laws of a controller on symbols, a `semantics.ControlLaw`: parameters filled in, none missing."""
 
-    Raises InputError for one that gives another number than p torques or `size` numbers of the state.
+    output: Callable[..., Array]
+    """(s, m) -> u (p,) [N m]."""
+    flow: Callable[..., Array]
+    """(s, m, u) -> s'."""
+    jump: Callable[..., Array]
+    """(s, m, swap) -> s."""
+    correct: Callable[..., Array]
+    """(s, m) -> s."""
+    predict: Callable[..., Array]
+    """(s, m, u) -> s."""
+    estimate: Callable[..., Estimate | None]
+    """(s, m) -> what an observer says, None without one."""
+
+
+def laws_on(trace: Tracer, laws: ControllerLaws, k: object, p: int, size: int) -> TracedLaws:
+    """The laws on symbols with parameters k; a law of the state that is not there leaves it as it is.
+
+    Raises InputError for a law that gives another number than p torques or `size` numbers of the
+    state, since generated code could not notice.
     """
 
-    def said(name: str) -> Any:
-        law, expected = getattr(laws, name), {"output": p, "estimate": None}.get(name, size)
+    def traced(name: str, expected: int) -> Callable[..., Array]:
+        law: Callable[..., Array] | None = getattr(laws, name)
+        if law is None:
+            return lambda s, *rest: s
 
-        def called(*arguments: Any) -> Any:
+        def called(*arguments: object) -> Array:
             found = run(trace, law, k, *arguments)
-            if expected is not None and np.shape(found) != (expected,):
+            if np.shape(found) != (expected,):
                 raise InputError(
                     f"law {name} gives an array of shape {np.shape(found)}, expected ({expected},)"
                 )
             return found
 
-        return called if law is not None else lambda s, *rest: s
+        return called
 
-    made = laws._replace(**{name: said(name) for name in LAWS})
-    return made if laws.estimate is not None else made._replace(estimate=lambda s, m: None)
+    def estimate(s: Array, m: Measurement) -> Estimate | None:
+        return None if laws.estimate is None else run(trace, laws.estimate, k, s, m)
+
+    flow, jump, correct, predict = (traced(name, size) for name in STATE_LAWS)
+    return TracedLaws(traced("output", p), flow, jump, correct, predict, estimate)
 
 
-LAWS = ("output", "flow", "jump", "correct", "predict", "estimate")
+STATE_LAWS = ("flow", "jump", "correct", "predict")
+"""Those that give the controller's state or its slope."""
+
+
+def traced_sensors(trace: Tracer, held: HeldParameters) -> HeldParameters:
+    """With the laws of the sensors for symbols."""
+    return held._replace(sensors=held.sensors.traced(trace)) if held.sensors else held
 
 
 class SymbolicLoop(NamedTuple):
-    """A `semantics.Loop` of one make; zeta (n,) and `given` (OUTSIDE,) are symbols too."""
+    """A `semantics.Loop` of symbols; zeta (n,) [N m] and `given` (OUTSIDE,), for the meter, are inputs."""
 
     plant: PlanarRobot
+    """The robot that moves, on symbols."""
     nominal: PlanarRobot
+    """The controller's model, on symbols; the same ones where it is the plant."""
     exact: bool
-    law: Any
+    """Whether the controller's model is the plant."""
+    law: TracedLaws
+    """The controller in its time base."""
     held: HeldParameters | None
-    swap: Any
-    gain: Any
-    limit: Any
-    zeta: Any
-    given: Any
+    """Parameters of what is held between sample instants, None in continuous time."""
+    swap: Indices
+    """Relabelling of the actuated joints (p,), numbers of the structure."""
+    gain: Array
+    """Relative errors of v+ (n,) [1], or empty."""
+    limit: float
+    """Torque limit [N m]."""
+    zeta: Array
+    given: Array
 
-    def measure(self, t: Any, q: Any, v: Any, mode: Mode) -> Measurement:
+    def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
+        """With the body's terms always, at q (n,) [rad], v (n,) [rad/s]: what no law asks for
+        leaves no code.
+        """
         return semantics.measurement(self, t, q, v, mode, body=True)
 
-    def saturate(self, u: Any) -> Any:
+    def saturate(self, u: Array) -> Array:
+        """u (p,) [N m] within the limit, which may be infinite."""
         return np.array([minimum(maximum(x, -self.limit), self.limit) for x in u], dtype=object)
 
-    def external(self, t: Any, q: Any, v: Any, mode: Mode) -> Any:
+    def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
+        """The symbols of zeta (n,) [N m]."""
         return self.zeta
 
-    def outside(self, t: Any, mode: Mode) -> Outside:
+    def outside(self, t: float, mode: Mode) -> Outside:
+        """The symbols of force (2,) [N], impulse (2,) [N s] and drop [m]."""
         return Outside(self.given[:2], self.given[2:4], self.given[4])
 
 
-class At(NamedTuple):
+class SymbolicInstant(NamedTuple):
     """The symbols of one instant, and the loop that they are given to."""
 
     inp: Vector
+    """All inputs, as one vector."""
     trace: Tracer
+    """Makes copies of laws for symbols, and keeps the pivots."""
     loop: SymbolicLoop
-    t: Any
-    x: Any
+    t: float
+    x: Array
+    """State (nx,)."""
     mode: Mode
+    """Single support and its start, symbols too."""
 
-    def does(self, function: Callable[..., Any], *more: Any) -> Any:
-        """A function of `semantics` here."""
+    def does(self, function: Callable[..., T], *more: object) -> T:
+        """What a function of `semantics`, or one with the same first arguments, gives here."""
         return self.trace(function)(self.loop, self.t, self.x, self.mode, *more)
 
 
-def count(example: Any) -> int:
-    """Length of the vector of numbers: one more than there are, so that it is never empty."""
+def count(example: object) -> int:
+    """Length of the vector K of an example: one more than its floats, so that it is never empty."""
     return 1 + sum(1 for _ in floats(example))
 
 
 @dataclass(frozen=True)
 class Equations:
-    """The functions of one make; K is CasADi's column of the symbols in `numbers`."""
+    """The functions of one structure, each traced when it is asked for.
 
-    make: Make
-    K: Any
-    numbers: Numbers
+    K is CasADi's column of the symbols in `numbers`.
+    """
+
+    make: WalkerStructure
+    """Structure of the walker."""
+    K: ca.SX
+    numbers: WalkerNumbers
 
     @classmethod
-    def of(cls, make: Make, example: Numbers) -> Equations:
-        """With symbols for the floats of an example."""
+    def of(cls, make: WalkerStructure, example: WalkerNumbers) -> Equations:
+        """With symbols for the floats of an example, whose values do not matter."""
         K = Vector("K", count(example))
         return cls(make, K.symbol, K.like(example))
 
     @staticmethod
-    def names(make: Make) -> list[str]:
-        """Of the functions that this make has."""
+    def names(make: WalkerStructure) -> list[str]:
+        """Names of the functions that this structure has; each is a method of this class."""
         split = [] if make.split is None else ["to", "back", "remainder"]
         return ["flow", "strike", "watch", *(["tick"] if make.held is not None else []), *split]
 
-    def loop(self, trace: Tracer, zeta: Any = None, given: Any = None) -> SymbolicLoop:
-        """The closed loop."""
+    def loop(self, trace: Tracer, zeta: Array = NONE, given: Array = NONE) -> SymbolicLoop:
+        """The closed loop on symbols, with zeta (n,) [N m] and what the meter needs from outside (OUTSIDE,)."""
         K, make = self.numbers, self.make
         model = K.plant if K.model is None else K.model
         return SymbolicLoop(
@@ -195,7 +266,7 @@ class Equations:
             nominal=PlanarRobot.of(make.robot, model),
             exact=K.model is None and not K.friction,
             law=laws_on(trace, make.laws, K.k, make.robot.p, make.size),
-            held=K.held or None,
+            held=traced_sensors(trace, K.held) if K.held else None,
             swap=make.robot.swap,
             gain=K.impact_gain,
             limit=K.torque_limit,
@@ -203,38 +274,44 @@ class Equations:
             given=given,
         )
 
-    def at(self) -> At:
-        """The symbols (t, step, t_start, x, zeta, outside)."""
+    def at(self) -> SymbolicInstant:
+        """The symbols (t, step, t_start, x, zeta, outside), and the loop at them."""
         n, trace = self.make.robot.n, Tracer()
         inp = Vector("inp", 3 + self.make.nx + n + OUTSIDE)
         t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.make.nx)
-        return At(inp, trace, self.loop(trace, inp.take(n), inp.take(OUTSIDE)), t, x, mode)
+        return SymbolicInstant(
+            inp, trace, self.loop(trace, inp.take(n), inp.take(OUTSIDE)), t, x, mode
+        )
 
-    def made(self, inp: Vector, *parts: Any) -> Function:
-        """The function of these inputs."""
-        return Function(self.K, inp.symbol, column(*parts))
+    def made(self, inp: Vector, *parts: ArrayLike | Scalar) -> SymbolicFunction:
+        """The function of these inputs, its parts one after the other."""
+        return SymbolicFunction(self.K, inp.symbol, column(*parts))
 
-    def flow(self) -> Function:
-        """x' between events."""
+    def flow(self) -> SymbolicFunction:
+        """x' (nx,) between events, and the least pivot."""
         at = self.at()
         return self.made(at.inp, at.does(semantics.flow), at.trace.solver.least)
 
-    def tick(self) -> Function:
-        """x after the controller has acted, and q'' there."""
+    def tick(self) -> SymbolicFunction:
+        """x (nx,) after a sample instant, the least pivot, and q'' (n,) [rad/s^2] under the new torque."""
         at, n = self.at(), self.make.robot.n
         x = at.does(semantics.tick)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
         return self.made(at.inp, x, at.trace.solver.least, a)
 
-    def strike(self) -> Function:
-        """x after impact, relabelling and the controller's jump; `step` is the one that begins."""
+    def strike(self) -> SymbolicFunction:
+        """x+ (nx,) after impact, relabelling and the controller's jump; `step` is the single
+        support that begins.
+        """
         inp, trace = Vector("inp", 2 + self.make.nx), Tracer()
         t, step, x = inp.take(), inp.take(), inp.take(self.make.nx)
         x = trace(semantics.struck)(self.loop(trace), t, x, Mode(step, t))
         return self.made(inp, x, trace.solver.least)
 
-    def watch(self) -> Function:
-        """What the guards look at."""
+    def watch(self) -> SymbolicFunction:
+        """The three event functions: clearance [m], hip margin [m], time left [s]; then x of the
+        swing foot [m].
+        """
         K, plant = self.numbers, self.loop(Tracer()).plant
         inp = Vector("inp", 3 + plant.n)
         t, start, drop, q = inp.take(), inp.take(), inp.take(), inp.take(plant.n)
@@ -244,33 +321,37 @@ class Equations:
         return self.made(inp, clearance, hip, semantics.time_left(K.longest, start, t), foot[0])
 
     def _split(self, trace: Tracer) -> SplitLaws:
-        """The split's laws, for symbols."""
+        """The split's laws on symbols."""
         laws = self.make.split
+        k = self.numbers.split
         assert laws is not None
+        assert k
         traced = {name: trace(getattr(laws, name)) for name in ("to", "back", "remainder")}
-        return laws._replace(parameters=self.numbers.split, **traced)
+        return laws._replace(parameters=k, **traced)
 
-    def _coordinates(self, y: Any) -> tuple[Any, Any]:
-        """w and E of y."""
+    def _coordinates(self, y: Array) -> tuple[Array, Array]:
+        """w and E (k, p) of the flat vector y."""
         assert self.make.split is not None
         p = self.make.robot.p
         stiff = len(self.make.split.A) * p
         return y[: len(y) - stiff], y[len(y) - stiff :].reshape(-1, p)
 
-    def to(self) -> Function:
-        """y = (w, E) of x."""
+    def to(self) -> SymbolicFunction:
+        """y = (w, E) of x (nx,)."""
         inp, trace = Vector("inp", self.make.nx), Tracer()
         return self.made(inp, *self._split(trace).to(self.numbers.split, inp.take(self.make.nx)))
 
-    def back(self) -> Function:
-        """x of y = (w, E)."""
+    def back(self) -> SymbolicFunction:
+        """x (nx,) of y = (w, E)."""
         inp, trace = Vector("inp", self.make.nx), Tracer()
         w, E = self._coordinates(inp.take(self.make.nx))
         return self.made(inp, self._split(trace).back(self.numbers.split, w, E))
 
-    def remainder(self) -> Function:
-        """N_w, and N_E in its forced rows, at y = (w, E) in place of x."""
+    def remainder(self) -> SymbolicFunction:
+        """N_w, N_E in its forced rows, and the least pivot, at y = (w, E) in place of x."""
         at = self.at()
         w, E = self._coordinates(at.x)
-        N = at.trace(split.remainder)(at.loop, self._split(at.trace), at.t, w, E, at.mode)
+        N = at.trace(exponential_form.remainder)(
+            at.loop, self._split(at.trace), at.t, w, E, at.mode
+        )
         return self.made(at.inp, *N, at.trace.solver.least)

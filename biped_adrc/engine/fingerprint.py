@@ -1,7 +1,14 @@
-"""What generated code depends on, as one hash: the laws' code, the make of robot and parameters, versions.
+"""What generated code depends on, as one hash: the laws' code, the structure of robot and
+parameters, versions.
 
-A law is followed into everything that it can reach: functions, classes, objects, constants and, in modules, the
-attributes that it names. Libraries are told by name, this package by its source.
+Object code is kept on disk between sessions, so a change of anything that it was made from has to
+give another name. A law is followed into everything that it can reach: functions, classes, objects,
+constants and, in modules, the attributes that it names. Libraries are represented by their names
+and versions, this package by a hash of its source. What cannot be followed, such as an object of a
+compiled extension, raises Untraceable: it is better not to compile than to run old code.
+
+`engine.program`, `engine.compiled_walker` and all others that call `engine.ir.generated` build
+their keys here.
 """
 
 from __future__ import annotations
@@ -14,11 +21,11 @@ import platform
 import sys
 import sysconfig
 import types
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from enum import Enum
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,32 +35,43 @@ from biped_adrc.versions import NEVER_TRACED, packages, source_text
 _PACKAGE = __name__.partition(".")[0]
 _FOLDERS = tuple(sysconfig.get_paths()[kind] for kind in ("stdlib", "purelib", "platlib"))
 _PLAIN = (types.NoneType, bool, int, float, complex, str, bytes, range, Enum, types.EllipsisType)
+"""Values that are their own text."""
 _NAMED = (
     *(types.MethodDescriptorType, types.WrapperDescriptorType, types.MemberDescriptorType),
     *(types.GetSetDescriptorType, types.MethodWrapperType, types.ClassMethodDescriptorType),
 )
+"""Methods of built-in classes, known by their names."""
 _BARE = vars(NamedTuple("_Bare", [])) | {
     "__firstlineno__": 0,
     "_abc_impl": 0,
     "__abstractmethods__": 0,
 }
+"""Attributes that every class has, and that say nothing of its content."""
 
 
-def hash_of(*parts: Any) -> str:
-    """A name for files."""
+def hash_of(*parts: object) -> str:
+    """A name for files, from the texts of these parts."""
     return hashlib.sha256("\0".join(map(str, parts)).encode()).hexdigest()[:32]
 
 
-def law_text(law: Any) -> str:
-    """The code of a law and all that it reaches. Raises Untraceable where that cannot be told."""
+def law_text(law: object) -> str:
+    """The code of a law and all that it reaches, as text. Raises Untraceable where its content is hidden.
+
+    Two laws with the same text compile to the same code.
+    """
     return "\n".join(_Reach().tell(law))
 
 
-def skeleton(tree: Any) -> str:
-    """Parameters without their floats: names, shapes, and what else there is, which decides."""
+def structure_text(tree: object) -> str:
+    """Parameters without their floats: names, shapes, and what else there is, which decides the code.
+
+    ints, texts and flags are part of it; floats and float arrays are replaced by their shapes.
+    """
     if isinstance(tree, tuple | list):
         names = getattr(tree, "_fields", range(len(tree)))
-        inside = ", ".join(f"{name}={skeleton(x)}" for name, x in zip(names, tree, strict=True))
+        inside = ", ".join(
+            f"{name}={structure_text(x)}" for name, x in zip(names, tree, strict=True)
+        )
         return f"{law_text(type(tree))}({inside})"
     if isinstance(tree, np.ndarray) and tree.dtype.kind == "f":
         return f"float{tree.shape}"
@@ -61,18 +79,23 @@ def skeleton(tree: Any) -> str:
 
 
 class _Reach:
-    """Texts of what is reached, each thing once."""
+    """Texts of what is reached, each thing once, in a fixed order.
+
+    seen: by identity; the objects are kept, so that no identity is used again.
+    """
 
     def __init__(self) -> None:
-        self.seen: dict[Any, Any] = {}
+        self.seen: dict[int | tuple[int, frozenset[str]], object] = {}
 
-    def tell(self, x: Any, names: frozenset[str] = frozenset()) -> Iterator[str]:
-        """The texts of x; of a module those of the attributes with these names."""
+    def tell(self, x: object, names: frozenset[str] = frozenset()) -> Iterator[str]:
+        """The texts of x; of a module those of the attributes with these names.
+
+        A thing met again is named only, so that circles end.
+        """
         if isinstance(x, _PLAIN):
             yield f"{type(x).__qualname__} {x!r}"
             return
-        module = isinstance(x, types.ModuleType)
-        key = (id(x), names) if module else id(x)
+        key = (id(x), names) if isinstance(x, types.ModuleType) else id(x)
         if key in self.seen:
             yield f"again {getattr(x, '__qualname__', type(x).__qualname__)}"
             return
@@ -80,7 +103,7 @@ class _Reach:
         yield f"{type(x).__module__}.{type(x).__qualname__}"
         if isinstance(x, types.FunctionType):
             yield from self.function(x)
-        elif module:
+        elif isinstance(x, types.ModuleType):
             yield x.__name__
             if not _known(x.__name__):
                 inside = {name: value for name, value in vars(x).items() if name in names}
@@ -91,7 +114,10 @@ class _Reach:
             yield from self.value(x)
 
     def function(self, x: types.FunctionType) -> Iterator[str]:
-        """Code, defaults, and what its names stand for, here and in modules that it imports."""
+        """Code, defaults, and what its names stand for, here and in modules that it imports.
+
+        A library's function is known by its name; its version is in `versions_text`.
+        """
         yield f"{x.__module__}.{x.__qualname__}"
         if _known(x.__module__) and not x.__module__.startswith(_PACKAGE):
             return
@@ -109,21 +135,23 @@ class _Reach:
                 yield from self.tell(sys.modules[name], names)
 
     def class_(self, x: type) -> Iterator[str]:
-        """By name; a class of the user's with all that it and its bases hold."""
+        """A class by its name and fields; one of the user's with all that it and its bases hold."""
         yield f"{x.__module__}.{x.__qualname__}{getattr(x, '_fields', '')}"
         for cls in x.__mro__:
             if not _known(cls.__module__):
                 yield cls.__qualname__
                 yield from self.named({k: v for k, v in vars(cls).items() if k not in _BARE})
 
-    def named(self, values: dict[str, Any], names: frozenset[str] = frozenset()) -> Iterator[str]:
-        """Names and what they stand for."""
+    def named(
+        self, values: Mapping[str, object], names: frozenset[str] = frozenset()
+    ) -> Iterator[str]:
+        """Names, sorted, and what they stand for."""
         for name in sorted(values):
             yield name
             yield from self.tell(values[name], names)
 
-    def value(self, x: Any) -> Iterator[str]:
-        """An object by its parts, an array by its bytes."""
+    def value(self, x: object) -> Iterator[str]:
+        """An object by its parts, an array by its bytes; a set sorted by text, since its order is not fixed."""
         if isinstance(x, np.ndarray | np.generic) and x.dtype.kind != "O":
             yield f"{x.dtype}{x.shape}{x.tobytes().hex()}"
         elif isinstance(x, tuple | list | np.ndarray):
@@ -143,10 +171,13 @@ class _Reach:
         elif isinstance(x, np.ufunc):
             yield self.ufunc(x)
         else:
-            yield from self.object(x)
+            yield from self.by_parts(x)
 
-    def object(self, x: Any) -> Iterator[str]:
-        """What is inside an object of any class."""
+    def by_parts(self, x: object) -> Iterator[str]:
+        """What is inside an object of any class; of a library's the pickled form.
+
+        Raises Untraceable where there is neither.
+        """
         inside = _inside(x)
         if inside or not _known(type(x).__module__):
             yield from self.class_(type(x))
@@ -158,7 +189,7 @@ class _Reach:
             raise _untold(x) from error
 
     def ufunc(self, x: np.ufunc) -> str:
-        """One of NumPy's by its name."""
+        """One of NumPy's by its name. Raises Untraceable for any other."""
         if getattr(np, x.__name__, None) is not x:
             raise _untold(x)
         return x.__name__
@@ -166,6 +197,7 @@ class _Reach:
 
 @lru_cache(maxsize=1024)
 def _code_text(code: types.CodeType) -> str:
+    """Bytecode, names and constants; sets of constants sorted, since their order changes from run to run."""
     parts = [code.co_code.hex(), code.co_names, code.co_varnames, code.co_freevars]
     for constant in code.co_consts:
         inside = sorted(map(repr, constant)) if isinstance(constant, frozenset) else constant
@@ -173,8 +205,8 @@ def _code_text(code: types.CodeType) -> str:
     return " ".join(map(str, parts))
 
 
-def _inside(x: Any) -> dict[str, Any]:
-    """The parts of an object by name."""
+def _inside(x: object) -> dict[str, object]:
+    """The parts of an object by name: of wrappers what they wrap, of others slots and attributes."""
     wrapped = ("fget", "func", "__func__", "__self__", "args", "keywords", "__wrapped__")
     wraps = (property, functools.cached_property, functools.partial, staticmethod, classmethod)
     if isinstance(x, (*wraps, types.MethodType)) or hasattr(x, "cache_parameters"):
@@ -184,7 +216,8 @@ def _inside(x: Any) -> dict[str, Any]:
     return {**found, **getattr(x, "__dict__", {})}
 
 
-def _untold(x: Any) -> Untraceable:
+def _untold(x: object) -> Untraceable:
+    """The error for an object that cannot be followed."""
     return Untraceable(
         f"a law reaches {x!r}, a {type(x).__name__}, whose content cannot be told from outside"
     )
@@ -192,7 +225,10 @@ def _untold(x: Any) -> Untraceable:
 
 @lru_cache(maxsize=4096)
 def _known(module: str) -> bool:
-    """Whether a module is one of a library, or of this package where laws may come from."""
+    """Whether a module belongs to a library, or to this package where laws may come from.
+
+    Those are covered by versions and by the source's hash, so they are not followed.
+    """
     top, *rooms = module.split(".")
     if top == _PACKAGE:
         return not rooms or rooms[0] not in NEVER_TRACED
@@ -204,7 +240,7 @@ def _known(module: str) -> bool:
 
 @lru_cache(maxsize=1024)
 def _words(code: types.CodeType) -> frozenset[str]:
-    """Texts in a piece of code that may be names, as for `getattr`."""
+    """Texts in a piece of code that may be names of attributes, as for `getattr`; they are looked up too."""
     inner = (_words(x) for x in code.co_consts if isinstance(x, types.CodeType))
     own = (x for x in code.co_consts if isinstance(x, str) and x.isidentifier())
     return frozenset(own).union(*inner)
@@ -212,7 +248,7 @@ def _words(code: types.CodeType) -> frozenset[str]:
 
 @lru_cache(maxsize=1024)
 def _imported(code: types.CodeType) -> frozenset[str]:
-    """Names of modules that a piece of code imports."""
+    """Names of modules that a piece of code imports inside itself."""
     own = {x.argval for x in dis.get_instructions(code) if x.opname == "IMPORT_NAME"}
     inner = (_imported(x) for x in code.co_consts if isinstance(x, types.CodeType))
     return frozenset(own).union(*inner)
@@ -220,7 +256,9 @@ def _imported(code: types.CodeType) -> frozenset[str]:
 
 @lru_cache(maxsize=1)
 def versions_text() -> str:
-    """The versions of what makes code, the processor, and the package's own source."""
+    """The versions of what makes code, the processor, and a hash of the package's own source; once
+    per process.
+    """
     from biped_adrc.engine.machine import processor
 
     made_by = packages(("numpy", "casadi", "llvmlite")).values()

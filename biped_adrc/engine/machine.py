@@ -1,12 +1,16 @@
 """Machine code of generated functions and modules, kept on disk with checksums.
 
-Functions: object code is stored under a hash of what it was made from and of what makes it; a damaged file is
-made again, and where nothing can be written it is made in memory each time.
+Last stage of the compiler. Two kinds of code are kept in `cache_folder()`:
 
-Modules: one folder per hash of the source and of what compiles it. Files are written beside and moved into
-place, so several processes may make the same one. What cannot be written is kept in a temporary folder; what is
-damaged is written again. numba keeps its machine code beside; `seal` adds a checksum to each of its files, and
-those without the right one are removed before they are read.
+Functions (from `engine.ir`): object code is stored under a hash of what it was made from and of
+what makes it; a damaged file is made again, and where nothing can be written it is made in memory
+each time.
+
+Modules (the loops of `engine.kernels`, compiled by numba): one folder per hash of the source and of
+what compiles it. Files are written beside and moved into place, so several processes may make the
+same one. What cannot be written is kept in a temporary folder; what is damaged is written again.
+numba keeps its machine code beside the source and does not check it; `seal` adds a checksum to each
+of its files, and those without the right one are removed before they are read.
 """
 
 from __future__ import annotations
@@ -26,7 +30,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from platformdirs import user_cache_path
 
@@ -34,33 +38,44 @@ from biped_adrc.errors import OutputError
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.versions import packages
 
+if TYPE_CHECKING:
+    from llvmlite import binding
+
 CHECK = 32
 """Bytes of the checksum before the object code."""
 _LOCK = threading.Lock()
+"""One thread at a time compiles or loads."""
 
 
 @dataclass(frozen=True)
-class Machine:
+class LoadedCode:
     """Functions in memory; they live as long as `owner` does."""
 
     addresses: dict[str, int]
-    owner: Any
+    """By name."""
+    owner: object
+    """LLVM's engine."""
 
 
-_LOADED: dict[str, Machine] = {}
-"""By key, what is in memory."""
+_LOADED: dict[str, LoadedCode] = {}
+"""What is in memory, by key, for the whole process: laws are few and small."""
 
 
-class Text(NamedTuple):
+class ModuleText(NamedTuple):
     """A module in LLVM's language."""
 
     text: str
+    """The module itself."""
     vectors: bool = False
     """Whether to look for operations that go together in vectors, which takes its time."""
 
 
-def machine(key: str, names: Sequence[str], text: Callable[[], Text]) -> Machine:
-    """The functions `names` stored under `key`, or compiled from `text()`."""
+def load_or_compile(key: str, names: Sequence[str], text: Callable[[], ModuleText]) -> LoadedCode:
+    """The functions `names` stored under `key`, or compiled from `text()` and stored.
+
+    One thread at a time, so that no two of them compile the same; other processes may, and write
+    the same file.
+    """
     with _LOCK:
         code = stored(key)
         if code is None:
@@ -69,23 +84,23 @@ def machine(key: str, names: Sequence[str], text: Callable[[], Text]) -> Machine
         return loaded(code, names)
 
 
-def remembered(key: str, names: Sequence[str], text: Callable[[], Text]) -> Machine:
-    """As `machine`, once per process."""
+def remembered(key: str, names: Sequence[str], text: Callable[[], ModuleText]) -> LoadedCode:
+    """As `load_or_compile`, once per process and key."""
     if key not in _LOADED:
-        _LOADED[key] = machine(key, names, text)
+        _LOADED[key] = load_or_compile(key, names, text)
     return _LOADED[key]
 
 
 def processor() -> str:
-    """What the code is made for: the processor, its instructions, and LLVM."""
+    """What the code is made for: the processor, its instructions, and LLVM's version."""
     from llvmlite import binding
 
     features = binding.get_host_cpu_features().flatten()
     return f"{binding.get_host_cpu_name()} {features} {binding.llvm_version_info}"
 
 
-def target() -> Any:
-    """LLVM's machine for this processor, a new one each time: MCJIT owns the one that it is given."""
+def target() -> binding.TargetMachine:
+    """LLVM's target machine for this processor, a new one each time: MCJIT owns the one that it is given."""
     from llvmlite import binding
 
     binding.initialize_native_target()
@@ -99,37 +114,45 @@ def target() -> Any:
 
 
 def compiled(text: str, vectors: bool = False) -> bytes:
-    """Object code of a module in LLVM's language."""
+    """Object code of a module in LLVM's language, optimised for this processor at level 3.
+
+    No fast-math flags: sums keep their order. vectors: look for operations that go together (SLP),
+    which helps `turn` and takes its time elsewhere.
+    """
     from llvmlite import binding
 
-    machine = target()
+    host = target()
     module = binding.parse_assembly(text)
-    module.triple, module.data_layout = machine.triple, str(machine.target_data)
+    module.triple, module.data_layout = host.triple, str(host.target_data)
     module.verify()
     tuning = binding.create_pipeline_tuning_options(speed_level=3)
     tuning.slp_vectorization = vectors
-    builder = binding.create_pass_builder(machine, tuning)
+    builder = binding.create_pass_builder(host, tuning)
     builder.getModulePassManager().run(module, builder)
-    return bytes(machine.emit_object(module))
+    return bytes(host.emit_object(module))
 
 
-def loaded(code: bytes, names: Sequence[str]) -> Machine:
-    """Object code in memory."""
+def loaded(code: bytes, names: Sequence[str]) -> LoadedCode:
+    """Object code in memory, with the addresses of these functions."""
     from llvmlite import binding
 
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
     addresses = {name: int(engine.get_function_address(name)) for name in names}
-    return Machine(addresses, engine)
+    return LoadedCode(addresses, engine)
 
 
 def _path(key: str) -> Path:
+    """File of the object code stored under `key`."""
     return cache_folder() / "code" / f"{key}.bin"
 
 
 def stored(key: str) -> bytes | None:
-    """Object code from the disk; None when it is not there or damaged."""
+    """Object code from the disk; None when it is not there or its checksum is wrong.
+
+    The checksum covers the key too, so a file under a wrong name is noticed.
+    """
     try:
         data = _path(key).read_bytes()
     except OSError:
@@ -139,7 +162,7 @@ def stored(key: str) -> bytes | None:
 
 
 def keep(key: str, code: bytes) -> None:
-    """Write object code where that is possible."""
+    """Write object code with its checksum, where that is possible."""
     try:
         write_bytes(_path(key), hashlib.sha256(key.encode() + code).digest() + code)
     except (OSError, OutputError):
@@ -150,7 +173,7 @@ VARIABLE = "BIPED_ADRC_CACHE"
 """Environment variable: the folder of generated modules, by default biped_adrc in the user's cache."""
 
 MARK = ".sha256"
-"""Ending of the file with the checksum of another."""
+"""Ending of the file with the checksum of another file."""
 
 
 def cache_folder() -> Path:
@@ -159,14 +182,20 @@ def cache_folder() -> Path:
 
 
 def key_of(source: str) -> str:
-    """Hash of the source, of numba, llvmlite, NumPy and Python, and of the processor."""
+    """Hash of the source, of numba, llvmlite, NumPy and Python, and of the processor.
+
+    What is compiled for one processor may use instructions that another has not.
+    """
     made_by = packages(("numba", "llvmlite", "numpy")).values()
-    machine = platform.python_version(), platform.machine(), platform.processor()
-    return hashlib.sha256("\0".join((source, *made_by, *machine)).encode()).hexdigest()[:24]
+    platform_text = platform.python_version(), platform.machine(), platform.processor()
+    return hashlib.sha256("\0".join((source, *made_by, *platform_text)).encode()).hexdigest()[:24]
 
 
 def load_source(source: str) -> ModuleType:
-    """The module with this source, from the disk if it is there and undamaged."""
+    """The module with this source, from the disk if it is there and undamaged; numba compiles it when asked.
+
+    Where the cache folder cannot be written, a temporary one takes its place.
+    """
     key = key_of(source)
     try:
         path = _written(cache_folder() / key / "kernels.py", source)
@@ -183,7 +212,9 @@ def load_source(source: str) -> ModuleType:
 
 
 def seal(module: ModuleType) -> None:
-    """Note the checksums of what numba has written for a module, once it is compiled."""
+    """Note the checksums of what numba has written for a module, once it is compiled; where that is
+    possible.
+    """
     for path in _machine_code(Path(str(module.__file__)).parent):
         check = _checksum(path)
         mark = path.with_name(path.name + MARK)
@@ -193,6 +224,7 @@ def seal(module: ModuleType) -> None:
 
 
 def _remove_unsealed(folder: Path) -> None:
+    """Remove numba's files without the right checksum."""
     for path in _machine_code(folder):
         mark = path.with_name(path.name + MARK)
         with suppress(OSError):
@@ -201,20 +233,25 @@ def _remove_unsealed(folder: Path) -> None:
 
 
 def _machine_code(folder: Path) -> list[Path]:
+    """The files that numba keeps beside a module: index (.nbi) and code (.nbc)."""
     return [path for path in (folder / "__pycache__").glob("*.nb[ic]") if path.is_file()]
 
 
 def _checksum(path: Path) -> str:
+    """Of name and content, so that exchanged files are noticed too."""
     return hashlib.sha256(path.name.encode() + path.read_bytes()).hexdigest()
 
 
 def forget(module: ModuleType) -> None:
-    """Remove the machine code numba keeps of a module, where it cannot be used."""
+    """Remove the machine code that numba keeps of a module, where it cannot be used."""
     shutil.rmtree(Path(str(module.__file__)).parent / "__pycache__", ignore_errors=True)
 
 
 def _written(path: Path, source: str) -> Path:
-    """The file with this text; rewritten, without the machine code beside it, when it has another one."""
+    """The file with this text; where it has another one it is rewritten, without the machine code beside it.
+
+    Raises OSError for a folder that is read-only, where numba could not keep its code.
+    """
     found = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else None
     if found != source:
         shutil.rmtree(path.parent / "__pycache__", ignore_errors=True)
@@ -226,6 +263,7 @@ def _written(path: Path, source: str) -> Path:
 
 @lru_cache(maxsize=1)
 def _temporary() -> Path:
+    """A folder for this process alone, removed when it ends."""
     folder = Path(tempfile.mkdtemp(prefix="biped_adrc-"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return folder

@@ -1,10 +1,12 @@
 """A walker as machine code: addresses of its functions, and the vector K of its numbers.
 
-One compilation serves every robot, gain and gait of the same make; a program is made in microseconds where its
-functions are in memory, in milliseconds where they are on disk.
+One compilation serves every robot, gain and gait of the same structure: the hash has no floats in
+it (`fingerprint.structure_text`). So a program is made in microseconds where its functions are in
+memory, in milliseconds where they are on disk; only for a new structure is anything traced and
+compiled.
 
-Beside them stands the product of the exponential method: `turn`, M E for a matrix M (k, k) in place of K and E
-(k, p).
+Beside the functions of `engine.equations` stands `turn`, the product of the exponential method: M E
+for a matrix M (k, k) in the place of K and E (k, p).
 """
 
 from __future__ import annotations
@@ -12,18 +14,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from biped_adrc.closed_loop.exponential_form import SplitLaws
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Controller, ControllerLaws, controller_laws
-from biped_adrc.engine.equations import Equations, Function, Make, Numbers
-from biped_adrc.engine.fingerprint import hash_of, law_text, skeleton, versions_text
+from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
+from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text
 from biped_adrc.engine.ir import generated
-from biped_adrc.engine.machine import Machine
-from biped_adrc.engine.mechanics import Robot, robot_of
+from biped_adrc.engine.machine import LoadedCode
+from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.symbols import Vector, column, floats
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
@@ -37,11 +38,14 @@ class NotCompiled(InputError):
 class Program:
     """Functions by name, and the numbers they are called with."""
 
-    make: Make
-    machine: Machine
+    make: WalkerStructure
+    """Structure of the walker."""
+    machine: LoadedCode
+    """Its functions in memory."""
     K: Array
-    numbers: Numbers
-    """Those in K, by name."""
+    """The numbers as a vector; its last entry is unused, so that it is never empty."""
+    numbers: WalkerNumbers
+    """The same by name."""
 
     @property
     def nx(self) -> int:
@@ -50,15 +54,18 @@ class Program:
 
     @classmethod
     def of(cls, walker: Walker, size: int, split: SplitLaws | None = None) -> Program:
-        """The program of a walker whose controller has `size` states, with coordinates to split it in.
+        """The program of a walker whose controller has `size` states; split: coordinates of the
+        exponential method.
 
-        Raises NotCompiled, or ModelError for a robot that is no planar tree.
+        Takes the laws of the controller in its time base, the data of plant and model, and puts all
+        floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part without laws,
+        or ModelError for a robot that is no planar tree.
         """
         plant, laws = robot_of(walker.plant), laws_of(walker.law)
         model = None if walker.model is None else robot_of(walker.model)
         sizes = None if walker.held is None else walker.held.sizes
         gained = bool(walker.impact_gain)
-        make = Make(
+        make = WalkerStructure(
             _common(plant, model), laws._replace(parameters=None), size, sizes, split, gained
         )
         numbers = _numbers(walker, plant, model, laws, split)
@@ -66,7 +73,11 @@ class Program:
         return cls(make, _machine(make, numbers), K, numbers)
 
     def address(self, name: str) -> int:
-        """Where a function is, 0 for one that this walker has not."""
+        """Address of a compiled function; 0 if this walker does not need it.
+
+        The kernels never call an address of 0: `run_plan.plan` checks what the method and the clock
+        need.
+        """
         split = self.make.split
         if name == "turn" and split is not None:
             return product(len(split.A), self.make.robot.p).addresses[name]
@@ -81,8 +92,11 @@ def laws_of(controller: Controller) -> ControllerLaws:
     return laws
 
 
-def _common(plant: Robot, model: Robot | None) -> Any:
-    """The plant's make, with every term that it or the model has. Raises NotCompiled for another tree."""
+def _common(plant: RobotData, model: RobotData | None) -> RobotStructure:
+    """The plant's structure, with every term that it or the model has, since both run through the same code.
+
+    Raises NotCompiled for a model whose links are joined in another way.
+    """
     if model is None:
         return plant.structure
     one, other = plant.structure, model.structure
@@ -99,14 +113,15 @@ def _common(plant: Robot, model: Robot | None) -> Any:
 
 def _numbers(
     walker: Walker,
-    plant: Robot,
-    model: Robot | None,
+    plant: RobotData,
+    model: RobotData | None,
     laws: ControllerLaws,
     split: SplitLaws | None,
-) -> Numbers:
+) -> WalkerNumbers:
+    """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place."""
     biped = walker.plant
     limit = math.inf if walker.torque_limit is None else float(walker.torque_limit)
-    return Numbers(
+    return WalkerNumbers(
         plant.arrays,
         None if model is None else model.arrays,
         laws.parameters,
@@ -116,14 +131,19 @@ def _numbers(
         float(walker.max_step_time),
         biped.friction_coefficients if biped.friction else (),
         () if walker.held is None else walker.held,
-        np.array(walker.impact_gain, dtype=float) if walker.impact_gain else (),
+        walker.gain,
         () if split is None else split.parameters,
     )
 
 
-def _machine(make: Make, numbers: Numbers) -> Machine:
-    def traced(name: str) -> Function:
-        made: Function = getattr(Equations.of(make, numbers), name)()
+def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
+    """The functions of a structure in memory, traced one by one where there is no code on disk.
+
+    Raises NotCompiled for a law that cannot be traced or an operation without machine code.
+    """
+
+    def traced(name: str) -> SymbolicFunction:
+        made: SymbolicFunction = getattr(Equations.of(make, numbers), name)()
         return made
 
     functions = {name: partial(traced, name) for name in Equations.names(make)}
@@ -133,27 +153,35 @@ def _machine(make: Make, numbers: Numbers) -> Machine:
         raise NotCompiled(f"{reason}; it runs in Python on the compiled plant") from reason
 
 
-def _key(make: Make, numbers: Numbers) -> str:
+def _key(make: WalkerStructure, numbers: WalkerNumbers) -> str:
+    """Hash of all that decides the code: laws, structure, versions; no float is in it.
+
+    Parameters count by their names and shapes alone.
+    """
     split = () if make.split is None else make.split[3:]
     laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split))
     return hash_of(
         "walker",
-        skeleton(make.robot),
+        structure_text(make.robot),
         laws,
         make.size,
         make.held,
         make.gained,
         () if make.split is None else (make.split.A.shape, make.split.rows),
-        skeleton(numbers),
+        structure_text(numbers),
         versions_text(),
     )
 
 
-def product(k: int, p: int) -> Machine:
-    """With the function `turn`, straight-line code in vectors."""
+def product(k: int, p: int) -> LoadedCode:
+    """Machine code with the function `turn` for M (k, k) and E (k, p), as vector instructions.
 
-    def turn() -> Function:
+    The matrices of ETD-RK4 change with the length of a step, so M is an argument, in the place of
+    K.
+    """
+
+    def turn() -> SymbolicFunction:
         M, E = Vector("M", k * k), Vector("E", k * p)
-        return Function(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
+        return SymbolicFunction(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
 
     return generated(hash_of("turn", k, p, versions_text()), {"turn": turn}, vectors=True)

@@ -1,4 +1,9 @@
-"""One run by the engine asked for; what ran is in the trajectory's settings."""
+"""One run of a walker by the engine asked for; what ran is in the trajectory's settings.
+
+Entry to the engine for `scenario.walk` and the reproduction of the paper. "pinocchio" runs the
+Python loop on Pinocchio's dynamics, "compiled" tries machine code first. numba and LLVM are
+imported only when they are needed.
+"""
 
 from __future__ import annotations
 
@@ -13,12 +18,14 @@ from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.types import Array
 
-PINOCCHIO, COMPILED = "pinocchio", "compiled"
+PINOCCHIO, COMPILED, COMPILED_PLANT = "pinocchio", "compiled", "compiled plant"
+"""Names of the engines in settings and records; "compiled plant" is what ran where a part is plain Python."""
 ENGINES = (PINOCCHIO, COMPILED)
+"""Those that can be asked for."""
 
 
 def check_engine(engine: str) -> None:
-    """Raise InputError for an engine that there is not."""
+    """Raise InputError for an engine that does not exist."""
     if engine not in ENGINES:
         raise InputError(f"engine '{engine}' is unknown; choose one of {list(ENGINES)}")
 
@@ -33,11 +40,11 @@ def simulate_by(
     impacts: int | None = None,
     **options: Any,
 ) -> Trajectory:
-    """`hybrid.simulate` with Pinocchio's dynamics, or the compiled run; options as of `RunOptions`.
+    """A run of a walker from x0 (nx,) with Pinocchio's dynamics, or compiled; options as of `RunOptions`.
 
-    impacts: end after that many foot strikes. A robot that is no planar tree is simulated with Pinocchio
-    whatever was asked for. settings["engine"] says what ran, settings["why"] why it is not what was asked for.
-    Raises InputError.
+    impacts: end after that many. A robot that is no planar tree is simulated with Pinocchio
+    whatever was asked for. settings["engine"] says what ran, settings["why"] why it is not what was
+    asked for. Raises InputError.
     """
     check_engine(engine)
     stop_after = None if impacts is None else (FOOT_STRIKE, impacts)

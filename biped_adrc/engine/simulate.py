@@ -1,7 +1,12 @@
 """Runs of a walker in compiled code, with the trajectory that the Python engine would leave.
 
-What has no laws runs in Python on the compiled plant: in sampled time the controller is called once per tick
-and the plant moves in between in compiled code; anything else takes the Python engine with compiled dynamics.
+Three ways, the fastest that fits is taken:
+
+- all compiled: controller, observer, disturbance and method have laws; an arc is one call of a
+  kernel;
+- compiled plant, sampled time: the controller is plain Python, called once per sample instant, and
+  the plant moves in between in compiled code (`engine.ticks`);
+- compiled plant otherwise: the Python loop of `hybrid.simulator` on compiled dynamics.
 """
 
 from __future__ import annotations
@@ -13,30 +18,29 @@ import numpy as np
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.controller_inputs import Point, compiled_references
+from biped_adrc.engine.controller_inputs import CompiledReference, compiled_references
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run import arc
-from biped_adrc.engine.kernels.tables import STATUS
+from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.run import COMPILED, COMPILED_PLANT
 from biped_adrc.engine.ticks import TERMINAL, run_ticks
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.hybrid.simulator import Flown, RunOptions, run_arcs
-from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.simulator import FlownArc, RunOptions, run_arcs
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.types import Array
-
-COMPILED, COMPILED_PLANT = "compiled", "compiled plant"
 
 
 def run_compiled(
     walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
-    """As `hybrid.simulate` for a walker.
+    """As `hybrid.simulator.run` for a walker, from x0 (nx,).
 
-    The trajectory's settings say which engine ran and, where it is not all compiled, why. Raises InputError
-    for a start that is not finite or parts that do not fit, ModelError for a robot that is no planar tree.
+    The trajectory's settings say which engine ran and, where it is not all compiled, why. Raises
+    InputError for a start that is not finite or parts that do not fit, ModelError for a robot that
+    is no planar tree.
     """
     options.check(np.asarray(x0))
     try:
@@ -52,8 +56,8 @@ def run_compiled(
 def on_compiled_plant(
     walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
-    """A run in Python with compiled dynamics. Raises as `run_compiled`."""
-    points: list[Point] = []
+    """A run in Python from x0 (nx,) with compiled dynamics and references. Raises as `run_compiled`."""
+    points: list[CompiledReference] = []
     controller = compiled_references(walker.controller, walker.plant.n, points)
     model = None if walker.model is None else CompiledBiped.of(walker.model)
     plant = CompiledBiped.of(walker.plant)
@@ -68,22 +72,29 @@ def on_compiled_plant(
 
 @dataclass(frozen=True)
 class _Arcs:
-    """Arcs of a walker that is compiled as a whole."""
+    """Arcs of a walker that is compiled as a whole, one after the other, for `simulator.run_arcs`."""
 
     compiled: CompiledWalker
     options: RunOptions
+    """When the run ends, and every how many steps a node is kept."""
 
     @property
     def room(self) -> int:
-        """Nodes of an arc to make room for at first: those of a long single support, two at each tick."""
+        """Nodes of an arc to make room for at first: those of a single support of 0.6 s, two at
+        each sample instant.
+
+        Where that is too few the arc is made again with more, so it need not be right.
+        """
         plan, longest = self.compiled.plan, 0.6
         F, every = plan.F, self.options.store_every
         shortest = F[layout.H] if plan.P[layout.KIND] != layout.DOP853 else 1e-3
         ticks = longest / F[layout.PERIOD] if F[layout.PERIOD] > 0.0 else 0.0
         return 64 + min(100_000, int(longest / shortest / every + 2.0 * ticks))
 
-    def fly(self, t: float, x: Array, mode: Mode, fired: str | None) -> Flown:
-        """One arc from x at t [s], and the impact at its end."""
+    def fly(self, t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
+        """One arc from x (nx,) at t [s], and the impact at its end; fired: the event before, None
+        at the start.
+        """
         plan, K = self.compiled.plan, self.compiled.K
         s = plan.start(x, t, mode.step, mode.start, self.options.t_end)
         s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
@@ -98,6 +109,6 @@ class _Arcs:
         elif STATUS[code] in TERMINAL:
             event = Event(TERMINAL[STATUS[code]], t, x_minus, None)
         nodes = Arc(mode, found.t.copy(), found.x.copy(), found.dx.copy(), event)
-        lost = STATUS[code] in (Status.NOT_FINITE, Status.SINGULAR, Status.STEP_FAILED)
+        lost = STATUS[code] in simulator.FAILURES
         detail = f"after t = {nodes.t[-1]:.6g} s" if lost else ""
-        return Flown(nodes, STATUS[code], detail, outcome)
+        return FlownArc(nodes, STATUS[code], detail, outcome)

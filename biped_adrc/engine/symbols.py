@@ -1,8 +1,17 @@
 """Laws on symbols: run once on CasADi's scalars in NumPy's object arrays, a law leaves an expression.
 
-A law sees copies of `np`, `math` and `solve` that make no float arrays and decide nothing by the numbers.
-Numbers of type int decide, and are part of the expression's structure; floats are symbols, to be given at run
-time. A law that branches on a symbol raises `Untraceable`.
+This is the first stage of the compiler: law -> expression (here) -> LLVM text (`engine.ir`) ->
+machine code (`engine.machine`). A law is an ordinary Python function on NumPy arrays. `Tracer`
+makes a copy of it, and of every function that it reaches, in which `np`, `math` and `linear.solve`
+are replaced by twins that make no float arrays and decide nothing by the numbers. The law's own
+lines are not rewritten.
+
+Numbers of type int decide (sizes, flags) and are part of the expression's structure; floats are
+symbols, to be given at run time, so that one compilation serves all values. A law that branches on
+a symbol raises `Untraceable`; np.where is the way to write such a choice.
+
+Symbols are typed as the numbers and arrays that they stand for, since the functions that take them
+are typed for numbers.
 """
 
 from __future__ import annotations
@@ -11,28 +20,64 @@ import math
 import operator
 import traceback
 import types
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar, Union, overload
 
 import casadi as ca
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from biped_adrc import linear
 from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+
+T = TypeVar("T")
 
 
 class Untraceable(InputError):
-    """The law looks at a number to decide what to do, or does what has no symbol."""
+    """The law looks at a number to decide what to do, or does what has no symbol. The text names
+    the function.
+    """
+
+
+Number = Union["Scalar", float]
+"""A symbol, or a number that the structure fixes."""
+
+
+def expression(x: Number) -> ca.SX | float:
+    """The CasADi expression behind a Scalar, or the number itself as a float."""
+    return x.e if isinstance(x, Scalar) else float(x)
+
+
+def _binary(
+    function: Callable[..., ca.SX | float], reflected: bool = False
+) -> Callable[[Scalar, Number], Scalar]:
+    """A method of `Scalar` for this operator; reflected: with the operands exchanged, as for 2.0 * x.
+
+    Beside an array it returns NotImplemented, and NumPy then applies the operator entry by entry.
+    """
+
+    def apply(self: Scalar, other: Number) -> Scalar:
+        if isinstance(other, np.ndarray):
+            return NotImplemented
+        one, two = self.e, expression(other)
+        return Scalar(function(two, one) if reflected else function(one, two))
+
+    return apply
 
 
 class Scalar:
-    """One number of an expression; arithmetic gives another."""
+    """One number of an expression; arithmetic with another Scalar or a float gives another Scalar.
+
+    e: the CasADi expression. Turning it into a bool or a float raises Untraceable, since that is
+    where a law would decide by a number. Comparisons give Scalars that are 0 or 1, for np.where.
+    """
 
     __slots__ = ("e",)
 
-    def __init__(self, e: Any):
+    def __init__(self, e: ca.SX | float):
         self.e = e
 
     def __bool__(self) -> bool:
@@ -41,7 +86,8 @@ class Scalar:
     def __float__(self) -> float:
         raise Untraceable("the law turns a number into a float of Python's or of an array's")
 
-    def __pow__(self, other: Any) -> Any:
+    def __pow__(self, other: Number) -> Scalar:
+        """A whole exponent stays an int, which CasADi turns into products; any other is a power."""
         if isinstance(other, np.ndarray):
             return NotImplemented
         if isinstance(other, int | float | np.number) and float(other).is_integer():
@@ -58,51 +104,42 @@ class Scalar:
         return self
 
     def cos(self) -> Scalar:
-        """Asked for by NumPy, as `sin`."""
+        """NumPy asks each entry of an object array for its `cos`, and for its `sin`."""
         return Scalar(ca.cos(self.e))
 
     def sin(self) -> Scalar:
         return Scalar(ca.sin(self.e))
 
-
-def expression(x: Any) -> Any:
-    """The expression of a Scalar or a number."""
-    return x.e if isinstance(x, Scalar) else float(x)
-
-
-def _binary(name: str, reflected: bool) -> Callable[[Scalar, Any], Any]:
-    function = getattr(operator, name)
-
-    def apply(self: Scalar, other: Any) -> Any:
-        if isinstance(other, np.ndarray):
-            return NotImplemented
-        one, two = self.e, expression(other)
-        return Scalar(function(two, one) if reflected else function(one, two))
-
-    return apply
+    __add__, __radd__ = _binary(operator.add), _binary(operator.add, reflected=True)
+    __sub__, __rsub__ = _binary(operator.sub), _binary(operator.sub, reflected=True)
+    __mul__, __rmul__ = _binary(operator.mul), _binary(operator.mul, reflected=True)
+    __truediv__, __rtruediv__ = _binary(operator.truediv), _binary(operator.truediv, reflected=True)
+    __lt__, __le__ = _binary(operator.lt), _binary(operator.le)
+    __gt__, __ge__ = _binary(operator.gt), _binary(operator.ge)
+    __hash__ = object.__hash__
 
 
-for _name in ("add", "sub", "mul", "truediv"):
-    setattr(Scalar, f"__{_name}__", _binary(_name, False))
-    setattr(Scalar, f"__r{_name}__", _binary(_name, True))
-for _name in ("lt", "le", "gt", "ge", "eq", "ne"):
-    setattr(Scalar, f"__{_name}__", _binary(_name, False))
-Scalar.__hash__ = object.__hash__  # type: ignore[method-assign]
+setattr(Scalar, "__eq__", _binary(operator.eq))  # noqa: B010
+setattr(Scalar, "__ne__", _binary(operator.ne))  # noqa: B010
 
 
-def _compare(name: str) -> Callable[[Any, Any], Any]:
+def _compare(name: str) -> Callable[..., Any]:
+    """NumPy's comparison of that name with Scalars as result, where NumPy would make an array of bool."""
     compare = getattr(np, name)
     return lambda self, other: compare(self, other, dtype=object)
 
 
-class Symbols(np.ndarray):
-    """An array of Scalars; comparisons give Scalars too, for `np.where`."""
+class Symbols(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
+    """An object array of Scalars; comparisons give Scalars too, for `np.where`.
+
+    Typed as the array of float64 that it stands for, so that laws take it.
+    """
 
     __lt__, __le__ = _compare("less"), _compare("less_equal")
     __gt__, __ge__ = _compare("greater"), _compare("greater_equal")
     __hash__ = None
 
-    def __array_wrap__(self, array: Any, *_: Any) -> Any:
+    def __array_wrap__(self, array: Array, *_: object) -> Any:
         """What an operation gives: one number as itself, as NumPy does for its own arrays."""
         return array.item() if array.ndim == 0 else array.view(Symbols)
 
@@ -114,15 +151,16 @@ FUNCTIONS = {
     "floor": "floor",
     "sign": "sign",
 }
-"""NumPy's names and CasADi's."""
+"""Functions of one number that can be traced: NumPy's names and CasADi's."""
 
 
-def _function(name: str) -> Callable[[Any], Any]:
+def _function(name: str) -> Callable[[Number], Scalar]:
+    """CasADi's function of that name for one Scalar."""
     return lambda x: Scalar(getattr(ca, name)(expression(x)))
 
 
 def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A function of scalars for arrays and scalars alike."""
+    """A function of scalars for arrays and scalars alike, entry by entry, with object arrays as result."""
     vectorised = np.frompyfunc(function, function.__code__.co_argcount, 1)
     return lambda *arguments: vectorised(*arguments)
 
@@ -131,38 +169,49 @@ tanh = elementwise(_function("tanh"))
 
 
 class _Substitute:
-    """A module some of whose functions are replaced."""
+    """A module some of whose functions are replaced; every other name is the module's own."""
 
-    def __init__(self, module: types.ModuleType, replaced: dict[str, Any]):
+    def __init__(self, module: types.ModuleType, replaced: Mapping[str, object]):
         self._module = module
         self.__dict__.update(replaced)
 
-    def __getattr__(self, name: str) -> Any:
+    def __getattr__(self, name: str) -> object:
         return getattr(self._module, name)
 
 
-def _filled(value: float) -> Callable[..., Any]:
+def _filled(value: float) -> Callable[..., NDArray[np.object_]]:
+    """A function like np.zeros or np.ones that makes object arrays, whose entries may become Scalars."""
     return lambda shape, *_, **__: np.full(shape, value, dtype=object)
 
 
-def minimum(a: Any, b: Any) -> Any:
+def minimum(a: Number, b: Number) -> Scalar:
+    """The smaller of two numbers."""
     return Scalar(ca.fmin(expression(a), expression(b)))
 
 
-def maximum(a: Any, b: Any) -> Any:
+def maximum(a: Number, b: Number) -> Scalar:
+    """The larger of two numbers."""
     return Scalar(ca.fmax(expression(a), expression(b)))
 
 
-def where(condition: Any, a: Any, b: Any) -> Any:
+def where(condition: Number, a: Number, b: Number) -> Scalar:
+    """a where the condition is not 0, else b; both are evaluated."""
     return Scalar(ca.if_else(expression(condition), expression(a), expression(b)))
 
 
-def solve_positive(A: Any, B: Any, what: str) -> Any:
-    """X with A X = B for a symmetric positive definite A, by A = L d L' without pivots."""
-    n, columns = len(A), B.reshape(len(A), -1).astype(object)
+def solve_positive(A: Array, B: Array, what: str) -> Array:
+    """X (n, c) or (n,) with A X = B for a symmetric positive definite A (n, n), by A = L d L'
+    without pivots.
+
+    Written out entry by entry, since the expression has to be straight-line code. `what` names the
+    matrix in the version for numbers, `linear.solve_positive`; here a pivot of zero gives NaN or
+    infinity at run time.
+    """
+    n = len(A)
+    columns: Any = B.reshape(n, -1).astype(object)
     L = np.full((n, n), 0.0, dtype=object)
-    d: list[Any] = []
-    inverse: list[Any] = []
+    d: list[Number] = []
+    inverse: list[Number] = []
     for j in range(n):
         d.append(A[j, j] - sum(L[j, k] * L[j, k] * d[k] for k in range(j)))
         inverse.append(1.0 / d[j])
@@ -179,18 +228,31 @@ def solve_positive(A: Any, B: Any, what: str) -> Any:
     return columns.reshape(B.shape)
 
 
+Row = list[Number]
+"""One row of a matrix beside its right sides, during elimination."""
+
+
 class Solver:
-    """`solve` by elimination with the largest pivot of each column, chosen at run time; keeps the pivots."""
+    """`linear.solve` on symbols: elimination with the largest pivot of each column.
+
+    Which row has the largest pivot is not known while tracing, so rows are exchanged by choices in
+    the expression. All pivots are kept: an exact zero among them at run time means a singular
+    matrix, which the kernels report as SINGULAR.
+    """
 
     def __init__(self) -> None:
-        self.pivots: list[Any] = []
+        self.pivots: list[Scalar] = []
 
-    def __call__(self, A: Any, B: Any, what: str = "") -> Any:
+    def __call__(self, A: Array, B: Array, what: str = "") -> Array:
+        """X (n, c) or (n,) with A X = B, for A (n, n) and B (n, c) or (n,).
+
+        Entries below the diagonal become plain zeros, so no code is written for them.
+        """
         n = len(A)
         if n == 0:
             return np.full(np.shape(B), 0.0, dtype=object)
         rows = [list(a) + list(b) for a, b in zip(A, B.reshape(n, -1), strict=True)]
-        inverse: list[Any] = []
+        inverse: list[Number] = []
         for j in range(n):
             for i in range(j + 1, n):
                 rows[j], rows[i] = _larger_first(rows[j], rows[i], j)
@@ -209,20 +271,24 @@ class Solver:
         return X.reshape(B.shape)
 
     @property
-    def least(self) -> Any:
-        """The smallest |pivot|, infinite without one."""
-        least: Any = Scalar(ca.SX(math.inf))
+    def least(self) -> Scalar:
+        """The smallest |pivot| of all solutions so far, infinite without one; generated functions return it."""
+        least = Scalar(ca.SX(math.inf))
         for pivot in self.pivots:
             least = minimum(least, pivot)
         return least
 
 
-def _pairs(one: list[Any], other: list[Any]) -> Iterator[tuple[int, tuple[Any, Any]]]:
+def _pairs(one: Row, other: Row) -> Iterator[tuple[int, tuple[Number, Number]]]:
+    """Column number, and the entries of both rows in that column."""
     return enumerate(zip(one, other, strict=True))
 
 
-def _larger_first(one: list[Any], other: list[Any], j: int) -> tuple[list[Any], list[Any]]:
-    """The two rows, that with the larger entry in column j first."""
+def _larger_first(one: Row, other: Row, j: int) -> tuple[Row, Row]:
+    """The two rows, that with the larger entry in column j first; entries left of column j are zero.
+
+    The exchange is a choice for each entry, since the rows are known at run time only.
+    """
     a, b = (ca.fabs(ca.SX(expression(row[j]))) for row in (one, other))
     swap = Scalar(b > a)
     first = [where(swap, b, a) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
@@ -230,19 +296,20 @@ def _larger_first(one: list[Any], other: list[Any], j: int) -> tuple[list[Any], 
     return first, second
 
 
-BUILTINS: dict[str, Any] = {
+BUILTINS: Mapping[str, Callable[..., object]] = {
     "float": lambda x: x,
     "abs": np.abs,
-    "min": lambda a, b: minimum(a, b),
-    "max": lambda a, b: maximum(a, b),
+    "min": minimum,
+    "max": maximum,
 }
-"""What laws find under these names."""
+"""What laws find under these names in place of Python's: no float(), and no choice by a number."""
 
 
 class Tracer:
-    """Copies of laws that run on symbols, with one solver for all."""
+    """Copies of laws that run on symbols, with one solver for all, so that `solver.least` covers them all."""
 
     def __init__(self) -> None:
+        """The replacements, by identity of what laws name: NumPy, math, and the two functions of `linear`."""
         self.solver = Solver()
         functions = {name: elementwise(_function(theirs)) for name, theirs in FUNCTIONS.items()}
         numpy = {
@@ -264,16 +331,22 @@ class Tracer:
         }
         scalars = {name: _function(theirs) for name, theirs in FUNCTIONS.items()}
         scalars |= {f"a{name}": _function(f"a{name}") for name in ("sin", "cos", "tan")}
-        self._substitutes: list[tuple[Any, Any]] = [
+        self._substitutes: list[tuple[object, object]] = [
             (np, _Substitute(np, numpy)),
             (math, _Substitute(math, scalars)),
             (linear.solve, self.solver),
             (linear.solve_positive, solve_positive),
         ]
-        self._copies: dict[Any, Any] = {}
+        self._copies: dict[types.FunctionType, Any] = {}
 
-    def __call__(self, law: Any) -> Any:
-        """The law for symbols, with every function that it reaches."""
+    def __call__(self, law: T) -> T:
+        """The law for symbols, with every function that it reaches; what is no Python function
+        stays as it is.
+
+        A copy shares the code object and has its own globals and closure, in which names are
+        replaced. Copies are remembered before their names are replaced, so laws that call each
+        other end.
+        """
         if not isinstance(law, types.FunctionType):
             return law
         if law not in self._copies:
@@ -291,7 +364,8 @@ class Tracer:
                 cell.cell_contents = self._substitute(cell.cell_contents)
         return self._copies[law]
 
-    def _substitute(self, value: Any) -> Any:
+    def _substitute(self, value: object) -> object:
+        """The twin of a value that a law names: of a module, a solver, a law, or a tuple of such."""
         for old, new in self._substitutes:
             if value is old:
                 return new
@@ -300,13 +374,17 @@ class Tracer:
         return self(value)
 
 
-def rebuilt(like: Any, parts: list[Any]) -> Any:
-    """A tuple, NamedTuple or list of the same make with other parts."""
+def rebuilt(like: tuple[object, ...] | list[object], parts: list[object]) -> object:
+    """A tuple, NamedTuple or list of the same class with other parts."""
     return like._make(parts) if hasattr(like, "_make") else type(like)(parts)
 
 
-def run(trace: Tracer, law: Any, *arguments: Any) -> Any:
-    """A law on symbols. Raises Untraceable that names the function which cannot be run so."""
+def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
+    """What a law gives on symbols, at these arguments.
+
+    Raises Untraceable that names the last function of the user's or this package's in which the
+    error arose, since the error itself comes from inside NumPy or CasADi.
+    """
     try:
         return trace(law)(*arguments)
     except Exception as error:  # whatever NumPy says of an object that is no float
@@ -319,22 +397,34 @@ def run(trace: Tracer, law: Any, *arguments: Any) -> Any:
 
 
 LIBRARIES = (__file__, str(Path(np.__file__).parent), str(Path(ca.__file__).parent))
-"""Where the functions are that laws call, and that are no laws themselves."""
+"""Folders of the functions that laws call and that are no laws themselves; errors there are put
+down to the law.
+"""
 
 
 @lru_cache(maxsize=1024)
 def names_of(code: types.CodeType) -> frozenset[str]:
-    """The names that a piece of code and what is defined inside it look up."""
+    """The global names and attributes that a piece of code, and code defined inside it, looks up."""
     inner = (names_of(x) for x in code.co_consts if isinstance(x, types.CodeType))
     return frozenset(code.co_names).union(*inner)
 
 
 class Vector:
-    """A flat vector of symbols, taken from the front, one array after the other."""
+    """A flat vector of symbols (size,), taken from the front, one array after the other.
+
+    name: for CasADi's messages. `floats` lists the numbers of parameters in the same order, so a
+    generated function and its caller agree on the layout without writing it down.
+    """
 
     def __init__(self, name: str, size: int):
         self.symbol = ca.SX.sym(name, size)
         self._taken = 0
+
+    @overload
+    def take(self) -> Any: ...
+
+    @overload
+    def take(self, first: int, /, *more: int) -> Array: ...
 
     def take(self, *shape: int) -> Any:
         """The next symbols as an object array of this shape; a Scalar for no shape."""
@@ -346,16 +436,20 @@ class Vector:
             out[index] = self.take()
         return out
 
-    def like(self, tree: Any) -> Any:
+    def like(self, tree: T) -> T:
         """The parameters of a law with their floats as symbols; ints stay what they are."""
+        return self._like(tree)
+
+    def _like(self, tree: object) -> Any:
+        """The same for any part of a tree of tuples, lists, arrays and numbers."""
         if isinstance(tree, tuple | list):
-            return rebuilt(tree, [self.like(x) for x in tree])
+            return rebuilt(tree, [self._like(x) for x in tree])
         if isinstance(tree, np.ndarray):
             return self.take(*tree.shape) if tree.dtype.kind == "f" else tree
         return self.take() if isinstance(tree, float | np.floating) else tree
 
 
-def floats(tree: Any) -> Iterator[float]:
+def floats(tree: object) -> Iterator[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
     if isinstance(tree, tuple | list):
         for x in tree:
@@ -367,7 +461,7 @@ def floats(tree: Any) -> Iterator[float]:
         yield float(tree)
 
 
-def column(*parts: Any) -> Any:
-    """CasADi's column of all numbers in arrays and scalars."""
+def column(*parts: ArrayLike | Scalar) -> ca.SX:
+    """CasADi's column (size, 1) of all numbers in arrays and scalars, one after the other, rows first."""
     flat = [expression(x) for part in parts for x in np.asarray(part, dtype=object).ravel()]
     return ca.vertcat(*flat) if flat else ca.SX(0, 1)

@@ -1,7 +1,14 @@
-"""Sampled control in plain Python on the compiled plant: the controller is called once per tick.
+"""Sampled control in plain Python on the compiled plant: the controller is called once per sample instant.
 
-Between ticks the plant is (q, q', u) with the torque held, or (q, q', u_m, u) where the motors lag; it moves by
-itself in compiled code, disturbance and events included.
+Between sample instants the plant is (q, q', u) with the torque held, or (q, q', u_m, u) where the
+motors lag; it moves by itself in compiled code, disturbance and events included. There are two
+systems for `hybrid.simulator`:
+
+- `TicksWithHardware`, with sensors, delays or a meter, runs the walker's own sample instants of
+  `closed_loop.semantics`, one call of a kernel between two of them;
+- `TicksWithoutHardware` does a whole arc in one loop. One compiled call moves the plant, computes
+  the model's terms and the reference at the next sample instant, and leaves them where Python reads
+  them, so that a sample instant costs little more than the controller itself.
 """
 
 from __future__ import annotations
@@ -12,39 +19,36 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import repeat
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.semantics import asked
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.controller_inputs import Point, Told
+from biped_adrc.engine.controller_inputs import CompiledReference, ControllerInputs
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.layout import COMPLETED, END
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run import arc
-from biped_adrc.engine.kernels.tables import STATUS
-from biped_adrc.errors import NotFiniteError, SingularError
+from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.sample_hold import HeldSizes
 from biped_adrc.hybrid import simulator
-from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
+from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import Record, RunOptions
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.system import Clock, Found, HybridSystem, Mover
+from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
 from biped_adrc.model.reduction import Reduction
 from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
-"""The guards that end a run, by status."""
+"""Names of the event functions that end a run, by status."""
 BLOCK = 256
-"""Ticks of which the measurements lie in one array."""
+"""Sample instants whose inputs lie in one array."""
 ROOM = 1024
 """Nodes of an arc to make room for at first."""
 
@@ -55,47 +59,50 @@ def run_ticks(
     mode: Mode,
     method: OneStepMethod,
     options: RunOptions,
-    points: Sequence[Point] = (),
+    points: Sequence[CompiledReference] = (),
 ) -> Trajectory:
-    """A run of a walker with compiled dynamics, whose controller has references with the laws `points`.
+    """A run from x0 (nx,) of a walker with compiled dynamics whose controller is plain Python.
 
-    Raises NotCompiled for a disturbance or method without laws.
+    points: laws of the controller's references, compiled. The faster way is taken where nothing but
+    the torque is held between sample instants. Raises NotCompiled for a disturbance or method
+    without laws.
     """
     plant = CompiledWalker.held(walker, method)
     assert walker.held is not None
     sizes = walker.held.sizes
-    system: HybridSystem = Ticked(walker, plant, flowing(sizes, len(x0)))
+    system: HybridSystem = TicksWithHardware(walker, plant, flowing(sizes, len(x0)))
     if sizes.total == sizes.p and not sizes.rate:
-        told = Told(walker.nominal, points[0] if points else None)
-        system = Bare(walker, plant, told, options.t0)
+        inputs = ControllerInputs(walker.nominal, points[0] if points else None)
+        system = TicksWithoutHardware(walker, plant, inputs, options.t0)
     return simulator.run(system, x0, mode, method, options)
 
 
-LOST = {
-    Status.NOT_FINITE: NotFiniteError,
-    Status.SINGULAR: SingularError,
-    Status.STEP_FAILED: StepFailed,
-}
-"""What is raised for these statuses."""
+def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> FoundEvent | None:
+    """The event behind a code of the kernels at t [s], x (nx,); None for COMPLETED.
 
-
-def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> Found | None:
-    """The event behind a code of the kernels, None for none. Raises one of LOST, or what the jump raises."""
+    An impact is carried out here, by the walker itself. Raises one of `simulator.FAILURES` where
+    the plant's motion was lost, or what the controller's jump raises.
+    """
     if code == COMPLETED:
         return None
     if code == layout.STRUCK:
         outcome = walker.struck(t, x, mode)
-        return Found(Event(FOOT_STRIKE, t, x, outcome[0]), outcome)
+        return FoundEvent(Event(FOOT_STRIKE, t, x, outcome[0]), outcome)
     status = STATUS[code]
-    if status in LOST:
-        raise LOST[status](f"the plant's motion ends after t = {t:.6g} s: {status.name}")
-    return Found(Event(TERMINAL[status], t, x, None), None, status)
+    if status in simulator.FAILURES:
+        raise simulator.FAILURES[status](
+            f"the plant's motion ends after t = {t:.6g} s: {status.name}"
+        )
+    return FoundEvent(Event(TERMINAL[status], t, x, None), None, status)
 
 
 def start(
     plant: CompiledWalker, x: Array, t: float, mode: Mode, end: float, fired: str | None, every: int
 ) -> Array:
-    """The vector s of a held plant's run over one arc."""
+    """The run vector s of a held plant over one arc, from x (nx,) at t [s] to `end` [s] at the latest.
+
+    fired: the event that ended the arc before. every: which nodes are kept.
+    """
     s = plant.plan.start(x, t, mode.step, mode.start, end)
     s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
     s[layout.EVERY] = every
@@ -103,45 +110,56 @@ def start(
 
 
 # -- with hardware ---------------------------------------------------------------------------------
-def flowing(sizes: HeldSizes, length: int) -> NDArray[np.int_]:
-    """Where in a state of `length` numbers what flows between ticks is: q, q', with lag u_m, and u."""
+def flowing(sizes: HeldSizes, length: int) -> Indices:
+    """Where in a state of `length` numbers the held plant is: places of q, q', with lag u_m, and u."""
     motors = length - sizes.p * (sizes.waiting + 2)
     lagging = range(motors, motors + sizes.p) if sizes.lag else ()
     return np.array([*range(2 * sizes.n), *lagging, *range(length - sizes.p, length)])
 
 
-def whole(x: Array, at: NDArray[np.int_], rows: Array) -> Array:
-    """x with other numbers at these places, in as many rows as there are."""
+def whole(x: Array, at: Indices, rows: Array) -> Array:
+    """x (nx,) with other numbers at these places, in as many rows as there are: (nx,) or (N, nx).
+
+    What does not move between sample instants is the same in every row.
+    """
     out = np.tile(x, (*rows.shape[:-1], 1)) if rows.ndim > 1 else x.copy()
     out[..., at] = rows
     return out
 
 
 @dataclass(frozen=True)
-class Ticked(HybridSystem):
-    """The walker's own ticks, hardware and meter included, on the held plant."""
+class TicksWithHardware(HybridSystem):
+    """The walker's own sample instants, hardware and meter included, on the held plant."""
 
     walker: Walker
+    """With compiled dynamics."""
     plant: CompiledWalker
-    flowing: NDArray[np.int_]
+    """The plant under a held torque."""
+    flowing: Indices
+    """Its places in a state of the walker."""
 
     def clocks(self) -> tuple[Clock, ...]:
         return self.walker.clocks()
 
     def mover(self, fired: str | None) -> Mover:
-        return Between(self, fired)
+        return HeldMotion(self, fired)
 
 
-class Between:
-    """Moves `Ticked` from one of its ticks to the next."""
+class HeldMotion:
+    """Moves `TicksWithHardware` from one of its sample instants to the next, over one arc.
 
-    def __init__(self, system: Ticked, fired: str | None):
+    s: the kernels' run vector, made at the first call and carried on, so that an event function
+    keeps its value across a sample instant, where the plant's q does not jump.
+    """
+
+    def __init__(self, system: TicksWithHardware, fired: str | None):
         self.system, self.fired = system, fired
         self.s: Array | None = None
 
     def __call__(
         self, t: float, x: Array, mode: Mode, until: float, record: Record
-    ) -> tuple[float, Array, Found | None]:
+    ) -> tuple[float, Array, FoundEvent | None]:
+        """From (t, x) to `until` [s] or the first event, as `hybrid.system.Mover`."""
         plant, at = self.system.plant, self.system.flowing
         if self.s is None:
             self.s = start(plant, x[at], t, mode, until, self.fired, record.every)
@@ -160,28 +178,37 @@ _HOLD = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)
 
 
 @dataclass(frozen=True)
-class Bare(HybridSystem):
-    """x = (q, q', s, u): ticks and motion in one, since a tick costs little more than the controller itself.
+class TicksWithoutHardware(HybridSystem):
+    """x = (q, q', s, u): sample instants and motion in one loop, since one costs little more than
+    the controller itself.
 
-    The call that moves the plant to a tick leaves what the controller is given there in a block of memory.
+    The call that moves the plant to a sample instant leaves what the controller is given there in a
+    block of memory.
     """
 
     walker: Walker
+    """With compiled dynamics and references."""
     plant: CompiledWalker
-    told: Told
+    """The plant under a held torque."""
+    inputs: ControllerInputs
+    """What the controller is given, compiled."""
     t_first: float
+    """Start of the run [s]."""
 
     def mover(self, fired: str | None) -> Mover:
         return partial(self.move, fired)
 
     def move(
         self, fired: str | None, t: float, x: Array, mode: Mode, until: float, record: Record
-    ) -> tuple[float, Array, Found | None]:
-        """Over all ticks of an arc, as `system.Mover`."""
+    ) -> tuple[float, Array, FoundEvent | None]:
+        """Over all sample instants of an arc, from x (nx,) at t [s], as `hybrid.system.Mover`.
+
+        Nodes are recorded even where the controller raises.
+        """
         n, end = self.walker.plant.n, len(x) - self.walker.plant.p
         held = np.concatenate((x[: 2 * n], x[end:]))
         s = start(self.plant, held, t, mode, until, fired, record.every)
-        seen, states, ends = Seen(self.plant, self.told, s), [x[2 * n : end]], [0]
+        seen, states, ends = TickInputs(self.plant, self.inputs, s), [x[2 * n : end]], [0]
         try:
             code = self.ticks(seen, t, mode, until, states, ends)
         finally:
@@ -192,16 +219,18 @@ class Bare(HybridSystem):
 
     def ticks(
         self,
-        seen: Seen,
+        seen: TickInputs,
         t: float,
         mode: Mode,
         until: float,
         states: list[Array],
         ends: list[int],
     ) -> int:
-        """Tick, move, tick, to an event or to `until`; a code. After every tick s goes into `states`.
+        """Sample, move, sample, to an event or to `until` [s]; a code of the kernels.
 
-        ends: how many nodes there were at each tick.
+        After every sample instant the controller's state (size,) goes into `states`, and into
+        `ends` how many nodes there were. The loop is written out, without calls that could be
+        saved: it runs once per sample instant.
         """
         walker, law, time = self.walker, self.walker.law, self.walker.timing
         assert isinstance(time, SampledTime)
@@ -212,11 +241,11 @@ class Bare(HybridSystem):
         count = max(0, math.floor((t - origin) / period))
         while origin + count * period < t:
             count += 1
-        told, (step, began) = self.told.point or Unasked(), mode
+        reference, (step, began) = self.inputs.point or NoReference(), mode
         due = origin + count * period
         hold, at, output, saturate = seen.hold, seen.at, law.output, walker.saturate
         for q, v, terms, point, following in seen:
-            told.now = q, v, point
+            reference.now = q, v, point
             if t == due:
                 B = None if body is None else body(q, v)
                 m = _MEASUREMENT((t, step, t - began, q, v, terms, B))
@@ -240,7 +269,11 @@ class Bare(HybridSystem):
         raise AssertionError
 
     def keep(self, nodes: Array, states: list[Array], ends: list[int], record: Record) -> None:
-        """The nodes, with the state of the controller at each of them."""
+        """Record the nodes (N, 1 + 2 nx), with the controller's state at each of them.
+
+        The state changes at sample instants alone, so it is repeated from one to the next; its
+        slope is zero.
+        """
         n, nx = self.walker.plant.n, self.plant.plan.nx
         s = np.zeros((len(nodes), 0))
         if len(states[0]):
@@ -252,22 +285,32 @@ class Bare(HybridSystem):
 
 
 @dataclass
-class Unasked:
-    """In place of a reference that there is none of."""
+class NoReference:
+    """In the place of a compiled reference where the controller has none."""
 
-    now: Any = None
+    now: object = None
+    """Written at every sample instant and never read."""
 
 
-class Seen:
-    """(q, v, terms, point) at one tick after the other, all read only, and where `hold` writes the next.
+TickInput = tuple[Array, Array, Reduction, ReferencePoint | None, int]
+"""q, v, terms of the model and reference at a sample instant; and the address where the next ones go."""
 
-    hold(at, following) takes the plant on; a code.
+
+class TickInputs:
+    """What the controller is given at one sample instant after the other, all arrays read-only.
+
+    hold(at, following) moves the plant on, writes the next inputs at the address `following`, and
+    returns a code; `at` is the address of `given`, the list of addresses that the kernel reads.
     """
 
-    def __init__(self, plant: CompiledWalker, told: Told, s: Array):
+    def __init__(self, plant: CompiledWalker, inputs: ControllerInputs, s: Array):
+        """The plant's plan with work rows of its own, and the block of addresses that `hold` reads.
+
+        s: run vector of the arc; inputs: the compiled function behind it.
+        """
         self.plan, self.K, self.work, self.s = plant.plan, plant.K, plant.plan.work(), s
-        self.told, self.n = told, told.robot.structure.n
-        self.shapes = [(), (self.n,), (self.n,), *told.shapes]
+        self.inputs, self.n = inputs, inputs.robot.structure.n
+        self.shapes = [(), (self.n,), (self.n,), *inputs.shapes]
         self.width = sum(map(math.prod, self.shapes))
         self.hold = _HOLD(kernels().ADDRESSES["hold"])
         self.given = np.zeros(8, dtype=np.int64)
@@ -276,24 +319,31 @@ class Seen:
         self.at = self.given.ctypes.data
 
     def grow(self, rows: int) -> None:
-        """Room for so many nodes; those that there are stay."""
+        """Make room for so many nodes; those that there are stay. Addresses change, so `given` is
+        written anew.
+        """
         more = np.empty((rows, self.rows.shape[1]))
         more[: len(self.rows)] = self.rows
         self.rows, self.s[layout.ROOM] = more, rows
         arrays = (self.plan.P, self.plan.F, self.K, self.work, self.s, self.rows)
         addresses = [array.ctypes.data for array in arrays]
-        self.given[:] = *addresses, self.told.address, self.told.K.ctypes.data
+        self.given[:] = *addresses, self.inputs.address, self.inputs.K.ctypes.data
 
     @property
     def kept(self) -> Array:
-        """The nodes so far."""
+        """The nodes so far (N, 1 + 2 nx): t [s], x, x'."""
         return self.rows[: int(self.s[layout.COUNT])]
 
-    def __iter__(self) -> Iterator[Any]:
+    def __iter__(self) -> Iterator[TickInput]:
+        """Inputs at one sample instant after the other, views into blocks of BLOCK rows.
+
+        The first row is computed here; every other one is filled by the call of `hold` before. A
+        new block is made each time, since controllers may keep what they were given.
+        """
         last = np.empty((1, self.width))
         last[0, 0] = self.s[layout.TIME]
         last[0, 1 : 1 + 2 * self.n] = self.s[layout.HEAD : layout.HEAD + 2 * self.n]
-        pointer_call(self.told.machine, "told", self.told.K, last, last[:, 1 + 2 * self.n :])
+        pointer_call(self.inputs.machine, "inputs", self.inputs.K, last, last[:, 1 + 2 * self.n :])
         while True:
             block = np.empty((BLOCK + 1, self.width))
             block[0], first, row = last[0], block.ctypes.data, 8 * self.width

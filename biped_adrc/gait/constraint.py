@@ -21,6 +21,9 @@ A *corrected* constraint has a correction added to it:
     q_d'' = (h'' + c'') Theta'^2 + (h' + c') c_q q''
 
 Theta = c_q q as in h; ' on h and c is d/dTheta. Corrections of corrections add up.
+
+`path` and `virtual_constraint` are the pure functions, which the engine compiles too; `VirtualConstraint` is
+the `Reference` that controllers, the zero dynamics and the design of gaits take.
 """
 
 from __future__ import annotations
@@ -39,7 +42,11 @@ from biped_adrc.types import Array, read_only
 
 
 class ConstraintParameters(NamedTuple):
-    """Curve, row c (n,), Theta+ [rad] and 1 / (Theta- - Theta+) [1/rad]; fade (1,), (0,) if not continued."""
+    """Numbers of a virtual constraint.
+
+    curve: of h over s. c (n,): phase row, Theta = c q. theta_plus: Theta+ [rad]. rate: 1 / (Theta- - Theta+)
+    [1/rad]. fade: length l of the continuation as a share of the range (1,), or (0,) where there is none.
+    """
 
     curve: CurveParameters
     c: Array
@@ -49,28 +56,31 @@ class ConstraintParameters(NamedTuple):
 
 
 def path(k: ConstraintParameters, theta: float) -> tuple[Array, Array, Array]:
-    """h, dh/dTheta, d2h/dTheta2 at theta [rad], each (p,)."""
+    """h [rad], dh/dTheta and d2h/dTheta2 at the phase theta [rad], each (p,), continued past its ends."""
     s = k.rate * (theta - k.theta_plus)
     inside = s if len(k.fade) == 0 else np.minimum(np.maximum(s, 0.0), 1.0)
     h, dh, ddh = curve(k.curve, inside)
     if len(k.fade) > 0:
-        y, l = s - inside, k.fade[0]  # noqa: E741
+        y, l = (s - inside) / k.rate, k.fade[0] / abs(k.rate)  # noqa: E741
         left = np.exp(-abs(y) / l)
         h = h + y * dh + (l * abs(y) - l * l * (1.0 - left)) * ddh
         dh = dh + np.sign(y) * l * (1.0 - left) * ddh
         ddh = left * ddh
-    return h, k.rate * dh, k.rate * k.rate * ddh
+    return h, dh, ddh
 
 
 def virtual_constraint(k: ConstraintParameters, q: Array, v: Array) -> ReferencePoint:
-    """The reference at (q, v)."""
+    """The reference at q (n,) [rad], v (n,) [rad/s], by the chain rule.
+
+    H = h' c (p, n) multiplies q''; drift = h'' Theta'^2 (p,) is the rest of q_d''.
+    """
     theta, dtheta = float(k.c.dot(q)), float(k.c.dot(v))
     h, dh, ddh = path(k, theta)
     return ReferencePoint(h, dh * dtheta, dtheta**2 * ddh, dh[:, np.newaxis] * k.c)
 
 
 def constraint_point(k: ConstraintParameters, t: float, q: Array, v: Array) -> ReferencePoint:
-    """`virtual_constraint` as a law of references; t is not used."""
+    """`virtual_constraint` in the form of `ReferenceLaws.point`; q, v (n,), the time t [s] is not used."""
     return virtual_constraint(k, q, v)
 
 
@@ -80,18 +90,21 @@ FADE = 0.01
 
 @dataclass(frozen=True)
 class VirtualConstraint(Reference):
-    """h over the phase c q from theta_plus to theta_minus [rad].
+    """h over the phase Theta = c q from theta_plus to theta_minus [rad].
 
-    fade: share of that range over which the curvature fades out past its ends; None: the curve goes on as it
-    is.
-    Raises GaitError for a phase, a range or a fade that is none.
+    Raises GaitError for a phase row that is not finite, a range without extent, or a fade that is not positive.
     """
 
     curve: Curve
+    """h over s in [0, 1], p rows."""
     phase: Array
+    """c (n,)."""
     theta_plus: float
+    """Theta just after impact, s = 0 [rad]."""
     theta_minus: float
+    """Theta just before the next impact, s = 1 [rad]."""
     fade: float | None = None
+    """Share of the range over which the curvature fades out past the ends; None: the curve goes on as it is."""
 
     def __repr__(self) -> str:
         ends = f"Theta from {self.theta_plus:.4g} to {self.theta_minus:.4g} rad"
@@ -118,13 +131,17 @@ class VirtualConstraint(Reference):
             self,
             "_parameters",
             ConstraintParameters(
-                self.curve.parameters, c, float(self.theta_plus), float(1.0 / span), fade
+                self.curve.parameters_over(float(1.0 / span)),
+                c,
+                float(self.theta_plus),
+                float(1.0 / span),
+                fade,
             ),
         )
 
     @property
     def parameters(self) -> ConstraintParameters:
-        """What the law `virtual_constraint` needs."""
+        """The numbers that the pure functions `path` and `virtual_constraint` take."""
         k: ConstraintParameters = self._parameters  # type: ignore[attr-defined]
         return k
 
@@ -133,14 +150,15 @@ class VirtualConstraint(Reference):
         return ReferenceLaws(self.parameters, constraint_point)
 
     def h(self, theta: float) -> tuple[Array, Array, Array]:
-        """h, dh/dTheta, d2h/dTheta2 at theta [rad], each (p,)."""
+        """h [rad], dh/dTheta and d2h/dTheta2 at theta [rad], each (p,)."""
         return path(self.parameters, theta)
 
 
 def continued(h: VirtualConstraint) -> VirtualConstraint:
-    """h between Theta+ and Theta-, and outside going on smoothly, as a step that ends late needs it.
+    """The same constraint, continued smoothly past Theta+ and Theta-.
 
-    Raises InputError for what is no constraint.
+    A step that ends late, after a push or on a step down, runs past Theta-, where the polynomial itself would
+    soon ask for angles out of reach. Raises InputError for what is no constraint.
     """
     check_part(h, "what is to go on", VirtualConstraint)
     return replace(h, fade=FADE)
@@ -152,14 +170,17 @@ Correction = Callable[[float], tuple[Array, Array, Array]]
 
 @dataclass(frozen=True)
 class CorrectedConstraint(Reference):
-    """base + correction, a function of the same phase."""
+    """The reference h(Theta) + c(Theta): a constraint with a correction over the same phase.
+
+    It has no laws, so a walk with it runs in Python.
+    """
 
     base: VirtualConstraint | CorrectedConstraint
     correction: Correction
 
     @property
     def constraint(self) -> VirtualConstraint:
-        """h, without any correction."""
+        """h alone, below all corrections."""
         return self.base if isinstance(self.base, VirtualConstraint) else self.base.constraint
 
     def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:

@@ -9,33 +9,47 @@ both: tau' v' = tau v. A walker without knees has the conventions of one with kn
 
 Where a convention follows the legs by side (FROST), its right leg is the stance leg here; in left stance
 exchange the two first.
+
+The conventions are data, in `conventions.toml` beside this module. `exchange` uses them to bring gaits of other
+groups into the paper's coordinates and back; inside the package all angles are the paper's.
+
+Entries of a convention in the file, for a robot with knees (five coordinates):
+
+    coordinates          names, in the convention's order
+    A, half_turns        q = A q' + pi half_turns
+    knees, outputs       places of the knees; coordinates that are a gait's usual outputs
+    sense                +1 if the phase falls in a walk to +x, -1 if it grows
+    source               publication or program
 """
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass
-from functools import cache, cached_property
-from importlib.resources import files
-from typing import Any
+from functools import cached_property
 
 import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
+from biped_adrc.resources import packaged
 from biped_adrc.types import Array, read_only
 
-_KNEES = (2, 3)  # of the paper's coordinates
+_KNEES = (2, 3)  # places of the knees among the paper's coordinates
 _PHASE = (1.0, 0.0, 0.5, 0.0, 1.0)  # Theta = q5 + q1 + q3 / 2
 _RELABELLING = (1, 0, 3, 2, 4)
 
 
 @dataclass(frozen=True)
 class AngleMap:
-    """q = A q' + b with A (n, n) invertible and b (n,) [rad]. `f @ g` is g first, then f."""
+    """The affine map q = A q' + b of angles. `f @ g` is g first, then f.
+
+    Raises InputError for shapes that do not fit, numbers that are not finite, or a singular A.
+    """
 
     A: Array
+    """(n, n), invertible [rad/rad]."""
     b: Array
+    """(n,) [rad]."""
 
     def __post_init__(self) -> None:
         A, b = read_only(self.A), read_only(self.b)
@@ -54,11 +68,11 @@ class AngleMap:
             object.__setattr__(self, name, value)
 
     def angles(self, q: Array) -> Array:
-        """A q + b [rad] of angles (n,), or of rows (K, n). Raises InputError for another length."""
+        """A q + b [rad] of angles q (n,), or of each row of (K, n). Raises InputError for another length."""
         return self.rates(q) + self.b
 
     def rates(self, v: Array) -> Array:
-        """A v of rates or accelerations (n,), or of rows (K, n). Raises InputError for another length."""
+        """A v of rates [rad/s] or accelerations (n,), or of each row of (K, n). Raises InputError likewise."""
         v = np.asarray(v, dtype=float)
         if v.ndim not in (1, 2) or v.shape[-1] != len(self.b):
             raise InputError(
@@ -69,7 +83,7 @@ class AngleMap:
 
     @cached_property
     def inverse(self) -> AngleMap:
-        """q' = A^-1 (q - b)."""
+        """The map back, q' = A^-1 (q - b)."""
         inverse: Array = np.asarray(np.linalg.inv(self.A), dtype=np.float64)
         return AngleMap(inverse, -inverse @ self.b)
 
@@ -79,10 +93,11 @@ class AngleMap:
 
 @dataclass(frozen=True)
 class Convention:
-    """Coordinates of one convention, in its order; n coordinates."""
+    """One angle convention of a planar biped with n coordinates, in its own order."""
 
     name: str
     coordinates: tuple[str, ...]
+    """Names of the coordinates, as that convention calls them."""
     to_paper: AngleMap
     """q of the paper from q' of this convention."""
     outputs: Array
@@ -102,7 +117,7 @@ class Convention:
 
     @cached_property
     def phase(self) -> Array:
-        """c' (n,): this convention's own phase c' q' = sense (Theta - paper_phase b)."""
+        """c' (n,): row of this convention's own phase, c' q' = sense (Theta - paper_phase b) [rad]."""
         return self.sense * self.paper_phase @ self.to_paper.A + 0.0
 
 
@@ -133,7 +148,13 @@ def of_the_paper(biped: Biped) -> bool:
 
 
 def between(source: Convention, target: Convention) -> AngleMap:
-    """The map from the coordinates of `source` to those of `target`. Raises InputError."""
+    """The map from the coordinates of `source` to those of `target`.
+
+        to_frost = between(convention("paper"), convention("frost"))
+        q, v = to_frost.angles(gait.q_minus), to_frost.rates(gait.v_minus)
+
+    Raises InputError for one with knees and one without.
+    """
     if source.n != target.n:
         raise InputError(
             f"convention '{source.name}' has {source.n} coordinates and '{target.name}' {target.n}; ask "
@@ -148,7 +169,7 @@ def convention(name: str, knees: bool = True) -> Convention:
         raise InputError(
             f"there is no angle convention '{name}'; choose one of {list(CONVENTIONS)}"
         )
-    d = _definitions()[name]
+    d = _definitions[name]
     paper = [i for i in range(5) if knees or i not in _KNEES]
     own = [i for i in range(5) if knees or i not in d["knees"]]
     rows = [r for r in d["outputs"] if r in own]
@@ -169,11 +190,7 @@ def convention(name: str, knees: bool = True) -> Convention:
     )
 
 
-@cache
-def _definitions() -> dict[str, dict[str, Any]]:
-    """The file conventions.toml."""
-    return tomllib.loads(files("biped_adrc.gait").joinpath("conventions.toml").read_text("utf-8"))
+_definitions = packaged("biped_adrc.gait", "conventions.toml")
 
-
-CONVENTIONS: tuple[str, ...] = tuple(_definitions())
+CONVENTIONS: tuple[str, ...] = tuple(_definitions)
 """Names for `convention`."""

@@ -11,28 +11,43 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
+from importlib import import_module
 from math import comb
-from typing import NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.errors import GaitError
+from biped_adrc.resources import packaged
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, read_only
 
 
 class CurveParameters(NamedTuple):
-    """Power coefficients of h, h', h'' stacked, (3 p, M + 1), and the exponents (M + 1,)."""
+    """Power coefficients of h, h', h'' stacked, (3 p, K), of the first piece, and the exponents (K,).
+
+    breaks (J - 1,): where the further pieces begin, rising; more (J - 1, 3 p, K): the same of these.
+    """
 
     stacked: Array
     powers: NDArray[np.int64]
+    breaks: Array
+    more: Array
+
+
+def piece(c: CurveParameters, s: float) -> Array:
+    """The stacked coefficients (3 p, K) that hold at s."""
+    found = c.stacked
+    for j in range(len(c.breaks)):
+        found = np.where(s >= c.breaks[j], c.more[j], found)
+    return found
 
 
 def curve(c: CurveParameters, s: float) -> tuple[Array, Array, Array]:
     """h, dh/ds, d2h/ds2 at s, each (p,)."""
     p = c.stacked.shape[0] // 3
-    values = c.stacked.dot(s**c.powers)
+    values = piece(c, s).dot(s**c.powers)
     return values[:p], values[p : 2 * p], values[2 * p :]
 
 
@@ -58,18 +73,49 @@ class Curve(Shown, ABC):
 
     @property
     @abstractmethod
+    def pieces(self) -> tuple[Array, Array]:
+        """Where pieces join inside of (0, 1), (J - 1,), rising, and a (J, p, K) of h(s) = sum_k a_jk s^k."""
+
+    @abstractmethod
+    def shifted(self, b: Array) -> Array:
+        """Coefficients of h(s) + b, for b (p,) [rad]."""
+
+    @abstractmethod
+    def reversed(self) -> Self:
+        """h(1 - s)."""
+
+    @classmethod
+    @abstractmethod
+    def ramp(cls, degree: int, start: float, end: float) -> Array:
+        """Coefficients (M + 1,) of start + s (end - start)."""
+
+    @property
     def power_coefficients(self) -> Array:
-        """a (p, M + 1) of h(s) = sum_k a_k s^k."""
+        """a (p, K) of h(s) = sum_k a_k s^k. Raises GaitError for a curve of several pieces."""
+        breaks, a = self.pieces
+        if len(breaks):
+            raise GaitError(
+                f"the {type(self).__name__} has {len(a)} pieces, expected one polynomial; take a bezier curve"
+            )
+        whole: Array = a[0]
+        return whole
 
     @cached_property
     def parameters(self) -> CurveParameters:
-        """What the law `curve` needs."""
-        a = self.power_coefficients
-        k = np.arange(a.shape[1])
+        """The numbers that the law `curve` takes."""
+        return self.parameters_over(1.0)
+
+    def parameters_over(self, rate: float) -> CurveParameters:
+        """The same for derivatives by Theta: h' and h'' are multiplied by ds/dTheta = rate [1/rad], and its
+        square.
+        """
+        breaks, a = self.pieces
+        k = np.arange(a.shape[2])
         first, second = np.zeros_like(a), np.zeros_like(a)
-        first[:, :-1] = a[:, 1:] * k[1:]
-        second[:, :-2] = a[:, 2:] * k[2:] * (k[2:] - 1.0)
-        return CurveParameters(np.vstack((a, first, second)), k)
+        first[..., :-1] = a[..., 1:] * k[1:]
+        second[..., :-2] = a[..., 2:] * k[2:] * (k[2:] - 1.0)
+        stacked = np.concatenate((a, rate * first, rate * rate * second), axis=1)
+        return CurveParameters(stacked[0].copy(), k, breaks, stacked[1:].copy())
 
     def __call__(self, s: float) -> tuple[Array, Array, Array]:
         """h, dh/ds, d2h/ds2 at s, each (p,)."""
@@ -81,18 +127,72 @@ class Polynomial(Curve):
     """h(s) = sum_k a_k s^k."""
 
     @property
-    def power_coefficients(self) -> Array:
-        return self.coefficients
+    def pieces(self) -> tuple[Array, Array]:
+        return np.zeros(0), self.coefficients[np.newaxis]
+
+    def shifted(self, b: Array) -> Array:
+        a = np.array(self.coefficients)
+        a[:, 0] += b
+        return a
+
+    def reversed(self) -> Polynomial:
+        size = self.degree + 1
+        T = [
+            [comb(k, j) * (-1.0) ** j if j <= k else 0.0 for j in range(size)] for k in range(size)
+        ]
+        return Polynomial(self.coefficients @ np.array(T))
+
+    @classmethod
+    def ramp(cls, degree: int, start: float, end: float) -> Array:
+        a = np.zeros(degree + 1)
+        a[:2] = start, end - start
+        return a
 
 
 @dataclass(frozen=True)
-class Bezier(Curve):
+class ControlledCurve(Curve):
+    """From its first to its last coefficient, by a basis that adds up to one and is the same from behind."""
+
+    @classmethod
+    @abstractmethod
+    def abscissae(cls, degree: int) -> Array:
+        """Coefficients (M + 1,) of h(s) = s; the second says how far the slope at an end reaches."""
+
+    def shifted(self, b: Array) -> Array:
+        return np.asarray(self.coefficients + b[:, np.newaxis])
+
+    def reversed(self) -> Self:
+        return type(self)(self.coefficients[:, ::-1])
+
+    @classmethod
+    def ramp(cls, degree: int, start: float, end: float) -> Array:
+        return np.asarray(start + cls.abscissae(degree) * (end - start))
+
+    @classmethod
+    def between(cls, begin: Array, first: Array, last: Array, end: Array, degree: int) -> Array:
+        """Coefficients (p, M + 1) from `begin` to `end` with these first and last slopes dh/ds, each (p,).
+
+        Those between lie on a straight line.
+        """
+        inner = np.linspace(0.0, 1.0, degree - 1)
+        reach = cls.abscissae(degree)[1]
+        ends = begin + reach * first, end - reach * last
+        middle = ends[0][:, np.newaxis] * (1.0 - inner) + ends[1][:, np.newaxis] * inner
+        return np.column_stack((begin, middle, end))
+
+
+@dataclass(frozen=True)
+class Bezier(ControlledCurve):
     """h(s) = sum_k alpha_k C(M, k) s^k (1 - s)^(M - k); h(0) = alpha_0, h(1) = alpha_M,
     h'(0) = M (alpha_1 - alpha_0), h'(1) = M (alpha_M - alpha_(M-1))."""
 
     @property
-    def power_coefficients(self) -> Array:
-        return self.coefficients @ bernstein_to_power(self.degree)
+    def pieces(self) -> tuple[Array, Array]:
+        return np.zeros(0), (self.coefficients @ bernstein_to_power(self.degree))[np.newaxis]
+
+    @classmethod
+    def abscissae(cls, degree: int) -> Array:
+        return np.arange(degree + 1) / degree
 
 
 def bernstein_to_power(degree: int) -> Array:
@@ -104,25 +204,20 @@ def bernstein_to_power(degree: int) -> Array:
     return T
 
 
-def bezier_between(begin: Array, first: Array, last: Array, end: Array, degree: int) -> Array:
-    """Bezier coefficients (p, M + 1) from `begin` to `end` with these first and last slopes dh/ds, each (p,).
-
-    Those between lie on a straight line.
-    """
-    inner = np.linspace(0.0, 1.0, degree - 1)
-    ends = begin + first / degree, end - last / degree
-    middle = ends[0][:, np.newaxis] * (1.0 - inner) + ends[1][:, np.newaxis] * inner
-    return np.column_stack((begin, middle, end))
+CURVES: dict[str, Any] = {
+    name: entry["home"]
+    for name, entry in packaged("biped_adrc.scenario", "registry.toml")["curve"].items()
+}
+"""By name, `module:Class`, or the class itself where it was registered."""
 
 
-def ramp(kind: type[Curve], degree: int, start: float, end: float) -> Array:
-    """Coefficients (M + 1,) of start + s (end - start)."""
-    k = np.arange(degree + 1) / degree
-    if kind is Bezier:
-        return np.asarray((1.0 - k) * start + k * end)
-    a = np.zeros(degree + 1)
-    a[:2] = start, end - start
-    return a
-
-
-CURVES: dict[str, type[Curve]] = {"bezier": Bezier, "polynomial": Polynomial}
+def curve_kind(name: str) -> type[Curve]:
+    """The class of a curve by its name. Raises GaitError with the names there are."""
+    if name not in CURVES:
+        raise GaitError(f"curve is '{name}', expected one of {sorted(CURVES)}")
+    found = CURVES[name]
+    if isinstance(found, str):
+        module, _, cls = found.partition(":")
+        found = getattr(import_module(module), cls)
+    kind: type[Curve] = found
+    return kind

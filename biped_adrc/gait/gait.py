@@ -1,6 +1,11 @@
 """A gait: a virtual constraint, the periodic orbit it belongs to, and where both come from.
 
-Stored as a small readable JSON file in `gaits/<robot>/<name>-<preset>.json`.
+Stored as a small readable JSON file in `gaits/<robot>/<name>-<preset>.json`, whose keys `GaitFile` lists.
+`load_gait` finds it by name or path and checks it against the robot (`Gait.check`): shapes, direction, foot on
+the ground, and closure, that is, the relabelled end of the step is its start.
+
+Made by `published`, `recipe` and `design`, or brought by `exchange`; walked by `scenario` and taken by
+controllers as their reference.
 """
 
 from __future__ import annotations
@@ -10,14 +15,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 
 from biped_adrc.errors import GaitError, check_positive
 from biped_adrc.files import output_path, reading, write_text
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import CURVES
+from biped_adrc.gait.curves import curve_kind
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
@@ -26,22 +31,76 @@ from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 FORMAT = "biped_adrc gait 1"
+"""First entry of a gait file; the number changes with the keys."""
 CLOSES = 1e-3
 """[rad] and [m]: largest gap between the end of a step, relabelled, and its start, in a gait that closes."""
 
 
-@dataclass(frozen=True)
-class Gait(Shown):
-    """`q_minus`, `v_minus` (n,): the pre-impact state of the periodic orbit [rad, rad/s]."""
+class GaitFile(TypedDict, total=False):
+    """The JSON file of a gait, in rad, rad/s and s; the fields of `Gait` with the constraint taken apart.
 
+    Files are read by people and compared by version control, so keys and order are fixed and numbers are
+    written with all digits: a gait that is loaded is the gait that was saved.
+    """
+
+    format: str
+    """Always FORMAT; another one is refused."""
     name: str
     robot: str
     preset: str
-    constraint: VirtualConstraint
-    q_minus: Array
-    v_minus: Array
+    units: str
+    """For a reader: "rad, rad/s, s"."""
+    provenance: dict[str, object]
+    """How the gait was made, free text by name."""
     period: float
-    provenance: Mapping[str, Any]
+    """Duration of the single support [s]."""
+    slope: float
+    """Of the ground [rad]; may be left out on level ground."""
+    q_minus: list[float]
+    """Configuration just before impact (n,) [rad]."""
+    v_minus: list[float]
+    """Rates just before impact (n,) [rad/s]."""
+    phase: list[float]
+    """c (n,), Theta = c q."""
+    theta_plus: float
+    """Theta just after impact [rad]."""
+    theta_minus: float
+    """Theta just before the next impact [rad]."""
+    curve: str
+    """Kind of the curve, "bezier" or "polynomial"."""
+    coefficients: list[list[float]]
+    """(p, M + 1) [rad], one row per joint."""
+
+
+@dataclass(frozen=True)
+class Gait(Shown):
+    """A gait of one robot: its virtual constraint and the periodic orbit that walks along it.
+
+    The orbit is stored by its state just before impact, from which the impact map gives the start of a step.
+    For a hybrid-invariant constraint it is the orbit of the zero dynamics; gait (b) of the paper is not
+    hybrid-invariant, and stores the orbit of the closed loop.
+
+        gait = ba.load_gait("published", ba.Biped.load("rabbit"))
+        q_d, slope, curvature = gait.constraint.h(gait.constraint.theta_plus)
+
+    No check is made when a gait is constructed; `check` compares it with a robot.
+    """
+
+    name: str
+    """By which `load_gait` finds its file."""
+    robot: str
+    preset: str
+    """Robot and preset it was made for."""
+    constraint: VirtualConstraint
+    """q_b = h(Theta)."""
+    q_minus: Array
+    """Configuration just before impact on the periodic orbit (n,) [rad]."""
+    v_minus: Array
+    """Rates just before impact (n,) [rad/s]."""
+    period: float
+    """Duration of the single support on the orbit [s]."""
+    provenance: Mapping[str, object]
+    """How it was made: method, source, command; free text by name."""
     slope: float = 0.0
     """Of the ground it walks on [rad], positive downhill."""
 
@@ -50,21 +109,29 @@ class Gait(Shown):
         return about + (f", slope {self.slope:.4g} rad)" if self.slope else ")")
 
     def start(self, biped: Biped) -> tuple[Array, Array]:
-        """(q+, q'+) after the impact of the periodic orbit on this robot, each (n,)."""
+        """(q+, q'+) just after the impact of the periodic orbit on this robot, each (n,) [rad, rad/s]."""
         impact = biped.impact(self.q_minus, self.v_minus)
         return impact.q, impact.v
 
     @classmethod
     def of_cycle(
-        cls, name: str, zero: ZeroDynamics, provenance: Mapping[str, Any], slope: float = 0.0
+        cls, name: str, zero: ZeroDynamics, provenance: Mapping[str, object], slope: float = 0.0
     ) -> Gait:
-        """A constraint with the periodic orbit of its zero dynamics. Raises GaitError when there is none."""
+        """The gait of a constraint with the periodic orbit of its zero dynamics, on ground of `slope` [rad].
+
+        Raises GaitError when there is no orbit.
+        """
         q, v = zero.end_state(zero.sigma_minus)
         robot, preset, period = zero.biped.description.name, zero.biped.preset, zero.cycle.period
         return cls(name, robot, preset, zero.constraint, q, v, period, provenance, slope)
 
     def check(self, biped: Biped) -> Gait:
-        """The gait itself, when it fits the robot and its curve closes. Raises GaitError."""
+        """The gait itself, when it fits the robot and its curve closes.
+
+        Raises GaitError for other numbers of joints, a period or slope out of range, Theta' against the
+        direction of the curve, a swing foot off the ground before impact, and a start that is not the
+        relabelled end.
+        """
         c = self.constraint
         p, n = c.curve.coefficients.shape[0], len(c.phase)
         if (p, n) != (biped.p, biped.n):
@@ -127,7 +194,7 @@ class Gait(Shown):
         """Write the JSON file. Raises InputError for a name that does not end in .json, and OutputError."""
         path = output_path(path, (".json",))
         c = self.constraint
-        record = {
+        record: GaitFile = {
             "format": FORMAT,
             "name": self.name,
             "robot": self.robot,
@@ -147,12 +214,12 @@ class Gait(Shown):
         write_text(path, _readable(record))
 
 
-def _readable(record: Mapping[str, Any]) -> str:
-    """JSON with one line per row of numbers."""
+def _readable(record: GaitFile) -> str:
+    """JSON text with one line per row of numbers, so that a difference of two gait files can be read."""
     lines = []
     for key, value in record.items():
         if key == "coefficients":
-            rows = ",\n    ".join(json.dumps(row) for row in value)
+            rows = ",\n    ".join(json.dumps(row) for row in record["coefficients"])
             lines.append(f'  "{key}": [\n    {rows}\n  ]')
         elif isinstance(value, dict):
             inner = ",\n    ".join(f"{json.dumps(k)}: {json.dumps(v)}" for k, v in value.items())
@@ -163,7 +230,11 @@ def _readable(record: Mapping[str, Any]) -> str:
 
 
 def gait_names(robot: str, preset: str) -> tuple[str, ...]:
-    """Names of the stored gaits of a robot and preset."""
+    """Names of the stored gaits of a robot and preset, sorted.
+
+    Files are called NAME-PRESET.json, and one preset may be the end of another, as "bare" is of
+    "identified-bare": files of the longer preset are not taken for gaits of the shorter one.
+    """
     end = f"-{preset}.json"
     folder = data_folder("gaits") / robot
     found = (f.name.removesuffix(end) for f in folder.glob(f"*{end}"))
@@ -193,11 +264,10 @@ def load_gait(gait: str | Path, biped: Biped) -> Gait:
         return _from_record(json.loads(path.read_text(encoding="utf-8"))).check(biped)
 
 
-def _from_record(record: Mapping[str, Any]) -> Gait:
+def _from_record(record: GaitFile) -> Gait:
+    """The gait in a file that was read. Raises GaitError, or KeyError and TypeError for damaged entries."""
     if record["format"] != FORMAT:
         raise GaitError(f"format is '{record['format']}', expected '{FORMAT}'")
-    if record["curve"] not in CURVES:
-        raise GaitError(f"curve is '{record['curve']}', expected one of {sorted(CURVES)}")
     n = len(record["phase"])
     q, v, phase = (finite_vector(record, key, n) for key in ("q_minus", "v_minus", "phase"))
     return Gait(
@@ -205,7 +275,7 @@ def _from_record(record: Mapping[str, Any]) -> Gait:
         record["robot"],
         record["preset"],
         VirtualConstraint(
-            CURVES[record["curve"]](np.array(record["coefficients"], dtype=float)),
+            curve_kind(record["curve"])(np.array(record["coefficients"], dtype=float)),
             phase,
             float(record["theta_plus"]),
             float(record["theta_minus"]),
@@ -218,8 +288,8 @@ def _from_record(record: Mapping[str, Any]) -> Gait:
     )
 
 
-def finite_vector(record: Mapping[str, Any], key: str, length: int) -> Array:
-    """The numbers under a key of a record. Raises GaitError unless there are `length` finite ones."""
+def finite_vector(record: Mapping[str, object], key: str, length: int) -> Array:
+    """The numbers under a key of a record, (length,). Raises GaitError unless there are so many finite ones."""
     value = np.array(record[key], dtype=float)
     if value.shape != (length,) or not np.all(np.isfinite(value)):
         raise GaitError(f"{key} is {record[key]}, expected {length} finite numbers")

@@ -1,4 +1,4 @@
-"""Outputs: what a controller drives to zero when that is not simply q_b - q_d.
+"""Outputs y(t, q) that a controller drives to zero where they are not the joint errors q_b - q_d.
 
     y   = y(t, q)
     y'  = J q' + dy/dt
@@ -9,7 +9,11 @@ Koditschek, IEEE TAC 48(1), 2003). Where [H0; c] is invertible they are a virtua
 
     [H0; c] q = [h_d(Theta); Theta]   gives   q_b = h(Theta)
 
-Any smooth y(q) is an output too: J = dy/dq and drift = J' q'.
+Any smooth y(q) is an output too: J = dy/dq and drift = J' q'. `FunctionOutputs` differentiates a Python
+function numerically where no derivatives are given.
+
+Output controllers (`control.output_adrc`, feedback linearisation) call an `Outputs` object at each evaluation
+and use J and drift to solve y'' for the torque.
 """
 
 from __future__ import annotations
@@ -24,47 +28,50 @@ import numpy as np
 
 from biped_adrc.errors import GaitError, InputError, NotFiniteError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import Bezier, Polynomial, ramp
 from biped_adrc.shown import Shown, one_line
 from biped_adrc.types import Array, read_only
 
-_SLOPE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0  # times 1 / h, error h^4 f^(5) / 30
-_BEND = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0  # times 1 / h^2, error h^4 f^(6) / 90
+_SLOPE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0
+"""Central difference of order 4 for f' over -2 h .. 2 h, times 1 / h; its error is h^4 f^(5) / 30."""
+_BEND = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
+"""The same for f'', times 1 / h^2; its error is h^4 f^(6) / 90."""
 
 
 class OutputPoint(NamedTuple):
-    """Outputs at one instant; p outputs in units of their own, n coordinates."""
+    """Outputs at one instant; p outputs, each in its own unit (such as rad or m), n coordinates."""
 
     y: Array
-    """(p,)."""
+    """y (p,)."""
     dy: Array
-    """y' (p,) [1/s]."""
+    """y' (p,), unit of y per s."""
     J: Array
-    """(p, n) [1/rad]."""
+    """dy/dq (p, n), unit of y per rad."""
     drift: Array
-    """(p,) [1/s^2], y'' = J q'' + drift."""
+    """Part of y'' that does not depend on q'' (p,), unit of y per s^2: y'' = J q'' + drift."""
 
     def __repr__(self) -> str:
         return one_line(self)
 
 
 class Outputs(Shown, ABC):
-    """A pure function of (t, q, q')."""
+    """Base class: outputs as a pure function of (t, q, q')."""
 
     @abstractmethod
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
-        """The outputs at time t [s] and state (q, v), each (n,)."""
+        """The outputs at time t [s] and state q (n,) [rad], v (n,) [rad/s]."""
 
 
 @dataclass(frozen=True)
 class LinearOutputs(Outputs):
-    """y = H0 q - h_d(Theta), H0 (p, n); `desired` is h_d over its phase, one row of its curve per output.
+    """y = H0 q - h_d(Theta). With H0 = [I 0] it is the joint error y = q_b - h(Theta).
 
-    With H0 = [I 0] it is y = q_b - h(Theta). Raises GaitError when the shapes do not fit.
+    Raises GaitError when the shapes do not fit.
     """
 
     H0: Array
+    """(p, n) [1]."""
     desired: VirtualConstraint
+    """h_d over its phase, one row of its curve per output [rad]."""
 
     def __post_init__(self) -> None:
         H0 = read_only(self.H0)
@@ -81,7 +88,10 @@ class LinearOutputs(Outputs):
         return OutputPoint(self.H0 @ q - r.q_d, self.H0 @ v - r.dq_d, self.H0 - r.H, -r.drift)
 
     def as_virtual_constraint(self) -> VirtualConstraint:
-        """q_b = h(Theta) with y = 0 on the same configurations, a Bezier curve where h_d is one.
+        """The virtual constraint q_b = h(Theta) whose configurations are those of y = 0, by a curve of the kind
+        of h_d.
+
+        Zero dynamics and gaits are written for virtual constraints, so this brings linear outputs to them.
 
         Raises GaitError when there is not one output fewer than coordinates, or [H0; c] is singular.
         """
@@ -94,28 +104,32 @@ class LinearOutputs(Outputs):
                 f"phase only when it is square and of rank {n}. Choose outputs independent of the phase"
             )
         curve = d.curve
-        if not isinstance(curve, Bezier):
-            curve = Polynomial(curve.power_coefficients)
         kind = type(curve)
-        phase = ramp(kind, curve.degree, d.theta_plus, d.theta_minus)
+        phase = kind.ramp(curve.degree, d.theta_plus, d.theta_minus)
         a: Array = np.asarray(np.linalg.solve(M, np.vstack((curve.coefficients, phase))))
         return VirtualConstraint(kind(a[:p]), d.phase, d.theta_plus, d.theta_minus)
 
 
 @dataclass(frozen=True)
 class FunctionOutputs(Outputs):
-    """y = function(q) (p,), four times differentiable or smoother.
+    """y = function(q), a Python function that is at least four times differentiable.
 
-    jacobian: q -> dy/dq (p, n). drift: (q, v) -> J' v (p,). What is not given comes from central differences
-    of order 4 with half width `difference` [rad]. For a function and derivatives of order one and the
-    width of 4e-3, J is within 1e-11 and the drift within 1e-10 |v|^2 of the truth, 1e-11 |v|^2 where J is
-    given. Raises InputError or NotFiniteError, at a call, for a result of the wrong shape or not finite.
+        height = FunctionOutputs(lambda q: np.array([biped.hip(q)[1] - 0.78, q[4]]))
+
+    What is not given of its derivatives comes from central differences of order 4. For a function and
+    derivatives of order one and the width of 4e-3, J is within 1e-11 and the drift within 1e-10 |v|^2 of the
+    truth, 1e-11 |v|^2 where J is given. Raises InputError or NotFiniteError, at a call, for a result of the
+    wrong shape or not finite.
     """
 
     function: Callable[[Array], Array]
+    """q (n,) -> y (p,)."""
     jacobian: Callable[[Array], Array] | None = None
+    """q (n,) -> dy/dq (p, n)."""
     drift: Callable[[Array, Array], Array] | None = None
+    """(q, v), each (n,) -> J' v (p,)."""
     difference: float = 4e-3
+    """Half width of the differences [rad]."""
 
     def __post_init__(self) -> None:
         check_positive(self.difference, f"difference is {self.difference} rad", " such as 4e-3")
@@ -135,13 +149,16 @@ class FunctionOutputs(Outputs):
         return OutputPoint(y, J @ v, J, drift)
 
     def _slopes(self, q: Array) -> Array:
-        """dy/dq (p, n)."""
+        """dy/dq (p, n) by central differences."""
         h = self.difference
         columns = [_along(self.function, q, h * e, _SLOPE) / h for e in np.eye(len(q))]
         return np.array(columns).T
 
     def _bend(self, q: Array, v: Array) -> Array:
-        """J' v (p,): the second derivative of y along v, or the first one of J v."""
+        """J' v (p,): the second derivative of y along v, or the first derivative of J v where J is given.
+
+        The step along v is scaled to the length `difference`, whatever the speed.
+        """
         speed = math.sqrt(v.dot(v))
         if speed == 0.0:
             return np.zeros_like(self.function(q))
@@ -152,7 +169,7 @@ class FunctionOutputs(Outputs):
 
 
 def _along(f: Callable[[Array], Array], q: Array, dq: Array, weights: Array) -> Array:
-    """sum_k w_k f(q + k dq), k = -2 .. 2."""
+    """sum_k w_k f(q + k dq), k = -2 .. 2: a finite difference of f along dq (n,) with weights (5,)."""
     total: Array = np.asarray(
         sum(w * np.asarray(f(q + k * dq)) for k, w in zip(range(-2, 3), weights, strict=True) if w)
     )
@@ -160,6 +177,7 @@ def _along(f: Callable[[Array], Array], q: Array, dq: Array, weights: Array) -> 
 
 
 def _check(name: str, found: Array, shape: tuple[int, ...]) -> None:
+    """Raise InputError for an array of another shape, NotFiniteError for one that is not finite."""
     if found.shape != shape:
         raise InputError(
             f"the {name} of the outputs returned an array of shape {found.shape}, expected {shape}"

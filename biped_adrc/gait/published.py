@@ -5,7 +5,10 @@ half a unit of their last printed digit; q5, printed with four decimals, and the
 
 A cycle of a robot without motors is a slope, and the state just after an impact on it. It is stored as a small
 readable TOML file `gaits/<robot>/<preset>.toml` with its source. The numbers are as they were published, a
-start for Newton on the return map and nothing more.
+start for Newton on the return map and nothing more (`scenario.run.known_cycle`).
+
+`design_published_gait` is run once, by `biped-adrc gait published`, to make the stored gait file; walks load
+that.
 """
 
 from __future__ import annotations
@@ -27,11 +30,12 @@ from biped_adrc.types import Array, read_only
 
 @dataclass(frozen=True)
 class PassiveCycle:
-    """A cycle of a robot that only gravity drives; n coordinates."""
+    """A walking cycle of a robot without motors, as published; n coordinates."""
 
     robot: str
     preset: str
     source: str
+    """Publication that the numbers are from."""
     slope: float
     """Of the ground [rad], positive downhill."""
     max_step_time: float
@@ -77,7 +81,11 @@ PUBLISHED_MULTIPLIERS = (0.640, 0.640, 0.844, 0.844, 0.237, 0.237, 0.138, 0.354,
 
 
 def design_published_gait(biped: Biped, degree: int = 6, limits: GaitLimits | None = None) -> Gait:
-    """The gait whose periodic orbit passes through x*. Raises GaitError when there is none."""
+    """Gait (a): least torque among the Bezier constraints whose periodic orbit passes through x*.
+
+    degree: of the curves. limits: of friction, torque, clearance and knees. Raises GaitError when there is
+    none.
+    """
     q = onto_section(biped, X_STAR[: biped.n])
     v = np.array(X_STAR[biped.n :])
     constraint = constraint_through(biped, q, v, degree, limits)

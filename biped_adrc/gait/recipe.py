@@ -11,6 +11,9 @@ share s in [0, 1] of a step, from the stance foot, with (x*, z*) the hip and L t
 The pose of x* gives L, x*, z* and q5*. What it leaves open (A, H, c, B) follows from the ratios of hip,
 swing-foot and torso rates at x*; the speed does not. The constraint is not hybrid-invariant: the impact is
 not smooth, as section VII says.
+
+`design_recipe_gait` gives the gait with the periodic orbit of its zero dynamics, as if the impact were smooth;
+`studies.gait_design.design_recipe_orbit` replaces that orbit by the one of the closed loop.
 """
 
 from __future__ import annotations
@@ -33,6 +36,7 @@ HUMAN_STEP = 0.70
 """[m], step length of adults at comfortable speed, about 0.70 m for men and 0.64 m for women (Scientific
 Reports 11, 2021, s41598-021-91633-1, Table 1). Only the fraction depends on it: L comes from x*."""
 SAMPLES = 401
+"""Points over a step at which inverse kinematics is solved for the regression."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +54,7 @@ class RecipeParameters:
     torso_amplitude: float
     """B [rad], from the rate of the torso at x*."""
     degree: int = 8
+    """Of the polynomials of the regression."""
 
 
 def fit_to_x_star(biped: Biped, degree: int = 8) -> RecipeParameters:
@@ -88,7 +93,10 @@ def inverse_kinematics(leg: Array, length: float) -> tuple[float, float]:
 
 
 def joint_trajectories(biped: Biped, p: RecipeParameters, s: Array) -> Array:
-    """q (K, 5) at the shares s (K,) of a step, by inverse kinematics."""
+    """Configurations q (K, 5) [rad] at the shares s (K,) of a step, by inverse kinematics of both legs.
+
+    Raises GaitError where a foot would be out of reach of its leg.
+    """
     pose = onto_section(biped, X_STAR[: biped.n])
     x_hip, z_hip = biped.hip(pose)
     length = 0.5 * float(np.linalg.norm(biped.hip(np.zeros(biped.n))))
@@ -108,9 +116,13 @@ def joint_trajectories(biped: Biped, p: RecipeParameters, s: Array) -> Array:
 
 
 def regress(theta: Array, joints: Array, degree: int) -> tuple[Polynomial, float]:
-    """Polynomials of the normalised phase through both ends, least squares between; largest residual [rad].
+    """Regression of joint angles on the phase: polynomials of s, and the largest residual [rad].
 
-    h(s) = h(0) + (h(1) - h(0)) s + s (1 - s) sum_k b_k s^k, so that the poses at the ends are kept.
+    theta: phases (K,) [rad]. joints: angles (K, p) [rad]. The polynomials pass exactly through both ends,
+
+        h(s) = h(0) + (h(1) - h(0)) s + s (1 - s) sum_k b_k s^k
+
+    and b_k is least squares, so that the poses at impact are kept.
     """
     s = (theta - theta[0]) / (theta[-1] - theta[0])
     basis = (s * (1.0 - s))[:, np.newaxis] * s[:, np.newaxis] ** np.arange(degree - 1)
@@ -126,7 +138,7 @@ def regress(theta: Array, joints: Array, degree: int) -> tuple[Polynomial, float
 def recipe_constraint(biped: Biped, p: RecipeParameters) -> tuple[VirtualConstraint, float]:
     """The virtual constraint of the recipe and the largest residual of its regression [rad].
 
-    Raises GaitError when Theta does not run one way.
+    Raises GaitError when Theta is not strictly decreasing over the step, so that it is no phase.
     """
     q = joint_trajectories(biped, p, np.linspace(0.0, 1.0, SAMPLES))
     theta = q @ biped.phase
@@ -140,7 +152,8 @@ def recipe_constraint(biped: Biped, p: RecipeParameters) -> tuple[VirtualConstra
 def design_recipe_gait(biped: Biped, parameters: RecipeParameters | None = None) -> Gait:
     """Gait (b) with the pre-impact state of its zero dynamics, as if the impact were smooth.
 
-    Raises GaitError when the recipe has no step or the zero dynamics no orbit.
+    parameters: by default those fitted to x*. Raises GaitError when a foot is out of reach, Theta is no phase,
+    or the zero dynamics have no periodic orbit.
     """
     p = parameters or fit_to_x_star(biped)
     constraint, residual = recipe_constraint(biped, p)
@@ -160,9 +173,9 @@ def design_recipe_gait(biped: Biped, parameters: RecipeParameters | None = None)
 
 
 def impact_smoothness(gait: Gait, biped: Biped) -> Array:
-    """Joint rates after impact minus those the constraint asks for, q_b'+ - h'(Theta+) Theta'+ (p,) [rad/s].
+    """Jump of the tracking error's rate at impact: q_b'+ - h'(Theta+) Theta'+ (p,) [rad/s].
 
-    Zero for a hybrid-invariant constraint.
+    Zero for a hybrid-invariant constraint; otherwise each impact disturbs the tracking controller by this much.
     """
     q, v = gait.start(biped)
     c = gait.constraint

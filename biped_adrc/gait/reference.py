@@ -1,16 +1,22 @@
-"""References of the joints, figure 2 of the paper: functions of time or of the state.
+"""References q_d of the driven joints, figure 2 of the paper: functions of time, or of the state.
 
-A reference gives q_d, q_d' and q_d'' where q_d'' may contain the acceleration that the controller is about
-to cause:
+A reference that depends on the state (a virtual constraint) has an acceleration which contains the joint
+acceleration that the controller is about to cause. It is therefore split into
 
     q_d'' = drift + H q''
+
+so that a controller can solve for its torque without an algebraic loop. For a function of time H = 0.
+
+Controllers call the reference at each evaluation of the closed loop. A reference given as `laws` (pure
+functions of a NamedTuple of parameters) is also compiled by the engine; one that only writes `__call__` runs in
+Python.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -39,10 +45,10 @@ class ReferencePoint(NamedTuple):
 class ReferenceLaws(NamedTuple):
     """The pure function behind a reference."""
 
-    parameters: Any
+    parameters: object
     """k, a NamedTuple of numbers and float64 arrays."""
     point: Callable[..., ReferencePoint]
-    """point(k, t, q, v) -> q_d, q_d' and q_d''."""
+    """point(k, t, q, v) -> q_d, q_d' and q_d'', with t [s], q (n,) [rad], v (n,) [rad/s]."""
     obstacle: str = ""
     """Why it runs in Python only; empty where it compiles."""
 
@@ -51,7 +57,7 @@ class ReferenceLaws(NamedTuple):
 
 
 class Reference(Composed):
-    """A pure function of (t, q, q'): give `laws`, or write `__call__`."""
+    """Base class: q_d as a pure function of (t, q, q'). A subclass gives `laws`, or writes `__call__`."""
 
     _kind: ClassVar[str] = "reference"
     _methods: ClassVar[frozenset[str]] = frozenset(("__call__",))
@@ -62,7 +68,10 @@ class Reference(Composed):
         return None
 
     def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
-        """The reference at time t [s] and state (q, v), each (n,)."""
+        """The reference at time t [s] and state q (n,) [rad], v (n,) [rad/s].
+
+        Raises InputError for a subclass that has neither laws nor this method.
+        """
         laws: ReferenceLaws | None = self._laws
         if laws is None:
             raise InputError(
@@ -80,8 +89,11 @@ def reference_laws(reference: Reference) -> ReferenceLaws:
     return ReferenceLaws((), lambda k, t, q, v: reference(t, q, v), reference._obstacle)
 
 
-def check_point(reference: Reference, r: Any, p: int, n: int) -> None:
-    """Raise InputError for a point r that is not one of p joints and n coordinates."""
+def check_point(reference: Reference, r: object, p: int, n: int) -> None:
+    """Raise InputError unless r is a `ReferencePoint` with the shapes of p joints and n coordinates.
+
+    Called once before a walk, since a wrong shape would broadcast silently.
+    """
     name = type(reference).__name__
     if not isinstance(r, ReferencePoint):
         raise InputError(

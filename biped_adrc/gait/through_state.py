@@ -7,7 +7,11 @@ impact x+, so that the constraint is hybrid-invariant:
 
 The M - 3 coefficients left per joint minimise the torque int u'u dt, a sum of squares, with the periodicity
 condition sigma-^2 - sigma+^2 = 2 W of the zero dynamics and the limits of friction, torque, clearance and
-knees as weighted residuals; then the periodicity condition is solved to round-off.
+knees as weighted residuals (Gauss-Newton, SciPy's least_squares); then the periodicity condition is solved to
+round-off.
+
+This makes the paper's gait (`published`). For gaits of a given speed or step there is `gait.design`, which
+takes limits as constraints and needs no state.
 """
 
 from __future__ import annotations
@@ -19,17 +23,22 @@ from scipy.optimize import brentq, least_squares
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import Bezier, bezier_between
+from biped_adrc.gait.curves import Bezier
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 
-_SLOWEST = 0.05  # least sigma^2 during the step over that before impact, dimensionless
-_TORQUE_SCALE = 1e3  # [N^2 m^2 s], typical int u'u dt of a step
-_CLOSURE_WEIGHT = 300.0  # of the relative closure against the scaled torque
+_SLOWEST = 0.05
+"""Least sigma^2 during the step over that before impact, dimensionless: the step must not nearly stop."""
+_TORQUE_SCALE = 1e3
+"""Typical int u'u dt of a step [N^2 m^2 s], by which the torque residuals are scaled to about 1."""
+_CLOSURE_WEIGHT = 300.0
+"""Weight of the relative closure against the scaled torque."""
 _LIMIT_WEIGHT = 10.0
-_LIMIT_TOLERANCE = 5e-3  # scaled as in `margins`: half a newton, half a millimetre
+"""Weight of a violated limit against the scaled torque."""
+_LIMIT_TOLERANCE = 5e-3
+"""Largest violation of a limit in the end, scaled as in `margins`: half a newton, half a millimetre."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +58,11 @@ class GaitLimits:
 
 
 def onto_section(biped: Biped, q: Array, slope: float = 0.0) -> Array:
-    """The configuration nearest to q in q_b whose swing foot is on the ground, q_N kept. Raises GaitError."""
+    """The configuration (n,) [rad] nearest to q (n,) whose swing foot is on ground of `slope` [rad].
+
+    Newton's method on the foot's height moves the driven joints q_b only, by the least change; the last
+    coordinate q_N is kept. Raises GaitError when no configuration near q reaches the ground.
+    """
     q = np.array(q, dtype=float)
     normal = ground_axes(slope)[1]
     for _ in range(30):
@@ -67,32 +80,38 @@ def onto_section(biped: Biped, q: Array, slope: float = 0.0) -> Array:
 
 @dataclass(frozen=True)
 class _Problem:
-    """The curve for free coefficients f (p * (M - 3),)."""
+    """The least-squares problem for the free coefficients f (p * (M - 3),) [rad], inner points of the curve."""
 
     biped: Biped
     fixed: Array
+    """Coefficients (p, M + 1) [rad] for f = 0, of which the two at each end are given by state and impact."""
     phase: Array
+    """c (n,)."""
     theta_plus: float
     theta_minus: float
+    """Theta+ and Theta- [rad]."""
     sigma_plus: float
     sigma_minus: float
+    """Angular momentum about the stance foot after and before impact [kg m^2/s]."""
     limits: GaitLimits
 
     def constraint(self, f: Array) -> VirtualConstraint:
+        """The curve for f: the fixed coefficients with f added to the inner ones."""
         alpha = self.fixed.copy()
         alpha[:, 2:-2] += f.reshape(alpha.shape[0], -1)
         return VirtualConstraint(Bezier(alpha), self.phase, self.theta_plus, self.theta_minus)
 
     def zero_dynamics(self, f: Array) -> ZeroDynamics:
+        """The quadratures along the curve for f."""
         return ZeroDynamics.of(self.biped, self.constraint(f))
 
     def closure(self, f: Array) -> float:
-        """(sigma-^2 - sigma+^2) / 2 - W, relative to sigma-^2; zero on a periodic orbit."""
+        """Gap of the periodicity condition, ((sigma-^2 - sigma+^2) / 2 - W) / sigma-^2; zero on an orbit."""
         gap = 0.5 * (self.sigma_minus**2 - self.sigma_plus**2) - self.zero_dynamics(f).work
         return gap / self.sigma_minus**2
 
     def residuals(self, f: Array) -> Array:
-        """sqrt(dt) u, the closure, and what the limits are missed by; all zero would be free walking."""
+        """Residuals of the least squares: sqrt(dt) u at the nodes, the closure, and violations of limits."""
         z = self.zero_dynamics(f)
         o = z.orbit(self.sigma_plus, _SLOWEST * self.sigma_minus**2)
         torque = o.u * np.sqrt(np.abs(o.time_weights) / _TORQUE_SCALE)[:, np.newaxis]
@@ -102,7 +121,7 @@ class _Problem:
         )
 
     def margins(self, z: ZeroDynamics, o: ZeroDynamicsOrbit) -> dict[str, Array]:
-        """What is left to each limit at the nodes, scaled to about 1; negative where it is missed."""
+        """Distance to each limit at the nodes (K,), scaled to about 1; negative where it is violated."""
         limits = self.limits
         F_T, F_N = o.ground_reaction.T
         s = (o.theta - self.theta_plus) / (self.theta_minus - self.theta_plus)
@@ -118,6 +137,7 @@ class _Problem:
 
 
 def _problem(biped: Biped, q: Array, v: Array, degree: int, limits: GaitLimits) -> _Problem:
+    """The problem through (q, v), each (n,). Raises GaitError unless Theta runs one way, before and after."""
     impact = biped.impact(q, v)
     c, p = biped.phase, biped.p
     theta_plus, theta_minus = float(c @ impact.q), float(c @ q)
@@ -131,7 +151,7 @@ def _problem(biped: Biped, q: Array, v: Array, degree: int, limits: GaitLimits) 
     slopes = impact.v[:p] / rate_plus * span, v[:p] / rate_minus * span
     return _Problem(
         biped,
-        bezier_between(impact.q[:p], *slopes, q[:p], degree),
+        Bezier.between(impact.q[:p], *slopes, q[:p], degree),
         c,
         theta_plus,
         theta_minus,
@@ -151,7 +171,8 @@ def constraint_through(
 ) -> VirtualConstraint:
     """The constraint of least torque whose periodic orbit passes through x- = (q, v).
 
-    q must have the swing foot on the ground (see `onto_section`). Raises GaitError when no curve of this
+    q: (n,) [rad], with the swing foot on the ground (see `onto_section`). v: (n,) [rad/s]. degree: M >= 4 of
+    the Bezier curves, of which M - 3 coefficients per joint are free. Raises GaitError when no curve of this
     degree keeps the limits, naming the worst one.
     """
     if degree < 4:
@@ -172,6 +193,7 @@ def constraint_through(
 
 
 def _check_limits(problem: _Problem, f: Array) -> None:
+    """Raise GaitError where the curve for f violates a limit by more than the tolerance, naming the worst."""
     z = problem.zero_dynamics(f)
     margins = problem.margins(z, z.orbit(problem.sigma_plus, _SLOWEST * problem.sigma_minus**2))
     worst = min(margins, key=lambda name: float(np.min(margins[name])))
@@ -183,7 +205,10 @@ def _check_limits(problem: _Problem, f: Array) -> None:
 
 
 def _close(problem: _Problem, f: Array) -> Array:
-    """Solve the periodicity condition to round-off along its own gradient."""
+    """f (p * (M - 3),) moved along the gradient of the closure until the orbit is periodic to round-off.
+
+    Least squares leaves a closure of about 1e-6, since it trades it against torque.
+    """
     base, step = problem.closure(f), 1e-7
     direction = np.array([(problem.closure(f + step * e) - base) / step for e in np.eye(len(f))])
     direction /= direction @ direction

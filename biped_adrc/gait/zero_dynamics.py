@@ -11,6 +11,9 @@ so an orbit is one quadrature, and Theta' = sigma / I. Impact maps sigma- to sig
 new foot): the cycle closes when sigma-^2 = 2 W / (1 - delta^2), W = int -G_N I dTheta, and its
 multiplier is delta^2 (Westervelt, Grizzle, Koditschek, IEEE TAC 48(1), 2003). Gauss-Legendre nodes
 make the quadrature exact to round-off for smooth constraints.
+
+`ZeroDynamics` is one step of one orbit, with torques and ground reaction at the nodes, as the design of gaits
+needs it. `zero_orbits` has all speeds at once: return map, fixed point, domain of attraction.
 """
 
 from __future__ import annotations
@@ -30,11 +33,16 @@ from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 NODES = 40
+"""Gauss nodes over a step, enough for curves of degree 6 to be integrated to round-off."""
 
 
 @lru_cache(maxsize=8)
 def gauss_nodes(count: int) -> tuple[Array, Array, Array]:
-    """Nodes and weights on [0, 1], and the matrix that integrates node values from 0 to each node."""
+    """Gauss-Legendre nodes (K,) and weights (K,) on [0, 1], and the matrix C (K, K) of running integrals.
+
+    C f is the integral from 0 to each node of the polynomial through the values f (K,) at the nodes: exact for
+    polynomials of degree below K, by their Legendre coefficients.
+    """
     x, w = legendre.leggauss(count)
     to_coefficients = (legendre.legvander(x, count - 1) * w[:, np.newaxis]).T
     to_coefficients *= (np.arange(count) + 0.5)[:, np.newaxis]
@@ -70,16 +78,25 @@ class ZeroDynamicsOrbit(Shown):
 
 @dataclass(frozen=True)
 class ZeroDynamics(Shown):
-    """Quadratures of one constraint; arrays are taken at the Gauss nodes."""
+    """The model along one constraint at K Gauss nodes, and what follows from it by quadrature.
+
+    Make it by `of`.
+    """
 
     biped: Biped
     constraint: VirtualConstraint
     theta: Array
+    """Phases of the nodes (K,) [rad]."""
     weights: Array
+    """weights @ f is the integral of f over Theta from Theta+ to Theta- (K,) [rad]."""
     cumulative: Array
+    """cumulative @ f is the same up to each node (K, K) [rad]."""
     q: Array
+    """Configurations on the constraint (K, n) [rad]."""
     dq: Array
+    """dq/dTheta (K, n) [rad/rad]."""
     ddq: Array
+    """d2q/dTheta2 (K, n) [1/rad]."""
     inertia: Array
     """I(Theta) (K,) [kg m^2]."""
     gravity: Array
@@ -87,7 +104,7 @@ class ZeroDynamics(Shown):
 
     @classmethod
     def of(cls, biped: Biped, constraint: VirtualConstraint, nodes: int = NODES) -> ZeroDynamics:
-        """Evaluate the model along the constraint. Raises InputError for what is no robot or no constraint."""
+        """Evaluate the model along the constraint at so many Gauss nodes. Raises InputError."""
         check_part(biped, "biped", Biped)
         check_part(constraint, "constraint", VirtualConstraint)
         s, w, C = gauss_nodes(nodes)
@@ -103,7 +120,7 @@ class ZeroDynamics(Shown):
 
     @property
     def work(self) -> float:
-        """W = int -G_N I dTheta over the step, so that (sigma-^2 - sigma+^2) / 2 = W."""
+        """W = int -G_N I dTheta over the step [kg^2 m^4/s^2], so that (sigma-^2 - sigma+^2) / 2 = W."""
         return float(self.weights @ (-self.gravity * self.inertia))
 
     @cached_property
@@ -114,14 +131,17 @@ class ZeroDynamics(Shown):
 
     @property
     def delta(self) -> float:
-        """sigma+ / sigma- across impact at the end of the step."""
+        """sigma+ / sigma- across the impact at the end of the step; the same at every speed."""
         impact = self.biped.impact(*self._end)
         after = self.biped.angular_momentum(impact.q, impact.v)
         return after / self.biped.angular_momentum(*self._end)
 
     @property
     def sigma_minus(self) -> float:
-        """sigma- of the periodic orbit, from 2 W / (1 - delta^2). Raises GaitError when there is none."""
+        """sigma- of the periodic orbit [kg m^2/s]: sigma-^2 = 2 W / (1 - delta^2), with the sign of the walk.
+
+        Raises GaitError when there is none.
+        """
         delta2 = self.delta**2
         square = 2.0 * self.work / (1.0 - delta2)
         if not square > 0:
@@ -132,18 +152,22 @@ class ZeroDynamics(Shown):
         return math.copysign(math.sqrt(square), self.biped.angular_momentum(*self._end))
 
     def end_state(self, sigma_minus: float) -> tuple[Array, Array]:
-        """(q-, q'-) on the constraint with angular momentum sigma_minus, each (n,)."""
+        """(q-, q'-) on the constraint with angular momentum sigma_minus [kg m^2/s], each (n,) [rad, rad/s]."""
         q, v = self._end
         return q, v * (sigma_minus / self.biped.angular_momentum(q, v))
 
     def sigma_squared(self, sigma_plus: float) -> Array:
-        """sigma^2 at the nodes (K,) for a step that starts with sigma_plus; negative where it stops."""
+        """sigma^2 at the nodes (K,) [kg^2 m^4/s^2] for a step that starts with sigma_plus [kg m^2/s].
+
+        Negative from where the step comes to a stop.
+        """
         square: Array = sigma_plus**2 + 2.0 * self.cumulative @ (-self.gravity * self.inertia)
         return square
 
     def orbit(self, sigma_plus: float, floor: float = 0.0) -> ZeroDynamicsOrbit:
-        """The step that starts with sigma_plus; sigma^2 is held above `floor`, for optimisers.
+        """The step that starts with sigma_plus [kg m^2/s]: states, torques and ground reaction at the nodes.
 
+        floor: sigma^2 is held above it, so that an optimiser gets numbers for steps that would stop as well.
         Raises GaitError when the step does not reach its end, or Theta is no phase since I changes its sign.
         """
         if floor == 0.0 and not (np.all(self.inertia > 0.0) or np.all(self.inertia < 0.0)):
@@ -181,7 +205,10 @@ class ZeroDynamics(Shown):
         return self.orbit(self.sigma_minus * self.delta)
 
     def dynamics(self, k: int, rate: float) -> tuple[Array, Array, Array, float]:
-        """q'', u, ground reaction and swing height at node k: Theta'' from the unactuated row."""
+        """q'' (n,) [rad/s^2], u (p,) [N m], ground reaction (2,) [N] and swing-foot height [m] at node k.
+
+        rate: Theta' [rad/s]; Theta'' follows from the unactuated row of D q'' + Omega = (u, 0).
+        """
         q, dq, ddq, b = self.q[k], self.dq[k], self.ddq[k], self.biped
         v = dq * rate
         D, Omega = b.inertia(q), b.bias(q, v)
@@ -192,7 +219,10 @@ class ZeroDynamics(Shown):
 
 
 def configuration(constraint: VirtualConstraint, theta: float) -> tuple[Array, Array, Array]:
-    """q, dq/dTheta, d2q/dTheta2 on the constraint, each (n,)."""
+    """q [rad], dq/dTheta and d2q/dTheta2 on the constraint at theta [rad], each (n,).
+
+    The last coordinate comes from Theta = c q: q_N = (Theta - c_b h) / c_N.
+    """
     h, dh, ddh = constraint.h(theta)
     c_b, c_N = constraint.phase[:-1], constraint.phase[-1]
     return (

@@ -18,15 +18,14 @@ on the speed, the step after it begins with delta^2 zeta and is finished if that
 Theta+ to Theta-, whichever is larger. A slope changes neither gravity nor these formulas: it decides where
 the swing foot meets the ground, and so where the curve ends.
 
-`domain` says how fast and how slow they may run before the ground or the motors say no. On the constraint the
-ground reaction and the torques are affine in Theta'^2, hence in zeta = sigma-^2 / 2 before the last impact:
+I and V_zero are Legendre series through the values at the Gauss nodes of `ZeroDynamics`, so that they can be
+evaluated, differentiated and searched for zeros anywhere in the step. `zero_domain` adds what
+ground and motors allow; `analysis.zero_report` prints both.
 
-    F(Theta) = F_0 + F_1 Theta'^2,   Theta'^2 = 2 (delta^2 zeta - V_zero(Theta)) / I^2
-
-so each of  F_N > 0,  mu F_N -+ F_T > 0,  u_max -+ u_i > 0  reads  A(Theta) + B(Theta) zeta > 0, and all
-Theta together leave an interval of zeta. rho is increasing, so a walk that starts inside an interval
-around zeta* stays inside it: the interval is a domain of attraction that the ground and the motors allow.
-The unilateral contact is what Westervelt, Grizzle, Koditschek (IEEE TAC 48(1), 2003) ask of an orbit.
+    orbits = ba.ZeroOrbits.of(ba.ZeroDynamics.of(biped, gait.constraint))
+    star = orbits.zeta_star              247.4 kg^2 m^4/s^2 for the published gait of RABBIT
+    orbits.speed(star), orbits.delta**2  0.750 m/s, and the multiplier 0.694
+    orbits.iterate(0.6 * star, 5)        how a slower walk comes back to it, step by step
 """
 
 from __future__ import annotations
@@ -34,26 +33,27 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import Legendre, legendre
 from scipy.integrate import quad
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import brentq
 
-from biped_adrc.errors import GaitError, InputError, check_positive
+from biped_adrc.errors import GaitError, check_positive
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
-from biped_adrc.ground import ground_axes
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
-_GRID = 401  # points among which signs and extremes are looked for; zeros are then solved for
-_DURATION = 1e-6  # largest error of a duration over itself
-_SADDLE = 1e-6  # |dV_zero/dTheta| at V_max over its largest, below which V_max is an equilibrium
+_GRID = 401
+"""Phases among which signs and extremes are looked for; zeros between two of them are then solved for."""
+_DURATION = 1e-6
+"""Largest error of a duration over itself."""
+_SADDLE = 1e-6
+"""|dV_zero/dTheta| at V_max over its largest value, below which V_max counts as an equilibrium."""
 
 
 def series(zero: ZeroDynamics, values: Array) -> Legendre:
-    """The polynomial in Theta through values (K,) at the Gauss nodes of `zero`."""
+    """The polynomial in Theta [rad] through values (K,) at the Gauss nodes of `zero`."""
     s, w, _ = gauss_nodes(len(values))
     x, c = 2.0 * s - 1.0, zero.constraint
     coefficients = (legendre.legvander(x, len(x) - 1).T @ (2.0 * w * values)) * (
@@ -63,18 +63,19 @@ def series(zero: ZeroDynamics, values: Array) -> Legendre:
 
 
 def grid(zero: ZeroDynamics) -> Array:
-    """Theta from Theta+ to Theta-, both included."""
+    """_GRID phases [rad] (401,) from Theta+ to Theta-, both included."""
     return np.linspace(zero.constraint.theta_plus, zero.constraint.theta_minus, _GRID)
 
 
 @dataclass(frozen=True)
 class ZeroOrbits(Shown):
-    """The restricted return map rho of one constraint, its fixed point and its domain. Make it with `of`.
+    """The restricted return map rho of one constraint, its fixed point and its domain. Make it by `of`.
 
     zeta is always sigma-^2 / 2 before an impact [kg^2 m^4/s^2].
     """
 
     zero: ZeroDynamics
+    """The constraint, and the model at its Gauss nodes."""
     inertia: Legendre
     """I(Theta) [kg m^2]."""
     potential: Legendre
@@ -86,7 +87,11 @@ class ZeroOrbits(Shown):
 
     @classmethod
     def of(cls, zero: ZeroDynamics) -> ZeroOrbits:
-        """Raises GaitError when I changes its sign, or the impact turns the motion round."""
+        """The map of a constraint.
+
+        Raises GaitError when the robot has not exactly one unactuated coordinate, when I changes its sign
+        (Theta is no phase), or when the impact reverses the motion.
+        """
         b, c = zero.biped, zero.constraint
         if b.n != b.p + 1:
             raise GaitError(
@@ -107,12 +112,12 @@ class ZeroOrbits(Shown):
     # -- the numbers of the literature -------------------------------------------------------------
     @property
     def v_end(self) -> float:
-        """V_zero(Theta-); negative when gravity speeds the step up."""
+        """V_zero(Theta-) [kg^2 m^4/s^2]; negative when gravity speeds the step up."""
         return float(self.potential(self.zero.constraint.theta_minus))
 
     @cached_property
     def v_max(self) -> float:
-        """V_max = max V_zero >= 0, what sigma+^2 / 2 must exceed."""
+        """V_max = max V_zero >= 0 [kg^2 m^4/s^2]; a step is finished if sigma+^2 / 2 exceeds it."""
         return max(0.0, float(self.potential(self.theta_max)))
 
     @property
@@ -123,12 +128,15 @@ class ZeroOrbits(Shown):
 
     @property
     def lowest(self) -> float:
-        """V_max / delta^2: from above it, the next step is finished."""
+        """V_max / delta^2 [kg^2 m^4/s^2]: from a zeta above it, the next step is finished."""
         return self.v_max / self.delta**2
 
     @property
     def zeta_star(self) -> float:
-        """The fixed point of rho. Raises GaitError that says which condition fails, and by how much."""
+        """The fixed point of rho [kg^2 m^4/s^2].
+
+        Raises GaitError that says which condition of existence or stability fails, and by how much.
+        """
         d2, V, top = self.delta**2, self.v_end, self.v_max
         if not d2 < 1.0:
             raise GaitError(
@@ -150,14 +158,14 @@ class ZeroOrbits(Shown):
         return -V / (1.0 - d2)
 
     def sigma(self, zeta: float) -> float:
-        """sigma- [kg m^2/s] of zeta, in the direction of the walk."""
+        """sigma- [kg m^2/s] for a zeta, with the sign of the direction of the walk."""
         c = self.zero.constraint
         forward = (c.theta_minus - c.theta_plus) * float(self.inertia(c.theta_minus))
         return math.copysign(math.sqrt(2.0 * zeta), forward)
 
     # -- the return map ----------------------------------------------------------------------------
     def rho(self, zeta: float) -> float:
-        """zeta one step later. Raises GaitError for a step that is not finished."""
+        """The return map: zeta one step later. Raises GaitError for a step that is not finished."""
         begin = self.delta**2 * self._checked(zeta)
         if not begin > self.v_max:
             raise GaitError(
@@ -167,14 +175,17 @@ class ZeroOrbits(Shown):
         return begin - self.v_end
 
     def iterate(self, zeta: float, steps: int) -> Array:
-        """zeta, rho(zeta), rho(rho(zeta)), ... (steps + 1,). Raises GaitError as rho."""
+        """zeta, rho(zeta), rho(rho(zeta)), ... (steps + 1,) [kg^2 m^4/s^2]. Raises GaitError as rho."""
         found = [self._checked(zeta)]
         for _ in range(steps):
             found.append(self.rho(found[-1]))
         return np.array(found)
 
     def steps_to(self, zeta: float, closeness: float) -> int:
-        """Steps until |zeta_k - zeta*| <= closeness * zeta*. Raises GaitError when it never comes there."""
+        """Number of steps until |zeta_k - zeta*| <= closeness * zeta*, from |zeta_k - zeta*| ~ delta^(2 k).
+
+        Raises GaitError for a closeness that is not positive, and as `rho` and `zeta_star`.
+        """
         check_positive(closeness, f"closeness is {closeness}", error=GaitError)
         self.rho(zeta)
         ratio = abs(zeta / self.zeta_star - 1.0) / closeness
@@ -184,7 +195,7 @@ class ZeroOrbits(Shown):
 
     # -- what a step looks like --------------------------------------------------------------------
     def sigma_squared(self, theta: Array, zeta: float) -> Array:
-        """sigma^2 at theta in the step after zeta; negative where the step does not come."""
+        """sigma^2 [kg^2 m^4/s^2] at theta (K,) [rad] in the step after zeta; negative past where it stops."""
         square: Array = 2.0 * (self.delta**2 * zeta - self.potential(theta))
         return square
 
@@ -197,6 +208,10 @@ class ZeroOrbits(Shown):
         return self._duration(zeta)
 
     def _duration(self, zeta: float) -> float:
+        """int |I / sigma| dTheta [s] by adaptive quadrature, which sigma near 0 at V_max asks for.
+
+        Raises GaitError where its error estimate exceeds _DURATION of it.
+        """
         c, low = self.zero.constraint, self.lowest
 
         def slowness(theta: float) -> float:
@@ -219,7 +234,7 @@ class ZeroOrbits(Shown):
 
     @cached_property
     def step_length(self) -> float:
-        """Distance of the feet at impact [m]; along the ground, on a slope."""
+        """Distance between the feet at impact [m], along the ground where that has a slope."""
         q = configuration(self.zero.constraint, self.zero.constraint.theta_minus)[0]
         return float(np.linalg.norm(self.zero.biped.swing_foot(q)))
 
@@ -231,22 +246,24 @@ class ZeroOrbits(Shown):
 
     @cached_property
     def _slows_down_for_ever(self) -> bool:
-        """Whether V_max is an equilibrium, on which a step at the lower end would come to rest."""
+        """Whether V_max is an equilibrium (dV_zero/dTheta = 0): a step at the lower end comes to rest there."""
         slope = self.potential.deriv()
         largest = float(np.max(np.abs(slope(grid(self.zero)))))
         return abs(float(slope(self.theta_max))) < _SADDLE * largest
 
     def kinetic_energy(self, zeta: float) -> float:
-        """Kinetic energy [J] before an impact with zeta."""
+        """Kinetic energy [J] just before an impact with zeta."""
         return self.zero.biped.kinetic_energy(*self.zero.end_state(self.sigma(zeta)))
 
     def _checked(self, zeta: float) -> float:
+        """zeta itself. Raises GaitError unless it is a finite number >= 0."""
         if not (math.isfinite(zeta) and zeta >= 0):
             raise GaitError(f"zeta = {zeta} kg^2 m^4/s^2, expected a finite number >= 0")
         return zeta
 
 
 def _check_phase(inertia: Legendre, theta: Array) -> None:
+    """Raise GaitError, which names the phase, where I(Theta) changes its sign on the grid theta (K,) [rad]."""
     values = inertia(theta)
     turns = np.flatnonzero(values[1:] * values[:-1] <= 0)
     if len(turns):
@@ -260,128 +277,12 @@ def _check_phase(inertia: Legendre, theta: Array) -> None:
 
 
 def _highest(potential: Legendre, theta: Array) -> float:
-    """Where V_zero is largest: an end, or a zero of its slope."""
+    """The phase [rad] at which V_zero is largest: an end of theta (K,), or a zero of its slope beside the
+    largest value on that grid.
+    """
     k = int(np.argmax(potential(theta)))
     slope = potential.deriv()
     for one, other in ((theta[max(k - 1, 0)], theta[k]), (theta[k], theta[min(k + 1, _GRID - 1)])):
         if slope(one) * slope(other) < 0:
             return float(brentq(slope, one, other, xtol=1e-14))
     return float(theta[k])
-
-
-LIFT_OFF, FRICTION, TORQUE = "lift-off", "friction", "torque"
-PASSING = "V_max"
-"""The step has to pass the highest point of V_zero."""
-UNLIMITED = "no limit"
-
-
-@dataclass(frozen=True)
-class Limits(Shown):
-    """friction: mu, largest |F_T| / F_N. torque: largest |u_i| [N m]; None leaves a limit out.
-
-    slope [rad]: of the ground, positive downhill.
-    """
-
-    friction: float | None = None
-    torque: float | None = None
-    slope: float = 0.0
-
-    def __post_init__(self) -> None:
-        for name in ("friction", "torque"):
-            value = getattr(self, name)
-            if value is not None and not (math.isfinite(value) and value > 0):
-                raise InputError(f"limit of {name} is {value}, expected a positive number or None")
-        if not abs(self.slope) < 0.5 * math.pi:
-            raise InputError(f"the slope is {self.slope} rad, expected less than a right angle")
-
-
-class Bound(NamedTuple):
-    """One end of the domain."""
-
-    zeta: float
-    """[kg^2 m^4/s^2]."""
-    cause: str
-    """"V_max", "lift-off", "friction", "torque", or "no limit"."""
-    theta: float
-    """Where it happens first [rad]; NaN without limit."""
-
-
-class Domain(NamedTuple):
-    """The interval lower.zeta < zeta < upper.zeta."""
-
-    lower: Bound
-    upper: Bound
-
-    @property
-    def empty(self) -> bool:
-        """Whether no speed keeps all limits."""
-        return not self.lower.zeta < self.upper.zeta
-
-    def holds(self, zeta: float) -> bool:
-        """Whether zeta is inside."""
-        return self.lower.zeta < zeta < self.upper.zeta
-
-
-def domain(orbits: ZeroOrbits, limits: Limits | None = None) -> Domain:
-    """The zeta whose next step is finished and keeps the limits; without limits, F_N > 0 still holds.
-
-    It contains zeta* when the periodic orbit keeps them, and is then a domain of attraction.
-    """
-    lower = Bound(orbits.lowest, PASSING, orbits.theta_max)
-    upper = Bound(math.inf, UNLIMITED, math.nan)
-    for margin in _margins(orbits, Limits() if limits is None else limits):
-        lower = max(lower, _end(orbits, margin, 1.0), key=lambda bound: bound.zeta)
-        upper = min(upper, _end(orbits, margin, -1.0), key=lambda bound: bound.zeta)
-    return Domain(lower, upper)
-
-
-class Margin(NamedTuple):
-    """still + moving Theta'^2 > 0 is asked for; values (K,) at the Gauss nodes."""
-
-    cause: str
-    still: Array
-    moving: Array
-
-
-def _margins(orbits: ZeroOrbits, limits: Limits) -> list[Margin]:
-    zero = orbits.zero
-    rest, moving = ([zero.dynamics(k, rate) for k in range(len(zero.theta))] for rate in (0.0, 1.0))
-    u_0, u_1 = (np.array([found[1] for found in rows]) for rows in (rest, moving))
-    F_0, F_1 = (np.array([found[2] for found in rows]) for rows in (rest, moving))
-    along, across = ground_axes(limits.slope)
-    rows = [(LIFT_OFF, across)]
-    if limits.friction is not None:
-        rows += [(FRICTION, limits.friction * across + sign * along) for sign in (-1.0, 1.0)]
-    found = [Margin(cause, F_0 @ row, (F_1 - F_0) @ row) for cause, row in rows]
-    if limits.torque is not None:
-        for j in range(zero.biped.p):
-            for sign in (-1.0, 1.0):
-                still = limits.torque + sign * u_0[:, j]
-                found.append(Margin(TORQUE, still, sign * (u_1 - u_0)[:, j]))
-    return found
-
-
-def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
-    """The lower (sign 1) or upper (sign -1) end that one margin leaves: the extreme of -A / B over Theta."""
-    still, moving = series(orbits.zero, margin.still), series(orbits.zero, margin.moving)
-
-    def reach(theta: Array) -> Array:
-        """sign * zeta of the crossing; -inf where this end is not limited, inf where nothing helps."""
-        gain = 2.0 * moving(theta) / orbits.inertia(theta) ** 2
-        A, B = still(theta) - gain * orbits.potential(theta), sign * orbits.delta**2 * gain
-        crossing = -A / np.where(B > 0, B, 1.0)
-        return np.where(B > 0, crossing, np.where((B == 0) & (A <= 0), math.inf, -math.inf))
-
-    theta = grid(orbits.zero)
-    found = reach(theta)
-    k = int(np.argmax(found))
-    near = slice(max(k - 1, 0), k + 2)
-    where, most = float(theta[k]), float(found[k])
-    if np.all(np.isfinite(found[near])):
-        ends = sorted((theta[near][0], theta[near][-1]))
-        best = minimize_scalar(
-            lambda x: -float(reach(x)), bounds=ends, method="bounded", options={"xatol": 1e-12}
-        )
-        if -best.fun > most:
-            where, most = float(best.x), -float(best.fun)
-    return Bound(sign * most, margin.cause, where)

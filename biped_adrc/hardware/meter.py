@@ -32,7 +32,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.reduction import Reduction, disturbance_parts
 from biped_adrc.robots.robot_toml import ROUND_OFF, Limits
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 READINGS = 18
 """Numbers in a `Reading`."""
@@ -267,7 +267,7 @@ def metered_impact(
     g: Array,
     q_minus: Array,
     q_plus: Array,
-    swap: Array,
+    swap: Indices,
     hit: Hit,
 ) -> Array:
     """g after an impact between the joints' angles q_minus and q_plus (p,), which `swap` relabels."""

@@ -19,7 +19,7 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 WHOLE = 1e-9
 """A delay that differs from whole periods by less than this fraction is one of whole periods."""
@@ -79,7 +79,7 @@ def mean_torque(k: MotorParameters, line: Line) -> Array:
     return line.u_m if len(line.u_m) > 0 else acting(k, line)
 
 
-def relabelled(line: Line, swap: Array) -> Line:
+def relabelled(line: Line, swap: Indices) -> Line:
     """The line after an impact; swap (p,) relabels the joints."""
     p = len(line.u)
     return Line(*(x.reshape(-1, p)[:, swap].ravel() if len(x) > 0 else x for x in line))

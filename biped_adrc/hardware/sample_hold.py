@@ -17,9 +17,9 @@ from biped_adrc.errors import InputError
 from biped_adrc.hardware import meter
 from biped_adrc.hardware.meter import Hit, Meter, MeterParameters, metered_impact
 from biped_adrc.hardware.motors import IDEAL, Line, Motors, relabelled, whole_and_part
-from biped_adrc.hardware.sensors import Sensors, sensed_impact, sensor_state
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.timing import ContinuousTime, SampledTime
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 
 class HeldSizes(NamedTuple):
@@ -47,7 +47,7 @@ class HeldSizes(NamedTuple):
 
 
 class HeldParameters(NamedTuple):
-    """Of sensors, motors and meter, () for none; and the sizes."""
+    """Of sensors their laws, of motors and meter parameters, () for none; and the sizes."""
 
     sensors: Any
     motors: Any
@@ -67,7 +67,7 @@ class Held(NamedTuple):
 def check_parts(
     n: int,
     timing: ContinuousTime | SampledTime,
-    sensors: Sensors | None,
+    sensors: Sensor | None,
     motors: Motors | None,
     metered: Meter | None,
     gain: tuple[float, ...],
@@ -91,18 +91,19 @@ def held_parameters(
     n: int,
     p: int,
     timing: SampledTime,
-    sensors: Sensors | None = None,
+    sensors: Sensor | None = None,
     motors: Motors | None = None,
     metered: MeterParameters | None = None,
     own: int = 0,
 ) -> HeldParameters:
     """For n coordinates, p motors and the ticks of `timing`; own: numbers that the plant keeps for itself."""
     motors, period = IDEAL if motors is None else motors, timing.period
+    sensing = None if sensors is None else sensors.laws(n, p, period)
     queue, fraction = whole_and_part(timing.delay, period)
     sizes = HeldSizes(
         n,
         p,
-        0 if sensors is None else sensors.size(n),
+        0 if sensing is None else sensing.size,
         0 if metered is None else meter.size(p, metered.window),
         queue,
         int(motors.lag > 0.0),
@@ -112,7 +113,7 @@ def held_parameters(
         own,
     )
     return HeldParameters(
-        () if sensors is None else sensors.parameters(n, p, period),
+        () if sensing is None else sensing,
         motors.parameters(period, fraction),
         () if metered is None else metered,
         sizes,
@@ -149,10 +150,10 @@ def lagged(k: HeldParameters, tail: Array) -> Array:
     return rate
 
 
-def at_start(k: HeldParameters, q: Array, v: Array, sensors: Sensors | None) -> Array:
+def at_start(k: HeldParameters, q: Array, v: Array, sensors: Sensor | None) -> Array:
     """What is held at the start of a run in (q, v): no torque, and a first look."""
     sizes = k.sizes
-    w = np.zeros(0) if sensors is None else sensor_state(k.sensors, q, v, sensors.start)
+    w = np.zeros(0) if sensors is None else sensors.start(k.sensors.parameters, q, v)
     rest = np.zeros(sizes.total - sizes.own - sizes.sensors)
     return np.concatenate((np.zeros(sizes.own), w, rest))
 
@@ -160,7 +161,7 @@ def at_start(k: HeldParameters, q: Array, v: Array, sensors: Sensors | None) -> 
 def after_impact(
     k: HeldParameters,
     held: Held,
-    swap: Array,
+    swap: Indices,
     q_minus: Array,
     q: Array,
     v: Array,
@@ -173,7 +174,7 @@ def after_impact(
     """
     w, g, p = held.w, held.g, k.sizes.p
     if k.sizes.sensors > 0:
-        w = sensed_impact(k.sensors, w, q, v, v_model)
+        w = k.sensors.impact(k.sensors.parameters, w, q, v, v_model)
     if hit is not None:
         g = metered_impact(k.meter, g, q_minus[:p], q[:p], swap, hit)
     return Held(w, g, relabelled(held.line, swap), held.own)

@@ -29,6 +29,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from biped_adrc.errors import InputError
+from biped_adrc.hardware.sensing import Sensor, SensorLaws
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
@@ -76,6 +77,12 @@ def sense(k: SensorParameters, w: Array, q: Array, v: Array) -> Array:
     return np.concatenate((seen, seen_rate, np.zeros(1), r))
 
 
+def seen(k: SensorParameters, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+    """q^ and v^ of w, each (n,); all of (q, v) is measured."""
+    n = len(q)
+    return w[:n], w[n : 2 * n]
+
+
 def sensed_impact(k: SensorParameters, w: Array, q: Array, v: Array, v_model: Array) -> Array:
     """w after an impact to (q, v); v_model (n,) is v^ taken through the nominal model's impact."""
     n = len(q)
@@ -83,7 +90,7 @@ def sensed_impact(k: SensorParameters, w: Array, q: Array, v: Array, v_model: Ar
 
 
 @dataclass(frozen=True)
-class Sensors(Shown):
+class Sensors(Shown, Sensor):
     """counts: of the joints' encoders per revolution, None for exact angles.
 
     pitch_resolution [rad]: of the unactuated pitch; None: as the joints'.
@@ -129,9 +136,15 @@ class Sensors(Shown):
         return self.noise > 0.0 or self.pitch_noise > 0.0 or self.rate_noise > 0.0
 
     @cached_property
-    def start(self) -> Array:
+    def random(self) -> Array:
         """r at the start of a run: (6,), or none without noise."""
         return seeded(self.seed) if self.noisy else np.zeros(0)
+
+    def start(self, k: SensorParameters, q: Array, v: Array) -> Array:
+        return sensor_state(k, q, v, self.random)
+
+    def laws(self, n: int, p: int, period: float) -> SensorLaws:
+        return SensorLaws(self.parameters(n, p, period), self.size(n), sense, sensed_impact, seen)
 
     def size(self, n: int) -> int:
         """Numbers in w."""

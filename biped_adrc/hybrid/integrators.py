@@ -1,11 +1,13 @@
-"""One-step methods behind one interface.
+"""One-step methods behind one interface: RK4, Dormand-Prince 8(5, 3), Radau IIA, and ETD-RK4.
 
-A method yields steps over a smooth segment [t, t_end]. A step can give its own state at any time inside it
-(`at`), to the accuracy of the method; the loop locates events with that.
+A method yields steps over a smooth segment [t, t_end]. A step can give its own state at any time
+inside it (`at`), to the accuracy of the method; the simulator locates events with that. The
+compiled loops have RK4, Adaptive and Exponential too (`compiled_form`).
 
-The exponential Runge-Kutta method ETD-RK4 is for a flow whose stiff part is linear. In the coordinates of
-`Split`, E' = A E + N_E(t, p, E) and p' = N_p(t, p, E). A is integrated exactly through the phi-functions; p
-sees the classical RK4 (Cox, Matthews, J. Comput. Phys. 176, 2002, eqs (26)-(29)):
+The exponential Runge-Kutta method ETD-RK4 is for a flow whose stiff part is linear. In the
+coordinates of `Split`, E' = A E + N_E(t, p, E) and p' = N_p(t, p, E). A is integrated exactly
+through the phi-functions; p sees the classical RK4 (Cox, Matthews, J. Comput. Phys. 176, 2002, eqs
+(26)-(29)):
 
     a = e^(hA/2) E + h/2 phi1(hA/2) N(E)
     b = e^(hA/2) E + h/2 phi1(hA/2) N(a)
@@ -21,7 +23,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from scipy.integrate import DOP853, RK45, OdeSolver, Radau
@@ -32,7 +34,9 @@ from biped_adrc.hybrid.system import HybridSystem, Mode, Split
 from biped_adrc.types import Array
 
 Flow = Callable[[float, Array], Array]
-LANDING = 1e-9  # a last step longer than h by this fraction is still one step, dimensionless
+"""f(t, x) -> x'."""
+LANDING = 1e-9
+"""A last step longer than h by this fraction [1] is still one step: round-off in the count of steps."""
 
 
 class StepFailed(Exception):
@@ -41,32 +45,37 @@ class StepFailed(Exception):
 
 @dataclass(frozen=True)
 class Step:
-    """From (t0, x0) to (t1, x1) with slopes dx0, dx1 at the ends."""
+    """One step of a method, from (t0, x0) to (t1, x1); times [s], states (nx,)."""
 
     t0: float
     t1: float
     x0: Array
     x1: Array
     dx0: Array
+    """Slope x' at the start (nx,)."""
     dx1: Array
+    """Slope x' at the end (nx,)."""
     at: Callable[[float], Array]
+    """at(t) -> x(t) (nx,) for t0 <= t <= t1, to the order of the method."""
 
 
 class OneStepMethod(ABC):
-    """Yields the steps of a smooth segment."""
+    """Base of the methods: yields the steps of a smooth segment. A user's own needs `steps` and `label`."""
 
     compiled_form: ClassVar[str] = ""
     """Name of the same method in the compiled loops; empty for one that runs in Python only."""
 
     def split(self, system: HybridSystem, mode: Mode) -> Split | None:
-        """The coordinates of `system` that the method steps in; None for x itself."""
+        """The coordinates of `system` that the method steps in; None for x itself. Raises
+        InputError for none.
+        """
         return None
 
     @abstractmethod
     def steps(
         self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
-        """Steps from (t, x) to t_end under x' = f(t, x)."""
+        """Steps from (t, x) to t_end [s] under x' = f(t, x), x (nx,); in `split` where it is not None."""
 
     @property
     @abstractmethod
@@ -75,7 +84,7 @@ class OneStepMethod(ABC):
 
 
 def step_ends(t: float, t_end: float, h: float) -> Iterator[float]:
-    """t + h, t + 2h, ..., t_end; counted, not accumulated."""
+    """t + h, t + 2h, ..., t_end [s]; counted, not accumulated, so that round-off does not grow."""
     count = max(1, math.ceil((t_end - t) / h - LANDING))
     for k in range(1, count):
         yield t + k * h
@@ -100,6 +109,7 @@ class RK4(OneStepMethod):
     def steps(
         self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
+        """Steps from (t, x), x (nx,), to t_end [s]; inside a step `at` takes a shorter one from its start."""
         dx = f(t, x)
         for t1 in step_ends(t, t_end, self.h):
             x1 = rk4(f, t, x, dx, t1 - t)
@@ -113,7 +123,7 @@ class RK4(OneStepMethod):
 
 
 def rk4(f: Flow, t: float, x: Array, dx: Array, h: float) -> Array:
-    """One step of length h from (t, x), dx = f(t, x)."""
+    """x (nx,) after one RK4 step of length h [s] from (t, x), dx = f(t, x)."""
     k2 = f(t + 0.5 * h, x + 0.5 * h * dx)
     k3 = f(t + 0.5 * h, x + 0.5 * h * k2)
     k4 = f(t + h, x + h * k3)
@@ -122,7 +132,11 @@ def rk4(f: Flow, t: float, x: Array, dx: Array, h: float) -> Array:
 
 @dataclass(frozen=True)
 class _SciPy(OneStepMethod):
-    """A SciPy solver, used one step at a time; events are located on its own dense output."""
+    """A SciPy solver, used one step at a time; events are located on its own dense output.
+
+    - rtol [1], atol: relative and absolute tolerance of a step.
+    - max_step [s]: longest step, so that the event functions are looked at often enough.
+    """
 
     rtol: float = 1e-9
     atol: float = 1e-9
@@ -141,6 +155,12 @@ class _SciPy(OneStepMethod):
     def steps(
         self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
+        """Steps from (t, x), x (nx,), to t_end [s].
+
+        A flow that raises NotFiniteError or SingularError at a trial state gives NaN, and the
+        solver rejects the step; the error is raised only where the solver gives up. Raises
+        StepFailed with the solver's message otherwise.
+        """
         last: NotFiniteError | SingularError | None = None
 
         def tried(t: float, x: Array) -> Array:
@@ -169,7 +189,7 @@ class _SciPy(OneStepMethod):
 
 @dataclass(frozen=True)
 class Adaptive(_SciPy):
-    """The explicit pair of Dormand and Prince of order 8(5, 3), with step control."""
+    """The explicit pair of Dormand and Prince of order 8(5, 3), with step control, as SciPy's DOP853."""
 
     compiled_form: ClassVar[str] = "dop853"
     _solver = DOP853
@@ -182,7 +202,10 @@ class Stiff(_SciPy):
     _solver = Radau
 
 
-_SAME_STEP = 1e-9  # relative difference below which two steps share their phi-functions
+Start = tuple[float, Array, Array, tuple[Array, Array]]
+"""t [s], p, E and the remainder at the start of a step of ETD-RK4."""
+_SAME_STEP = 1e-9
+"""Relative difference [1] below which two steps share their phi-functions."""
 
 
 Phi = tuple[Array, Array, Array, Array]
@@ -190,14 +213,20 @@ Phi = tuple[Array, Array, Array, Array]
 
 
 class PhiTable(NamedTuple):
-    """The matrices of one step h, each (k, k); h is inside the weights."""
+    """The matrices of one step of length h of ETD-RK4, each (k, k); h is inside the weights."""
 
     half: Array
+    """e^(hA/2)"""
     half_phi1: Array
+    """h/2 phi1(hA/2) [s]"""
     full: Array
+    """e^(hA)"""
     first: Array
+    """h (phi1 - 3 phi2 + 4 phi3) [s], for N(E)."""
     middle: Array
+    """h (2 phi2 - 4 phi3) [s], for N(a) and N(b)."""
     last: Array
+    """h (4 phi3 - phi2) [s], for N(c)."""
 
     @classmethod
     def of(cls, half: Phi, phi: Phi, h: float) -> PhiTable:
@@ -210,7 +239,9 @@ class PhiTable(NamedTuple):
 def phi_functions(A: Array, h: float) -> Phi:
     """e^(hA), phi1(hA), phi2(hA), phi3(hA), each (k, k), from one exponential of a (4k, 4k) matrix.
 
-    phi_0 = e^z, phi_(j+1)(z) = (phi_j(z) - 1/j!) / z.
+        phi_0 = e^z,   phi_(j+1)(z) = (phi_j(z) - 1/j!) / z
+
+    The block matrix has the phi-functions in its first row, so no division by a small z is needed.
     """
     k = A.shape[0]
     block = np.zeros((4 * k, 4 * k))
@@ -222,17 +253,18 @@ def phi_functions(A: Array, h: float) -> Phi:
 
 
 def phi_table(A: Array, h: float) -> PhiTable:
-    """The matrices of ETD-RK4 for step h [s]."""
+    """The matrices of ETD-RK4 for A (k, k) [1/s] and a step h [s], from two matrix exponentials."""
     return PhiTable.of(phi_functions(A, 0.5 * h), phi_functions(A, h), h)
 
 
 @lru_cache(maxsize=16)
 def _remembered(A: bytes, k: int, h: float) -> PhiTable:
+    """`phi_table` for the regular step of a method, kept for the last 16 (A, h); A as bytes."""
     return phi_table(np.frombuffer(A).reshape(k, k), h)
 
 
 def no_coordinates() -> InputError:
-    """What the method says of a system without a split."""
+    """The error of the method for a system without a split."""
     return InputError(
         "the exponential method needs a controller in continuous time whose observer is linear "
         "in its error and measures the true q_b; use RK4, Adaptive or Stiff instead"
@@ -266,6 +298,11 @@ class Exponential(OneStepMethod):
     def steps(
         self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
+        """Steps from (t, x), x (nx,), to t_end [s] in the coordinates of `split`.
+
+        A step of another length than h, before a break, makes matrices of its own, and so does
+        every look inside a step. Raises InputError without such coordinates.
+        """
         if split is None:
             raise no_coordinates()
         A = np.ascontiguousarray(split.A)
@@ -280,7 +317,7 @@ class Exponential(OneStepMethod):
             p1, E1 = etd_rk4(split, table, t, p, E, N, h)
             N1, x1, dx1 = node(t1, p1, E1)
 
-            def at(s: float, start: tuple[Any, Any, Any, Any] = (t, p, E, N)) -> Array:
+            def at(s: float, start: Start = (t, p, E, N)) -> Array:
                 h = s - start[0]
                 return split.back(*etd_rk4(split, phi_table(A, h), *start, h))
 
@@ -291,7 +328,7 @@ class Exponential(OneStepMethod):
 def _linear_node(
     split: Split, t: float, p: Array, E: Array
 ) -> tuple[tuple[Array, Array], Array, Array]:
-    """The remainder, x and x' for a linear `back`."""
+    """The remainder, x and x' (nx,) at (t, p, E) for a linear `back`, which maps slopes as it maps states."""
     N = split.remainder(t, p, E)
     return N, split.back(p, E), split.back(N[0], split.A @ E + N[1])
 
@@ -305,7 +342,10 @@ def etd_rk4(
     N: tuple[Array, Array],
     h: float,
 ) -> tuple[Array, Array]:
-    """One step of length h from (p, E) with N = remainder(t, p, E)."""
+    """p and E (k, c) after one step of length h [s] from (p, E), with N = remainder(t, p, E) known already.
+
+    table: the matrices of that h. Three more evaluations of the remainder, as RK4 has.
+    """
     Np, NE = N
     half, phi, full, first, middle, last = table
     half_E = half @ E

@@ -1,15 +1,19 @@
-"""The hybrid loop: step, locate the event, reset, tick, repeat.
+"""The simulation loop of a hybrid system in Python: step, locate the event, reset, sample, repeat.
 
-Every arc starts with the ticks that are due, flows to the next switching time or tick, and ends at the
-first event. Events are located by root finding on the step itself, taken again with a shorter length,
-so that x- has the accuracy of the method.
+Every arc starts with the clock updates that are due, flows to the next switching time or sample
+instant, and ends at the first event. Events are located by Brent's method on the step itself, taken
+again with a shorter length, so that x- has the accuracy of the method and not of an interpolant. At
+breaks the flow is asked for its limit from the left.
+
+`run_arcs` is shared: the Python engine flies an arc with `_flow_arc`, the compiled one with a
+kernel (`engine.simulate`). Systems that move by themselves give a `Mover` in place of a flow.
 """
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, NamedTuple
@@ -20,7 +24,7 @@ from scipy.optimize import brentq
 from biped_adrc.errors import InputError, NotFiniteError, SingularError, check_count
 from biped_adrc.hybrid.integrators import OneStepMethod, Step, StepFailed
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.system import Clock, Found, Guard, HybridSystem, Mode, Outcome, Split
+from biped_adrc.hybrid.system import Clock, FoundEvent, Guard, HybridSystem, Mode, Outcome, Split
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.types import Array
 
@@ -34,17 +38,21 @@ _T_XTOL, _T_RTOL = 1e-15, 9e-16  # of the event time: [s], and relative to it
 
 @dataclass
 class Record:
-    """Nodes of the arc being built: one by one, or many in rows."""
+    """Nodes of the arc being built: one by one, or many in rows.
+
+    every: each k-th step is kept; the lists t [s], x (nx,) or (K, nx), dx likewise, and `read` by
+    name grow with every call; skipped: steps since the last one kept.
+    """
 
     every: int
-    t: list[Any] = field(default_factory=list)
+    t: list[float | Array] = field(default_factory=list)
     x: list[Array] = field(default_factory=list)
     dx: list[Array] = field(default_factory=list)
     read: dict[str, list[Array]] = field(default_factory=dict)
     skipped: int = 0
 
     def add(self, t: float | Array, x: Array, dx: Array, **read: Array) -> None:
-        """One node, or K of them in K rows of each; and what was read there."""
+        """One node t [s], x (nx,), dx (nx,), or K of them in K rows of each; and what was read there."""
         self.t.append(t)
         self.x.append(x)
         self.dx.append(dx)
@@ -53,7 +61,11 @@ class Record:
         self.skipped = 0
 
     def step(self, step: Step, last: bool) -> None:
-        """Store the end of a step, or skip it when only every k-th is kept."""
+        """Store the end of a step, or skip it when only every k-th is kept; `last` is always kept.
+
+        Of a step longer than RESOLUTION interior points are stored too: dense output is a cubic,
+        and a long step of a high-order method is not.
+        """
         self.skipped += 1
         if last or self.skipped >= self.every:
             for t in interior(step.t0, step.t1)[:-1]:
@@ -61,40 +73,42 @@ class Record:
             self.add(step.t1, step.x1, step.dx1)
 
     def arc(self, mode: Mode, event: Event | None) -> Arc:
-        """All of them."""
+        """All nodes as one arc that ran in `mode` and ended in `event`."""
         read = {name: np.vstack(rows) for name, rows in self.read.items()}
         return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event, read)
 
 
 def interior(t0: float, t1: float) -> list[float]:
-    """Times in (t0, t1] no further apart than RESOLUTION, the last one t1."""
+    """Times in (t0, t1] [s] no further apart than RESOLUTION, the last one t1."""
     count = max(1, math.ceil((t1 - t0) / RESOLUTION - 1e-9))
     return [t0 + (t1 - t0) * k / count for k in range(1, count)] + [t1]
 
 
 def slope_of(step: Step, t: float) -> Array:
-    """x'(t) inside a step, by central difference of its own states."""
+    """x'(t) (nx,) inside a step, t in [s], by central difference of the step's own states."""
     d = 1e-4 * (step.t1 - step.t0)
     return (step.at(t + d) - step.at(t - d)) / (2.0 * d)
 
 
 @dataclass(frozen=True)
 class RunOptions:
-    """How long a run goes on and what is kept of it.
-
-    t0, t_end [s]: start and latest end. stop_after (guard, count): end after that many events of that guard;
-    then reaching t_end first is a TIME_OUT. store_every: keep each k-th step for dense output.
-    """
+    """How long a run goes on and what is kept of it."""
 
     t_end: float
+    """Latest end [s]."""
     t0: float = 0.0
+    """Start [s]."""
     stop_after: tuple[str, int] | None = None
+    """(guard, count): end after that many events of that guard; then reaching t_end first is a TIME_OUT."""
     max_events: int = 100_000
+    """A run with more events ends as EVENT_LIMIT: events that accumulate (Zeno) would never end."""
     store_every: int = 1
+    """Keep each k-th step for dense output."""
     progress: Progress | None = None
+    """Told of every event."""
 
     def check(self, x: Array) -> None:
-        """Raise InputError for a run from x that cannot begin."""
+        """Raise InputError for a run from x (nx,) that cannot begin."""
         if x.ndim != 1 or not np.all(np.isfinite(x)):
             raise InputError(f"the initial state is {x}, expected a vector of finite numbers")
         if not (math.isfinite(self.t_end) and math.isfinite(self.t0) and self.t_end > self.t0):
@@ -119,13 +133,16 @@ class RunOptions:
         return Status.COMPLETED if self.stop_after is None else Status.TIME_OUT
 
 
-class Flown(NamedTuple):
+class FlownArc(NamedTuple):
     """One arc, how it ended, and (x+, mode+) after an event that is not the run's end."""
 
     arc: Arc
     status: Status
+    """COMPLETED also where the run goes on."""
     detail: str = ""
+    """The error's own text, where one ended it."""
     outcome: Outcome = None
+    """None where the run ends with this arc."""
 
 
 def simulate(
@@ -135,10 +152,11 @@ def simulate(
     method: OneStepMethod,
     **options: Any,
 ) -> Trajectory:
-    """Run `system` from (t0, x0, mode); options are those of `RunOptions`, of which t_end has to be given.
+    """Run `system` from (t0, x0, mode), x0 (nx,).
 
-    Raises InputError for a start that is not finite or a duration that is not positive. Whatever happens
-    during the run is in the trajectory's status.
+    options are those of `RunOptions`, of which t_end has to be given. Raises InputError for a start
+    that is not finite or a duration that is not positive. Whatever happens during the run is in the
+    trajectory's status.
     """
     return run(system, x0, mode, method, RunOptions(**options))
 
@@ -146,19 +164,23 @@ def simulate(
 def run(
     system: HybridSystem, x0: Array, mode: Mode, method: OneStepMethod | None, options: RunOptions
 ) -> Trajectory:
-    """As `simulate`; a system with a mover needs no method."""
+    """As `simulate`, from x0 (nx,) with options as a record; a system with a mover needs no method."""
     label = "steps of the plant's own" if method is None else method.label
     return run_arcs(partial(_flow_arc, system, method, options), x0, mode, label, options)
 
 
 def run_arcs(
-    fly: Callable[[float, Array, Mode, str | None], Flown],
+    fly: Callable[[float, Array, Mode, str | None], FlownArc],
     x0: Array,
     mode: Mode,
     label: str,
     options: RunOptions,
 ) -> Trajectory:
-    """As `simulate`, arc after arc made by fly(t, x, mode, name of the guard that has just fired)."""
+    """A run from x0 (nx,), arc after arc made by fly(t, x, mode, name of the guard that has just fired).
+
+    label: of the method, for the settings. Counts events, applies resets and decides when the run
+    is over. Overflow is no warning here: a state that is not finite ends the run as NOT_FINITE.
+    """
     x, t = np.array(x0, dtype=float), options.t0
     options.check(x)
     arcs, events = list[Arc](), Counter[str]()
@@ -182,15 +204,12 @@ def run_arcs(
     return Trajectory(tuple(arcs), status, flown.detail, {"method": label})
 
 
-FAILURES = (NotFiniteError, SingularError, StepFailed)
-"""What ends a run with a status."""
-
-
-def failed(error: Exception) -> Status:
-    """The status of a run that one of `FAILURES` has ended."""
-    if isinstance(error, NotFiniteError):
-        return Status.NOT_FINITE
-    return Status.SINGULAR if isinstance(error, SingularError) else Status.STEP_FAILED
+FAILURES: Mapping[Status, type[Exception]] = {
+    Status.NOT_FINITE: NotFiniteError,
+    Status.SINGULAR: SingularError,
+    Status.STEP_FAILED: StepFailed,
+}
+"""The errors that end a run with a status in place of being raised."""
 
 
 def _flow_arc(
@@ -201,8 +220,13 @@ def _flow_arc(
     x: Array,
     mode: Mode,
     fired: str | None,
-) -> Flown:
-    """One arc from (t, x)."""
+) -> FlownArc:
+    """One arc from (t, x) in Python: clock updates and moves until an event, t_end, or an error of
+    `FAILURES`.
+
+    fired: the event that ended the arc before. An arc that fails before its first node keeps its
+    start.
+    """
     record, t_arc, found = Record(options.store_every), t, None
     status, detail = Status.COMPLETED, ""
     move = system.mover(fired)
@@ -215,13 +239,14 @@ def _flow_arc(
             x = _tick(system.clocks(), t, t_arc, options.t0, x, mode)
             t_next = _next_break(system, mode, t, t_arc, options.t0, options.t_end)
             t, x, found = move(t, x, mode, t_next, record)
-    except FAILURES as error:
-        status, detail = failed(error), str(error)
+    except tuple(FAILURES.values()) as error:
+        status = next(s for s, kind in FAILURES.items() if isinstance(error, kind))
+        detail = str(error)
     if not record.t:
         record.add(t, x, np.zeros_like(x))
     if found is None:
-        return Flown(record.arc(mode, None), status, detail)
-    return Flown(record.arc(mode, found.event), found.status, "", found.outcome)
+        return FlownArc(record.arc(mode, None), status, detail)
+    return FlownArc(record.arc(mode, found.event), found.status, "", found.outcome)
 
 
 def event_time_error(t: float) -> float:
@@ -231,7 +256,7 @@ def event_time_error(t: float) -> float:
 
 @dataclass(frozen=True)
 class _Steps:
-    """Moves a system over one arc by the steps of a method, and watches its guards."""
+    """Moves a system over one arc by the steps of a one-step method, and watches its event functions."""
 
     system: HybridSystem
     method: OneStepMethod
@@ -240,8 +265,8 @@ class _Steps:
 
     def __call__(
         self, t: float, x: Array, mode: Mode, until: float, record: Record
-    ) -> tuple[float, Array, Found | None]:
-        """As `system.Mover`."""
+    ) -> tuple[float, Array, FoundEvent | None]:
+        """To `until` [s] or the first event, as `system.Mover`; nodes go into `record`."""
         for step in self.steps(t, x, mode, until, record):
             found = self.watch.first(step)
             if found is not None:
@@ -253,7 +278,10 @@ class _Steps:
         return t, x, None
 
     def steps(self, t: float, x: Array, mode: Mode, until: float, record: Record) -> Iterator[Step]:
-        """From (t, x); the flow is asked for its limit from the left at `until`."""
+        """Steps from (t, x) to `until` [s]; the flow is asked for its limit from the left there.
+
+        Raises NotFiniteError after a step to a state that is not finite.
+        """
         just_before = math.nextafter(until, -math.inf)
         split = None if self.split is None else _until(self.split, just_before)
         first = True
@@ -271,7 +299,9 @@ class _Steps:
 
 
 def _until(split: Split, last: float) -> Split:
-    """The split with no time after `last` asked for."""
+    """The split with no time after `last` [s] asked for, so that a step that ends at a break sees
+    its left limit.
+    """
     remainder, node = split.remainder, split.node
     clamped = replace(split, remainder=lambda t, p, E: remainder(min(t, last), p, E))
     if node is None:
@@ -280,12 +310,18 @@ def _until(split: Split, last: float) -> Split:
 
 
 def _ticks(clock: Clock, t_arc: float, t_first: float) -> float:
+    """Time [s] of the first sample instant of a clock in this arc."""
     return (t_arc if clock.restart else t_first) + clock.offset
 
 
 def _tick(
     clocks: tuple[Clock, ...], t: float, t_arc: float, t_first: float, x: Array, mode: Mode
 ) -> Array:
+    """x (nx,) after the updates of all clocks that are due at t [s], in the order of the system's clocks.
+
+    A clock is due where t equals start + k period exactly; breaks are computed by the same
+    expression.
+    """
     for clock in clocks:
         start = _ticks(clock, t_arc, t_first)
         k = round((t - start) / clock.period)
@@ -297,7 +333,7 @@ def _tick(
 def _next_break(
     system: HybridSystem, mode: Mode, t: float, t_arc: float, t_first: float, t_end: float
 ) -> float:
-    """The first switching time or tick after t, at most t_end."""
+    """The first switching time or sample instant after t [s], at most t_end: no step goes across one."""
     times = [s for s in system.switching_times(mode) if s > t]
     for clock in system.clocks():
         start = _ticks(clock, t_arc, t_first)
@@ -309,15 +345,22 @@ def _next_break(
 
 
 class _Watch:
-    """The witnesses along one arc; a guard is armed once its witness has left zero."""
+    """The witnesses (event functions) along one arc; a guard is armed once its witness has left zero.
+
+    values: those at the last time looked at.
+    """
 
     def __init__(self, guards: tuple[Guard, ...], t: float, x: Array, fired: str | None):
         """`fired` has just ended the last arc: what is left of its witness is round-off, taken as zero."""
         self.guards = guards
         self.values = [0.0 if g.name == fired else g.witness(t, x) for g in guards]
 
-    def first(self, step: Step) -> Found | None:
-        """The earliest crossing in `step` that is an event."""
+    def first(self, step: Step) -> FoundEvent | None:
+        """The earliest crossing in `step` that is an event; None without one.
+
+        Long steps are looked through every RESOLUTION, and a reset that returns None lets a
+        crossing pass.
+        """
         before_t = step.t0
         for t in interior(step.t0, step.t1):
             x = step.x1 if t == step.t1 else step.at(t)
@@ -330,15 +373,15 @@ class _Watch:
             self.values, before_t = after, t
             for te, xe, guard in sorted(crossed, key=lambda c: c[0]):
                 if guard.terminal is not None:
-                    return Found(Event(guard.name, te, xe, None), None, guard.terminal)
+                    return FoundEvent(Event(guard.name, te, xe, None), None, guard.terminal)
                 outcome = guard.reset(te, xe) if guard.reset is not None else None
                 if outcome is not None:
-                    return Found(Event(guard.name, te, xe, outcome[0]), outcome)
+                    return FoundEvent(Event(guard.name, te, xe, outcome[0]), outcome)
         return None
 
     @staticmethod
     def _locate(guard: Guard, step: Step, ta: float, tb: float) -> tuple[float, Array]:
-        """Time and state of the crossing in (ta, tb]."""
+        """Time [s] and state (nx,) of the crossing in (ta, tb], by Brent's method to round-off."""
 
         def witness(t: float) -> float:
             return guard.witness(t, step.x0 if t == step.t0 else step.at(t))

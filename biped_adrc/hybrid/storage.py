@@ -1,6 +1,11 @@
 """Runs on disk: one npz of plain arrays with the settings as JSON inside, and the same JSON beside it.
 
-Nothing is pickled. Files are written whole or not at all.
+For arc i the npz holds t{i}, x{i}, dx{i}, mode{i}, read{i}_NAME and, at an event, x_minus{i},
+x_plus{i}; `meta` is the JSON text with status, settings and the events' names and times. The JSON
+beside it is for people and for `grep`; only the npz is read again.
+
+Nothing is pickled, so reading a file of somebody else's runs no code. Files are written whole or
+not at all. `scenario.stored` adds the walker's record by `beside_it`.
 """
 
 from __future__ import annotations
@@ -14,19 +19,25 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from biped_adrc.errors import BipedError, InputError, OutputError
 from biped_adrc.files import output_path, write_bytes, write_text
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 
+Stored = NDArray[Any]
+"""An array of a file, of numbers or text."""
+
 FORMAT = "biped_adrc run 1"
+"""Version of the layout; a file of another one is refused."""
 BESIDE = "beside."
 """Before the names of arrays that are no part of the trajectory."""
 
 
 def run_files(path: Path | str) -> tuple[Path, Path]:
-    """The .npz of a run and the .json beside it; .npz is put behind a name without a kind, such as 'push_0.1'.
+    """The .npz of a run and the .json beside it; .npz is put behind a name without a kind, such as
+    'push_0.1'.
 
     Raises InputError for a name of another kind.
     """
@@ -35,7 +46,7 @@ def run_files(path: Path | str) -> tuple[Path, Path]:
 
 
 def check_beside(path: Path) -> None:
-    """Raises OutputError where the .json of a run would take the place of something else, such as a gait."""
+    """Raise OutputError where the .json of a run would take the place of something else, such as a gait."""
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
         ours = isinstance(record, dict) and record.get("format") == FORMAT
@@ -52,14 +63,18 @@ def check_beside(path: Path) -> None:
 def save(
     trajectory: Trajectory,
     path: Path | str,
-    settings: dict[str, Any] | None = None,
-    beside_it: Mapping[str, Any] | None = None,
+    settings: Mapping[str, object] | None = None,
+    beside_it: Mapping[str, ArrayLike] | None = None,
 ) -> Path:
-    """Write `path` (.npz) and the same name with .json; returns it. Modes are stored as tuples of numbers.
+    """Write `path` (.npz) and the same name with .json; returns the path. Modes are stored as
+    tuples of numbers.
 
-    beside_it: arrays by name that `load_beside` gives back, such as the walker's record. Raises InputError for
-    a name of another kind or settings that JSON has not, and OutputError when the files cannot be written or
-    the .json would take the place of something else.
+    - trajectory: states (K, nx) and what else its arcs hold, in full precision.
+    - settings: noted beside those of the trajectory.
+    - beside_it: arrays by name that `load_beside` gives back, such as the walker's record.
+
+    Raises InputError for a name of another kind or settings that JSON has not, and OutputError when
+    the files cannot be written or the .json would take the place of something else.
     """
     path, beside = run_files(path)
     check_beside(beside)
@@ -96,8 +111,8 @@ def save(
     return path
 
 
-def load(path: Path | str, mode: Callable[..., Any] = lambda *numbers: numbers) -> Trajectory:
-    """The run in `path` (.npz); `mode` makes a mode from its stored numbers.
+def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: numbers) -> Trajectory:
+    """The run in `path` (.npz); `mode` makes a mode from its stored numbers, by default a tuple of them.
 
     Raises InputError for a file that is missing, damaged or of another format.
     """
@@ -129,8 +144,8 @@ def _zipped(path: Path) -> bytes:
     raise ValueError("it does not begin as a .npz file does")
 
 
-def load_beside(path: Path | str) -> dict[str, Any]:
-    """The arrays beside the trajectory in a file that `load` has read. Raises InputError."""
+def load_beside(path: Path | str) -> dict[str, Stored]:
+    """The arrays beside the trajectory, by name, in a file that `load` has read. Raises InputError."""
     with reading_run(path), np.load(Path(path), allow_pickle=False) as data:
         names = [name for name in data.files if name.startswith(BESIDE)]
         return {name.removeprefix(BESIDE): data[name] for name in names}
@@ -138,7 +153,7 @@ def load_beside(path: Path | str) -> dict[str, Any]:
 
 @contextmanager
 def reading_run(path: Path | str) -> Iterator[None]:
-    """Raises InputError, which names the file, for whatever goes wrong while a run is read."""
+    """While a run is read: whatever goes wrong becomes an InputError that names the file."""
     if not isinstance(path, str | os.PathLike):
         raise InputError(f"a run is read from {path!r}, expected the name of a file")
     try:
@@ -154,7 +169,12 @@ def reading_run(path: Path | str) -> Iterator[None]:
         ) from error
 
 
-def _arc(data: Any, i: int, event: dict[str, Any] | None, mode: Callable[..., Any]) -> Arc:
+def _arc(
+    data: Mapping[str, Stored], i: int, event: Mapping[str, Any] | None, mode: Callable[..., object]
+) -> Arc:
+    """Arc i of the arrays in a file, with its event as noted in the JSON. Raises ValueError for
+    what does not fit.
+    """
     found = None
     if event is not None:
         plus = data.get(f"x_plus{i}")
@@ -168,7 +188,7 @@ def _arc(data: Any, i: int, event: dict[str, Any] | None, mode: Callable[..., An
 
 
 def _check_arc(arc: Arc, name: str) -> None:
-    """Raise ValueError for times that go back and for rows or states that do not fit one another."""
+    """Raise ValueError for times (K,) that go back, or rows and states that do not fit one another."""
     t, x, event = arc.t, arc.x, arc.event
     if t.ndim != 1 or len(t) == 0 or not np.all(np.isfinite(t)) or np.any(np.diff(t) < 0.0):
         raise ValueError(f"{name} has no times t (K,) that ascend")

@@ -1,11 +1,14 @@
-"""What a hybrid system is: a flow, guards with resets, clocks, and the times at which inputs switch.
+"""What a hybrid system is: a flow, event functions with resets, clocks, and times at which inputs switch.
 
     x' = f(t, x; mode)        between events
-    x+, mode+ = reset(t, x-)  when a guard's witness crosses zero in its direction
-    x+ = update(t, x-, mode)  at the ticks t0 + k T of a clock
+    x+, mode+ = reset(t, x-)  when a guard's witness (event function) crosses zero in its direction
+    x+ = update(t, x-, mode)  at the sample instants t0 + k T of a clock
 
-At equal times the order is reset, tick, flow. `mode` is any immutable value of the system's own, such as
-a step counter; the loop only carries it.
+At equal times the order is reset, sample instant, flow. `mode` is the discrete state: any immutable
+value of the system's own, such as a step counter; the simulator only carries it from arc to arc.
+
+`hybrid.simulator` runs what is defined here. `closed_loop.system.ClosedLoop` is the base of all
+systems of this package; a user's own hybrid system needs `flow` alone.
 """
 
 from __future__ import annotations
@@ -21,27 +24,36 @@ from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 Mode = Any
+"""The discrete state, a value of the system's own; Any, since only the system itself looks inside."""
 Outcome = tuple[Array, Mode] | None
 """(x+, mode+) after an event; None where the run ends with it."""
 
 
-class Found(NamedTuple):
+class FoundEvent(NamedTuple):
     """The event that ended an arc."""
 
     event: Event
+    """Guard, time and states."""
     outcome: Outcome = None
+    """(x+, mode+), None where the run ends here."""
     status: Status = Status.COMPLETED
+    """How the run ends, for an event that ends it."""
 
 
-Mover = Callable[[float, Array, Mode, float, Any], tuple[float, Array, Found | None]]
+Mover = Callable[[float, Array, Mode, float, Any], tuple[float, Array, FoundEvent | None]]
 """move(t, x, mode, until, record) -> t, x, and the event that ended the arc there, if one did.
 
-Nodes go into `record`, a `simulator.Record`, as they are made, so that they are kept where it raises.
+Moves a system from t to `until` [s] or to its next event in whatever way it likes. Nodes go into
+`record`, a `simulator.Record`, as they are made, so that they are kept where it raises.
 """
 
 
 class Direction(Enum):
-    """Which zero crossings of a witness count. A zero at the start never fires, a zero at the end does."""
+    """Which zero crossings of a witness count. A zero at the start never fires, a zero at the end does.
+
+    So an event that has just happened does not fire again, and one exactly at the end of a step is
+    not lost.
+    """
 
     FALLING = -1
     EITHER = 0
@@ -58,10 +70,14 @@ class Direction(Enum):
 
 @dataclass(frozen=True)
 class Guard(Shown):
-    """A named zero crossing of witness(t, x) over (t0, t1].
+    """An event function: a named zero crossing of witness(t, x) over (t0, t1], and what follows from it.
 
-    `reset(t, x)` returns (x+, mode+), or None to let the crossing pass as no event. A guard with a
-    `terminal` status ends the run instead. A guard fires only after its witness has left zero.
+    - witness(t, x): real function whose zero is the event.
+    - reset(t, x): (x+, mode+), or None to let the crossing pass as no event.
+    - direction: which crossings count; falling through zero by default.
+    - terminal: with a status, the run ends at the crossing in place of a reset.
+
+    A guard fires only after its witness has left zero.
     """
 
     name: str
@@ -73,9 +89,10 @@ class Guard(Shown):
 
 @dataclass(frozen=True)
 class Clock(Shown):
-    """Ticks at t0 + k * period [s]; `update(t, x, mode)` returns x+.
+    """Sample instants at t0 + k * period [s], at which `update(t, x, mode)` gives x+.
 
-    t0 is `offset` [s] after the start of the arc, or of the run when `restart` is False.
+    - restart: whether t0 is counted from the start of each arc, or once from the start of the run.
+    - offset [s]: of t0 from that start.
     """
 
     name: str
@@ -89,8 +106,11 @@ class Clock(Shown):
 class Split(Shown):
     """Coordinates x -> (p, E) in which the stiff part is linear: E' = A E + N_E, p' = N_p.
 
-    E has shape (k, c) and A (k, k); `to` and `back` are inverse to each other; `remainder(t, p, E)`
-    returns (N_p, N_E). `node(t, p, E)` returns that, x and x'; where `back` is linear none is needed.
+    - to(x) -> p, E and back(p, E) -> x are inverse to each other; E has shape (k, c).
+    - A (k, k) [1/s]: the linear part, constant over an arc.
+    - remainder(t, p, E) -> N_p, N_E.
+    - node(t, p, E) -> (N_p, N_E), x and x' from one evaluation; needed only where `back` is not
+      linear.
     """
 
     to: Callable[[Array], tuple[Array, Array]]
@@ -101,21 +121,21 @@ class Split(Shown):
 
 
 class HybridSystem(Shown):
-    """A hybrid system; see the module for the equations."""
+    """A hybrid system; see the module for the equations. Override what the system has."""
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
-        """x' at (t, x) in `mode`."""
+        """x' at (t, x) in `mode`, of the shape of x (nx,), t in [s]."""
         raise NotImplementedError(f"{type(self).__name__} has neither a flow nor a mover")
 
     def mover(self, fired: str | None) -> Mover | None:
         """What moves the system over one arc where it has no flow and no guards; None where it has.
 
-        fired: the event that ended the arc before.
+        fired: name of the event that ended the arc before, None at the start.
         """
         return None
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
-        """The guards watched in `mode`."""
+        """The event functions watched in `mode`."""
         return ()
 
     def clocks(self) -> tuple[Clock, ...]:
@@ -123,7 +143,7 @@ class HybridSystem(Shown):
         return ()
 
     def switching_times(self, mode: Mode) -> tuple[float, ...]:
-        """Times [s] in `mode` at which the flow is not smooth; no step goes across one."""
+        """Times [s] in `mode` at which the flow is not smooth; no step goes across one of them."""
         return ()
 
     def split(self, mode: Mode) -> Split | None:
@@ -131,5 +151,5 @@ class HybridSystem(Shown):
         return None
 
     def feedback_split(self, mode: Mode) -> Split | None:
-        """Those with a controller's feedback in the linear part too; None, or InputError, for none."""
+        """Coordinates with a controller's feedback in the linear part too; None, or InputError, for none."""
         return None

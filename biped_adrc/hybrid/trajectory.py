@@ -1,11 +1,16 @@
-"""What a run leaves: arcs of dense output joined by events, and a status."""
+"""What a run leaves: arcs of dense output joined by events, and a status.
+
+An arc is one flow between events, stored as nodes (t, x, x') and read between them by the cubic
+Hermite polynomial. `hybrid.simulator` makes trajectories, and so do the compiled loops of `engine`;
+`hybrid.storage` writes them to disk, `analysis.signals` reads signals off them.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -14,39 +19,71 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+T = TypeVar("T")
+
+
+class Viewer(Protocol):
+    """What draws a trajectory: the walk that it is of (`scenario`), which knows the robot."""
+
+    def animate(self, path: Path | str) -> object:
+        """Write the motion as an animation."""
+
+    def plot(self) -> Figure:
+        """The main signals."""
+
+    def _repr_html_(self) -> str | None:
+        """For notebooks."""
+
 
 @dataclass(frozen=True)
 class Event(Shown):
-    """A guard that fired at `t` [s], with the state before and after; x_plus is None if terminal."""
+    """An event function that fired."""
 
     guard: str
+    """Its name."""
     t: float
+    """[s]"""
     x_minus: Array
+    """State before (nx,)."""
     x_plus: Array | None
+    """State after (nx,); None where the run ended there."""
 
 
 @dataclass(frozen=True)
 class Arc(Shown):
-    """One flow between events: t (K,), x (K, n), dx (K, n); ticks and switches repeat their time.
-
-    read: what was recorded at the nodes because it cannot be computed again from the states, K rows of each.
+    """One flow between two events, as K nodes; at a sample instant or a switch of an input a time
+    occurs twice.
     """
 
     mode: Any
+    """Discrete state in which it ran."""
     t: Array
+    """Times of the nodes (K,) [s]."""
     x: Array
+    """States (K, nx)."""
     dx: Array
+    """Slopes x' (K, nx)."""
     event: Event | None = None
+    """What ended it; None at the end of a run without one."""
     read: dict[str, Array] = field(default_factory=dict)
+    """What was recorded at the nodes because it cannot be computed again from the states, K rows of each."""
 
     @property
     def seen(self) -> Array:
-        """t (K,) with the first of two equal times, a jump, just before it: for what acted until then [s]."""
+        """Node times (K,) [s] for left limits: at a jump the first of the two equal times moves
+        back by one ulp.
+
+        A signal evaluated there is what acted until the jump, such as the torque before a sample
+        instant.
+        """
         later = np.append(self.t[1:], self.t[-1])
         return np.where(self.t == later, np.nextafter(self.t, -np.inf), self.t)
 
     def thinned(self, apart: float) -> Arc:
-        """The same with nodes at least `apart` [s] apart, but for its ends and both sides of jumps."""
+        """The same arc with nodes at least `apart` [s] apart; its ends and both sides of jumps are kept."""
         same = np.diff(self.t) == 0.0
         keep = np.append(same, True) | np.concatenate(([True], same))
         last = self.t[0]
@@ -57,7 +94,7 @@ class Arc(Shown):
         return replace(self, t=self.t[keep], x=self.x[keep], dx=self.dx[keep], read=read)
 
     def __call__(self, t: float, side: str = "right") -> Array:
-        """x(t) by cubic Hermite interpolation, the limit from `side` where x or x' jumps."""
+        """x(t) (nx,) by cubic Hermite interpolation, t in [s]; the limit from `side` where x or x' jumps."""
         i = int(np.searchsorted(self.t, t, side="right" if side == "right" else "left")) - 1
         i = min(max(i, 0), len(self.t) - 2) if len(self.t) > 1 else 0
         if len(self.t) == 1:
@@ -67,7 +104,7 @@ class Arc(Shown):
 
 
 def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, t: float) -> Array:
-    """Cubic through (t0, x0) and (t1, x1) with end slopes dx0, dx1; x1 when t1 = t0."""
+    """Cubic through (t0, x0) and (t1, x1) with end slopes dx0, dx1, each (nx,), at t [s]; x1 when t1 = t0."""
     h = t1 - t0
     if h == 0.0:
         return x1.copy()
@@ -78,17 +115,20 @@ def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, 
 
 @dataclass(frozen=True)
 class Trajectory(Shown):
-    """Arcs in order of time. Call it with t [s] for the state.
-
-    viewer: makes the walk that a trajectory is of, which draws it; given by the layer that knows the robot, not
-    stored with a run and not sent to another process.
-    """
+    """A whole run: arcs in order of time. Call it with t [s] for the state."""
 
     arcs: tuple[Arc, ...]
+    """At least one."""
     status: Status
+    """How the run ended."""
     detail: str = ""
+    """What is known beyond the status, such as the time and the error's own text."""
     settings: dict[str, Any] = field(default_factory=dict)
-    viewer: Callable[[Trajectory], Any] | None = field(default=None, compare=False, repr=False)
+    """Method, engine and whatever else a caller notes; written to disk with the run, so plain values."""
+    viewer: Callable[[Trajectory], Viewer] | None = field(default=None, compare=False, repr=False)
+    """Makes the walk that a trajectory is of, which draws it; given by the layer that knows the
+    robot. Not stored with a run and not sent to another process.
+    """
 
     def __repr__(self) -> str:
         first, nodes = self.arcs[0], sum(len(arc.t) for arc in self.arcs)
@@ -97,7 +137,7 @@ class Trajectory(Shown):
             f"{nodes} nodes of {first.x.shape[1]} numbers)"
         )
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
         return {**self.__dict__, "viewer": None}
 
     @property
@@ -111,7 +151,7 @@ class Trajectory(Shown):
         return float(self.arcs[-1].t[-1])
 
     def __call__(self, t: float, side: str = "right") -> Array:
-        """x(t); at an event x+ for side "right" (the default), x- for side "left".
+        """x(t) (nx,), t in [s]; at an event x+ for side "right" (the default), x- for side "left".
 
         Raises InputError outside [t_start, t_end] or for another side.
         """
@@ -134,16 +174,16 @@ class Trajectory(Shown):
         return tuple(e for e in found if guard is None or e.guard == guard)
 
     def before(self, guard: str) -> Array:
-        """x- at every event of `guard` (events, n)."""
+        """x- (events, nx) at every event of `guard`: the points on the section of a return map."""
         return np.array([event.x_minus for event in self.events(guard)])
 
     @property
     def final_state(self) -> Array:
-        """The state at the end: x+ when the run ended at an event."""
+        """The state at the end (nx,): x+ when the run ended at an event."""
         return self(self.t_end)
 
-    def sample(self, function: Callable[[float, Array, Any], Any]) -> list[Any]:
-        """function(t, x, mode) at every stored node."""
+    def sample(self, function: Callable[[float, Array, Any], T]) -> list[T]:
+        """function(t, x, mode) at every stored node, in order of time; t [s], x (nx,)."""
         return [
             function(float(t), x, arc.mode)
             for arc in self.arcs
@@ -155,14 +195,14 @@ class Trajectory(Shown):
         """Write the motion as an animation, by the suffix of `path`. Raises InputError and OutputError."""
         self._seen().animate(path)
 
-    def plot(self) -> Any:
+    def plot(self) -> Figure:
         """The main signals as a matplotlib Figure. Raises InputError."""
         return self._seen().plot()
 
     def _repr_html_(self) -> str | None:
         return None if self.viewer is None else self._seen()._repr_html_()
 
-    def _seen(self) -> Any:
+    def _seen(self) -> Viewer:
         if self.viewer is None:
             raise InputError(
                 "this trajectory does not know its robot, so it cannot be drawn; take it from "

@@ -34,7 +34,7 @@ from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.observer_design.observer_loop import joint_gains
-from biped_adrc.observers.gpi import GPIObserver, SampledGPIParameters
+from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver, SampledGPIParameters
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, ComplexArray
 
@@ -133,7 +133,7 @@ class SampledLoop:
     @cached_property
     def _current(self) -> SampledGPIParameters:
         """Phi, Gamma T^2 and L of the current form, those of the observer that walks."""
-        return self.observer.sampled(self.period).parameters
+        return SampledGPIObserver.from_poles(self.observer.poles, self.period).parameters
 
     @cached_property
     def _held(self) -> Array:

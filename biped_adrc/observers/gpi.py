@@ -76,7 +76,7 @@ class InjectedChain(ChainObserver):
         """l_(m+1), l_m, ..., l_0 of (17) in physical units."""
         return self.parameters.gains * self.scale ** np.arange(1, self.order + 1)
 
-    def sampled(self, period: float) -> SampledGPIObserver:
+    def sampled(self, period: float) -> ChainObserver:
         """The current (filtered) discrete observer with poles exp(s T)."""
         return SampledGPIObserver.from_poles(self.poles, period)
 
@@ -144,6 +144,16 @@ def gpi_predict(k: SampledGPIParameters, Z: Array, input: Array) -> Array:
     return k.Phi @ Z + np.outer(k.Gamma, input)
 
 
+def held_chain(order: int, period: float) -> tuple[Array, Array]:
+    """Phi (k, k) and Gamma T^2 (k,) of the module's equation, for k = order states per joint and T [s]."""
+    Phi = np.array(
+        [[1.0 / factorial(j - i) if j >= i else 0.0 for j in range(order)] for i in range(order)]
+    )
+    Gamma = np.zeros(order)
+    Gamma[0], Gamma[1] = 0.5 * period**2, period**2
+    return Phi, Gamma
+
+
 @dataclass(frozen=True)
 class SampledGPIObserver(ChainObserver):
     """The discrete observer for one period; `scale` is 1/T."""
@@ -165,13 +175,8 @@ class SampledGPIObserver(ChainObserver):
     def parameters(self) -> SampledGPIParameters:
         """What the laws `gpi_correct`, `gpi_predict` and `chain_...` need."""
         k = self.order
-        N = np.zeros((k, k))
-        for i in range(k):
-            for j in range(i + 1, k):
-                N[i, j] = 1.0 / factorial(j - i)
-        Phi = np.eye(k) + N
-        Gamma = np.zeros(k)
-        Gamma[0], Gamma[1] = 0.5 * self.period**2, self.period**2
+        Phi, Gamma = held_chain(k, self.period)
+        N = Phi - np.eye(k)
         roots = np.exp(np.array(self.poles) * self.period)
         p_of_Phi = np.eye(k, dtype=complex)
         for root in roots:  # factors (1 - root) I + N: no cancellation for real roots in (0, 1)

@@ -1,10 +1,18 @@
-"""How far the figures of merit of a run depend on its step: each at the step used and at half of it.
+"""How much the figures of merit of a run depend on its integration step: each at the step used and at half of
+it.
 
-Two values agree when they differ by at most 1 %, or by the resolution of the quantity: a difference that is too
-small to be told from the error of the method on an undisturbed walk, which has none to show. For a quantity of
-order k in the step, three steps h, h/2, h/4 show
+A number that changes when the step is halved says something of the method and nothing of the robot. Two values
+agree when they differ by at most 1 %, or by the resolution of the quantity: tracking errors of undisturbed
+walks are themselves round-off, and their relative change is without meaning. For a quantity of order k in the
+step, three steps h, h/2, h/4 show
 
     k = log2 (|y(h) - y(h/2)| / |y(h/2) - y(h/4)|)
+
+Takes `scenario.outcome.Outcome`s that hold the run at half the step in `half`. Called by `paper.verdicts`
+(checks), by `paper.reproduction` (table of all quantities) and by the command `walk`, which prints the error.
+
+For legality the two runs have to agree as well: a walk that is legal at one step and not at the other has no
+verdict.
 """
 
 from __future__ import annotations
@@ -12,7 +20,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -22,20 +29,25 @@ from biped_adrc.scenario.outcome import Outcome
 AGREE = 0.01
 """Largest relative difference of two values that agree."""
 PEAK_RESOLUTION = 1e-9
-"""[rad], below which two peaks are not told apart: at both steps undisturbed walks differ by 6e-10 at most."""
+"""Peak errors nearer than this are not told apart [rad]; undisturbed walks differ by 6e-10 at most at both
+steps.
+"""
 RMS_RESOLUTION = 2e-10
-"""[rad], the same of the root mean square, where they differ by 1.3e-10 at most."""
+"""The same for the root mean square [rad], where they differ by 1.3e-10 at most."""
 MULTIPLIER_ROUND_OFF = 1e-4
-"""To which finite differences of 1e-5 over a walk know a multiplier; a smaller one is not told from zero."""
+"""Accuracy of a multiplier from finite differences of 1e-5 over a walk; a smaller one is not told from zero."""
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """A figure of merit of an outcome: its unit, the difference below which two values agree, and its value."""
+    """A figure of merit of an outcome."""
 
     unit: str
+    """Of its value; empty for a ratio."""
     resolution: float
+    """Values nearer than this agree, in the same unit."""
     of: Callable[[Outcome], float]
+    """The value of an outcome."""
 
 
 QUANTITIES: dict[str, Quantity] = {
@@ -50,24 +62,29 @@ QUANTITIES: dict[str, Quantity] = {
     "largest mean friction": Quantity("", 0.0, lambda o: _friction(o)),
     "impulse ratio": Quantity("", 0.0, lambda o: _impulse(o)),
 }
+"""The figures of merit that are compared, by name."""
 
 
 def _normal(o: Outcome) -> float:
+    """The least normal force averaged over a window [N]; 0 where no window is long enough to say."""
     return o.legality.mean_normal_force if o.legality.supports else 0.0
 
 
 def _friction(o: Outcome) -> float:
-    """Zero where F_N <= 0: there the ratio has a pole, and the normal force alone decides."""
+    """Largest averaged |F_T| / F_N; 0 where F_N <= 0: the ratio has a pole there, and F_N alone decides."""
     return o.legality.mean_friction if _normal(o) > 0.0 else 0.0
 
 
 def _impulse(o: Outcome) -> float:
-    """Zero where the ground would have had to pull at an impact."""
+    """Largest |F_T| / F_N of an impact; 0 where the ground would have had to pull, where the ratio
+    is infinite.
+    """
     ratio = o.legality.impulse_ratio
     return 0.0 if ratio == math.inf else ratio
 
 
 def _last(o: Outcome, name: str) -> float:
+    """A value of the last step's certificate; 0 where no step was finished."""
     return float(getattr(o.certificates[-1], name)) if o.certificates else 0.0
 
 
@@ -76,14 +93,21 @@ class Halved:
     """One quantity at the step used and at half of it."""
 
     name: str
+    """As in `QUANTITIES`."""
     unit: str
+    """Of its values."""
     value: float
+    """At the step used."""
     half: float
+    """At half of it."""
     resolution: float
+    """Values nearer than this agree."""
 
     @property
     def gap(self) -> float:
-        """Their difference as a share of the second; 0 within the resolution, infinite where one is none."""
+        """Their difference relative to the second; 0 within the resolution, infinite where a value is not
+        finite.
+        """
         if not (math.isfinite(self.value) and math.isfinite(self.half)):
             return math.inf
         apart = abs(self.value - self.half)
@@ -93,16 +117,16 @@ class Halved:
 
     @property
     def agrees(self) -> bool:
-        """Whether the step does not decide."""
+        """Whether the difference is at most `AGREE`: the result does not depend on the step."""
         return self.gap <= AGREE
 
-    def record(self) -> dict[str, Any]:
-        """As plain values."""
+    def record(self) -> dict[str, object]:
+        """In plain values, for the summary."""
         return {**vars(self), "gap": self.gap, "agrees": self.agrees}
 
 
 def halved(o: Outcome) -> tuple[Halved, ...]:
-    """Every quantity of an outcome beside that of its half; empty where it was not run twice."""
+    """Every quantity of an outcome at both steps; empty where it was not run twice."""
     if o.half is None:
         return ()
     return tuple(
@@ -111,10 +135,10 @@ def halved(o: Outcome) -> tuple[Halved, ...]:
 
 
 def convergence_check(name: str, o: Outcome) -> Check:
-    """The largest difference among the quantities of a run; infinite where the two end differently.
+    """The check that no figure of merit of a run changes by more than `AGREE` at half the step.
 
-    Legal and not legal are different endings. A run that ends before its last impact has no figures of merit:
-    its ending alone has to be the same.
+    Infinite where the two runs end differently; "legal" and "not legal" are different endings. A run that falls
+    before its last impact has no figures of merit: only its ending has to be the same.
     """
     gap = math.inf
     if _ending(o) == _ending(o.half):
@@ -124,11 +148,12 @@ def convergence_check(name: str, o: Outcome) -> Check:
 
 
 def _ending(o: Outcome | None) -> tuple[str, int, str] | None:
+    """Status, impacts and legality of a run."""
     return None if o is None else (o.status, o.impacts, o.legality.outcome)
 
 
 def error_text(o: Outcome) -> str:
-    """The largest tracking error with that at half the step, and a word where the step decides it."""
+    """The largest tracking error [rad] at both steps, with a hint where the step is too long for it."""
     assert o.half is not None
     text = f"{o.peak_error:.3e} rad ({o.half.peak_error:.3e} at half the step)"
     if (o.status, o.impacts) != (o.half.status, o.half.impacts):
@@ -141,7 +166,7 @@ def error_text(o: Outcome) -> str:
 
 
 def observed_order(o: Outcome, of: Callable[[Outcome], float]) -> float:
-    """Order of a quantity from the run, its half and its quarter; NaN where a difference is zero."""
+    """Order k of a quantity from the run, its half and its quarter; NaN where a difference is zero."""
     assert o.half is not None
     assert o.half.half is not None
     first, second, third = of(o), of(o.half), of(o.half.half)
@@ -150,7 +175,7 @@ def observed_order(o: Outcome, of: Callable[[Outcome], float]) -> float:
     return math.log2(abs(first - second) / abs(second - third))
 
 
-def records(named: dict[str, Outcome]) -> Iterator[dict[str, Any]]:
+def records(named: dict[str, Outcome]) -> Iterator[dict[str, object]]:
     """A row for every quantity of every run that was run twice, for the summary."""
     for name, o in named.items():
         for found in halved(o):

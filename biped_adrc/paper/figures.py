@@ -1,4 +1,8 @@
-"""The figures of walks by name."""
+"""The figures that are drawn of any stored walk, by name: what the command `plot` draws.
+
+Decides which signals a figure gets and where the window of the push is; the drawing is in `viz.plots.figures`.
+matplotlib is imported when something is drawn, since importing it takes longer than a walk.
+"""
 
 from __future__ import annotations
 
@@ -15,10 +19,14 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")
+"""Figures that can be asked for."""
 
 
 def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
-    """One of `NAMES`; of the first walk, or of all for "phase" and "comparison". Raises InputError."""
+    """One figure: of the first walk, or of all walks for "phase" and "comparison".
+
+    Raises InputError for an unknown name, no walk, or a robot without motors where the figure shows motors.
+    """
     from biped_adrc.viz.plots import figures
 
     if name not in NAMES:
@@ -48,7 +56,7 @@ def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
 
 
 def push_window(s: Signals) -> tuple[float, float] | None:
-    """From the first to the last time of the first step in which a torque from outside acts [s], if any."""
+    """First and last time [s] of the first step in which an external torque acts; None where there is none."""
     pushed = np.any(s.zeta != 0.0, axis=1)
     if not pushed.any():
         return None

@@ -1,4 +1,15 @@
-"""Physical laws and numerical orders, computed in the run; none of them was used in deriving the model."""
+"""Laws of physics and orders of convergence that every reproduction is held against.
+
+None of them was used to derive the model or to choose the methods, so that each could fail:
+
+    model      pinned and floating-base equations agree; an impact keeps the momenta that an inelastic contact
+               has to keep and never adds kinetic energy
+    walk       the swing foot is on the ground at located impacts; energy gained = work done
+    gait       on a periodic gait, joint work of a step = energy lost at its impact
+    numerics   the error (23) on one held joint; order of sampled against continuous control; order of ETD-RK4
+
+Functions return `checks.Check`s; they are tasks of `paper.plan`, judged in `paper.reproduction`.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +35,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.contact import Impact, LinkMotion
 from biped_adrc.model.reduction import reduce
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
-from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import walk_scenario
@@ -32,14 +43,15 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array
 
 MOMENTA = 4
-"""Of how many random states one is taken for the momenta, which are slower to compute."""
+"""Momenta are computed at one of this many random states, since they are slow to compute."""
 
 
 def model_laws(preset: str, samples: int = 500, seed: int = 1) -> list[Check]:
-    """The two models agree; the impact keeps the momenta that it has to; kinetic energy never grows at impact.
+    """Laws of the model at `samples` random states, as the largest violation found of each.
 
-    At random states, the momenta at every fourth: they are of the links' own velocities, relative to m |q'|
-    times 1 m.
+    Angles are uniform in (-pi, pi) [rad], rates normal with 3 rad/s. Checked are D and Omega, pinned against
+    floating base; the angular momentum about the new foot and that of the old leg about its joints; the linear
+    momentum; and the kinetic energy. Momenta are relative to m |q'| times 1 m. All limits are 1e-12: round-off.
     """
     b = Biped.load("rabbit", preset)
     random = np.random.default_rng(seed)
@@ -75,11 +87,12 @@ def model_laws(preset: str, samples: int = 500, seed: int = 1) -> list[Check]:
 
 
 def impact_momenta(b: Biped, q: Array, v: Array, hit: Impact) -> Array:
-    """What an impact `hit` at (q, v) changes of what it has to keep, (3,) in kg m^2/s, kg m^2/s, kg m/s.
+    """How much an impact changes what it must keep: (3,) in [kg m^2/s, kg m^2/s, kg m/s].
 
-    The angular momentum of all links about the new foot, since the only impulse acts there; that of the old
-    leg about its hip and its knee, since ideal joints pass on no impulse of torque; and what the relabelled
-    state, pinned at the new foot, differs from the state before relabelling in linear momentum.
+    q, v: (n,) before the impact [rad, rad/s]; hit: its result. The angular momentum of all links about the new
+    foot, since the only impulse acts there; that of the old leg about its hip and its knee, since ideal joints
+    pass on no impulsive torque; and the linear momentum, computed once before the relabelling and once pinned
+    at the new foot after it.
     """
     before = LinkMotion(b.floating, q, np.append(v, [0.0, 0.0]))
     after = LinkMotion(b.floating, q, hit.v_e)
@@ -91,7 +104,11 @@ def impact_momenta(b: Biped, q: Array, v: Array, hit: Impact) -> Array:
 
 
 def walk_laws(name: str, full: Walk) -> list[Check]:
-    """Foot on the ground at located impacts; power balance over the pushed step, or the first one."""
+    """Laws of a simulated walk: foot on the ground at located impacts [m], and power balance over one step [J].
+
+    The balance is taken over the pushed step, or the first one: kinetic and potential energy gained against the
+    integral of u' q_b' + zeta' q', the power of motors and of the disturbance.
+    """
     b, o = full.walker.plant, full.outcome
     heights = [abs(float(b.swing_foot(x[: b.n])[1])) for x in o.x_minus]
     height = float(np.max(heights or [math.inf]))  # infinite without an impact
@@ -108,7 +125,7 @@ def walk_laws(name: str, full: Walk) -> list[Check]:
 
 
 def work_identity(o: Outcome) -> Check:
-    """On a periodic gait on level ground the joint work of a step equals the energy lost at impact."""
+    """On a periodic gait on level ground the joint work of a step equals the energy lost at its impact."""
     gap = math.inf  # without an impact
     if o.certificates:
         last = o.certificates[-1]
@@ -119,13 +136,20 @@ def work_identity(o: Outcome) -> Check:
 
 @dataclass(frozen=True)
 class HeldJoint(HybridSystem):
-    """One joint of inertia J [kg m^2] held at zero by ADRC under J xi(t), xi = sin(w t) [rad/s^2]."""
+    """One joint held at zero by ADRC under a sine disturbance: the loop for which (23) has a closed form.
+
+    J q'' = u + J xi(t),   xi = sin(w t) [rad/s^2]
+    """
 
     controller: ADRCController
+    """ADRC with the reference 0."""
     w: float
+    """Frequency of the disturbance [rad/s]."""
     J: float = 1.3
+    """Inertia [kg m^2]."""
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
+        """x' (2 + observer states,) for x = (q [rad], q' [rad/s], states of the observer)."""
         q, v, s = x[:1], x[1:2], x[2:]
         D = np.array([[self.J]])
         m = Measurement(t, 1, t, q, v, reduce(D, np.zeros(1), 1))
@@ -135,22 +159,24 @@ class HeldJoint(HybridSystem):
 
 
 HELD_STEP = 5e-4
-"""[s]"""
+"""Integration step of the held joint [s]."""
 HELD = (
     "tracking error per unit disturbance on a held joint, simulated [s^2]",
     "the same at half the step [s^2]",
     "the same by (23) corrected [s^2]",
     "the same by (23) as printed [s^2]",
 )
-"""Figures of a held joint."""
+"""Names of the figures of a held joint, in the order of their values."""
 
 
 def held_joint(
     frequency: float = 5.0, factor: float = 0.05, t_end: float = 2.0, h: float = HELD_STEP
 ) -> tuple[float, float, float]:
-    """Steady amplitude of the tracking error per unit disturbance [s^2]: simulated, (23) corrected, as printed.
+    """Steady amplitude of the tracking error per unit of disturbance [s^2]: simulated, (23) corrected, (23) as
+    printed.
 
-    The observer has Table I times `factor`, slow enough for the error to stand clear of round-off.
+    frequency [Hz], t_end, h [s]. The observer's poles are those of Table I times `factor`: slow enough for the
+    error to stand clear of round-off. The amplitude is fitted over the last two periods.
     """
     observer = GPIObserver.from_poles([factor * pole for pole in TABLE_I])
     zero = np.zeros(1)
@@ -168,7 +194,11 @@ def held_joint(
 
 
 def sampling_order(run: Scenario, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4)) -> float:
-    """Order in T with which sampled control approaches continuous control, at the first impact."""
+    """Order in the period T with which sampled control approaches continuous control.
+
+    The gaps of (q, q') at the first impact, for each of the periods [s], are fitted by C T^k; k near 1 is that
+    of a zero-order hold.
+    """
 
     def end(r: Scenario) -> Array:
         return walk_scenario(r).trajectory.before(FOOT_STRIKE)[-1][:10]
@@ -182,11 +212,13 @@ def sampling_order(run: Scenario, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4
 
 
 def exponential_order(preset: str, factor: float) -> tuple[float, float]:
-    """Observed order of ETD-RK4 from 0.25 to 0.125 ms over 0.1 s of walking with Table I times `factor`,
-    and its error at 0.5 ms [rad]. With longer steps the fast joints of a robot without rotors are not resolved.
+    """Observed order of ETD-RK4 from steps of 0.25 to 0.125 ms, and its error at 0.5 ms [rad].
+
+    Over 0.1 s of walking with the poles of Table I times `factor`. Longer steps do not resolve the fast joints
+    of a robot without rotors.
     """
     run = Scenario("ADRC", preset=preset, poles=tuple(factor * pole for pole in TABLE_I))
-    scene = Scene.of(run)
+    scene = RobotAndGait.of(run)
     walker = build(run, scene)
     x0 = walker.initial_state(*scene.walked.start(scene.biped))
 
@@ -202,7 +234,7 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
 
 
 def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
-    """(23) on a held joint, the order in the sampling period, the order of the exponential method."""
+    """The checks of the methods, and their figures by name."""
     (simulated, corrected, printed), (half, *_) = held_joint(), held_joint(h=0.5 * HELD_STEP)
     order = sampling_order(Scenario("NPD", preset=preset, engine=COMPILED))
     etd, _ = exponential_order(preset, 0.05)

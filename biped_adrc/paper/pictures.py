@@ -1,17 +1,23 @@
-"""The figures of the reproduction, drawn side by side in several processes."""
+"""The figures of the reproduction, drawn in several processes and written as PNG, SVG and numbers.
+
+Drawing takes longer than some of the runs, so each figure is a task of `campaign.pool`. Each figure is written
+with the numbers that it shows as JSON, by which tests and readers can check it without reading pixels. What is
+drawn comes from `viz`; this module only chooses the data. Called by `paper.reproduction`.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from biped_adrc.campaign.pool import Task, run_tasks
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.figures import push_window
-from biped_adrc.paper.plan import BOTH, Plan
+from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.paper.plan import Plan
 from biped_adrc.paper.results import Results
 from biped_adrc.viz.figure_numbers import as_text, numbers_of
 from biped_adrc.viz.from_the_side.robot_figure import robot_figure
@@ -24,7 +30,7 @@ if TYPE_CHECKING:
 
 
 def draw_all(plan: Plan, r: Results, out: Path, workers: int | None = None) -> dict[str, str]:
-    """Write every figure as .png and .svg to `out`, and its numbers as .json; returns name -> SVG text."""
+    """Write every figure to `out` as .png, .svg and .json; returns the SVG text by name, for the report."""
     named = pictures(plan, r)
     drawn = run_tasks(list(named.values()), workers)
     found = {}
@@ -37,11 +43,16 @@ def draw_all(plan: Plan, r: Results, out: Path, workers: int | None = None) -> d
     return found
 
 
-def pictures(plan: Plan, r: Results) -> dict[str, Task]:
-    """What is drawn, by name."""
+def pictures(plan: Plan, r: Results) -> dict[str, Task[tuple[bytes, bytes, str]]]:
+    """The figures of the paper and beyond, by file name, each as a task that draws it.
+
+    figure1 (the robot), figure4 to figure6 (the pushed walks) are those of the paper; the others show what it
+    does not: the disturbance estimate, the ground's force, energies, multipliers, the return map, and the map
+    of pushes.
+    """
     signals, cells = {c: head.signals for c, head in r.heads.items()}, r.cells
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
-    magnitudes = {c: r.multipliers[c].orbit.multipliers for c in BOTH if c in r.multipliers}
+    magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
     mu = Biped.load("rabbit", plan.preset).description.friction_coefficient
     maps = {
         f"push_map_{preset}": (
@@ -50,7 +61,7 @@ def pictures(plan: Plan, r: Results) -> dict[str, Task]:
         )
         for preset in sorted({cell.preset for cell in cells})
     }
-    made: dict[str, tuple[Any, ...]] = {
+    made: dict[str, tuple[object, ...]] = {
         "figure1": (draw_robot, plan.preset),
         "figure4": (figures.tracking_figure, npd, "NPD under the push", window),
         "figure5": (figures.tracking_figure, adrc, "ADRC under the push", window),
@@ -67,12 +78,12 @@ def pictures(plan: Plan, r: Results) -> dict[str, Task]:
 
 
 def draw_robot(preset: str) -> Figure:
-    """Figure 1."""
+    """Figure 1: the robot of this preset with its coordinates."""
     return robot_figure(Biped.load("rabbit", preset))
 
 
-def rendered(draw: Callable[..., Figure], *arguments: Any) -> tuple[bytes, bytes, str]:
-    """A figure as PNG and as SVG, laid out once, and the numbers it shows as JSON."""
+def rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes, str]:
+    """A figure as PNG and as SVG, laid out once so that both are alike, and the numbers it shows as JSON."""
     figure = draw(*arguments)
     figure.draw_without_rendering()
     figure.set_layout_engine("none")

@@ -1,12 +1,32 @@
-"""The runs of the reproduction, by name: what each of the paper's claims is tested on."""
+"""The runs of the reproduction: every simulation on which a claim, check, table or figure of it rests.
+
+A `Plan` says what was asked for (preset, pushes, quick or full); `tasks` turns it into independent tasks for
+`campaign.pool`, each of a function here or in a neighbouring module. The first word of a task's name is its
+kind, by which `paper.results` sorts what comes back. Integration steps are chosen so that halving them changes
+no figure of merit by more than 1 % (`paper.convergence`); stiffer situations have shorter ones.
+
+Kinds of tasks, and how many there are in a full plan:
+
+    headline (2)      the pushed walks of figures 4 to 6, kept whole
+    engines (2)       the pushed step on both engines
+    multipliers (3)   walking cycles under NPD and ADRC
+    claims (7)        the evidence for the claims (`paper.claims.evidence`)
+    model (3)         laws of the model at random states
+    numerics (1)      orders of the methods
+    return map (1)    samples of Theta' before one impact and the next
+    recipe (6)        gait (b)
+    map (60)          parts of the map of pushes
+    others            walks of `base_runs`
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TypedDict
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.campaign.pool import Task
+from biped_adrc.checks import Check
 from biped_adrc.engine.run import COMPILED, PINOCCHIO
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.gait.gait import load_gait
@@ -18,48 +38,55 @@ from biped_adrc.paper.claims.evidence import claim_tasks
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.push_map import PATTERNS, push_map, pushes
-from biped_adrc.scenario.build import Scene
+from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.push import Push, joints_push
+from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import poincare_twice, return_map_samples
 
-BOTH = CONTROLLERS
 MOTORS = ("q1", "q2", "q3", "q4")
-PAPER_PUSH = joints_push(30.0, MOTORS, step=19, start=0.1, stop=0.3)
-SINE = joints_push(40.0, MOTORS, step=19, start=0.05, stop=0.3, kind="sine", frequency=5.0)
+"""The actuated joints."""
+PAPER_PUSH = Push(dict.fromkeys(MOTORS, 30.0), step=19, start=0.1, stop=0.3)
+"""The push of figures 4 to 6: 30 N m on all joints for 0.2 s in step 19. The paper prints no amplitude."""
+SINE = Push(dict.fromkeys(MOTORS, 40.0), 19, 0.05, 0.3, kind="sine", frequency=5.0)
+"""A disturbance of 5 Hz on all joints [N m]."""
 TORSO = Push({"q5": 20.0}, step=19, start=0.1, stop=0.3)
+"""A push on the torso, which no motor drives [N m]."""
 HEAVIER = {"torso": 1.2, "thigh": 1.15}
+"""Factors on the links' masses (and inertias) of the plant alone, not of the controller's model."""
 POLICIES = ("none", "relabel", "measured", "model")
+"""What the observer's states become at an impact."""
 MAP_ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
-"""[s]; a single support takes about 0.4 s."""
+"""Onsets of the map of pushes [s] after an impact; a single support takes about 0.4 s."""
 MAP_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
-"""[N m], up to what RABBIT's motors give."""
+"""Amplitudes of the map of pushes [N m], up to what RABBIT's motors give."""
 STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (1.25e-4, 5e-5)}
-"""[s], of every run, and where a push switches and in the single support after; halved, no figure of merit
-changes by more than 1 % or its resolution (`studies.convergence`)."""
+"""Integration steps [s]: of the whole walk, and of the single supports where a push switches and
+the one after.
+"""
 RESET_STEP = 2.5e-5
-"""[s], for what follows an impact that the observer does not expect; the mean forces ask for it."""
+"""Step [s] for what follows an impact that the observer does not expect; the averaged forces need it."""
 DIVERGING_STEP = 5e-5
-"""[s], the same for the walk that diverges 1.2 ms after the impact, of which only the ending is compared."""
+"""The same for the walk that diverges 1.2 ms after the impact, of which only the ending is compared [s]."""
 ENGINES_STEP = 1e-3
-"""[s], at which the two engines are compared over the pushed step."""
+"""Step at which the two engines are compared over the pushed step [s]."""
 RISE = 0.01
-"""[s] in which the paper's push rises and falls, beside its vertical edges."""
+"""Time in which the headline push rises and falls [s], in the runs beside those with vertical edges."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What to reproduce. `pushes` replace the paper's push.
-
-    full: the map of pushes too, which takes minutes. quick: a first look, without what `left_out` names.
-    """
+    """What to reproduce. Raises InputError for `full` and `quick` together."""
 
     preset: str = "identified"
+    """Of RABBIT, for the headline runs."""
     pushes: tuple[Push, ...] = (PAPER_PUSH,)
+    """In place of the paper's push."""
     full: bool = False
+    """The map of pushes too, which takes minutes."""
     quick: bool = False
+    """A first look, without what `left_out` names."""
 
     def __post_init__(self) -> None:
         if self.full and self.quick:
@@ -72,7 +99,7 @@ class Plan:
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """What a quick run does without."""
+        """What this plan does not compute, in words."""
         if self.full:
             return ()
         if not self.quick:
@@ -88,17 +115,21 @@ class Plan:
 
 @dataclass(frozen=True)
 class Headline:
-    """A headline run with all that is drawn."""
+    """A pushed run with all that is drawn of it."""
 
     outcome: Outcome
+    """Its figures of merit, with those at half of the step in `half`."""
     trajectory: Trajectory
+    """All its nodes."""
     signals: Signals
+    """Errors, torques, forces and energies at the nodes."""
 
 
-def headline(run: Scenario) -> tuple[Headline, list[Any]]:
-    """A run that is kept whole, and its laws.
+def headline(run: Scenario) -> tuple[Headline, list[Check]]:
+    """A run that is kept whole, and the checks of its physical laws.
 
-    Its figures are there at half of its steps too, and at a quarter for the single supports from the push on.
+    Its figures of merit are computed at half of its steps too, and at a quarter for the single supports from
+    the push on, from which the order of convergence follows.
     """
     full = walk_scenario(run)
     laws = walk_laws(f"{run.controller}, {run.preset}", full)
@@ -109,16 +140,25 @@ def headline(run: Scenario) -> tuple[Headline, list[Any]]:
 
 
 def engines(run: Scenario) -> Outcome:
-    """The pushed step of a run with Pinocchio's dynamics at `ENGINES_STEP`, and compiled in `half`."""
+    """The pushed step on Pinocchio's dynamics at `ENGINES_STEP`, with the same on the compiled engine in
+    `half`.
+
+    `half` is used as the place for the second run, though its step is the same.
+    """
     pushed = run.pushes[0].step
     one = replace(run, first_step=pushed, impacts=1, h=ENGINES_STEP, fine=None, engine=PINOCCHIO)
     return replace(execute(one), half=execute(replace(one, engine=COMPILED)))
 
 
 def base_runs(plan: Plan) -> dict[str, Scenario]:
-    """Runs by name; each returns an Outcome. Names end in the controller."""
+    """The walks that need no function of their own, by name; names end in the controller.
+
+    Undisturbed in every preset; the push with slow edges; a sine; a push on the torso; sampled control at 1
+    kHz; a plant that is heavier than the controller's model. Where a run starts later than in step 1, it starts
+    on the orbit.
+    """
     runs: dict[str, Scenario] = {}
-    for c in BOTH:
+    for c in CONTROLLERS:
         run = stepped(Scenario(c, preset=plan.preset))
         for preset in plan.presets:
             runs[f"nominal {preset} {c}"] = replace(run, preset=preset)
@@ -139,21 +179,26 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
 
 
 def stepped(run: Scenario) -> Scenario:
-    """With the steps of the reproduction; ADRC with its feedback in the linear part of the method."""
+    """The run with the steps of the reproduction; for ADRC the feedback is in the linear part of the method."""
     h, fine = STEPS[run.controller]
     return replace(run, method=method(run.controller), h=h, fine=fine)
 
 
 def pushed_run(plan: Plan, controller: str) -> Scenario:
-    """A headline run: the paper's, with its push."""
+    """The headline run of a controller: the paper's gait under the plan's pushes."""
     run = Scenario(controller, preset=plan.preset, pushes=plan.pushes, engine=COMPILED)
     return stepped(run)
 
 
 def literal_runs(plan: Plan) -> dict[str, Scenario]:
-    """(20) as printed, and every reset policy with and without RABBIT's torque limit."""
+    """(20) as printed, where Theta'' is not solved for; and every policy for the observer's states at an
+    impact.
+
+    The policies are run with and without RABBIT's torque limit: an observer that does not expect the impact
+    asks for torques that no motor gives.
+    """
     runs = {}
-    for c in BOTH:
+    for c in CONTROLLERS:
         printed = stepped(Scenario(c, preset=plan.preset, solve_theta=False, impacts=8))
         runs[f"as printed {c}"] = printed
     for policy in POLICIES:
@@ -166,6 +211,33 @@ def literal_runs(plan: Plan) -> dict[str, Scenario]:
     return runs
 
 
+class RecipeRecord(TypedDict, total=False):
+    """Numbers of gait (b); what a walk that fails early does not have is absent."""
+
+    status: str
+    """How eight steps ended."""
+    impacts: int
+    """Steps made."""
+    peak_error: float
+    """Largest tracking error [rad]."""
+    peak_torque: float
+    """[N m]."""
+    impact_rate_jump: list[float]
+    """By joint: rate after the impact less that of the reference [rad/s]; zero for an invariant gait."""
+    certificate: dict[str, float]
+    """Of the last step, by name."""
+    violations: list[str]
+    """Limits of ground and motors that the last step breaks."""
+    distance_to_x_star: list[float]
+    """x- of the cycle less x*, by component [rad, rad/s]."""
+    multipliers: list[float]
+    """|lambda|, the largest first."""
+    multipliers_change: float
+    """Their largest change at half of the step."""
+    stable: bool
+    """Whether all are below 1."""
+
+
 @dataclass(frozen=True)
 class RecipeResult:
     """What became of gait (b) in one preset under one controller."""
@@ -173,33 +245,43 @@ class RecipeResult:
     preset: str
     controller: str
     closes: bool
+    """Whether a walking cycle was found."""
     reason: str
-    record: dict[str, Any]
+    """Why not, in words."""
+    record: RecipeRecord
+    """The numbers found until then."""
     outcome: Outcome | None = None
-    """Of the walk, at two steps."""
+    """Of the walk, at two steps; None where it could not be walked."""
 
 
 def recipe_result(preset: str, controller: str) -> RecipeResult:
-    """Walk gait (b) and look for its fixed point, at two steps; whatever comes out is reported."""
+    """Walk gait (b) and search its cycle, at two integration steps; whatever comes out is reported.
+
+    A gait that falls, or for which no cycle is found, is a result too: it gives `closes` False, the reason, and
+    the numbers found until then, and raises nothing.
+    """
     run = replace(stepped(Scenario(controller, preset=preset, gait="recipe", impacts=8)), fine=None)
     run = replace(run, engine=COMPILED)
-    biped = Scene.of(run).biped
-    record: dict[str, Any] = {}
+    biped = RobotAndGait.of(run).biped
+    record: RecipeRecord = {}
     found = None
     try:
         gait = load_gait("recipe", biped)
         found = execute_twice(run)
-        names = ("status", "impacts", "peak_error", "peak_torque")
-        record = {name: getattr(found, name) for name in names}
-        record["impact_rate_jump"] = impact_smoothness(gait, biped).tolist()
+        record = {
+            "status": found.status,
+            "impacts": found.impacts,
+            "peak_error": found.peak_error,
+            "peak_torque": found.peak_torque,
+            "impact_rate_jump": impact_smoothness(gait, biped).tolist(),
+        }
         if found.certificates:
             last = found.certificates[-1]
             record |= {"certificate": last.record(), "violations": list(last.violations())}
         cycle = poincare_twice(replace(run, h=1e-3))
-        orbit, x_minus = cycle.orbit, cycle.orbit.x_minus[: 2 * biped.n]
+        orbit, n = cycle.orbit, biped.n
         record |= {
-            "x_minus": x_minus.tolist(),
-            "distance_to_x_star": (x_minus - X_STAR).tolist(),
+            "distance_to_x_star": (orbit.x_minus[: 2 * n] - X_STAR).tolist(),
             "multipliers": abs(orbit.multipliers).tolist(),
             "multipliers_change": cycle.gap,
             "stable": orbit.stable,
@@ -209,12 +291,15 @@ def recipe_result(preset: str, controller: str) -> RecipeResult:
     return RecipeResult(preset, controller, True, "", record, found)
 
 
-def tasks(plan: Plan) -> dict[str, Task]:
-    """Everything to compute, by name, the longest first; each in its own process."""
+def tasks(plan: Plan) -> dict[str, Task[object]]:
+    """Everything to compute, by name, the longest first so that no core waits at the end.
+
+    A quick plan leaves out the multipliers of ADRC, which take one walk per coordinate, and the reset policies.
+    """
     adrc, npd = Scenario("ADRC", preset=plan.preset), Scenario("NPD", preset=plan.preset)
-    pushed = {c: pushed_run(plan, c) for c in BOTH}
-    out: dict[str, Task] = {}
-    for c in reversed(BOTH):
+    pushed = {c: pushed_run(plan, c) for c in CONTROLLERS}
+    out: dict[str, Task[object]] = {}
+    for c in reversed(CONTROLLERS):
         out[f"headline {c}"] = Task(f"{c} under the push", headline, (pushed[c],))
         out[f"engines {c}"] = Task(f"{c}: the two engines", engines, (pushed[c],))
     if not plan.quick:
@@ -231,7 +316,7 @@ def tasks(plan: Plan) -> dict[str, Task]:
     out |= claim_tasks(plan.presets)
     for preset in plan.presets:
         out[f"model {preset}"] = Task(f"laws of the model, {preset}", model_laws, (preset,))
-        for c in BOTH:
+        for c in CONTROLLERS:
             name = f"recipe {preset} {c}"
             out[name] = Task(f"gait (b), {preset}, {c}", recipe_result, (preset, c))
     for name, run in base_runs(plan).items():
@@ -241,7 +326,7 @@ def tasks(plan: Plan) -> dict[str, Task]:
     return out
 
 
-def map_tasks(plan: Plan) -> dict[str, Task]:
+def map_tasks(plan: Plan) -> dict[str, Task[object]]:
     """The map of pushes: a task for every preset, torque limit [N m] and joint pattern."""
     return {
         f"map {preset}, {limit}, {pattern}": Task(

@@ -1,10 +1,21 @@
-"""Section VI's other claim as a map: in which phase of the step does a push throw which controller?
+"""Section VI's other claim as a map: in which phase of the step does a push make which controller fall?
 
 Pushes of 0.2 s in the 19th single support, over onset, amplitude and joint pattern, with and without a torque
-limit. The walk starts on the periodic orbit at that step and has to make three more impacts. The constraint
-goes on smoothly past the phase range of the gait: a fall is a fall of the robot and not of a polynomial.
+limit. The walk starts on the periodic orbit at that step and has to make three more impacts. The reference is
+continued smoothly past the phase range of the gait, so that a fall is a fall of the robot and no artefact of a
+polynomial outside of its range.
 
-Every walk is carried out at two steps. A cell in which they end differently is marginal and carries no claim.
+Every walk is computed at two integration steps. A cell in which they end differently is marginal, and no claim
+rests on it. Tasks of `paper.plan`; read by `paper.tables`, the claims, and `viz.plots.push_map`.
+
+What a walk can be:
+
+    legal      makes all steps within friction, torque limits and without scuffing
+    pulled     makes all steps; the mean normal force was negative, a real foot would have left the ground
+    made       makes all steps, and breaks another limit
+    fell       the robot fell
+    ended      ended otherwise, such as a step that takes too long
+    marginal   another word or status at half of the integration step
 """
 
 from __future__ import annotations
@@ -13,7 +24,6 @@ import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
-from typing import Any
 
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.paper.pair import CONTROLLERS
@@ -34,39 +44,42 @@ PATTERNS: dict[str, dict[str, float]] = {
     "swing knee +": {"q4": 1.0},
     "swing knee -": {"q4": -1.0},
 }
-"""Joint patterns, to be multiplied by the amplitude [N m]."""
+"""Factors by joint, to be multiplied by the amplitude [N m]."""
 
 IMPACTS = 4
+"""Impacts asked for, from the pushed step on."""
 PUSHED_STEP = 19
+"""Number of the single support in which the push acts."""
 DURATION = 0.2
-"""[s]."""
+"""Of a push [s]."""
 MAP_STEP = 1e-3
-"""[s], and half of it."""
+"""Integration step [s]; each walk is repeated at half of it."""
 
 
 @dataclass(frozen=True)
 class Fate:
-    """What became of one walk.
-
-    outcome: "fell", "ended" (otherwise, as `status` says), "made" (all steps, but the ground or the motors
-    could not have carried them) or "legal". marginal: at half the step its word is another.
-    """
+    """What became of one walk."""
 
     outcome: str
+    """"fell", "ended" (otherwise, as `status` says), "made" (all steps, though ground or motors could not have
+    given what they needed) or "legal".
+    """
     status: str
+    """How the simulation ended."""
     mean_normal_force: float | None
-    """The least F_N averaged over 5 ms [N]; the ground would have had to pull where it is negative."""
+    """The least F_N averaged over 5 ms [N]; where it is negative the ground would have had to pull."""
     mean_friction: float | None
     """The largest |F_T| / F_N of such an average; None where the ground never pushed."""
     impulse_ratio: float | None
-    """The largest of the impacts; it makes no walk illegal."""
+    """The largest |F_T| / F_N of the impacts; it makes no walk illegal."""
     reasons: tuple[str, ...] = ()
-    """Why it is not legal, by the names of `Legality.reasons`."""
+    """Why the walk is not legal, by the names of `Legality.reasons`."""
     marginal: bool = False
+    """Whether its word or its status is another at half of the step."""
 
     @classmethod
     def of(cls, o: Outcome) -> Fate:
-        """Of a run carried out at two steps."""
+        """Of a run computed at two steps; marginal where word or status differ between them."""
         assert o.half is not None
         used, half = cls._at(o), cls._at(o.half)
         same = (used.word, used.status) == (half.word, half.status)
@@ -83,7 +96,7 @@ class Fate:
 
     @property
     def word(self) -> str:
-        """As in the map: "pulled" for a walk made that needed a ground that pulls, "marginal" first."""
+        """As in the map: "marginal", or "pulled" for a walk that needed a ground that pulls, or the outcome."""
         if self.marginal:
             return "marginal"
         pulls = self.mean_normal_force is not None and self.mean_normal_force <= 0.0
@@ -95,18 +108,20 @@ class PushCell:
     """One push and what each controller made of it."""
 
     preset: str
+    """Of RABBIT."""
     onset: float
-    """[s] in the step."""
+    """In the step [s]."""
     amplitude: float
     """[N m]."""
     pattern: str
+    """One of `PATTERNS`."""
     torque_limit: float | None
     """[N m], None for unlimited."""
     npd: Fate
     adrc: Fate
 
-    def row(self) -> dict[str, Any]:
-        """As plain values, for the figure and the summary."""
+    def row(self) -> dict[str, object]:
+        """In plain values, for the figure and the summary."""
         return {
             **asdict(self),
             "onset_ms": 1e3 * self.onset,
@@ -117,15 +132,19 @@ class PushCell:
 
 @dataclass(frozen=True)
 class Tried:
-    """A push by its onset [s], amplitude [N m], joint pattern and torque limit [N m], None for unlimited."""
+    """One push to be tried."""
 
     onset: float
+    """In the step [s]."""
     amplitude: float
+    """[N m]."""
     pattern: str
+    """One of `PATTERNS`."""
     torque_limit: float | None
+    """[N m], None for unlimited."""
 
     def run(self, base: Scenario, controller: str) -> Scenario:
-        """The walk under it."""
+        """The walk of `base` under this push and this controller."""
         factors = PATTERNS[self.pattern].items()
         torque = {joint: self.amplitude * factor for joint, factor in factors}
         push = Push(torque, step=PUSHED_STEP, start=self.onset, stop=self.onset + DURATION)
@@ -145,7 +164,7 @@ class Tried:
 def push_map(
     base: Scenario, tried: Sequence[Tried], progress: Callable[[int], None] | None = None
 ) -> list[PushCell]:
-    """Both controllers under every push, at two steps each, on the compiled engine."""
+    """Both controllers under every push, each at two steps; progress: called with the number of pushes done."""
     cells: list[PushCell] = []
     for found in tried:
         npd, adrc = (Fate.of(execute_twice(found.run(base, c))) for c in CONTROLLERS)
@@ -162,13 +181,15 @@ def pushes(
     patterns: Sequence[str],
     limits: Sequence[float | None],
 ) -> list[Tried]:
-    """All of them, the limits slowest and the onsets fastest."""
+    """All combinations, the limits slowest and the onsets fastest. onsets [s], amplitudes [N m],
+    limits [N m].
+    """
     every = itertools.product(limits, patterns, amplitudes, onsets)
     return [Tried(onset, amplitude, of, limit) for limit, of, amplitude, onset in every]
 
 
 def settings_of(cells: Sequence[PushCell]) -> Iterator[tuple[str, list[PushCell]]]:
-    """The cells of each preset and torque limit, with their name."""
+    """The cells of each preset and torque limit, with a name for a reader."""
     keys = dict.fromkeys((cell.preset, cell.torque_limit) for cell in cells)
     for preset, limit in keys:
         name = f"{preset}, {'unlimited' if limit is None else f'{limit:g} N m'}"
@@ -176,11 +197,11 @@ def settings_of(cells: Sequence[PushCell]) -> Iterator[tuple[str, list[PushCell]
 
 
 WORDS = ("legal", "made", "pulled", "fell", "ended", "marginal")
-"""What a walk of the map can be, and what the columns of its table are."""
+"""What a walk of the map can be, and the columns of its table."""
 
 
 def counts(cells: Sequence[PushCell]) -> dict[str, dict[str, dict[str, int]]]:
-    """How many walks are what, by setting, controller and word."""
+    """How many walks are what, by setting, controller and word: the table of the map."""
     return {
         name: {
             c: {word: sum(getattr(cell, c.lower()).word == word for cell in here) for word in WORDS}
@@ -191,7 +212,7 @@ def counts(cells: Sequence[PushCell]) -> dict[str, dict[str, dict[str, int]]]:
 
 
 def apart(cells: Sequence[PushCell]) -> dict[str, tuple[int, int]]:
-    """By setting: pushes that only ADRC walks through legally, and that only NPD does; no marginal cells."""
+    """By setting: pushes through which only ADRC walks legally, and only NPD does; marginal cells left out."""
     return {
         name: (
             sum(c.adrc.word == "legal" != c.npd.word for c in certain(here)),
@@ -202,5 +223,5 @@ def apart(cells: Sequence[PushCell]) -> dict[str, tuple[int, int]]:
 
 
 def certain(cells: Sequence[PushCell]) -> list[PushCell]:
-    """Those that end alike at both steps under both controllers."""
+    """The cells that are not marginal under either controller."""
     return [c for c in cells if not (c.npd.marginal or c.adrc.marginal)]

@@ -1,7 +1,14 @@
-"""The paper, end to end: run everything, judge it, and write what it came to.
+"""The paper reproduced end to end: run everything, check it, and write what it came to.
 
-Written to the output folder: figures (PNG, SVG), the two headline runs (npz + JSON), walk.html,
-summary.json and report.html; each whole or not at all, so that an interrupted run leaves readable files.
+    plan -> tasks (campaign.pool) -> Results -> claims, checks, tables, findings -> summary, figures, report
+
+Written to the output folder: figures (PNG, SVG, JSON), the two headline runs (npz and JSON), walk.html,
+summary.json and report.html. Each file is written whole or not at all, so that an interrupted run leaves
+readable files. The command `reproduce` calls this; its exit code says whether all checks hold.
+
+In summary.json: `holds` and `checks` (what is asserted), `claims` (the table of the paper's claims) with
+`claims_evidence`, `tables` and `findings` (what the report shows), `convergence` (every figure of merit at two
+steps), `settings` and `versions`, and the wall time of each task.
 """
 
 from __future__ import annotations
@@ -26,9 +33,10 @@ from biped_adrc.paper.claims.table import claims
 from biped_adrc.paper.claims.words import MEANINGS, PREFACE, Claim, claim_checks
 from biped_adrc.paper.convergence import observed_order, records
 from biped_adrc.paper.figures import push_window
+from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.paper.physical_laws import work_identity
 from biped_adrc.paper.pictures import draw_all
-from biped_adrc.paper.plan import BOTH, Headline, Plan
+from biped_adrc.paper.plan import Headline, Plan
 from biped_adrc.paper.plan import tasks as planned_tasks
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.tables import findings, notes, tables
@@ -45,9 +53,11 @@ def reproduce(
     workers: int | None = None,
     progress: TaskProgress | None = None,
 ) -> dict[str, Any]:
-    """Run the plan and write everything to `out`; returns the summary.
+    """Run the plan and write everything to `out`; returns what summary.json holds.
 
-    Raises OutputError before the first run when `out` cannot be written.
+    command: as typed, for the report. workers: processes, one per core if None. progress: called after each
+    task. Checks are judged before anything is drawn, and the summary is written last, when all other files are
+    there. Raises OutputError before the first run when `out` cannot be written.
     """
     started = time.perf_counter()
     probe(out)
@@ -81,16 +91,16 @@ def reproduce(
 
 
 def _laws(plan: Plan, r: Results) -> list[Check]:
-    """The laws that the runs were held against."""
-    parts = [laws for laws, _ in r.numerics.values()] + [r.headline[c][1] for c in BOTH]
+    """The checks of physical laws that the runs were held against."""
+    parts = [laws for laws, _ in r.numerics.values()] + [r.headline[c][1] for c in CONTROLLERS]
     nominal = dict(r.nominal(plan))
     for preset in plan.presets:
-        works = [work_identity(nominal[f"{preset} {c}"]) for c in BOTH]
+        works = [work_identity(nominal[f"{preset} {c}"]) for c in CONTROLLERS]
         parts += [r.model[preset], works]
     return [law for part in parts for law in part]
 
 
-def _said(plan: Plan, r: Results, found: list[Claim]) -> dict[str, Any]:
+def _said(plan: Plan, r: Results, found: list[Claim]) -> dict[str, object]:
     """What the summary says in words: settings, findings, claims, notes."""
     return {
         "preset": plan.preset,
@@ -105,12 +115,12 @@ def _said(plan: Plan, r: Results, found: list[Claim]) -> dict[str, Any]:
     }
 
 
-def _numbers(plan: Plan, r: Results) -> dict[str, Any]:
+def _numbers(plan: Plan, r: Results) -> dict[str, object]:
     """The numbers of the runs, at the steps at which they were made."""
     return {
-        "claims_evidence": gathered(plan.presets, r.claims),
+        "claims_evidence": gathered(r.claims.values()),
         "nominal": {name: [s.record() for s in o.certificates] for name, o in r.nominal(plan)},
-        "multipliers": {c: r.multipliers[c].record() for c in BOTH if c in r.multipliers},
+        "multipliers": {c: r.multipliers[c].record() for c in CONTROLLERS if c in r.multipliers},
         "headline": {c: _three_steps(head) for c, head in r.heads.items()},
         "convergence": list(records(r.run_twice)),
         "regression": {c: _regression(c, found) for c, found in r.regressions.items()},
@@ -118,7 +128,7 @@ def _numbers(plan: Plan, r: Results) -> dict[str, Any]:
 
 
 def _checks(plan: Plan, r: Results) -> list[Check]:
-    """What the runs have to show, besides the laws each of them was held against."""
+    """What the runs have to show, besides physical laws and claims."""
     return (
         verdicts.consistency_checks(plan, r)
         + verdicts.push_checks(r)
@@ -131,7 +141,7 @@ def _checks(plan: Plan, r: Results) -> list[Check]:
 
 
 def probe(out: Path) -> None:
-    """Make the folder and try to write in it. Raises OutputError."""
+    """Make the folder and try to write in it, since the runs take minutes. Raises OutputError."""
     marker = out / ".writable"
     write_text(marker, "")
     marker.unlink()
@@ -139,7 +149,8 @@ def probe(out: Path) -> None:
         raise OutputError(f"'{out}' is not a folder; choose another with --out")
 
 
-def _settings(plan: Plan) -> dict[str, Any]:
+def _settings(plan: Plan) -> dict[str, object]:
+    """What was asked for, and the constants of the paper that all runs use."""
     fields = [name for name in Plan.__dataclass_fields__ if name != "pushes"]
     return {
         **{name: getattr(plan, name) for name in fields},
@@ -150,8 +161,10 @@ def _settings(plan: Plan) -> dict[str, Any]:
     }
 
 
-def _three_steps(head: Headline) -> dict[str, Any]:
-    """The largest error under the push at the step used, at half and at a quarter of it, and the order."""
+def _three_steps(head: Headline) -> dict[str, object]:
+    """The largest error under the push [rad] at the step used, its half and its quarter, and the order from
+    them.
+    """
     o = head.outcome
     assert o.half is not None
     assert o.half.half is not None
@@ -161,10 +174,11 @@ def _three_steps(head: Headline) -> dict[str, Any]:
 
 
 STORED_APART = 1e-3
-"""[s] between the stored nodes of a headline run, but for the single supports with fine steps."""
+"""Distance of the stored nodes of a headline run [s], except in the single supports with fine steps."""
 
 
 def _save(head: Headline, path: Path) -> None:
+    """Store a headline run as npz and JSON, from which it can be drawn and animated again."""
     replay(head.outcome.run, _stored(head)).save(path)
 
 
@@ -178,22 +192,26 @@ def _stored(head: Headline) -> Trajectory:
     return replace(head.trajectory, arcs=tuple(arcs))
 
 
-def _regression(controller: str, found: Regression) -> dict[str, Any]:
+def _regression(controller: str, found: Regression) -> dict[str, object]:
+    """The regression (27) on a pushed walk in plain values, with the warning that its data do not
+    determine it.
+    """
     names = ("magnitudes", "rank", "condition", "samples", "warning")
     return {"controller": controller, **{name: getattr(found, name) for name in names}}
 
 
 def _animate(r: Results) -> str:
+    """The animation of both headline runs as one HTML page, with the window of the push marked."""
     walks = {c: replay(head.outcome.run, head.trajectory) for c, head in r.heads.items()}
     window = push_window(r.heads["NPD"].signals)
     return animation_html(walks, Look("ADRC", [] if window is None else [(*window, "push")]))
 
 
-def failed(checks: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The checks that do not hold."""
+def failed(checks: list[dict[str, object]]) -> list[dict[str, object]]:
+    """The checks that do not hold, of those of a summary."""
     return [check for check in checks if not check["holds"]]
 
 
 def main_table(summary: dict[str, Any]) -> list[tuple[str, str, str, str]]:
-    """Claim, place, word, share of the cases: what the command prints."""
+    """Claim, place in the paper, word, share of the cases: what the command prints."""
     return [(row["claim"], row["where"], row["word"], row["share"]) for row in summary["claims"]]

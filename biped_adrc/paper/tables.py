@@ -1,8 +1,14 @@
-"""The tables of a reproduction, and what it comes to in sentences, every number taken from its runs."""
+"""The tables of a reproduction, and its main findings in sentences, every number taken from the runs.
+
+The wording of the findings is in findings.toml, with the values in braces; a function here computes the values
+of each sentence. Called by `paper.reproduction`; the report (`viz.pages`) renders both.
+
+Cells are numbers, texts, lists or None; how they are rounded is decided by the report.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,7 +17,8 @@ from biped_adrc.analysis.legality import OUTCOMES
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.paper.plan import BOTH, POLICIES, RISE, Plan
+from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.paper.plan import POLICIES, RISE, Plan
 from biped_adrc.paper.push_map import WORDS, PushCell, certain, counts
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.verdicts import distance
@@ -19,14 +26,14 @@ from biped_adrc.resources import packaged
 from biped_adrc.scenario.outcome import Outcome
 
 PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)
-"""As the paper prints them, with its thousands separators ("-11.020", "-19.836") read as such."""
+"""Table I as the paper prints it [rad/s]; its "-11.020" and "-19.836" have thousands separators."""
 
-Table = dict[str, list[Any]]
-"""Columns, and rows of as many cells."""
+Table = dict[str, Sequence[object]]
+"""`columns`: names; `rows`: one list of as many cells for each row."""
 
 
 def tables(plan: Plan, r: Results) -> dict[str, Table]:
-    """What is reported beside the checks."""
+    """All tables by title; a quick run has no literal equation and no map."""
     here = "here, 180 x 1.8^k"
     poles = zip(PRINTED_TABLE_I, TABLE_I, strict=True)
     constants = {"K_p [1/s^2]": (5000, TABLE_II.K_p), "K_d [1/s]": (50, TABLE_II.K_d)}
@@ -48,19 +55,21 @@ def tables(plan: Plan, r: Results) -> dict[str, Table]:
     return found
 
 
-def table(rows: Iterable[dict[str, Any]]) -> Table:
-    """Rows by column, each with the same columns; at least one."""
+def table(rows: Iterable[dict[str, object]]) -> Table:
+    """A table of rows that are given by column name, at least one, all with the same columns."""
     rows = list(rows)
     return {"columns": list(rows[0]), "rows": [list(row.values()) for row in rows]}
 
 
 def _runs(r: Results) -> Table:
+    """Every walk but those of the reset policies: how it ended, errors, torques, forces."""
     named = {k: o for k, o in r.runs.items() if not k.startswith("reset")}
-    heads = {f"push {c}": r.heads[c].outcome for c in BOTH}
+    heads = {f"push {c}": r.heads[c].outcome for c in CONTROLLERS}
     return table(_run(name, o) for name, o in {**heads, **named}.items())
 
 
-def _run(name: str, o: Outcome) -> dict[str, Any]:
+def _run(name: str, o: Outcome) -> dict[str, object]:
+    """The row of one walk."""
     steps = o.certificates
     return {
         "run": name,
@@ -83,6 +92,9 @@ def _run(name: str, o: Outcome) -> dict[str, Any]:
 
 
 def _multipliers(r: Results) -> Table:
+    """Multipliers by method: central differences, delta^2 of the zero dynamics, the regression
+    (27), the paper.
+    """
     found: dict[str, tuple[list[float], str]] = {}
     for name in ("NPD", "ADRC", "ADRC measured"):
         if name in r.multipliers:
@@ -103,6 +115,11 @@ def _multipliers(r: Results) -> Table:
 
 
 def _recipe(plan: Plan, r: Results) -> Table:
+    """Gait (b) by preset and controller: whether it closes, its multipliers, and what it asks of ground and
+    motors.
+
+    Numbers that a gait which fails does not have are empty.
+    """
     return table(
         {
             "preset": x.preset,
@@ -125,7 +142,11 @@ def _recipe(plan: Plan, r: Results) -> Table:
 
 
 def _literal(r: Results) -> Table:
-    names = [f"as printed {c}" for c in BOTH]
+    """Walks with (20) as printed, and the observer's reset policies with and without a torque limit.
+
+    A walk that ended early has no peak error or torque in the table: they would be those of a fall.
+    """
+    names = [f"as printed {c}" for c in CONTROLLERS]
     names += [f"reset {p}, {limit}" for p in POLICIES for limit in ("unlimited", "150 N m")]
     return table(
         {
@@ -143,8 +164,11 @@ def _literal(r: Results) -> Table:
 
 
 def _map(cells: list[PushCell]) -> Table:
+    """How many pushes of the map ended how, by preset, torque limit and controller."""
     found = counts(cells)
-    rows = [[name, c, *(found[name][c][word] for word in WORDS)] for name in found for c in BOTH]
+    rows = [
+        [name, c, *(found[name][c][word] for word in WORDS)] for name in found for c in CONTROLLERS
+    ]
     return {"columns": ["preset, torque limit", "controller", *WORDS], "rows": rows}
 
 
@@ -162,16 +186,22 @@ def notes() -> list[str]:
 
 
 def _texts() -> dict[str, Any]:
+    """The tables of findings.toml."""
     return packaged("biped_adrc.paper", "findings.toml")
 
 
-def _said(of: str, /, **values: Any) -> str:
+def _said(of: str, /, **values: object) -> str:
+    """A text of findings.toml on one line with these values in it."""
     return str(" ".join(_texts()[of].split()).format(**values))
 
 
 def _push(plan: Plan, r: Results) -> str:
-    npd, adrc = (r.heads[c].outcome for c in BOTH)
-    words = {c: OUTCOMES[r.heads[c].outcome.legality.outcome] for c in BOTH}
+    """How both controllers walk under the headline push, with vertical and with slow edges.
+
+    The legality of both walks is said once where it is the same.
+    """
+    npd, adrc = (r.heads[c].outcome for c in CONTROLLERS)
+    words = {c: OUTCOMES[r.heads[c].outcome.legality.outcome] for c in CONTROLLERS}
     kind = "carried_alike" if words["NPD"] == words["ADRC"] else "carried_apart"
     return _said(
         "push",
@@ -185,12 +215,14 @@ def _push(plan: Plan, r: Results) -> str:
 
 
 def _heavier(r: Results) -> str:
+    """The ratio of the errors with a plant heavier than the model."""
     pairs = (r.pair(f"heavier, {kind}") for kind in ("masses", "masses and inertias"))
     masses, both = (adrc.peak_error / npd.peak_error for npd, adrc in pairs)
     return _said("heavier", masses=masses, both=both)
 
 
 def _fixed_point(plan: Plan, r: Results) -> str:
+    """How near gait (a) comes to x* in all presets."""
     walks = [o for _, o in r.nominal(plan)]
     gap = float(np.max([distance(o) for o in walks]))
     impacts, presets = walks[0].run.impacts, ", ".join(plan.presets)
@@ -198,6 +230,7 @@ def _fixed_point(plan: Plan, r: Results) -> str:
 
 
 def _stable_recipes(plan: Plan, r: Results) -> str:
+    """In how many cases gait (b) walks in a stable cycle, how far from x*, with what torque."""
     found = list(r.recipes(plan))
     stable = [f for f in found if f.closes and f.record.get("stable")]
     text = _said("recipe", stable=len(stable), count=len(found))
@@ -210,6 +243,7 @@ def _stable_recipes(plan: Plan, r: Results) -> str:
 
 
 def _stability(r: Results) -> str:
+    """The largest multiplier beside delta^2, and that of ADRC with its observer."""
     npd, text = r.multipliers["NPD"], ""
     if "ADRC" in r.multipliers:
         z = np.abs(r.multipliers["ADRC"].orbit.multipliers)
@@ -219,6 +253,7 @@ def _stability(r: Results) -> str:
 
 
 def _pushes(cells: list[PushCell]) -> str:
+    """The map of pushes in numbers, marginal cells left out."""
     parts = (
         _said("map", total=sum(x["NPD"].values()), npd=x["NPD"], adrc=x["ADRC"], name=name)
         for name, x in counts(certain(cells)).items()
@@ -227,6 +262,11 @@ def _pushes(cells: list[PushCell]) -> str:
 
 
 def _torso(r: Results) -> str:
+    """How the step time changes when the unactuated torso is pushed.
+
+    Of each walk the step that differs most from the first one is named; where a walk makes no step, that is
+    said.
+    """
     walks = r.pair("torso")
     short = [f"{o.run.controller} makes no step" for o in walks if len(o.durations) == 0]
     if short:

@@ -1,4 +1,12 @@
-"""A scenario made into a walker: robot and its errors, controller, hardware, pushes, ground and start."""
+"""From a scenario to a walker: robot and model errors, controller, hardware, pushes, ground and start.
+
+    RobotAndGait.of(s)   nominal robot, and gait (or the cycle of a robot without motors)
+    build(s)             the `Walker`: plant, controller, disturbance, timing, sensors, motors, ground
+    start(s, scene)      (q, v) at which the walk begins
+
+The controller always has the nominal robot as its model; the plant differs from it where the scenario asks for
+model errors. Called by `run`, by studies, and by worker processes, which receive the scenario alone.
+"""
 
 from __future__ import annotations
 
@@ -15,44 +23,54 @@ from biped_adrc.gait.published import PassiveCycle, passive_cycle
 from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.hardware.meter import Meter
 from biped_adrc.hardware.motors import Motors
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.robots.robot_toml import ENDS, Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances, taken
-from biped_adrc.scenario.registry import construct, own
+from biped_adrc.scenario.registry import construct, find, own, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
 
 WALKED = ("robot", "preset", "controller", "impacts", "slope", "friction_limit", "force_window")
 WITHOUT_MOTORS = (*WALKED, "method", "h", "tolerance", "engine")
-"""Values of a scenario that mean something for a robot without motors."""
+"""Fields of a scenario that have an effect for a robot without motors."""
 
 
 @dataclass(frozen=True)
-class Scene:
-    """The nominal robot, and the gait that it walks; a robot without motors has a known cycle instead."""
+class RobotAndGait:
+    """The nominal robot of a scenario, and the gait that it walks or, without motors, its known cycle.
+
+    Loading both takes longer than making a walker; studies of many walks of one robot make this once and hand
+    it to `build` and `start`.
+    """
 
     biped: Biped
     gait: Gait | None = None
+    """None for a robot without motors."""
     cycle: PassiveCycle | None = None
+    """None for a robot with motors."""
 
     @classmethod
-    def of(cls, s: Scenario) -> Scene:
-        """Of a scenario. Raises InputError for a robot or a gait that there is not."""
+    def of(cls, s: Scenario) -> RobotAndGait:
+        """Robot and gait of a scenario, from files or from the user's own classes.
+
+        Raises InputError for a robot or a gait that there is not, GaitError for a gait that does not fit.
+        """
         made = own("robot", s.robot)
         values = {"preset": s.preset, "friction": s.friction}
-        biped: Biped = (
-            Biped.load(s.robot, **values)  # type: ignore[arg-type]
+        biped = (
+            Biped.load(s.robot, s.preset, s.friction)
             if made is None
             else construct(f"robot '{s.robot}'", made, values, Biped)
         )
         if biped.p == 0:
             return cls(biped, cycle=passive_cycle(biped))
         found = own("gait", s.gait)
-        gait: Gait = (
+        gait = (
             load_gait(s.gait, biped)
             if found is None
             else construct(f"gait '{s.gait}'", found, {"biped": biped}, Gait).check(biped)
@@ -63,7 +81,7 @@ class Scene:
 
     @property
     def walked(self) -> Gait:
-        """The gait. Raises InputError for a robot without motors."""
+        """The gait, where there has to be one. Raises InputError for a robot without motors."""
         if self.gait is None:
             raise InputError(
                 f"robot '{self.biped.description.name}' has 0 motors and walks no gait; choose one with motors"
@@ -71,12 +89,17 @@ class Scene:
         return self.gait
 
 
-def build(s: Scenario, scene: Scene | None = None, metered: bool = False) -> Walker:
-    """The walker of a scenario; metered: with what counts torques and forces at the ticks.
+def build(s: Scenario, scene: RobotAndGait | None = None, metered: bool = False) -> Walker:
+    """The walker of a scenario.
 
-    Raises InputError for what does not fit together.
+    The plant is the nominal robot with the scenario's model errors, the controller's model always the nominal
+    one; the ground's slope is the gait's plus the scenario's. Sensors, motors, meter and ground steps are None
+    or empty where the scenario has none.
+
+    scene: robot and gait where they are at hand. metered: with a meter that records torques and ground forces
+    at the sample instants. Raises InputError for what does not fit together.
     """
-    scene = Scene.of(s) if scene is None else scene
+    scene = RobotAndGait.of(s) if scene is None else scene
     if scene.cycle is not None:
         return _passive(s, scene.biped, scene.cycle)
     biped, gait = scene.biped, scene.walked
@@ -89,7 +112,7 @@ def build(s: Scenario, scene: Scene | None = None, metered: bool = False) -> Wal
     gain = impact_error(drawn(s, "impact"), s.impact_error, biped.n if s.impact_error else 0)
     return Walker(
         plant,
-        controller(s, gait, biped, taken(s)),
+        controller(s, gait, biped, taken(s) | taken_by_sensor(s)),
         disturbances(s, biped, gait, plant),
         ContinuousTime()
         if s.period is None
@@ -107,6 +130,10 @@ def build(s: Scenario, scene: Scene | None = None, metered: bool = False) -> Wal
 
 
 def _passive(s: Scenario, biped: Biped, known: PassiveCycle) -> Walker:
+    """The walker of a robot without motors, on the slope of its known cycle plus the scenario's [rad].
+
+    Raises InputError for another controller than 'passive', and for values that have no effect without motors.
+    """
     if s.controller != "passive":
         raise InputError(
             f"controller '{s.controller}' does not fit robot '{s.robot}' with 0 motors; choose 'passive'"
@@ -121,12 +148,16 @@ def _passive(s: Scenario, biped: Biped, known: PassiveCycle) -> Walker:
 
 
 def limits(s: Scenario) -> Limits:
-    """Within which the walk is legal; torque is the robot's own."""
+    """The limits of ground and motors within which the walk is legal; the torque limit is the robot's own."""
     return Limits(s.friction_limit, None, s.force_window)
 
 
-def start(s: Scenario, scene: Scene) -> tuple[Array, Array]:
-    """(q, v) after the impact of the gait's orbit, with what the scenario adds. Raises InputError."""
+def start(s: Scenario, scene: RobotAndGait) -> tuple[Array, Array]:
+    """(q, v), each (n,) [rad, rad/s], just after the impact of the gait's orbit, with the scenario's offsets.
+
+    First random offsets of every coordinate, then the rates scaled by start_speed, then the values of
+    `Scenario.start`. Raises InputError for a coordinate that the robot does not have.
+    """
     q, v = scene.walked.start(scene.biped)
     random = np.random.default_rng(drawn(s, "start"))
     q = q + s.start_spread * random.standard_normal(len(q))
@@ -143,7 +174,12 @@ def start(s: Scenario, scene: Scene) -> tuple[Array, Array]:
 
 
 def plant_of(s: Scenario, biped: Biped) -> Biped:
-    """The robot that walks: the nominal one itself where nothing is wrong with the model."""
+    """The robot that walks: the nominal one with the scenario's model errors, itself where there are none.
+
+    In this order: factors of mass and inertia by link, a load on the trunk, and errors that are drawn with the
+    widths mass_error, com_error, inertia_error and friction_error. That it is the same object where there are
+    none tells `build` that plant and model agree.
+    """
     plant = biped
     if s.mass or s.inertia:
         plant = plant.with_errors(mass=s.mass, inertia=s.inertia)
@@ -155,8 +191,24 @@ def plant_of(s: Scenario, biped: Biped) -> Biped:
     return plant
 
 
-def sensors(s: Scenario) -> Sensors | None:
-    """None where all is exact."""
+def sensors(s: Scenario) -> Sensor | None:
+    """The sensors of a scenario: encoders, then the one that is named; None where all is measured exactly."""
+    encoders = _encoders(s)
+    if s.sensor is None:
+        return encoders
+    entry = find("sensor", s.sensor)
+    given = {**s.own, "seed": drawn(s, "sensors"), **entry.defaults}
+    what = f"sensor '{s.sensor}'"
+    named = construct(what, entry.load(), given, Sensor)  # type: ignore[type-abstract]
+    return named if encoders is None else encoders + named
+
+
+def _encoders(s: Scenario) -> Sensors | None:
+    """Encoders with their noise; None where angles and rates are measured exactly.
+
+    Exact means: no encoder counts, rates that are measured, and no noise. Noise has its own stream of random
+    numbers.
+    """
     exact = s.counts is None and s.velocity == "measured"
     if exact and s.noise == s.pitch_noise == s.rate_noise == 0.0:
         return None
@@ -164,8 +216,17 @@ def sensors(s: Scenario) -> Sensors | None:
     return Sensors(s.counts, None, *noise, s.velocity, s.filter_time, drawn(s, "sensors"))
 
 
+def taken_by_sensor(s: Scenario) -> set[str]:
+    """Names of own values that the sensor takes."""
+    return set() if s.sensor is None else set(takes(find("sensor", s.sensor).load())) - {"seed"}
+
+
 def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:
-    """Uneven, and with a step down or up."""
+    """Changes of the ground's height: uneven ground, and a step down (or up) at `pushed_step`; () if level.
+
+    `ground_rms`: random heights [m], drawn for all steps of the walk. `ground_step`: depth [m], negative for a
+    step up.
+    """
     steps: tuple[StepDown | StepUp, ...] = ()
     if s.ground_rms > 0.0:
         last = s.first_step + s.impacts - 1

@@ -1,16 +1,20 @@
-"""The controller of a scenario: its class is looked up, and made of what its constructor takes by name.
+"""The controller of a scenario: its class is looked up, and called with what its constructor takes by name.
 
-reference, gait, biped and outputs (y = q_b - h) come from the gait; gains from K_p and K_d; observer from the
-observer's name, poles, bandwidth, order; reset, solve_theta and torque_limit are the scenario's. All else is in
-`Scenario.own`. A class that takes `inner` goes around another controller, own value `inner`, and has its values
-from `own` alone.
+    reference, gait, biped, outputs (y = q_b - h)   from gait and robot
+    gains                                           from K_p and K_d
+    observer                                        from the observer's name, poles, bandwidth and order
+    reset, solve_theta, torque_limit                the scenario's values of these names
+    everything else                                 from `Scenario.own`
+
+A class that takes `inner` goes around another controller, named by the own value `inner`, and has its other
+values from `own` alone. The maker notes which values were taken: one that nothing takes is an error, since the
+user expected an effect from it. `build.build` calls `controller`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -27,13 +31,15 @@ from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, Scenario
 from biped_adrc.scenario.values import unknown
 
 GAINS = ("K_p", "K_d")
+"""Fields of a scenario from which `gains` are made."""
 OF_OBSERVER = ("observer", "poles", "bandwidth", "order")
+"""Fields of a scenario from which `observer` is made."""
 OF_CONTROLLER = (*GAINS, *OF_OBSERVER, "reset", "solve_theta")
-"""Values of a scenario that a controller takes, or that do nothing."""
+"""Fields of a scenario that either the controller takes, or that have no effect."""
 CONTEXT = ("reference", "gait", "biped", "outputs")
-"""What the gait and the robot give."""
+"""Arguments that gait and robot give."""
 BY_ITSELF = (*CONTEXT, *OF_CONTROLLER, "gains", "torque_limit")
-"""What a constructor has from the scenario, never from own values; an outer loop has `CONTEXT` alone."""
+"""Arguments that come from the scenario's fields, never from own values; an outer loop has `CONTEXT` alone."""
 SOURCES = {name: name for name in FIELDS} | {
     "reference": "gait",
     "outputs": "gait",
@@ -44,24 +50,28 @@ SOURCES = {name: name for name in FIELDS} | {
     "stop": "duration",
     "bandwidth": "bandwidth, of noise frequency,",
 }
-"""By the name that a constructor has, the value of the scenario that it comes from."""
-MAKERS = ("from_poles", "from_bandwidth", "from_epsilon")
-"""Of an observer, beside its constructor."""
+"""For an argument of a constructor, the field of the scenario that it comes from, for messages."""
+MAKER = "from_"
+"""How the names of the class methods begin that make an observer, besides its constructor."""
 
 
 @dataclass
-class Maker:
-    """Makes the controller; `used` gathers values of the scenario that something takes, `mine` own values."""
+class ControllerMaker:
+    """Makes the controller of a scenario, its inner ones and its observer, and notes which values are taken."""
 
     s: Scenario
     gait: Gait
     biped: Biped
+    """The model that the controller has of the robot."""
     used: set[str] = field(default_factory=set)
+    """Fields of the scenario that something took."""
     mine: set[str] = field(default_factory=set)
+    """Own values that something took."""
     known: set[str] = field(default_factory=set)
+    """All arguments that the constructors have."""
 
     def made(self, name: str) -> Controller:
-        """The controller by name. Raises InputError for what is missing, does not fit, or does nothing."""
+        """The controller of this name. Raises InputError for what is missing or does not fit."""
         entry, what = find("controller", name), f"controller '{name}'"
         make = entry.load()
         outer = "inner" in takes(make)
@@ -69,27 +79,31 @@ class Maker:
             {"inner": self._inner(what, name)} if outer else self._taken(what, make, entry.defaults)
         )
         mine = self._own((*CONTEXT, "inner") if outer else BY_ITSELF)
-        made: Controller = construct(what, make, values | mine, Controller)
+        made = construct(what, make, values | mine, Controller)
         self._seen(make, (), (*mine, "inner") if outer else mine)
         return made
 
-    def _own(self, given: Container[str]) -> dict[str, Any]:
-        """Own values, but for those that are given by themselves."""
+    def _own(self, given: Container[str]) -> dict[str, object]:
+        """Own values of the scenario, without the names in `given`."""
         return {name: x for name, x in self.s.own.items() if name not in given}
 
-    def _seen(self, make: Callable[..., Any], offered: Iterable[str], mine: Iterable[str]) -> None:
+    def _seen(
+        self, make: Callable[..., object], offered: Iterable[str], mine: Iterable[str]
+    ) -> None:
+        """Note which of the offered fields and own values a constructor takes."""
         accepted = set(takes(make))
         self.known |= accepted
         self.used |= set(offered) & accepted
         self.mine |= set(mine) & accepted
 
-    def _context(self) -> dict[str, Any]:
-        """What the gait and the robot give."""
+    def _context(self) -> dict[str, object]:
+        """Robot, gait, reference h(Theta) and outputs y = q_b - h(Theta), by the names of `CONTEXT`."""
         h, rows = self.gait.constraint, np.eye(self.biped.n)[: self.biped.p]
         outputs = LinearOutputs(rows, h)
         return {"biped": self.biped, "gait": self.gait, "reference": h, "outputs": outputs}
 
     def _inner(self, what: str, name: str) -> Controller:
+        """The controller inside of `name`: own value `inner`, by default the default controller."""
         inner = self.s.own.get("inner", Scenario.controller)
         if not isinstance(inner, str) or spelled("controller", inner) == name:
             raise InputError(
@@ -98,9 +112,15 @@ class Maker:
         return self.made(spelled("controller", inner))
 
     def _taken(
-        self, what: str, make: Callable[..., Any], defaults: Mapping[str, Any]
-    ) -> dict[str, Any]:
-        """The scenario's values that a constructor takes, with the entry's where the scenario has none."""
+        self, what: str, make: Callable[..., object], defaults: Mapping[str, object]
+    ) -> dict[str, object]:
+        """The scenario's values for a constructor, gains and observer made of theirs.
+
+        Gains that are given replace those of the constructor's default, one by one. Poles stand in place of a
+        bandwidth and an order, so the entry's defaults of these are then left out.
+
+        defaults: those of the registry's entry, which hold where the scenario has none.
+        """
         given = {name: getattr(self.s, name) for name in OF_CONTROLLER}
         if self.s.poles is None:  # which stand in place of a bandwidth and its order
             given |= {name: x for name, x in defaults.items() if given[name] is None}
@@ -122,12 +142,18 @@ class Maker:
         return found
 
     def _observer(
-        self, what: str, make: Callable[..., Any], told: Mapping[str, Any]
+        self, what: str, make: Callable[..., object], told: Mapping[str, object]
     ) -> Observer | None:
-        """By the way that takes most of what there is; None where the controller's own default holds."""
+        """The observer, made by the constructor or the class method of `MAKERS` that takes most of what is
+        given.
+
+        told: values of the scenario that are given, such as poles, or a bandwidth and an order. Among the ways
+        that lack nothing the one that takes most is called, so that no value is dropped that another way would
+        take. None where nothing is given and the controller's own default holds.
+        """
         usual = _default(make)
         kind = type(usual) if self.s.observer is None else find("observer", self.s.observer).load()
-        makers = [*(getattr(kind, name) for name in MAKERS if hasattr(kind, name)), kind]
+        makers = [*(getattr(kind, name) for name in _ways(kind)), kind]
         offered = {name: told[name] for name in ("poles", "bandwidth", "order") if name in told}
         mine = self._own(BY_ITSELF)
         offered |= mine | ({"m": told["order"]} if "order" in told else {})
@@ -141,8 +167,14 @@ class Maker:
         return construct(f"the observer of {what}", best, offered, Observer)
 
 
-def _default(make: Callable[..., Any]) -> Observer:
-    """The observer that a controller has by itself; of Table I where it has none."""
+def _ways(kind: object) -> list[str]:
+    """Names of the methods `from_...` of a class and those above it, in the order they are written."""
+    classes = getattr(kind, "__mro__", ())
+    return list(dict.fromkeys(x for cls in classes for x in vars(cls) if x.startswith(MAKER)))
+
+
+def _default(make: Callable[..., object]) -> Observer:
+    """The default observer of a controller's constructor; the GPI observer of Table I where it has none."""
     of_class = {f.name: f.default_factory for f in fields(make)} if is_dataclass(make) else {}
     factory = of_class.get("observer")
     usual = factory() if callable(factory) else takes(make)["observer"].default
@@ -150,12 +182,12 @@ def _default(make: Callable[..., Any]) -> Observer:
 
 
 def controller(s: Scenario, gait: Gait, biped: Biped, others: set[str] | None = None) -> Controller:
-    """The controller of a scenario. `others`: own values that something else takes.
+    """The controller of a scenario on this gait, for the model `biped`. others: own values that the push takes.
 
     Raises InputError for a class that is not there or lacks something, an own value that nothing takes, and a
-    value of the scenario that would do nothing.
+    value of the scenario that would have no effect.
     """
-    maker = Maker(s, gait, biped)
+    maker = ControllerMaker(s, gait, biped)
     made = maker.made(s.controller)
     if type(made).output is Controller.output and made.laws is None:
         raise InputError(

@@ -1,7 +1,13 @@
-"""What became of the edges of a disturbance: a window that an impact cuts off acts for less time than asked.
+"""Remarks on a finished walk: pushes that an impact cut off, and integration steps too long beside their edges.
 
-When the impacts come is known once the walk is made, and depends on the push. A walk is therefore not refused;
-it says what was not as it was asked for, and where its steps were too long for the edges.
+A window of a push is given in the time of one single support. When the impacts come is known only once the walk
+is simulated, and depends on the push. A walk is therefore not refused: `Walk.remarks` states what was not as it
+was asked for, since a push that acts for less time than intended spoils a comparison without any other sign.
+
+An edge is an instant at which a disturbance switches (`Disturbance.switches`).
+
+    the push from 0.1 to 0.3 s in single support 3 was cut by the impact at 0.2531 s
+    the push from 0.6 s on in single support 2 did not begin before the impact at 0.5402 s
 """
 
 from __future__ import annotations
@@ -15,9 +21,10 @@ from biped_adrc.disturbances.base import Disturbance, terms
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 
 NEAR = 1e-3
-"""[s], the usual step: an edge this close to an impact is before or after it by the error of the method."""
+"""[s], the usual integration step: whether an edge this close to an impact acts before or after it is decided
+by the error of the method."""
 LONGER = 1.1
-"""A step may be so many times the observer's shortest time constant: beyond 1 for round-off in its poles."""
+"""Largest step over the observer's shortest time constant; a little above 1 for round-off in its poles."""
 
 
 def edge_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
@@ -34,20 +41,23 @@ def edge_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
 
 
 def step_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
-    """A sentence where steps of a fixed length are too long for the observer's error after an edge.
+    """A sentence where steps of a fixed length are too long for the observer's transient after an edge.
 
-    In the coordinates of `Walker.split` that error decays with the observer's poles. Where the step is longer
-    than 1 / |p| of the fastest one, what is left after an edge is mostly the method's. Single supports with an
-    edge are looked at, and those after them.
+    In the coordinates of `Walker.split` the observer's error decays with its poles. Where the step is longer
+    than 1 / |p| of the fastest pole, the error seen after an edge is mostly that of the integration method.
+    Single supports with an edge are looked at, and those after them. Empty for methods that control their
+    error.
     """
     if walker.disturbance is None or "rtol" in trajectory.settings.get("method", ""):
         return ()
     split = walker.split(Mode())
     if split is None:
         return ()
-    edges = [step for part in terms(walker.disturbance) for step in _edges(part)]
+    edges = {step for part in terms(walker.disturbance) for step in _edges(part)}
     constant = 1.0 / float(np.max(np.abs(np.linalg.eigvals(split.A))))
-    longest = max((_longest(a) for a in trajectory.arcs if _beside_edge(a, edges)), default=0.0)
+    # an edge of step 0 is in time of the walk: it may be in any single support
+    beside = [a for a in trajectory.arcs if edges & {0, a.mode.step, a.mode.step - 1}]
+    longest = max((float(np.max(np.diff(a.t), initial=0.0)) for a in beside), default=0.0)
     if longest <= LONGER * constant:
         return ()
     return (
@@ -57,16 +67,10 @@ def step_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
     )
 
 
-def _beside_edge(arc: Arc, edges: list[int]) -> bool:
-    return bool({0, arc.mode.step, arc.mode.step - 1}.intersection(edges))
-
-
-def _longest(arc: Arc) -> float:
-    return float(np.max(np.diff(arc.t), initial=0.0))
-
-
 def _edges(disturbance: Disturbance) -> dict[int, list[float]]:
-    """Edges s [s] by single support, from its start; by 0 from the start of the run."""
+    """Times [s] of the edges by number of the single support, from its start; under 0 from the start of the
+    walk.
+    """
     edges: dict[int, list[float]] = {}
     for step, s in disturbance.switches:
         edges.setdefault(step, []).append(s)
@@ -74,6 +78,7 @@ def _edges(disturbance: Disturbance) -> dict[int, list[float]]:
 
 
 def _remarks(edges: dict[int, list[float]], trajectory: Trajectory) -> Iterator[str]:
+    """Sentences on the edges of one disturbance."""
     arcs = [a for a in trajectory.arcs if a.event is not None and a.event.guard == FOOT_STRIKE]
     walked = {arc.mode.step for arc in trajectory.arcs}
     for step, times in edges.items():
@@ -88,7 +93,11 @@ def _remarks(edges: dict[int, list[float]], trajectory: Trajectory) -> Iterator[
 
 
 def _beside(name: str, times: list[float], origin: float, bound: bool, arc: Arc) -> Iterator[str]:
-    """Edges beside the impact that ends an arc; bound: to its single support, which cuts off what is left."""
+    """Sentences on edges beside the impact that ends an arc, and on those that it cut off.
+
+    times, origin: edges [s] counted from the time origin [s]. bound: they belong to this single support, so
+    that what comes after the impact does not act.
+    """
     assert arc.event is not None
     end = arc.event.t - origin
     near = [s for s in times if s > 0.0 and abs(s - end) <= NEAR]
@@ -102,7 +111,7 @@ def _beside(name: str, times: list[float], origin: float, bound: bool, arc: Arc)
 
 
 def _just_after(name: str, times: list[float], arc: Arc) -> Iterator[str]:
-    """Edges beside the impact that begins their single support and ends this arc."""
+    """Sentences on edges within `NEAR` after the impact that begins their single support and ends this arc."""
     assert arc.event is not None
     for s in (s for s in times if 0.0 < s <= NEAR):
         yield _at_impact(name, s, f"the impact before it, at {arc.event.t:.4f} s")
@@ -113,5 +122,6 @@ def _at_impact(name: str, s: float, impact: str) -> str:
 
 
 def _name(step: int, times: list[float]) -> str:
+    """The push as a message names it, by its window and its single support."""
     window = f"from {times[0]:g}" + (f" to {times[-1]:g} s" if len(times) > 1 else " s on")
     return f"the push {window}" + (f" in single support {step}" if step > 0 else "")

@@ -1,12 +1,20 @@
-"""Pushes described by plain values, and by the text of the command line."""
+"""A push on joints in plain values, and its short text on the command line, JOINTS=TORQUE@STEP:START-STOP.
+
+The paper's pushes are of this form: torques on the driven joints in one single support, for a window of time.
+`Push` is checked when it is made; `Push.disturbance` gives the object that the closed loop evaluates.
+
+    q1,q2,q3,q4=30@19:0.1-0.3            30 N m on four joints in single support 19, from 0.1 to 0.3 s
+    q1=20,q5=-5@3:0.05-0.2:rise=0.01     two torques, each edge taking 10 ms
+    q1=40@19:0.05-0.3:sine=5             a sine of 5 Hz within the window
+    q5=10@2:0.1-                         a step of the torque that stays for good
+"""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from pydantic import ConfigDict
 from pydantic.dataclasses import dataclass
@@ -22,26 +30,32 @@ if TYPE_CHECKING:
 
 _PUSH = re.compile(
     r"(?P<joints>[^@]+)@(?P<step>\d+):(?P<start>[0-9.eE+]+)-(?P<stop>[0-9.eE+]*)"
-    r"(:sine=(?P<f>[0-9.eE+]+)|:rise=(?P<rise>[0-9.eE+-]+))?"
+    r"(:sine=(?P<frequency>[0-9.eE+]+)|:rise=(?P<rise>[0-9.eE+-]+))?"
 )
 
 
 @clear()
 @dataclass(frozen=True, config=ConfigDict(extra="forbid"))
 class Push(Shown):
-    """A disturbance by name: torques [N m] on joints in single support `step`, [start, stop) s.
+    """Torques on joints during the window [start, stop) of one single support.
 
-    kind: of the registry, such as pulse (with edges of `rise` [s]), sine (with `frequency` [Hz]) or step (from
-    `start` on, for good).
+    Raises InputError for a kind that is not in the registry or a value of the wrong type.
     """
 
     torque: dict[str, float]
+    """[N m] by joint."""
     step: int = 19
+    """Number of the single support, the first one being 1."""
     start: float = 0.1
+    """From the start of that single support [s]."""
     stop: float = 0.3
+    """From the start of that single support [s]; infinite for the kind "step", which stays for good."""
     kind: str = "pulse"
+    """Of the registry: pulse, sine, step, or one of the user's own."""
     frequency: float = 5.0
+    """Of a sine [Hz]."""
     rise: float = 0.0
+    """Duration of each edge of a pulse [s]."""
 
     def __post_init__(self) -> None:
         find("disturbance", self.kind)
@@ -57,7 +71,7 @@ class Push(Shown):
         return on_joints(self.kind, biped, self.torque, values)
 
     def in_words(self) -> str:
-        """For a reader."""
+        """The push as part of a sentence, such as "30 N m on q1, q2 from 0.1 to 0.3 s in single support 19"."""
         parts = [
             f"{torque:g} N m on {', '.join(joint for joint, _ in group)}"
             for torque, group in groupby(self.torque.items(), lambda item: item[1])
@@ -68,7 +82,7 @@ class Push(Shown):
         return f"{' and '.join(parts)}{sine} from {self.start:g}{until} in single support {self.step}{edges}"
 
     def text(self) -> str:
-        """As on the command line, JOINTS=TORQUE@STEP:START-STOP [N m], [s]; `parse_push` reads it.
+        """The text for the command line, JOINTS=TORQUE@STEP:START-STOP [N m], [s]; `parse_push` reads it.
 
         A sine ends in :sine=HERTZ, a pulse with sloping edges in :rise=SECONDS.
         """
@@ -83,7 +97,11 @@ class Push(Shown):
 
 
 def parse_push(text: str) -> Push:
-    """A push from its text. Raises InputError with the form expected."""
+    """A push from its text: torques [N m] by joint, step, window [s], and :sine=HERTZ or :rise=SECONDS.
+
+    Joints without a torque of their own take the next one given: "q1,q2=30,q5=20@19:0.1-0.3". Without a stop
+    ("@19:0.1-") it is a step that stays. Raises InputError with the form expected.
+    """
     match = _PUSH.fullmatch(text.strip())
     if match is None:
         raise InputError(
@@ -101,18 +119,11 @@ def parse_push(text: str) -> Push:
                 waiting = []
         if waiting:
             raise ValueError(f"no torque for {waiting}")
-        start = float(match["start"])
-        stop = float(match["stop"]) if match["stop"] else math.inf
-        frequency = float(match["f"]) if match["f"] else 5.0
-        rise = float(match["rise"]) if match["rise"] else 0.0
-        if rise and not match["stop"]:
+        names = [name for name in ("start", "stop", "frequency", "rise") if match[name]]
+        numbers = {"stop": math.inf} | {name: float(match[name]) for name in names}
+        if numbers.get("rise") and not match["stop"]:
             raise ValueError("only a pulse, which has a stop, has a rise")
     except ValueError as error:
         raise InputError(f"push '{text}': {error}") from error
-    kind = "sine" if match["f"] else "pulse" if match["stop"] else "step"
-    return Push(torque, int(match["step"]), start, stop, kind, frequency, rise)
-
-
-def joints_push(torque: float, joints: Sequence[str], **window: Any) -> Push:
-    """The same torque [N m] on several joints."""
-    return Push(dict.fromkeys(joints, torque), **window)
+    kind = "sine" if match["frequency"] else "pulse" if match["stop"] else "step"
+    return Push(torque, int(match["step"]), kind=kind, **numbers)

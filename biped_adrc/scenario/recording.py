@@ -1,4 +1,20 @@
-"""What a walker did, with its signals, pictures and certificates at hand."""
+"""A finished walk: trajectory, walker and gait, with signals, plots, animation, certificates and files at hand.
+
+The simulation stores states only. Everything else (references, torques, estimates, forces) is computed from
+them by the pure functions of the closed loop when it is first asked for, so a walk has all signals without
+having recorded any. The one exception is a stored walk whose controller is not at hand: its signals are in the
+file.
+
+`walk`, `run.walk_scenario` and `stored.load_walk` return a `Walk`; the command line, notebooks, studies and the
+reproduction of the paper read it.
+
+    walk.signals         arrays over time: q, v, u, errors, estimates, ground reaction
+    walk.certificates    per step: friction, torque, clearance, energy
+    walk.legality        could ground and motors have carried it? until_illegal cuts it where not
+    walk.remarks         sentences on what was not as it was asked for
+    walk.plot, animate   figures and pictures
+    walk.save, export    .npz to read it again, .mat for MATLAB
+"""
 
 from __future__ import annotations
 
@@ -6,7 +22,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -21,7 +37,7 @@ from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.columns import columns_of, data_frame, write_csv
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
-from biped_adrc.scenario.plain import Missing
+from biped_adrc.scenario.walker_record import MissingPart
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
@@ -33,24 +49,27 @@ if TYPE_CHECKING:
 
 
 def _nothing(t: float) -> tuple[Array, Array, Array]:
+    """The reference of a robot without motors: no joint, three arrays (0,)."""
     return np.zeros(0), np.zeros(0), np.zeros(0)
 
 
 @dataclass(frozen=True)
 class Walk(Shown):
-    """A walker, the gait it was asked to follow, what it did, and the scenario that asked for it.
-
-    gait: None for a robot without motors. scenario: None for a walker made in Python.
+    """A finished walk: the walker, the gait it was to follow, the trajectory, and the scenario that asked for
+    it.
     """
 
     walker: Walker
     gait: Gait | None
+    """None for a robot without motors."""
     trajectory: Trajectory
+    """States over time, impacts, and the status with which the walk ended."""
     scenario: Scenario | None = None
+    """None for a walker made in Python."""
     recorded: Signals | None = None
-    """Of a stored walk whose controller is not there."""
+    """Signals from the file of a stored walk whose controller is not at hand."""
     said: tuple[str, ...] = ()
-    """What to know of it beside `remarks`."""
+    """Remarks from reading a file, such as a changed source of a class."""
 
     def __repr__(self) -> str:
         run = self.trajectory
@@ -60,12 +79,12 @@ class Walk(Shown):
 
     @property
     def reference(self) -> Reference:
-        """The gait's constraint; nothing (0,) where no joint is driven."""
+        """The reference of the joints: the gait's constraint, or one of no joints (0,) without motors."""
         return TimeReference(_nothing) if self.gait is None else self.gait.constraint
 
     @property
     def note(self) -> str:
-        """Controller, gait, robot and preset; of a robot without motors the slope."""
+        """One line on what walked: controller, gait, robot and preset; without motors robot and slope [rad]."""
         plant, gait = self.walker.plant, self.gait
         if gait is None:
             return f"{plant.description.name} {plant.preset} without motors, slope {self.walker.slope:g} rad"
@@ -73,27 +92,27 @@ class Walk(Shown):
 
     @cached_property
     def signals(self) -> Signals:
-        """References, errors, torques, estimates and forces over time."""
+        """References, errors, torques, estimates and forces over time, computed at the first call and kept."""
         if self.recorded is not None:
             return self.recorded
         return signals(self.walker, self.trajectory, self.reference)
 
     @cached_property
     def certificates(self) -> tuple[Certificate, ...]:
-        """What each step would have asked of a real robot on dry ground."""
+        """What each finished step would have asked of a real robot: friction, torque, clearance, energy."""
         return self.certified()
 
     def certified(self, limits: Limits | None = None) -> tuple[Certificate, ...]:
-        """The certificates within other limits, or with the force averaged over another window."""
+        """The certificates for other limits, or with forces averaged over another window [s]."""
         return certificates(self.walker, self.trajectory, self.signals, limits)
 
     @cached_property
     def legality(self) -> Legality:
-        """Whether ground and motors could have carried this walk, within the limits of the robot's record."""
+        """Whether ground and motors could have carried this walk within the limits of the robot's record."""
         return self.legal_within(Limits())
 
     def legal_within(self, limits: Limits) -> Legality:
-        """`legality` within other limits."""
+        """As `legality`, within other limits; the unfinished last step counts too."""
         finished = self.certificates if limits == Limits() else self.certified(limits)
         rest = replace(self.trajectory, arcs=self.trajectory.arcs[len(finished) :])
         return Legality(
@@ -105,7 +124,7 @@ class Walk(Shown):
 
     @cached_property
     def outcome(self) -> Outcome:
-        """What is left of the walk of a scenario for another process."""
+        """The numbers of a scenario's walk that a worker process sends back."""
         return outcome_of(self)
 
     def until_illegal(self, limits: Limits | None = None) -> Self:
@@ -119,7 +138,9 @@ class Walk(Shown):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What to know before using its numbers: a push that an impact cut off, too long a step at an edge."""
+        """Sentences to know before using its numbers: a push that an impact cut off, too long a step at an
+        edge.
+        """
         walker, trajectory = self.walker, self.trajectory
         return (*self.said, *edge_remarks(walker, trajectory), *step_remarks(walker, trajectory))
 
@@ -129,7 +150,7 @@ class Walk(Shown):
         if self.scenario is not None and self.gait is not None:
             return self.scenario.controller.rpartition(":")[2]
         law = self.walker.controller
-        name = law.home.rpartition(":")[2] if isinstance(law, Missing) else type(law).__name__
+        name = law.home.rpartition(":")[2] if isinstance(law, MissingPart) else type(law).__name__
         return name.removesuffix("Controller")
 
     def plot(self, title: str = "", push: tuple[float, float] | None = None) -> Figure:
@@ -152,7 +173,7 @@ class Walk(Shown):
 
         export(Path(path), {self.controller_name: self}, Clip(view=view))
 
-    def save(self, path: Path | str, settings: Mapping[str, Any] | None = None) -> Path:
+    def save(self, path: Path | str, settings: Mapping[str, object] | None = None) -> Path:
         """Write the run (.npz) with robot, gait, controller and torques inside; `load_walk` reads it anywhere.
 
         settings: more plain values beside them. Raises InputError and OutputError.
@@ -199,7 +220,7 @@ class Walk(Shown):
 def watched(
     walker: Walker, gait: Gait | None, trajectory: Trajectory, scenario: Scenario | None = None
 ) -> Walk:
-    """The walk whose trajectory can draw itself."""
+    """The walk of a trajectory, which is given this as its viewer: a trajectory alone can then draw itself."""
 
     def seen(trajectory: Trajectory) -> Walk:
         return Walk(walker, gait, trajectory, scenario)

@@ -1,9 +1,18 @@
-"""The registry: what may be named in a scenario, a line of registry.toml for each thing.
+"""The registry: which controllers, observers, disturbances, curves, robots and gaits a scenario may name.
 
-A name is one of these, one that `register` added, or `package.module:Class` of the user's own, in Python, on
-the command line and in the files of studies alike; things are made from values by their names. What is one's
-own is imported when a walk is built, by its name and also from the working directory, so that worker processes
-find it too; reading a file imports nothing.
+Each packaged thing is one line of `registry.toml`: its class or function as `module:name`, words for a reader,
+and values where a scenario has none. Besides these a name may be one that `register` added in this process, or
+`package.module:Class` of the user's own, in Python, on the command line and in study files alike.
+
+Classes are imported when a walker is built, never when a file is read. Those of the user are also looked for in
+the working directory, so that worker processes find them. `construct` calls a class with those values that its
+constructor takes by name, which is how a new controller gets gains, reference or observer without code here.
+
+What becomes of a name:
+
+    "adrc"             spelled -> "ADRC" -> find -> Entry -> load -> ADRCController -> construct
+    "my_law:Mine"      no entry; find -> Entry("my_law:Mine") -> load imports my_law
+    register(.., f)    Entry with the object itself; records name it by its module:Class (`portable`)
 """
 
 from __future__ import annotations
@@ -18,7 +27,7 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from importlib import import_module
 from inspect import Parameter, signature
-from typing import Any
+from typing import TypeVar
 
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.resources import data_folder, packaged
@@ -26,55 +35,58 @@ from biped_adrc.resources import data_folder, packaged
 _OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 """package.module:Class, or Class.Inner of a class inside a class."""
 
-
+_T = TypeVar("_T")
 _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
 @dataclass(frozen=True)
 class Entry:
-    """What a name stands for: `module:name`, words for a reader, and values where a scenario has none."""
+    """One thing of the registry."""
 
     home: str
+    """Its class or function as `module:name`."""
     words: str = ""
-    defaults: Mapping[str, Any] = field(default_factory=dict)
-    given: Callable[..., Any] | None = None
-    """Where it was handed over and not named."""
+    """A description for a reader."""
+    defaults: Mapping[str, float] = field(default_factory=dict)
+    """Values of a scenario that it takes where the scenario has none."""
+    over_steps: bool = False
+    """Of a disturbance: whether it goes on over impacts, with its window in time of the walk."""
+    given: Callable[..., object] | None = None
+    """The object itself, where `register` was given it; None: it is imported from `home`."""
 
-    def load(self) -> Callable[..., Any]:
+    def load(self) -> Callable[..., object]:
         """The class or function itself. Raises InputError where the user's own cannot be imported."""
         return _imported(self.home) if self.given is None else self.given
 
 
-def _read() -> dict[str, dict[str, Entry]]:
-    return {
-        kind: {name: Entry(**values) for name, values in entries.items()}
-        for kind, entries in packaged("biped_adrc.scenario", "registry.toml").items()
-    }
-
-
-REGISTRY = {**_read(), "curve": {}, "robot": {}, "gait": {}}
+REGISTRY: dict[str, dict[str, Entry]] = {
+    kind: {name: Entry(**values) for name, values in entries.items()}
+    for kind, entries in packaged("biped_adrc.scenario", "registry.toml").items()
+} | {"robot": {}, "gait": {}}
 """By kind and name, from registry.toml and `register`; `names` has curves and files of robots and gaits too."""
 
 
 def names(kind: str) -> tuple[str, ...]:
-    """Of one kind."""
+    """All names of one kind, packaged ones first."""
     return tuple(dict.fromkeys((*_stored(kind), *REGISTRY[kind])))
 
 
 def _stored(kind: str) -> Iterable[str]:
-    if kind == "curve":
-        from biped_adrc.gait.curves import CURVES
-
-        return CURVES
+    """Names that are no lines of registry.toml: folders of robots, files of gaits."""
     if kind == "robot":
         return sorted(path.parent.name for path in data_folder("urdf").glob("*/robot.toml"))
     return sorted({p.stem for p in data_folder("gaits").glob("*/*.json")}) if kind == "gait" else ()
 
 
-def register(kind: str, name: str, thing: Callable[..., Any], words: str = "") -> None:
+def register(kind: str, name: str, thing: Callable[..., object], words: str = "") -> None:
     """Make a class or function of one's own known by a name, in this process.
 
-    Raises InputError for an unknown kind, and for a name that is taken or reads as `module:Class`.
+        ba.register("controller", "my law", MyController, "PD with my feedforward")
+        ba.walk_scenario(ba.Scenario("my law", own={"stiffness": 300.0}))
+
+    kind: "controller", "observer", "disturbance", "curve", "robot" or "gait". words: for a reader. Records of
+    scenarios write it as `module:Class`, so that other processes find it. Raises InputError for an unknown
+    kind, and for a name that is taken or reads as `module:Class`.
     """
     if kind not in REGISTRY:
         raise InputError(f"there is no kind '{kind}' of things; choose one of {list(REGISTRY)}")
@@ -91,11 +103,11 @@ def register(kind: str, name: str, thing: Callable[..., Any], words: str = "") -
     if kind == "curve":
         from biped_adrc.gait.curves import CURVES
 
-        CURVES[name] = thing  # type: ignore[assignment]
+        CURVES[name] = thing
 
 
-def registered(home: str) -> Callable[..., Any] | None:
-    """What `register` was given that is `module:Class`, or None."""
+def registered(home: str) -> Callable[..., object] | None:
+    """The object that `register` was given whose class is `home`, module:Class; None without one."""
     entries = (entry for of_kind in REGISTRY.values() for entry in of_kind.values())
     return next((entry.given for entry in entries if entry.given and entry.home == home), None)
 
@@ -106,23 +118,26 @@ def portable(kind: str, name: str) -> str:
     return entry.home if entry is not None and entry.given is not None else name
 
 
-def own(kind: str, name: str) -> Callable[..., Any] | None:
-    """A robot or a gait that the user brought by this name; None for a file. Raises InputError."""
+def own(kind: str, name: str) -> Callable[..., object] | None:
+    """The user's class or function of this name for a robot or a gait; None where the name is that of a file.
+
+    Raises InputError where it cannot be imported.
+    """
     return find(kind, name).load() if is_own(name) or name in REGISTRY[kind] else None
 
 
 def is_own(name: str) -> bool:
-    """Whether a name reads as `package.module:Class`."""
+    """True where a name has the form `package.module:Class`."""
     return _OWN.fullmatch(name) is not None
 
 
 def spelled(kind: str, name: str) -> str:
-    """The name as the registry spells it, whatever its capitals; others as they are."""
+    """The name as the registry spells it, whatever its capitals, hyphens and underscores; others unchanged."""
     return next((known for known in names(kind) if _plain(known) == _plain(name)), name)
 
 
 def find(kind: str, name: str) -> Entry:
-    """What a name stands for. Raises InputError with the names there are, the nearest first."""
+    """The entry of a name. Raises InputError with the names there are, the nearest first."""
     known = spelled(kind, name)
     if known in REGISTRY[kind]:
         return REGISTRY[kind][known]
@@ -137,13 +152,16 @@ def find(kind: str, name: str) -> Entry:
 
 
 def words(kind: str, name: str) -> str:
-    """For a reader; of one's own the first line of its docstring."""
+    """The description of a thing for a reader; for the user's own the first line of its docstring."""
     found = find(kind, name)
     return found.words or (found.load().__doc__ or name).strip().splitlines()[0]
 
 
-def source_hash(thing: Callable[..., Any]) -> str:
-    """Of the text of a class or function; "none" where there is no text."""
+def source_hash(thing: Callable[..., object]) -> str:
+    """Hash (12 hexadecimal digits) of the source text of a class or function; "none" where there is no text.
+
+    Stored walks carry it, so that a class changed since then is noticed.
+    """
     try:
         return hashlib.sha256(inspect.getsource(thing).encode()).hexdigest()[:12]
     except (OSError, TypeError):
@@ -151,11 +169,17 @@ def source_hash(thing: Callable[..., Any]) -> str:
 
 
 def _plain(name: str) -> str:
+    """A name as it is compared: small letters, spaces for hyphens and underscores."""
     return name.casefold().replace("-", " ").replace("_", " ").strip()
 
 
-def _imported(home: str) -> Callable[..., Any]:
-    """A class by its name, from the path of Python or the working directory. Raises InputError."""
+def _imported(home: str) -> Callable[..., object]:
+    """The class `module:Class`, from Python's path or the working directory.
+
+    The working directory is put at the end of the path, so that it cannot hide an installed module. Whatever
+    the user's module raises when it is imported becomes an InputError with the cause, as do a module and a
+    class that there are not.
+    """
     module, _, name = home.partition(":")
     here = os.getcwd()
     if not home.startswith("biped_adrc.") and here not in sys.path and "" not in sys.path:
@@ -172,7 +196,7 @@ def _imported(home: str) -> Callable[..., Any]:
             f"'{home}': importing '{module}' failed with {type(error).__name__}: {error}; run "
             f"python -c 'import {module}' to see where"
         ) from error
-    thing: Any = found
+    thing: object = found
     for part in name.split("."):
         thing = getattr(thing, part, None)
     if not callable(thing):
@@ -182,8 +206,11 @@ def _imported(home: str) -> Callable[..., Any]:
     return thing
 
 
-def takes(make: Callable[..., Any]) -> Mapping[str, Parameter]:
-    """The parameters of a class or function that may be given by name. Raises InputError."""
+def takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
+    """The parameters of a class or function that may be given by name.
+
+    Raises InputError for what has no signature, such as functions written in C.
+    """
     try:
         found = signature(make).parameters
     except ValueError as error:
@@ -191,16 +218,20 @@ def takes(make: Callable[..., Any]) -> Mapping[str, Parameter]:
     return {name: p for name, p in found.items() if p.kind not in _VARIADIC}
 
 
-def lacking(make: Callable[..., Any], values: Container[str]) -> list[str]:
-    """Parameters without a default that are not among the values."""
+def lacking(make: Callable[..., object], values: Container[str]) -> list[str]:
+    """Names of parameters without a default that are not among the values."""
     wanted = (p for p in takes(make).values() if p.default is Parameter.empty)
     return [p.name for p in wanted if p.name not in values]
 
 
 def construct(
-    what: str, make: Callable[..., Any], values: Mapping[str, Any], kind: type[Any]
-) -> Any:
-    """make(**values) with those of the values that it takes, a `kind`. Raises InputError, of `what`."""
+    what: str, make: Callable[..., object], values: Mapping[str, object], kind: type[_T]
+) -> _T:
+    """make(**values) with those of the values that it takes; the result has to be a `kind`.
+
+    what: what is made, for messages, such as "controller 'NPD'". Raises InputError for values that are missing,
+    an error inside of make, and a result of another class.
+    """
     missing = lacking(make, values)
     if missing and isinstance(make, type) and not issubclass(make, kind):
         raise InputError(f"{what} is no {kind.__name__}; expected a class below it")

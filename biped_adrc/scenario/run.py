@@ -1,7 +1,11 @@
-"""A scenario carried out.
+"""Simulation of a scenario: integration method, start, walk, and what is kept of it.
 
-Robots without motors walk on their known cycle, the fixed point of the return map: Newton finds it from the
-stored state, and a walk starts just after its impact.
+`walk_scenario` builds the walker, chooses the method (`parts_of`) and simulates. `execute` and `execute_twice`
+are what a worker process runs: they return an `Outcome` of a few numbers, the latter with the same walk at half
+the step, whose difference estimates the error of integration.
+
+Robots without motors walk on their known cycle, the fixed point of the return map: Newton's method finds it
+from the stored state, and a walk starts just after its impact.
 """
 
 from __future__ import annotations
@@ -22,7 +26,7 @@ from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod, Stiff
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.build import Scene, build, start
+from biped_adrc.scenario.build import RobotAndGait, build, start
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.scenario import FREE, Scenario
@@ -47,13 +51,17 @@ METHODS: dict[str, Callable[..., OneStepMethod]] = {
 
 
 LIGHT_FEET = 5e-4
-"""[rad, rad/s], of central differences, where round-off of 1e-10 in P asks for wider ones."""
+"""Half width of central differences of the return map P for robots without motors [rad, rad/s]: wider than
+usual, since light feet leave a round-off of 1e-10 in P."""
 SETTLES = 1e-9
-"""[rad, rad/s], residual of Newton: feet of 1e-7 of the hip's mass leave a round-off of 1e-10."""
+"""Largest residual of Newton's method [rad, rad/s]; feet of 1e-7 of the hip's mass leave a round-off of
+1e-10."""
 
 
 def method_of(s: Scenario, walker: Walker) -> OneStepMethod:
-    """The method asked for, with its step; what fits the walker where none is."""
+    """The integration method of a scenario, with its step or tolerance; the walker's default where none is
+    given.
+    """
     if s.method in FREE:
         return METHODS[s.method](s.tolerance, s.tolerance)
     method = default_method(walker) if s.method is None else METHODS[s.method]()
@@ -61,7 +69,7 @@ def method_of(s: Scenario, walker: Walker) -> OneStepMethod:
 
 
 def parts_of(s: Scenario, walker: Walker) -> tuple[Part, ...]:
-    """How the walk is integrated: with `fine` where a push switches, with h elsewhere."""
+    """The parts of the walk and their methods: steps of `fine` where a push switches, of h elsewhere [s]."""
     if s.fine is not None:
         usual, fine = (method_of(replace(s, h=h), walker) for h in (s.h, s.fine))
         return refined(walker, s.impacts, s.first_step, usual, fine)
@@ -71,9 +79,9 @@ def parts_of(s: Scenario, walker: Walker) -> tuple[Part, ...]:
 
 
 def halved(s: Scenario, walker: Walker | None = None) -> Scenario:
-    """The same with every step half as long.
+    """The same scenario with every integration step half as long, to estimate the error of integration.
 
-    A method that chooses its steps gets a hundredth of the tolerance, and is the explicit one.
+    A method that chooses its own step becomes the explicit adaptive one with a hundredth of the tolerance.
     """
     if s.method in FREE:
         return replace(s, method="adaptive", tolerance=1e-2 * s.tolerance)
@@ -89,10 +97,11 @@ def halved(s: Scenario, walker: Walker | None = None) -> Scenario:
 
 @dataclass(frozen=True)
 class Cycle(Shown):
-    """A return map and a pre-impact state from which Newton finds its fixed point."""
+    """A return map and a state from which Newton's method finds its fixed point."""
 
     P: ReturnMap
     guess: Array
+    """State x- just before impact, (2 n,) or with the controller's states behind [rad, rad/s]."""
 
 
 def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
@@ -109,7 +118,10 @@ def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
 
 
 def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:
-    """(q, v) just after the impact of the cycle on a slope [rad]. Raises SimulationError without one."""
+    """(q, v), each (n,) [rad, rad/s], just after the impact of the cycle on a slope [rad].
+
+    Raises SimulationError where Newton's method finds no cycle.
+    """
     cycle, n = known_cycle(biped, slope), biped.n
     orbit, _ = periodic_orbit(cycle.P, cycle.guess, SETTLES)
     after = biped.impact(orbit.x_minus[:n], orbit.x_minus[n:])
@@ -119,11 +131,14 @@ def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:
 def walk_scenario(
     s: Scenario, progress: Progress | None = None, method: OneStepMethod | None = None
 ) -> Walk:
-    """Walk from the impact of the gait's periodic orbit, or of a passive robot's cycle.
+    """Simulate a scenario from the impact of the gait's periodic orbit, or of a passive robot's cycle.
 
-    method: in place of the scenario's. A fall is a status of the trajectory. Raises InputError.
+    The same scenario gives the same walk in every process: all random numbers come from its seed.
+
+    progress: called as the walk goes on. method: in place of the scenario's. A fall is a status of the
+    trajectory, not an error. Raises InputError for values that do not fit together.
     """
-    scene = Scene.of(s)
+    scene = RobotAndGait.of(s)
     walker = build(s, scene)
     return walk_in_parts(
         walker,
@@ -164,10 +179,10 @@ def passive_walk(
 
 
 def execute(s: Scenario) -> Outcome:
-    """Carry out a scenario."""
+    """Simulate a scenario and keep the numbers of its outcome."""
     return walk_scenario(s).outcome
 
 
 def execute_twice(s: Scenario) -> Outcome:
-    """Carry out a scenario, and the same with every step half as long, which is in `Outcome.half`."""
+    """As `execute`, and once more with every integration step half as long, which is kept in `Outcome.half`."""
     return replace(execute(s), half=execute(halved(s)))

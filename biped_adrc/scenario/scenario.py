@@ -1,6 +1,14 @@
-"""A scenario: one walk in plain values, what a study varies, a command is given, a run stores and walks again.
+"""A scenario: one walk in plain values, with defaults, units and ranges.
 
-Every value has a unit and a range, and is refused by name outside of it. Nothing is random but by `seed`.
+It is what a study varies, what the options of the command line are made from, what a stored walk carries, and
+what a worker process receives. Text, unit and range of each value are in `scenario.toml`; types and defaults
+are the fields of `Scenario`. A value out of its range, a name that is unknown, and a value that would have no
+effect (a push direction without a push) are refused by name when the scenario is made, before anything is
+simulated.
+
+Everything random is drawn from `seed`, one stream per purpose (`drawn`), so that the same scenario gives the
+same walk in any process. `build` makes the walker; the hash `Scenario.key` names a scenario in stores of
+results.
 """
 
 from __future__ import annotations
@@ -9,26 +17,27 @@ import hashlib
 import json
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, field
 from typing import Any
 
 import numpy as np
-from pydantic import ConfigDict, field_validator, model_validator
+from pydantic import ConfigDict, ValidationInfo, field_validator, model_validator
 from pydantic.dataclasses import dataclass
+from pydantic.fields import FieldInfo
 
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import Push, parse_push
 from biped_adrc.scenario.registry import find, portable, spelled
-from biped_adrc.scenario.values import clear, described
+from biped_adrc.scenario.values import clear, described, units_of
 from biped_adrc.shown import Shown
 
-HARDWARE: dict[str, dict[str, Any]] = packaged("biped_adrc.scenario", "hardware.toml")
-"""Continuous time; exact at 1 kHz; and sampling, encoders, torque and friction published for RABBIT
-(Chevallereau et al., IEEE Control Systems Magazine 2003; Westervelt, Buche, Grizzle, IJRR 2004), whose rotors
-are in the preset 'identified'."""
+HARDWARE: dict[str, dict[str, object]] = packaged("biped_adrc.scenario", "hardware.toml")
+"""Values that `hardware` fills in, by its name: none, continuous time; ideal, exact measurements at 1 kHz;
+rabbit, sampling, encoders, torque and friction published for RABBIT (Chevallereau et al., IEEE Control Systems
+Magazine 2003; Westervelt, Buche, Grizzle, IJRR 2004), whose rotors are in the preset 'identified'."""
 MOST_SEED = 2**63 - 1
-"""What a file of results can hold."""
+"""Largest seed: the largest integer that a file of results can hold."""
 CHOICES: dict[str, tuple[str, ...]] = {
     "reset": ("none", "relabel", "measured", "model"),
     "hardware": tuple(HARDWARE),
@@ -36,27 +45,57 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "method": ("rk4", "exponential", "feedback", "adaptive", "stiff"),
     "engine": ("pinocchio", "compiled"),
 }
-"""By field."""
-NAMED = {"controller": "controller", "observer": "observer", "push": "disturbance"}
-"""Fields that name a thing of the registry, and its kind."""
+"""Values that a field may have, by field.
+
+reset: what becomes of the observer at impact. none: nothing. relabel: the states of the legs swap. measured: as
+relabel, with angles and rates from the measurement. model: as at the start, xi^ from the nominal model.
+
+velocity: where rates come from in sampled time. measured: exactly, with noise. differences: of encoder angles.
+gyro: differences, but for the rate of the pitch.
+
+method: of integration. rk4: fixed step. exponential: ETD-RK4 with the observer's linear part solved exactly.
+feedback: the same with the controller's feedback in the linear part. adaptive: explicit with step control.
+stiff: Radau IIA of order 5, implicit.
+
+engine: compiled runs machine code made from the laws; pinocchio runs the Python methods, with Pinocchio's
+model.
+"""
+NAMED = {
+    "controller": "controller",
+    "observer": "observer",
+    "sensor": "sensor",
+    "push": "disturbance",
+}
+"""Fields whose value is a name of the registry, and its kind there."""
 OF_PUSH = ("on", "direction", "onset", "duration", "frequency")
-"""Values of the push named by `push`."""
+"""Fields that describe the push named by `push`, without which they have no effect."""
 OF_SAMPLING = (
     *("delay", "delay_known", "counts", "noise", "pitch_noise", "rate_noise"),
-    *("velocity", "filter_time", "rate_limit", "lag"),
+    *("velocity", "filter_time", "sensor", "rate_limit", "lag"),
 )
-"""Values that are there in sampled time only."""
+"""Fields that have an effect in sampled time only."""
 FREE = ("adaptive", "stiff")
-"""Methods that choose their own steps."""
+"""Integration methods that choose their own step."""
 
 
 @clear(lambda values: HARDWARE.get(str(values.get("hardware", "none")), {}))
 @dataclass(frozen=True, config=ConfigDict(extra="forbid", allow_inf_nan=False))
 @described("scenario.toml")
 class Scenario(Shown):
-    """One walk. `hardware` fills in what is not given of sampling, sensors and motors.
+    """One walk in plain values; see `scenario.toml` for the text, unit and range of each field.
 
-    Raises InputError for an unknown name, a value out of its range, and one that would do nothing.
+    Fields come in groups: who walks and how far; the controller and its observer; sampling, sensors and motors;
+    pushes; errors of the model (the plant is not the robot that the controller knows); ground; start; what
+    ground and motors can give; numerics. Lengths are in m, angles in rad, times in s, torques in N m.
+
+        s = ba.Scenario("ADRC", hardware="rabbit", pushes="q1,q2=30@3:0.1-0.3", impacts=8)
+        walk = ba.walk_scenario(s)
+
+    `hardware` fills in what is not given of sampling, sensors and motors; a value that is given wins. What a
+    controller, observer or push takes beside the fields goes into `own` by name. With dataclasses.replace a
+    study varies one field and keeps the others.
+
+    Raises InputError for an unknown name, a value out of its range, and one that would have no effect.
     """
 
     # who walks, how far
@@ -77,7 +116,7 @@ class Scenario(Shown):
     order: int | None = None
     reset: str = "model"
     solve_theta: bool = True
-    own: dict[str, Any] = field(default_factory=dict)
+    own: dict[str, object] = field(default_factory=dict)
     # sampling, sensors, motors
     hardware: str = "none"
     period: float | None = None
@@ -89,6 +128,7 @@ class Scenario(Shown):
     rate_noise: float = 0.0
     velocity: str = "measured"
     filter_time: float = 0.0
+    sensor: str | None = None
     torque_limit: float | None = None
     rate_limit: float | None = None
     lag: float = 0.0
@@ -136,13 +176,15 @@ class Scenario(Shown):
 
     @field_validator("pushes", mode="before")
     @classmethod
-    def _parsed(cls, given: Any) -> Any:
+    def _parsed(cls, given: str | Iterable[object]) -> tuple[object, ...]:
+        """Pushes from their texts, which a command line separates by spaces."""
         texts = given.split() if isinstance(given, str) else given
         return tuple(parse_push(x) if isinstance(x, str) else x for x in texts)
 
     @field_validator("poles", mode="before")
     @classmethod
-    def _numbers(cls, given: Any) -> Any:
+    def _numbers(cls, given: object) -> object:
+        """Poles from their text, which a command line separates by commas."""
         if not isinstance(given, str):
             return given
         try:
@@ -153,6 +195,7 @@ class Scenario(Shown):
     @field_validator("start")
     @classmethod
     def _coordinates(cls, start: dict[str, float]) -> dict[str, float]:
+        """Additions to the start, sorted and without zeros, so that equal scenarios have equal keys."""
         wrong = [key for key in start if not re.fullmatch("[qv][1-9][0-9]*", key, re.ASCII)]
         if wrong:
             raise ValueError(f"start names {wrong}, expected coordinates such as 'q5' or 'v5'")
@@ -160,25 +203,32 @@ class Scenario(Shown):
 
     @field_validator(*CHOICES)
     @classmethod
-    def _chosen(cls, given: str | None, info: Any) -> str | None:
-        choices = CHOICES[info.field_name]
+    def _chosen(cls, given: str | None, info: ValidationInfo) -> str | None:
+        """A value of CHOICES. Raises ValueError with those that there are."""
+        choices = CHOICES[str(info.field_name)]
         if given is not None and given not in choices:
             raise ValueError(f"found '{given}', expected one of {list(choices)}")
         return given
 
     @field_validator(*NAMED)
     @classmethod
-    def _spelled(cls, name: str | None, info: Any) -> str | None:
-        """As the registry spells it; whether there is a controller or an observer is seen when it is made."""
+    def _spelled(cls, name: str | None, info: ValidationInfo) -> str | None:
+        """The name as the registry spells it, whatever its capitals.
+
+        A controller or an observer is looked up only when the walker is built: the user's module may not be at
+        hand where a scenario is merely read.
+        """
         if name is None or name == "none":
             return name
         if info.field_name == "push":
             find("disturbance", name)
-        return spelled(NAMED[info.field_name], name)
+        return spelled(NAMED[str(info.field_name)], name)
 
     @model_validator(mode="after")
     def _effective(self) -> Scenario:
-        """Raise ValueError for a value that would do nothing."""
+        """Raise ValueError for a value that would have no effect, or a step given to a method that chooses its
+        own.
+        """
         found = [what for what, is_so in self._idle().items() if is_so]
         if found:
             raise ValueError(f"{'; '.join(found)}: this would do nothing, leave one of them out")
@@ -189,6 +239,7 @@ class Scenario(Shown):
         return self
 
     def _idle(self) -> dict[str, bool]:
+        """For each combination of values in which one has no effect, in words: whether it is the case here."""
         pushed, last = self.push != "none", self.first_step + self.impacts - 1
         return {
             "amplitude or force without a push": not pushed and self.amplitude + self.force > 0.0,
@@ -215,12 +266,15 @@ class Scenario(Shown):
         }
 
     def _given(self, name: str) -> bool:
+        """True where a field differs from its default."""
         return bool(getattr(self, name) != DEFAULTS[name])
 
     def record(self) -> dict[str, Any]:
-        """The values that differ from the defaults and from what `hardware` fills in, by name, plain.
+        """The values that differ from the defaults and from what `hardware` fills in, by name, as JSON has
+        them.
 
-        What was registered in this process is written as module:Class, by which any other finds it.
+        `Scenario(**record)` gives the scenario back. What was registered in this process is written as
+        module:Class, by which any other process finds it.
         """
         usual = {**DEFAULTS, **HARDWARE[self.hardware]}
         found = {name: x for name, x in sorted(asdict(self).items()) if x != usual[name]}
@@ -233,31 +287,41 @@ class Scenario(Shown):
 
     @property
     def key(self) -> str:
-        """A name for this scenario: two with the same values have the same."""
+        """A name for this scenario in stores of results: a hash of its record, equal for equal values."""
         text = json.dumps(self.record(), sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
 DRAWN = ("start", "onset", "joints", "noise", "sensors", "model", "impact", "ground")
-"""By its place here and the scenario's seed."""
+"""What is random in a walk. The place in this list selects the stream, so new names go to its end.
+
+start: offsets of coordinates and speed. onset: time of the push. joints: factors of a push on random joints.
+noise: the push that is noise. sensors: noise of measurements. model: errors of masses, centres, inertias and
+friction. impact: error of the impact map. ground: heights of uneven ground.
+"""
 
 
-FIELDS: Mapping[str, Any] = Scenario.__pydantic_fields__  # type: ignore[attr-defined]
-"""By name, with description, unit and range."""
+FIELDS: Mapping[str, FieldInfo] = Scenario.__pydantic_fields__  # type: ignore[attr-defined]
+"""Fields of a scenario by name, with description and range."""
 DEFAULTS: dict[str, Any] = {
     name: x.get_default(call_default_factory=True) for name, x in FIELDS.items()
 }
-UNITS: dict[str, str] = {name: str(x.json_schema_extra["unit"]) for name, x in FIELDS.items()}
-"""By field."""
+"""Default of each field."""
+UNITS = {name: units_of("scenario.toml")[name] for name in FIELDS}
+"""Unit of each field, "1" where it has none."""
 
 
-def _told(push: dict[str, Any]) -> dict[str, Any]:
-    """Without what is not finite, the stop of a step for good, which no file of plain values has."""
+def _told(push: dict[str, float]) -> dict[str, float]:
+    """A push without an infinite stop (a step that lasts for good), which JSON cannot hold."""
     return {name: x for name, x in push.items() if not (name == "stop" and math.isinf(x))}
 
 
 def drawn(s: Scenario, what: str) -> int:
-    """A seed for one of the things in `DRAWN`: one more of them changes none of the others."""
+    """A 63-bit seed for one purpose of `DRAWN`, from the scenario's seed.
+
+    The streams are independent: a scenario with one random thing more keeps the draws of all others, so that
+    two scenarios differ by what was changed and not by luck.
+    """
     sequence = np.random.SeedSequence(s.seed, spawn_key=(DRAWN.index(what),))
     words = sequence.generate_state(1, np.uint64)
     return int(words[0] >> np.uint64(1))

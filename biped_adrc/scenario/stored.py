@@ -1,7 +1,16 @@
-"""Runs on disk that are complete in themselves: trajectory, walker, gait, scenario and torques in one .npz.
+"""Walks on disk, complete in themselves: trajectory, walker, gait, scenario and torques in one .npz file.
 
-Robot and gait are in the file as they were, so that neither the working directory nor what has become of their
-files matters. Reading a run imports nothing: of a controller of the user's own the signals are in the file.
+Robot and gait are in the file as they were, so that neither the working directory nor later changes of their
+files matter. Reading a file imports no code of the user's: for a controller that is not at hand a stand-in
+takes its place, and the signals, which are then in the file, are used as they are. A stored walk is checked
+before it is handed over (`_check`), so that a damaged file is noticed on reading. Files of version 0.1 are read
+too.
+
+Entries of the file, beside the trajectory that `hybrid.storage` writes:
+
+    walker      JSON: {"parts": records of all objects, "walker": place of the walker, "gait": the gait}
+    signal.*    arrays over the nodes: u alone, or all signals where a class of the user's takes part
+    settings    versions, the scenario's record, names of the user's classes, and what the caller adds
 """
 
 from __future__ import annotations
@@ -10,7 +19,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -24,39 +33,49 @@ from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.controllers import OF_OBSERVER
-from biped_adrc.scenario.plain import Missing, Reader, Writer, home_of
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.scenario import FREE, Scenario
+from biped_adrc.scenario.walker_record import MissingPart, PartRecord, Reader, Writer, home_of
 from biped_adrc.types import Array
 from biped_adrc.versions import versions
 
+_V = TypeVar("_V")
 
-class AbsentController(Missing, Controller):
-    """In place of the controller of a stored walk of which a class was not given."""
+
+class AbsentController(MissingPart, Controller):
+    """Stand-in for the controller of a stored walk whose class is not at hand.
+
+    Raises InputError when called.
+    """
 
     def output(self, s: Array, m: Measurement) -> Array:
         raise InputError(f"the walk cannot go on without its controller: {self.why}")
 
 
-class AbsentDisturbance(Missing, Disturbance):
-    """In place of a disturbance of which a class was not given."""
+class AbsentDisturbance(MissingPart, Disturbance):
+    """Stand-in for a disturbance whose class is not at hand. Raises InputError when called."""
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         raise InputError(f"the walk cannot go on without its disturbance: {self.why}")
 
 
 STAND_INS = {"controller": AbsentController, "disturbance": AbsentDisturbance}
+"""Fields of a walker in which a missing part is accepted, and the class that takes its place."""
 
 
-def save_walk(walk: Walk, path: Path | str, settings: Mapping[str, Any] | None = None) -> Path:
-    """Write a walk (.npz) that `load_walk` reads anywhere; returns its path. Raises InputError, OutputError."""
+def save_walk(walk: Walk, path: Path | str, settings: Mapping[str, object] | None = None) -> Path:
+    """Write a walk (.npz) that `load_walk` reads anywhere; returns its path.
+
+    settings: more plain values to be stored beside it. All signals are stored where a class of the user's takes
+    part, torques only elsewhere, since the others can be computed again. Raises InputError and OutputError.
+    """
     writer = Writer()
-    walker, gait = writer.plain(walk.walker), writer.plain(walk.gait)
-    record = {"parts": writer.records, "walker": walker["part"], "gait": gait}
+    walker, gait = writer.part(walk.walker), writer.plain(walk.gait)
+    record = {"parts": writer.records, "walker": walker, "gait": gait}
     seen = vars(walk.signals) if writer.own else {"u": walk.signals.u}
-    about: dict[str, Any] = {"versions": versions()}
+    about: dict[str, object] = {"versions": versions()}
     if walk.scenario is not None:
         about["scenario"] = walk.scenario.record()
     if writer.own:
@@ -65,8 +84,11 @@ def save_walk(walk: Walk, path: Path | str, settings: Mapping[str, Any] | None =
     return storage.save(walk.trajectory, path, {**about, **(settings or {})}, beside)
 
 
-def load_walk(path: Path | str, controller: Any = None) -> Walk:
+def load_walk(path: Path | str, controller: object = None) -> Walk:
     """The walk in a run file (.npz) written by `Walk.save`, `simulate` or `reproduce`.
+
+        walk = ba.load_walk("walk.npz")
+        walk = ba.load_walk("walk.npz", controller=MyController)
 
     controller: class or object of one's own, of the controller or of another part such as its observer, with
     which the walk can go on; without, its signals, figures and pictures are those of the file. Raises
@@ -82,8 +104,8 @@ def load_walk(path: Path | str, controller: Any = None) -> Walk:
     return found
 
 
-def _stored(trajectory: Trajectory, beside: Mapping[str, Any], controller: Any) -> Walk:
-    """The walk of a trajectory, from what is beside it."""
+def _stored(trajectory: Trajectory, beside: Mapping[str, Array], controller: object) -> Walk:
+    """The walk of a trajectory, from the record of its walker and the signals beside it in the file."""
     record = json.loads(str(beside["walker"]))
     reader = Reader(record["parts"], _given(record["parts"], controller))
     walker = _walker(reader, record["parts"][record["walker"]])
@@ -93,12 +115,15 @@ def _stored(trajectory: Trajectory, beside: Mapping[str, Any], controller: Any) 
         f"the source of {home} has changed since this walk"
         for home in dict.fromkeys(reader.changed)
     )
-    made = watched(walker, gait, trajectory, _scenario(trajectory.settings))
+    made = watched(walker, gait, trajectory, _scenario(trajectory))
     return replace(made, recorded=Signals(**seen) if len(seen) > 1 else None, said=changed)
 
 
 def _check(walk: Walk) -> None:
-    """Raise ValueError where gait, states or signals do not fit the walker, which is asked for one node."""
+    """Raise ValueError where gait, states or signals of a file do not fit the walker.
+
+    The signals of one node are computed as a test: a walker that cannot do this would fail at the first plot.
+    """
     walker, arcs, n = walk.walker, walk.trajectory.arcs, walk.walker.plant.n
     expected = Gait if walker.plant.p else type(None)
     if not isinstance(walk.gait, expected):
@@ -117,8 +142,12 @@ def _check(walk: Walk) -> None:
     signals(walker, Trajectory((node,), walk.trajectory.status), walk.reference)
 
 
-def _given(parts: Sequence[Mapping[str, Any]], thing: Any) -> dict[str, Any]:
-    """What stands for parts of the user's own, by their name in the file; the module may be another one."""
+def _given(parts: Sequence[PartRecord], thing: Any) -> dict[str, object]:
+    """A class or object of the user's, by the module:Class under which the file has it.
+
+    The name of the class has to agree; its module may be another one, as in a notebook. Raises InputError for
+    what the file does not have.
+    """
     if thing is None:
         return {}
     kind = thing if hasattr(thing, "__qualname__") else type(thing)
@@ -134,32 +163,35 @@ def _given(parts: Sequence[Mapping[str, Any]], thing: Any) -> dict[str, Any]:
     return dict.fromkeys(found, thing)
 
 
-def _walker(reader: Reader, record: Mapping[str, Any]) -> Walker:
-    """With a stand-in for a controller or a disturbance that is not there."""
+def _walker(reader: Reader, record: PartRecord) -> Walker:
+    """The walker of a record, with a stand-in for a controller or a disturbance that is not at hand."""
     values = dict[str, Any]()
     for name, x in record["values"].items():
         values[name] = reader.made(x) if name in STAND_INS else reader.whole(x)
-        if isinstance(part := values[name], Missing):
+        if isinstance(part := values[name], MissingPart):
             values[name] = STAND_INS[name](part.home, part.values, part.source)
     return Walker(**values)
 
 
-def _scenario(settings: Mapping[str, Any]) -> Scenario | None:
-    """What asked for the walk; None where it names what this process has not."""
+def _scenario(trajectory: Trajectory) -> Scenario | None:
+    """The scenario stored with a trajectory; None without one, or where it names what is not at hand."""
     try:
-        return Scenario(**settings["scenario"])
+        return Scenario(**trajectory.settings["scenario"])
     except (KeyError, TypeError, InputError):
         return None
 
 
 def replay(s: Scenario, trajectory: Trajectory) -> Walk:
-    """The walk of a trajectory that was sent: its walker is built again from the scenario."""
-    scene = Scene.of(s)
+    """The walk of a trajectory that another process simulated: its walker is built again from the scenario."""
+    scene = RobotAndGait.of(s)
     return watched(build(s, scene), scene.gait, trajectory, s)
 
 
 def _of_0_1(trajectory: Trajectory) -> Walk:
-    """A run of version 0.1, which names its robot and gait: they are looked up as they are now."""
+    """The walk of a file of version 0.1, which only names its robot and gait: they are loaded as they are now.
+
+    Raises InputError for a file that names neither.
+    """
     settings = trajectory.settings
     try:
         if "passive" in settings:
@@ -181,8 +213,8 @@ def _of_0_1(trajectory: Trajectory) -> Walk:
     )
 
 
-def values_of_0_1(record: Mapping[str, Any]) -> dict[str, Any]:
-    """Without what had no effect then, and is refused now."""
+def values_of_0_1(record: Mapping[str, _V]) -> dict[str, _V]:
+    """Values of a run of version 0.1 without those that had no effect then, which a scenario refuses now."""
     idle = {"store_every", "poles" if record.get("bandwidth") else "order"}
     idle |= {*OF_OBSERVER, "reset"} if record.get("controller") == "NPD" else set()
     idle |= set() if record.get("method") in FREE else {"tolerance"}
@@ -190,7 +222,10 @@ def values_of_0_1(record: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def load_walks(paths: Sequence[Path]) -> dict[str, Walk]:
-    """The walks in run files, named by controller and, where that is not enough, by file."""
+    """The walks in run files, by a name for each.
+
+    The name is that of the controller, with the file or a number where names repeat.
+    """
     found = [(path, load_walk(path)) for path in paths]
     names = [walk.controller_name for _, walk in found]
     if len(set(names)) < len(names):

@@ -1,11 +1,16 @@
-"""Fields of a record in plain values: their text, unit and range, and what is said of a wrong one."""
+"""Fields of records in plain values: text, unit and range from a TOML file, and clear errors for wrong values.
+
+pydantic checks types and ranges; its messages are written for programmers. `described` gives a dataclass the
+texts and ranges of a TOML table, `clear` makes it raise InputError with one sentence (`reason`), and `unknown`
+suggests the name that was probably meant. Used by `Scenario`, `Push` and the study files of `bench`.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from functools import wraps
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from pydantic import Field, ValidationError
 
@@ -16,7 +21,12 @@ _T = TypeVar("_T")
 
 
 def described(name: str) -> Callable[[type[_T]], type[_T]]:
-    """A class whose fields have the texts, units and ranges that a TOML file beside this module has."""
+    """Decorator: gives the fields of a class the texts and ranges of a TOML file beside this module.
+
+    Fields with a number or a range are strict: the text "3" is no number. Keys of a field in the file are
+    `text`, `unit`, and the limits of pydantic's Field (ge, gt, le, lt). It goes below pydantic's `dataclass`,
+    which reads the defaults that are set here.
+    """
 
     def decorate(cls: type[_T]) -> type[_T]:
         for field, told in packaged("biped_adrc.scenario", name).items():
@@ -26,24 +36,32 @@ def described(name: str) -> Callable[[type[_T]], type[_T]]:
                 limits["strict"] = True
             factory = getattr(default, "default_factory", None)
             given = {"default": default} if factory is None else {"default_factory": factory}
-            extra = {"unit": told.get("unit", "1")}
-            made = Field(**given, description=told["text"], json_schema_extra=extra, **limits)
-            setattr(cls, field, made)
+            setattr(cls, field, Field(**given, description=told["text"], **limits))
         return cls
 
     return decorate
 
 
+def units_of(name: str) -> dict[str, str]:
+    """Unit of each field in a TOML file beside this module, "1" where none is given."""
+    told = packaged("biped_adrc.scenario", name)
+    return {field: str(entry.get("unit", "1")) for field, entry in told.items()}
+
+
 def clear(
-    filled: Callable[[Mapping[str, Any]], Mapping[str, Any]] = lambda values: {},
+    filled: Callable[[Mapping[str, object]], Mapping[str, object]] = lambda values: {},
 ) -> Callable[[type[_T]], type[_T]]:
-    """A class of pydantic's that raises InputError; `filled` gives values for what is not given."""
+    """Decorator: makes a pydantic dataclass raise InputError with one clear sentence.
+
+    filled: from the values that are given, values for those that are not. It goes above pydantic's `dataclass`,
+    whose constructor it replaces.
+    """
 
     def decorate(cls: type[_T]) -> type[_T]:
         made: Callable[..., None] = cls.__init__
 
         @wraps(made)
-        def init(self: _T, *given: Any, **values: Any) -> None:
+        def init(self: _T, *given: object, **values: object) -> None:
             try:
                 made(self, *given, **{**filled(values), **values})
             except ValidationError as error:
@@ -57,7 +75,10 @@ def clear(
 
 
 def reason(error: Exception, known: Iterable[str] = ()) -> str:
-    """What an error says; of a validator's the first thing that is wrong, without ornaments."""
+    """The text of an error; of a pydantic error the first thing that is wrong, as "name: found, expected".
+
+    known: names that there are, from which a misspelt one is suggested.
+    """
     if not isinstance(error, ValidationError):
         return str(error)
     found = error.errors()[0]
@@ -71,7 +92,9 @@ def reason(error: Exception, known: Iterable[str] = ()) -> str:
 
 
 def unknown(name: str, known: Iterable[str], near_by: Iterable[str] = ()) -> str:
-    """What is said of a name that there is not; `near_by` are others that may have been meant."""
+    """The message for a name that does not exist: the nearest names of `known` and `near_by`, or all known
+    ones.
+    """
     near = get_close_matches(name, [*known, *near_by], 3, 0.6)
     hint = f"did you mean {' or '.join(map(repr, near))}?" if near else f"choose from {list(known)}"
     return f"unknown parameter; {hint}" if known else "unknown parameter; leave it out"

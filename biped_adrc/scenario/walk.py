@@ -1,4 +1,15 @@
-"""One walk from a gait's periodic orbit, by one method or by several one after the other."""
+"""Simulation of one walk from a gait's periodic orbit, by one integration method or by several in turn.
+
+ADRC's observer answers the edge of a push by a transient of 1 to 2 ms, far shorter than the step that suffices
+elsewhere. A walk is therefore cut at impacts into parts (`Part`), with a fine step in the single supports in
+which the disturbance switches and a usual one in the others; the trajectories are joined.
+
+`walk` is for walkers made in Python, `run.walk_scenario` for scenarios. Both return a `Walk`.
+
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    made = ba.walk(walker, gait, impacts=8)          # a Walk
+    refined(walker, 8, 1, RK4(), RK4(5e-5))          # parts: usual, fine where the push switches, usual
+"""
 
 from __future__ import annotations
 
@@ -29,9 +40,10 @@ if TYPE_CHECKING:
 
 
 class Part(NamedTuple):
-    """Some impacts of a walk by one method."""
+    """Consecutive single supports of a walk that are integrated by one method."""
 
     impacts: int
+    """How many impacts it ends with."""
     method: OneStepMethod
 
 
@@ -41,12 +53,12 @@ this step gives its peak within 0.2 %, one of 1 ms is wrong by a factor of five.
 
 
 def default_method(walker: Walker) -> OneStepMethod:
-    """The exponential method where the walker has a linear stiff part, RK4 at 1 ms elsewhere."""
+    """The exponential method where the walker has a linear stiff part (an observer), RK4 at 1 ms elsewhere."""
     return RK4() if walker.split(Mode()) is None else Exponential()
 
 
 def default_parts(walker: Walker, impacts: int, first_step: int, engine: str) -> tuple[Part, ...]:
-    """The default method, on the compiled engine with `FINE_STEP` where a push switches.
+    """Parts of a walk by the default method, on the compiled engine with `FINE_STEP` where a push switches.
 
     In Python the fine steps would take minutes; there they have to be asked for, and `Walk.remarks` says so.
     """
@@ -61,7 +73,8 @@ def refined(
 ) -> tuple[Part, ...]:
     """Parts with the method `fine` in the single supports in which the disturbance switches and those after.
 
-    Where it switches by the time of the run, not of the step, all of the walk is fine.
+    Where it switches at times of the walk rather than of a single support, all of the walk is fine, since it is
+    not known beforehand in which single support that will be.
     """
     steps = range(first_step, first_step + impacts)
     times = walker.disturbance.switching_times if walker.disturbance else lambda *at: ()
@@ -85,13 +98,14 @@ def walk(
 ) -> Walk:
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
 
-    method: by default `default_parts`. engine: "compiled", whose place Pinocchio takes where it cannot run, or
-    "pinocchio"; the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under
-    ADRC and a push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten
-    times too large under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every step of the
-    method is kept, so that peaks and certificates miss none. A fall is a status of the trajectory.
-    legal: the walk ends, with the status ILLEGAL, where it would leave these limits; without, they are looked
-    up in `Walk.legality` alone. Raises InputError for parts that do not fit together.
+    start: (q, v), each (n,) [rad, rad/s]. first_step: number of the first single support. method: by default
+    `default_parts`. engine: "compiled", whose place Pinocchio takes where it cannot run, or "pinocchio"; the
+    trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under ADRC and a push
+    the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too large
+    under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every step of the method is kept,
+    so that peaks and certificates miss none. A fall is a status of the trajectory. legal: the walk ends, with
+    the status ILLEGAL, where it would leave these limits; without, they are looked up in `Walk.legality` alone.
+    Raises InputError for parts that do not fit together.
     """
     check_part(walker, "what is to walk", Walker)
     check_part(gait, "the gait of the walk", Gait)
@@ -119,9 +133,11 @@ def walk_in_parts(
     progress: Progress | None = None,
     engine: str = COMPILED,
 ) -> Walk:
-    """As `walk`, by several methods one after the other; each begins after the last impact of the one before.
+    """As `walk`, by several methods in turn; each part begins after the last impact of the one before.
 
-    Raises InputError for more than one part under a clock that does not restart at impact.
+    start: (q, v), each (n,) [rad, rad/s]; by default that of the gait. scenario: kept in the walk. Ends early
+    with a fall. Raises InputError for more than one part under a clock that does not restart at impact, since a
+    part begins with a sample instant.
     """
     if len(parts) > 1 and not getattr(walker.timing, "restart", True):
         raise InputError(
@@ -182,11 +198,15 @@ def _check_start(q: Array, v: Array, walker: Walker) -> None:
 
 
 def _later(progress: Progress, done: int, t: float, events: int) -> None:
+    """Report progress of a part: time t [s], and the events of the parts before it counted in."""
     progress(t, done + events)
 
 
 def _joined(runs: Sequence[Trajectory]) -> Trajectory:
-    """One trajectory of runs that follow one another; settings["method"] says which steps each method took."""
+    """One trajectory of runs that follow one another.
+
+    Its settings["method"] says which single supports each method took.
+    """
     last = runs[-1]
     if len(runs) == 1:
         return last

@@ -4,6 +4,16 @@ A robot with motors walks a stored gait under NPD or ADRC, one without walks its
 cycle is found by Newton on the return map. The regression (26), (27) is fed as the paper's: with the states
 before the impacts of a walk that starts beside the cycle. `poincare` is the test of the reproduction: fixed
 point, multipliers by central differences, delta^2.
+
+    find_cycle, cycle_of   names or a scenario -> return map and first guess (`Cycle`)
+    cycle_stability        -> fixed point, and the multipliers of each method in one table
+
+The return map P takes the state just before one impact to that before the next; multipliers are the eigenvalues
+of its derivative at the fixed point, and the cycle is stable if all lie inside the unit circle.
+
+A `Cycle` of a controller with states (an observer) has these behind the mechanical ones in its state, unless
+observer_states is False: then the controller starts anew after each impact, and the map has 2 n - 1
+coordinates.
 """
 
 from __future__ import annotations
@@ -34,10 +44,9 @@ from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
-from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
 from biped_adrc.robots.robot_toml import Limits
-from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.run import SETTLES, Cycle, known_cycle, method_of
 from biped_adrc.scenario.scenario import Scenario
@@ -45,23 +54,30 @@ from biped_adrc.scenario.walk import default_method
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
-DIFFERENCE = 1e-4  # [rad, rad/s], of differences that are extrapolated
-BESIDE = 1e-3  # how much faster than on the cycle the regression's walk starts, dimensionless
+DIFFERENCE = 1e-4
+"""Half width of the central differences of P [rad, rad/s], for controllers without states."""
+BESIDE = 1e-3
+"""Relative increase of the rates with which the walk of the regression starts beside the cycle."""
 
 
 @dataclass(frozen=True)
 class CycleStability(Shown):
-    """The fixed point and its multipliers by every method."""
+    """The fixed point of a return map and its multipliers by every method that applies."""
 
     cycle: Cycle
+    """The return map, and the state from which the fixed point was found."""
     orbit: PeriodicOrbit
+    """The fixed point, its residual, and its multipliers."""
     table: StabilityTable
+    """Multipliers by method, and whether they agree."""
 
 
 def gait_cycle(s: Scenario, observer_states: bool = True, slope: float | None = None) -> Cycle:
-    """A stored gait under the controller of a scenario, its pushes left out, on its own or another slope [rad].
+    """Return map of a stored gait under the controller of a scenario, without its pushes, by a fixed method.
 
-    RK4 at 0.5 ms is within 2e-7 of delta^2 on the published gaits; ADRC takes the exponential method at 1 ms.
+    observer_states: whether the controller's states belong to the state of the map. slope: [rad], of another
+    ground than the gait's. RK4 at 0.5 ms is within 2e-7 of delta^2 on the published gaits; ADRC takes the
+    exponential method at 1 ms.
     """
     cycle = gait_map(s, observer_states)
     walker = cycle.P.walker if slope is None else replace(cycle.P.walker, slope=slope)
@@ -72,8 +88,10 @@ def gait_cycle(s: Scenario, observer_states: bool = True, slope: float | None = 
 
 
 def gait_map(s: Scenario, observer_states: bool = True) -> Cycle:
-    """The return map of a scenario by its own method, its pushes left out, and the state of its gait."""
-    scene = Scene.of(s)
+    """Return map of a scenario by its own integration method, without its pushes; the guess is the gait's
+    orbit.
+    """
+    scene = RobotAndGait.of(s)
     walker = build(replace(s, pushes=()), scene)
     P = ReturnMap(walker, method_of(s, walker), observer_states)
     return Cycle(P, walker.initial_state(scene.walked.q_minus, scene.walked.v_minus))
@@ -88,19 +106,26 @@ def find_cycle(
     slope: float | None = None,
     own: Mapping[str, Any] | None = None,
 ) -> Cycle:
-    """The cycle of a robot by name: of a gait under a controller, NPD without, or passive without motors.
+    """The cycle of a robot by name: of a gait under a controller (by default NPD), passive without motors.
 
-    own: values of the controller's. Raises InputError for a controller that does not fit the robot, and as
-    Biped.load, load_gait, known_cycle.
+        walking = ba.find_cycle("rabbit", gait="published", controller="ADRC", observer_states=False)
+        passive = ba.find_cycle("compass", slope=0.05)
+
+    observer_states: whether the controller's states belong to the state of the return map. slope: [rad], of
+    another ground. own: own values of the controller. Raises InputError for a controller that does not fit the
+    robot, and as Biped.load, load_gait, known_cycle.
     """
     s = Scenario(robot=robot, preset=preset, gait=gait, own=dict(own or {}))
-    usual = "NPD" if Scene.of(s).gait else "passive"
+    usual = "NPD" if RobotAndGait.of(s).gait else "passive"
     return cycle_of(replace(s, controller=controller or usual), observer_states, slope)
 
 
 def cycle_of(s: Scenario, observer_states: bool = True, slope: float | None = None) -> Cycle:
-    """The cycle of a scenario, its pushes left out. Raises as `find_cycle`."""
-    scene = Scene.of(s)
+    """The cycle of a scenario, without its pushes, on its own or another slope [rad].
+
+    Raises as `find_cycle`.
+    """
+    scene = RobotAndGait.of(s)
     if scene.gait:
         return gait_cycle(s, observer_states, slope)
     return known_cycle(build(replace(s, gait=Scenario.gait), scene).plant, slope)
@@ -109,11 +134,19 @@ def cycle_of(s: Scenario, observer_states: bool = True, slope: float | None = No
 def cycle_stability(
     cycle: Cycle, samples: int = 25, tolerances: Tolerances | None = None
 ) -> CycleStability:
-    """The table at the fixed point; `samples` impacts for the regression, 0 leaves it out.
+    """Fixed point of a cycle and its multipliers by every method.
 
-    With a controller that has states there are central differences alone, since the variational equation is
-    written without. Raises InputError for a number of samples that is no walk, SimulationError when no fixed
-    point is found.
+        found = ba.cycle_stability(ba.find_cycle("rabbit", controller="NPD"))
+
+    The methods are independent of each other: the variational equation along the step with the saltation at
+    impact, central differences of the return map, delta^2 of the zero dynamics (for a hybrid-invariant
+    constraint one of the multipliers), and the paper's regression on a walk. That they agree is the test of
+    each.
+
+    samples: impacts of the walk for the regression; 0 leaves it out. tolerances: within which the methods have
+    to agree. For a controller with states only central differences (and the regression) apply, since the
+    variational equation is written for the mechanics alone. Raises InputError for 1 or 2 samples,
+    SimulationError when no fixed point is found.
     """
     check_part(cycle, "cycle", Cycle)
     if samples != 0 and samples < 3:
@@ -132,7 +165,12 @@ def cycle_stability(
 
 
 def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = None) -> Certificate:
-    """What the step at the fixed point asks of ground and motors. Raises SimulationError where it is none."""
+    """The certificate of the step at the fixed point: what it asks of ground and motors, within these limits.
+
+    Certificates depend on states, torques and forces alone, so a reference of zeros is given for the signals.
+
+    Raises SimulationError where the step does not end with an impact.
+    """
     P, walker = cycle.P, cycle.P.walker
     start = after_impact(walker, 0.0, orbit.x_minus, Mode())
     run = simulate(
@@ -146,7 +184,7 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
 
 
 def _regression(P: ReturnMap, orbit: PeriodicOrbit, samples: int) -> Regression | None:
-    """The regression on a walk beside the cycle; None when no samples are asked for."""
+    """The regression (26), (27) on a walk that starts beside the cycle; None when no samples are asked for."""
     if samples == 0:
         return None
     n = 2 * P.walker.plant.n
@@ -154,9 +192,10 @@ def _regression(P: ReturnMap, orbit: PeriodicOrbit, samples: int) -> Regression 
 
 
 def walk_beside(P: ReturnMap, x_star: Array, impacts: int) -> Array:
-    """States (impacts, 2 n) before the impacts of a walk that starts `BESIDE` faster than the cycle at x_star.
+    """States (impacts, 2 n) [rad, rad/s] before the impacts of a walk that starts beside the cycle.
 
-    Raises SimulationError when the walker does not walk that far.
+    x_star: fixed point, (2 n,) or more; the walk starts with its rates `BESIDE` faster. Raises SimulationError
+    when the walker does not make so many impacts.
     """
     walker, n = P.walker, P.walker.plant.n
     x = np.array(x_star)
@@ -178,27 +217,29 @@ def walk_beside(P: ReturnMap, x_star: Array, impacts: int) -> Array:
 
 @dataclass(frozen=True)
 class PoincareResult(Shown):
-    """A fixed point and its multipliers; `with_states` says whether the controller's states count."""
+    """A fixed point with its multipliers, and delta^2 of the zero dynamics beside them."""
 
     controller: str
     preset: str
     reset: str
+    """What the observer does at impact, as in a scenario."""
     with_states: bool
+    """Whether the controller's states belong to the state of the return map."""
     orbit: PeriodicOrbit
     delta_squared: float
     half: PoincareResult | None = None
-    """The same at half the step."""
+    """The same at half the integration step."""
 
     @property
     def gap(self) -> float:
-        """Largest difference of a multiplier's magnitude from that at half the step; infinite without one."""
+        """Largest change of a multiplier's magnitude when the step is halved; infinite where it was not."""
         if self.half is None:
             return math.inf
         one, other = (np.sort(np.abs(r.orbit.multipliers)) for r in (self, self.half))
         return float(np.max(np.abs(one - other)))
 
     def record(self) -> dict[str, Any]:
-        """As plain values."""
+        """The result as values that JSON holds, for summary.json."""
         half = None if self.half is None else np.abs(self.half.orbit.multipliers).tolist()
         return {
             **{name: getattr(self, name) for name in ("controller", "preset", "reset")},
@@ -213,17 +254,20 @@ class PoincareResult(Shown):
 
 
 def poincare_twice(run: Scenario) -> PoincareResult:
-    """As `poincare` at the run's step, or 1 ms, and at half of it."""
+    """As `poincare` at the step of the scenario (by default 1 ms), and once more at half of it."""
     h = run.h or 1e-3
     found = poincare(replace(run, h=h))
     return replace(found, half=poincare(replace(run, h=0.5 * h)))
 
 
 def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
-    """Fixed point by Newton and multipliers by central differences, without disturbances."""
+    """Fixed point by Newton's method and multipliers by central differences, without disturbances.
+
+    with_states: whether the controller's states belong to the state of the return map.
+    """
     cycle = gait_map(replace(run, h=run.h or 1e-3, method=None), with_states)
     P, guess = cycle.P, cycle.guess
-    scene = Scene.of(run)
+    scene = RobotAndGait.of(run)
     biped, gait = scene.biped, scene.walked
     # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
     orbit = P.fixed_point(guess if with_states else guess[: 2 * biped.n])
@@ -232,19 +276,20 @@ def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
 
 
 def regression_of(outcome: Outcome) -> Regression:
-    """(26), (27) over the impacts of a (disturbed) walk, about the gait's fixed point."""
-    gait = Scene.of(outcome.run).walked
+    """The regression (26), (27) over the impacts of a (disturbed) walk, about the fixed point of its gait."""
+    gait = RobotAndGait.of(outcome.run).walked
     x_star = np.concatenate((gait.q_minus, gait.v_minus))
     x_minus = outcome.x_minus[:, : len(x_star)]
     return regress_multipliers(x_minus, x_star)
 
 
 def return_map_samples(run: Scenario, size: float = 0.05, count: int = 21) -> tuple[Array, Array]:
-    """theta' before one impact against theta' before the next, for scaled speeds of the fixed point.
+    """Samples of the return map in Theta': its value before one impact, and before the next.
 
-    Returns both (count,) [rad/s]; NaN where the walker does not come back.
+    The rates of the fixed point are scaled by 1 - size to 1 + size. Returns both arrays (count,) [rad/s]; NaN
+    where the walker does not reach another impact.
     """
-    P, scene = gait_map(run, observer_states=False).P, Scene.of(run)
+    P, scene = gait_map(run, observer_states=False).P, RobotAndGait.of(run)
     biped, gait = scene.biped, scene.walked
     before = np.linspace(1.0 - size, 1.0 + size, count)
     after = np.full(count, np.nan)
@@ -254,10 +299,3 @@ def return_map_samples(run: Scenario, size: float = 0.05, count: int = 21) -> tu
         image = P.lift(P(P.project(x)))
         after[i] = c @ image[biped.n : 2 * biped.n]
     return before * float(c @ gait.v_minus), after
-
-
-def speed_slope(biped: Biped, samples: tuple[Array, Array]) -> float:
-    """Slope of the return map in Theta' at its middle, by central difference."""
-    before, after = samples
-    i = len(before) // 2
-    return float((after[i + 1] - after[i - 1]) / (before[i + 1] - before[i - 1]))

@@ -1,7 +1,11 @@
-"""A gait from a wish: designed on the zero dynamics, then walked and certified before it is handed over.
+"""Design of a gait for a speed or a step length, proved by a simulated walk before it is returned.
 
-Libraries of gaits over speed, stored as one readable file each, and gait (b) of the paper, as it walks:
-the fixed point of the closed loop, since the impact leaves its constraint.
+`gait.design` optimises on the zero dynamics and never integrates the robot. `certify` therefore walks the
+result under NPD: it has to come back to its orbit within RETURNS, and its first step has to keep the limits.
+What is returned is a `DesignedGait`, gait and proof together.
+
+Besides: libraries of gaits over speed, one readable file each (`GaitLibrary`), and gait (b) of the paper as it
+walks (`design_recipe_orbit`): the fixed point of the closed loop, since its impact leaves the constraint.
 """
 
 from __future__ import annotations
@@ -20,7 +24,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.columns import columns
 from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import GaitError, InputError, SimulationError
-from biped_adrc.gait.design.ipopt import Progress
+from biped_adrc.gait.design.ipopt import IpoptProgress
 from biped_adrc.gait.design.optimise import Optimum, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
 from biped_adrc.gait.gait import Gait, load_gait
@@ -35,34 +39,38 @@ from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 RETURNS = 1e-6
-"""[rad, rad/s]: how far the walk may be from the gait's orbit after its steps."""
+"""Largest distance of the walk from the gait's orbit after its steps [rad, rad/s]."""
 STEPS = 2
+"""Steps of the walk that proves a gait."""
 
 
 @dataclass(frozen=True)
 class DesignedGait(Shown):
-    """A gait with the certificate of its simulated step."""
+    """A designed gait, with the walk that proves it."""
 
     gait: Gait
     request: GaitRequest
+    """What was asked for."""
     objective: float
-    """In the units of its Objective."""
+    """Value of the cost, in the units of its Objective."""
     certificate: Certificate
+    """What its first simulated step asks of ground and motors."""
     multiplier: float
     """delta^2 of the zero dynamics."""
     gap: float
     """max |x- of the walk - x- of the gait| after its steps [rad, rad/s]."""
     iterations: int
+    """Of IPOPT."""
     seconds: float
-    """Wall time of the design."""
+    """Wall time of the design [s]."""
 
     @property
     def speed(self) -> float:
-        """Along the ground [m/s]."""
+        """Average speed along the ground [m/s]."""
         return self.certificate.step_length / self.gait.period
 
     def text(self) -> str:
-        """What was found, one line per figure."""
+        """A table of what was found, one line per number."""
         c, o = self.certificate, self.request.objective
         unit = {"torque": " N^2 m s", "transport": "", "peak": " N m"}[o.value]
         rows = [
@@ -97,12 +105,16 @@ def design_gait(
     degree: int = 6,
     nodes: int = 24,
     limits: StepLimits | None = None,
-    progress: Progress | None = None,
+    curve: str = "bezier",
+    progress: IpoptProgress | None = None,
 ) -> DesignedGait:
-    """The periodic, hybrid-invariant gait of least objective, certified by simulating it.
+    """The periodic, hybrid-invariant gait of least objective, proved by a simulated walk.
 
-    speed [m/s] along the ground, step [m] between the feet; what is left out is free. through: (q-, q'-) that
-    the orbit has to pass instead. Raises GaitError naming what could not be met.
+    robot: a robot, its name or the path of its robot.toml. speed: along the ground [m/s]. step: between the
+    feet [m]; one of the two may be left out and is then free. slope: [rad], positive downhill. through: (q-,
+    q'-), each (n,) [rad, rad/s], which the orbit has to pass in place of speed and step. curve: its kind by
+    name, one that lies between its ends. degree: of the curves. nodes: at which limits are kept. progress:
+    called after each iteration of IPOPT. Raises GaitError naming what could not be met.
     """
     check_part(robot, "robot", Biped, str, Path)
     biped = robot if isinstance(robot, Biped) else Biped.load(robot, preset)
@@ -115,12 +127,13 @@ def design_gait(
         nodes,
         limits or StepLimits(),
         None if through is None else tuple(float(x) for x in np.concatenate(through)),
+        curve,
     )
     return certify(biped, request, optimise(biped, request, progress))
 
 
 def objective_named(objective: Objective | str) -> Objective:
-    """Raises GaitError for a name that is none."""
+    """The objective of a name. Raises GaitError for a name that is none."""
     try:
         return Objective(objective)
     except ValueError:
@@ -129,7 +142,12 @@ def objective_named(objective: Objective | str) -> Objective:
 
 
 def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGait:
-    """Walk the gait and hold its first step against the limits. Raises GaitError when it misses one."""
+    """Walk an optimised gait for STEPS steps under NPD and compare its first step with the limits.
+
+    The simulation shares neither nodes nor quadrature with the design, only the robot; it has adaptive steps.
+
+    Raises GaitError when it does not walk, violates a limit, or leaves the gait's orbit.
+    """
     gait, limits = optimum.gait, request.limits.of(biped)
     longest = max(Walker.max_step_time, 2.0 * gait.period)
     walker = Walker(biped, NPDController(gait.constraint), slope=gait.slope, max_step_time=longest)
@@ -155,13 +173,19 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
 
 
 MOST_SPEEDS = 1000
+"""Largest number of speeds in a range FIRST:LAST:STEP."""
 
 
 @dataclass(frozen=True)
 class GaitLibrary(Shown):
-    """Gaits of one robot by speed [m/s], slowest first."""
+    """Gaits of one robot and preset over speed.
+
+    Gaits are not interpolated: a mean of two hybrid-invariant constraints is not hybrid-invariant in general,
+    so a speed is served by the nearest gait. Raises GaitError for none, or a speed that is not positive.
+    """
 
     gaits: Mapping[float, Gait]
+    """By average speed [m/s]; sorted, slowest first."""
 
     def __post_init__(self) -> None:
         if not self.gaits:
@@ -172,15 +196,18 @@ class GaitLibrary(Shown):
 
     @property
     def speeds(self) -> tuple[float, ...]:
-        """[m/s]."""
+        """Average speeds of the gaits [m/s], slowest first."""
         return tuple(self.gaits)
 
     def nearest(self, speed: float) -> Gait:
-        """The gait whose speed is nearest."""
+        """The gait whose speed is nearest to `speed` [m/s]."""
         return self.gaits[min(self.gaits, key=lambda known: abs(known - speed))]
 
     def save(self, folder: Path | str) -> tuple[Path, ...]:
-        """One file per gait, named by it and its preset. Raises GaitError for two of one name, OutputError."""
+        """Write one file per gait, named by gait and preset; returns their paths.
+
+        Raises GaitError for two gaits of one name, and OutputError.
+        """
         paths = [Path(folder) / g.file_name for g in self.gaits.values()]
         twice = sorted({path.name for path in paths if paths.count(path) > 1})
         if twice:
@@ -191,7 +218,10 @@ class GaitLibrary(Shown):
 
     @classmethod
     def load(cls, folder: Path | str, biped: Biped) -> GaitLibrary:
-        """The gaits of a folder that are of this robot and preset. Raises GaitError."""
+        """The gaits of a folder that are of this robot and preset.
+
+        Raises GaitError for none, or a damaged file.
+        """
         gaits = {}
         for path in sorted(Path(folder).glob(f"*-{biped.preset}.json")):
             if _robot_of(path) == biped.description.name:
@@ -206,7 +236,7 @@ class GaitLibrary(Shown):
 
 
 def _robot_of(path: Path) -> str:
-    """The robot a gait file says it is of; empty where it says none."""
+    """Name of the robot in a gait file; empty where the file has none or cannot be read."""
     try:
         return str(json.loads(path.read_text(encoding="utf-8")).get("robot", ""))
     except (OSError, ValueError, AttributeError):
@@ -214,7 +244,7 @@ def _robot_of(path: Path) -> str:
 
 
 def speed_of(gait: Gait, biped: Biped) -> float:
-    """Average speed along the ground [m/s]."""
+    """Average speed of a gait along the ground [m/s]: distance of the feet before impact over the period."""
     return float(np.hypot(*biped.swing_foot(gait.q_minus)) / gait.period)
 
 
@@ -235,13 +265,15 @@ def speeds_named(text: str) -> tuple[float, ...]:
 
 
 SETTLE = 25
-"""Impacts walked before Newton starts."""
+"""Impacts that are walked before Newton's method starts."""
 
 
 def design_recipe_orbit(biped: Biped, parameters: RecipeParameters | None = None) -> Gait:
-    """Gait (b) with the pre-impact state of its walking cycle under NPD.
+    """Gait (b) with the pre-impact state and the period of its walking cycle under NPD.
 
-    When no cycle is found the state of the zero dynamics is kept, and the provenance says so.
+    Its impact leaves the constraint, so the closed loop does not walk on the orbit of the zero dynamics. A walk
+    settles near the cycle, from where Newton's method on the return map finds it. When there is none the state
+    of the zero dynamics is kept, and the provenance says so. Raises GaitError as `design_recipe_gait`.
     """
     gait = design_recipe_gait(biped, parameters)
     walker = Walker(biped, NPDController(gait.constraint))

@@ -1,4 +1,4 @@
-"""The delay margin of the linear loop held against a robot that walks, and an observer against its encoders.
+"""The delay margin of the linear loop compared with the walking robot, and an observer with encoders.
 
 `check_delay` walks with the torque late by a share of the margin, in continuous time, from the orbit of the
 gait with one rate off by NUDGE. It tracks when it finishes and its errors do not grow from step to step:
@@ -7,6 +7,13 @@ gait with one rate off by NUDGE. It tracks when it finishes and its errors do no
 
 The linear loop takes kappa u(t - d) for what is kappa(q(t)) u(t - d), and its reference moves by itself, while
 Theta moves with the joints: `robot_margin` finds by bisection where the robot itself stops tracking.
+
+`observer_design` computes margins from transfer functions and never walks; this module gives the proof in
+simulation. Called by `biped-adrc observer` and by users who design an observer.
+
+    case = DelayCase(biped, gait, GPIObserver.from_bandwidth(300.0, 1))
+    check = check_delay(case)
+    check.margin, check.robot_margin, check.confirmed
 """
 
 from __future__ import annotations
@@ -36,92 +43,102 @@ from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
 
 IMPACTS = 6
-"""Of a check."""
+"""Impacts of each walk of a check."""
 NUDGE = 1e-3
-"""[rad/s] on q_1' at the start, so that an unstable loop has something to grow from."""
+"""Added to q_1' at the start [rad/s], so that an unstable loop has something to grow from."""
 GROWTH = 3.0
-"""Of the error from step to step, beyond which a walk counts as diverging; the beat of a loop near its margin
-with the impacts changes it by up to 2."""
+"""Growth of the error over the walk from which on it counts as diverging; near its margin the loop's
+oscillation beats with the impacts, which alone changes the error by a factor of up to 2."""
 BELOW, ABOVE = 0.95, 1.05
-"""Shares of the margin that are walked with."""
+"""Delays of the two walks, as shares of the margin."""
 ORDER, FINER = 4, 6
-"""Of the approximant of the delay, and of the one it is held against."""
+"""Order of the rational approximant of the delay, and of the finer one with which it is compared."""
 LONGEST_STEP, REACH = 1e-4, 0.5
-"""[s] of RK4, and h times the fastest rate of observer and delay line, within 2.8 of its stability."""
+"""Longest step h of RK4 [s], and largest h |p| for the fastest pole of observer and delay line; RK4 is stable
+up to
+2.8."""
 LOW, HIGH, RESOLUTION = 0.8, 1.2, 2e-3
-"""Shares of the linear margin between which the robot's own is looked for, and to what."""
+"""Interval of the bisection for the robot's own margin and its resolution, as shares of the linear margin."""
 
 
 @dataclass(frozen=True)
-class Walked:
-    """A walk with a delay or with encoders."""
+class CheckedWalk:
+    """A walk with a delay or with encoders, reduced to its errors."""
 
     observer: str
+    """Its name."""
     condition: str
-    """In words."""
+    """Delay or encoders, in words."""
     status: Status
     errors: Array
-    """max |q_b - h| of each step begun (M,) [rad]."""
+    """max |q_b - h| of each single support that was begun (M,) [rad]."""
 
     @property
     def tracks(self) -> bool:
-        """Whether it finished without errors that grow."""
+        """True where the walk finished and its errors did not grow by GROWTH."""
         if self.status is not Status.COMPLETED or len(self.errors) < 3:
             return False
         return bool(np.max(self.errors[-2:]) < GROWTH * self.errors[1])
 
     @property
     def amplitude(self) -> float:
-        """max |q_b - h| of the second half of the steps [rad]."""
+        """max |q_b - h| over the second half of the steps [rad]: the size of a limit cycle."""
         return float(np.max(self.errors[len(self.errors) // 2 :]))
 
 
 class DelayCheck(NamedTuple):
-    """What the robot says of one margin."""
+    """The delay margin of the linear loop, and what the walking robot does below and above it."""
 
     observer: str
     known: bool
+    """Whether the observer knows the delay."""
     margin: float
-    """Of the linear loop [s]."""
-    below: Walked
-    """At BELOW of it."""
-    above: Walked
-    """At ABOVE of it."""
+    """Delay margin of the linear loop [s]."""
+    below: CheckedWalk
+    """Walk with the delay BELOW times the margin."""
+    above: CheckedWalk
+    """Walk with the delay ABOVE times the margin."""
     robot_margin: float
-    """[s], where the robot stops tracking; nan if far from the margin."""
+    """Delay at which the robot stops tracking [s]; nan if that is far from the margin."""
     order_effect: float
     """Largest change of a step's error [rad] with an approximant of order FINER, at BELOW."""
-    limited: Walked
+    limited: CheckedWalk
     """At ABOVE with the torque limit of the robot's record: a limit cycle or a fall."""
 
     @property
     def confirmed(self) -> bool:
-        """Tracks below the margin and diverges above it."""
+        """True where the robot tracks below the margin and diverges above it."""
         return self.below.tracks and not self.above.tracks
 
     @property
     def shift(self) -> float:
-        """Of the robot's margin against the linear one, as a share of it."""
+        """Relative difference of the robot's margin from the linear one."""
         return self.robot_margin / self.margin - 1.0
 
 
 class DelayCase(NamedTuple):
-    """A robot, a gait and a controller, to be walked with delays."""
+    """A robot, a gait and ADRC with an observer and gains, to be walked with delayed torque."""
 
     biped: Biped
     gait: Gait
     observer: GPIObserver
     gains: Gains = TABLE_II
     known: bool = False
+    """Whether the observer knows the delay."""
     impacts: int = IMPACTS
 
     @property
     def margin(self) -> float:
-        """Of the linear loop of the first joint [s]."""
+        """Delay margin of the linear loop of one joint [s]."""
         return observer_loop(self.observer, self.gains).delay_margin(self.known).delay
 
-    def walked(self, delay: float, order: int = ORDER, torque_limit: float | None = None) -> Walked:
-        """A walk with that delay [s]; the limit acts on what is asked for and on what acts."""
+    def walked(
+        self, delay: float, order: int = ORDER, torque_limit: float | None = None
+    ) -> CheckedWalk:
+        """A walk whose torque acts `delay` [s] late, by an approximant of that order.
+
+        torque_limit: [N m], applied to the torque that the controller asks for and to the one that acts.
+        """
         inner = ADRCController(self.gait.constraint, self.observer, self.gains)
         controller = Delayed(inner, delay, order, self.known, torque_limit)
         walker = Walker(self.biped, controller, torque_limit=torque_limit)
@@ -132,11 +149,16 @@ class DelayCase(NamedTuple):
         limit = "no torque limit" if torque_limit is None else f"within {torque_limit:g} N m"
         words = f"{1e6 * delay:.4g} us {'known' if self.known else 'hidden'}, {limit}"
         name, errors = observer_name(self.observer), step_errors(self.gait, run.trajectory)
-        return Walked(name, words, run.trajectory.status, errors)
+        return CheckedWalk(name, words, run.trajectory.status, errors)
 
 
 def check_delay(case: DelayCase) -> DelayCheck:
-    """The linear margin against walks below and above it. Raises InputError for a loop that has none."""
+    """Compare the linear delay margin with walks below and above it.
+
+    One walk more has a finer approximant of the delay, which shows the error of the approximant, and one more
+    the torque limit, which shows what it does to a loop that diverges. Raises InputError for a loop without a
+    finite margin.
+    """
     margin = case.margin
     if not (math.isfinite(margin) and margin > 0.0):
         raise InputError(
@@ -151,7 +173,10 @@ def check_delay(case: DelayCase) -> DelayCheck:
 
 
 def robot_margin(case: DelayCase) -> float:
-    """The delay [s] at which the robot stops tracking, by bisection; nan if not in LOW to HIGH."""
+    """The delay [s] at which the robot stops tracking, by bisection to RESOLUTION of the linear margin.
+
+    nan where the robot does not track at LOW times the linear margin, or still does at HIGH times it.
+    """
     margin, low, high = case.margin, LOW, HIGH
     if not case.walked(low * margin).tracks or case.walked(high * margin).tracks:
         return math.nan
@@ -172,11 +197,13 @@ def check_encoders(
     delay: float = 0.0,
     known: bool = False,
     impacts: int = 25,
-) -> Walked:
-    """A walk at ticks with encoders on all angles, exact rates and the torque limit of the robot's record.
+) -> CheckedWalk:
+    """A walk in sampled time with encoders on all angles, exact rates and the torque limit of the robot's
+    record.
 
-    Rates are exact so that what is seen is the observer's doing: differences of counts shake the reference's
-    rate, which no observer filters.
+    period: of sampling [s]. counts: per revolution, None for exact angles. delay: from a sample instant to the
+    torque's effect [s]. known: whether the observer knows it. Rates are exact, so that the errors show the
+    observer alone: differences of counts would disturb the rate of the reference, which no observer filters.
     """
     walker = Walker(
         biped,
@@ -189,11 +216,11 @@ def check_encoders(
     seen = "exact angles" if counts is None else f"{counts:g} counts"
     words = f"{1.0 / period:.0f} Hz, {seen}, delay {1e6 * delay:.4g} us"
     errors = step_errors(gait, run.trajectory)
-    return Walked(observer_name(observer), words, run.trajectory.status, errors)
+    return CheckedWalk(observer_name(observer), words, run.trajectory.status, errors)
 
 
 def step_errors(gait: Gait, trajectory: Trajectory) -> Array:
-    """max |q_b - h(Theta)| of each single support (M,) [rad], at the stored instants."""
+    """max |q_b - h(Theta)| of each single support (M,) [rad], over the stored nodes of a trajectory."""
     h, n = gait.constraint, len(gait.constraint.phase)
     p = n - 1
 
@@ -204,7 +231,7 @@ def step_errors(gait: Gait, trajectory: Trajectory) -> Array:
 
 
 def _step(observer: GPIObserver, controller: Delayed) -> float:
-    """h [s] of RK4, by the fastest rate of the observer and the line."""
+    """Step h of RK4 [s], from the fastest pole of the observer and of the delay line."""
     line = controller.line
     rates = np.abs(np.roots(line.denominator[::-1])) * line.rate
     fastest = max(float(np.max(rates)), float(np.max(np.abs(observer.poles))))

@@ -1,200 +1,177 @@
-"""One suite over every controller, observer, disturbance and method; a new leaf that is not listed fails it."""
+"""One suite over every leaf of the package, `conforms`, a row for each.
+
+A row says how a thing of the registry is made; a thing without a row, or a class that no row makes, fails.
+"""
 
 import importlib
 import inspect
 import pkgutil
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.control.base import Controller
-from biped_adrc.control.clf_qp import CLFQPController
-from biped_adrc.control.delayed import Delayed
-from biped_adrc.control.finite_time import FiniteTimeController
-from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.control.output_adrc import OutputADRCController
-from biped_adrc.control.output_npd import OutputNPDController
-from biped_adrc.control.pd_gravity import PDGravityController
-from biped_adrc.control.reference_reset import ReferenceReset
-from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI
-from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
-from biped_adrc.disturbances.hip_force import HipForce
-from biped_adrc.disturbances.link import OnLink
-from biped_adrc.disturbances.noise import TorqueNoise
-from biped_adrc.gait.outputs import LinearOutputs
-from biped_adrc.observers.base import Observer
-from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
-from biped_adrc.observers.high_gain import HighGainObserver
-from biped_adrc.observers.momentum import (
-    MomentumChain,
-    MomentumObserver,
-    SampledMomentumObserver,
-)
+from biped_adrc.control.pd_gravity import JointGains
+from biped_adrc.control.stride import TORSO_LEAN
+from biped_adrc.gait.curves import Curve
+from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.observers.base import Estimate
+from biped_adrc.scenario.registry import find, names
 
-PULSE = ba.TorquePulse([1.0, 2.0, 3.0, 4.0, 5.0], step=2, start=0.1, stop=0.2)
-DISTURBANCES = [
-    PULSE,
-    ba.TorqueStep([1.0] * 5, step=2, start=0.1),
-    ba.TorqueSine([1.0] * 5, start=0.1, stop=0.5, frequency=3.0),
-    PULSE + ba.TorqueSine([1.0] * 5, frequency=2.0),
-    HipForce(ba.Biped.load("rabbit"), (-3.0, 1.0), steps=(2, 3)),
-    TorqueNoise([1.0] * 5, start=0.1, stop=0.5, bandwidth=10.0, seed=1),
-    OnLink(ba.Biped.load("rabbit"), "right_shin", ba.TorquePulse([1.0, 2.0, 3.0], step=2)),
-]
-OBSERVERS = [
-    GPIObserver.from_poles(),
-    GPIObserver.from_bandwidth(300.0, 0),
-    GPIObserver.from_poles().sampled(1e-3),
-    HighGainObserver.from_epsilon(0.002),
-    HighGainObserver.from_epsilon(0.002, m=2).sampled(1e-3),
-    MomentumObserver.from_bandwidth(200.0),
-    MomentumObserver.from_bandwidth(200.0, 4).sampled(1e-3),
-]
-CONTROLLERS = {
-    ba.NPDController: lambda c: ba.NPDController(c),
-    ba.ADRCController: lambda c: ba.ADRCController(c),
-    ba.Passive: lambda c: ba.Passive(),
-    ReferenceReset: lambda c: ReferenceReset(ba.ADRCController(c)),
-    StridePI: lambda c: StridePI(
-        ba.NPDController(c), 0.7, 0.3, TORSO_LEAN, StrideGains(-1.0, -0.4)
-    ),
-    OutputNPDController: lambda c: OutputNPDController(LinearOutputs(np.eye(4, 5), c)),
-    FiniteTimeController: lambda c: FiniteTimeController(LinearOutputs(np.eye(4, 5), c), 0.9, 0.02),
-    PDGravityController: lambda c: PDGravityController(c),
-    OutputADRCController: lambda c: OutputADRCController(c),
-    MomentumDOBController: lambda c: MomentumDOBController(c),
-    CLFQPController: lambda c: CLFQPController(c),
-    Delayed: lambda c: Delayed(ba.ADRCController(c), 1e-3),
+from .conforms import PERIOD, SLOW, conforms, gait, outputs, robot, written
+
+A = [30.0, -20.0, 5.0, 0.0, 1.0]
+
+# -- rows: how a thing of the registry is made --------------------------------------------------
+ROWS = {
+    "controller": {
+        "PD": lambda make, h: [make(h), make(h, JointGains([1e3, 2e3, 3e3, 4e3], 50.0))],
+        "NPD": lambda make, h: [make(h), make(h, solve_theta=False)],
+        "NPID": lambda make, h: [make(h), make.like_adrc(h)],
+        "super twisting": lambda make, h: [make(h)],
+        "ADRC": lambda make, h: [make(h)],
+        "ADRC output": lambda make, h: [make(h, SLOW, reset=ba.ResetPolicy.MEASURED)],
+        "LESO": lambda make, h: [make(h, ba.GPIObserver.from_bandwidth(500.0))],
+        "DOB": lambda make, h: [make(h), make(h, solve_theta=False)],
+        "CLF-QP": lambda make, h: [make(h)],
+        "output NPD": lambda make, h: [make(outputs(h))],
+        "finite time": lambda make, h: [make(outputs(h), 0.9, 0.02)],
+        "stride PI": lambda make, h: [
+            ba.StridePI(ba.NPDController(h), 0.7, 0.3, TORSO_LEAN, ba.StrideGains(-1.0, -0.4))
+        ],
+        "reference reset": lambda make, h: [make(ba.ADRCController(h))],
+        "delayed": lambda make, h: [make(ba.ADRCController(h, SLOW), 2e-3)],
+        "passive": lambda make, h: [make()],
+    },
+    "observer": {
+        "GPI": lambda make: [make.from_poles(), make.from_bandwidth(300.0, 0)],
+        "high gain": lambda make: [make.from_epsilon(0.002), make.from_epsilon(0.01, m=2)],
+        "Kalman": lambda make: [make.from_noise(100.0, 1e-5), make.from_noise(1e3, 1e-4, m=2)],
+        "momentum": lambda make: [
+            make.from_bandwidth(9.0, 3),
+            make.from_poles((-90.0, -60 + 20j, -60 - 20j)),
+        ],
+    },
+    "sensor": {
+        "pitch sensor": lambda make: [
+            make(0.01, -0.02),
+            ba.Sensors(512) + make(noise=1e-3, seed=2),
+        ],
+        "encoders": lambda make: [
+            make(8192.0, noise=5e-5, rate_noise=0.01, filter_time=2e-3, seed=3),
+            make(64.0, velocity="gyro") + make(velocity="measured", pitch_noise=1e-3, seed=4),
+        ],
+    },
+    "disturbance": {
+        "pulse": lambda make: [
+            make(A, step=2, start=0.1, stop=0.2),
+            make(A, step=2, start=0.1, stop=0.2, rise=0.04),
+            ba.OnLink(robot(), "right_shin", make(A[:3], step=2, start=0.1, stop=0.2), (0.1, 0.2)),
+        ],
+        "step": lambda make: [make(A, step=2, start=0.1), make(A) + make(A, step=3)],
+        "sine": lambda make: [make(A, start=0.3, frequency=5.0)],
+        "noise": lambda make: [
+            make(A, step=2, start=0.1, stop=0.3, bandwidth=10.0, seed=1, sines=4)
+        ],
+        "recorded": lambda make: [make(written("t,q1,q5\n0,1,2\n.1,3,-4\n.7,0,0"), robot(), 2)],
+        "hip force": lambda make: [make(robot(), (-3.0, 1.0), steps=(2, 3))],
+    },
+    "curve": {
+        "bezier": lambda make: [make(np.random.default_rng(1).normal(size=(4, 6)))],
+        "bspline": lambda make: [
+            make(np.random.default_rng(k).normal(size=(4, k))) for k in (4, 9)
+        ],
+        "polynomial": lambda make: [make(np.random.default_rng(1).normal(size=(4, 6)))],
+    },
 }
-CONTINUOUS = {Delayed}
-"""In sampled time a delay belongs to `SampledTime`."""
+EACH = [(kind, name) for kind, rows in ROWS.items() for name in rows]
+BASES = {
+    ba.Controller: ("control", {"OuterLoop", "ObservingController"}),
+    ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
+    ba.Disturbance: ("disturbances", {"Windowed", "WindowedTorque"}),
+    Sensor: ("hardware", set()),
+    Curve: ("gait", {"ControlledCurve"}),
+}
+"""Where leaves are, and what is only a part of them."""
 
 
-def leaves(base, package):
-    """Concrete subclasses of `base` defined in a package of biped_adrc."""
-    module = importlib.import_module(f"biped_adrc.{package}")
-    for found in pkgutil.iter_modules(module.__path__):
-        importlib.import_module(f"biped_adrc.{package}.{found.name}")
-
-    def below(cls):
-        for child in cls.__subclasses__():
-            yield child
-            yield from below(child)
-
-    return {
-        cls
-        for cls in below(base)
-        if cls.__module__.startswith(f"biped_adrc.{package}.") and not inspect.isabstract(cls)
-    }
+def made(kind, name):
+    """The things of a row."""
+    given = (gait().constraint,) if kind == "controller" else ()
+    return ROWS[kind][name](find(kind, name).load(), *given)
 
 
-def test_every_leaf_is_listed():
-    assert leaves(Disturbance, "disturbances") - {Windowed} == {type(d) for d in DISTURBANCES}
-    assert leaves(Controller, "control") == set(CONTROLLERS)
-    found = {cls for cls in leaves(Observer, "observers") if "Chain" not in cls.__name__}
-    assert found == {type(o) for o in OBSERVERS}
-    assert found == {
-        *(GPIObserver, SampledGPIObserver, HighGainObserver),
-        *(MomentumObserver, SampledMomentumObserver),
-    }
+@pytest.mark.parametrize(("kind", "name"), EACH)
+def test_every_leaf(kind, name):
+    for thing in made(kind, name):
+        conforms(thing)
 
 
-@pytest.mark.parametrize("d", DISTURBANCES, ids=lambda d: type(d).__name__)
-def test_disturbances(d):
-    q, v = np.zeros(5), np.ones(5)
-    for step in (1, 2, 3):
-        switches = d.switching_times(step, 1.0)
-        for t in (1.0, 1.15, 1.3, *switches):
-            one, two = d.torque(t, step, 1.0, q, v), d.torque(t, step, 1.0, q, v)
-            assert one.shape == (5,)
-            assert np.array_equal(one, two)
-            assert np.all(np.isfinite(one))
-            one += 1.0  # what is handed out is the caller's
-            assert np.array_equal(two, d.torque(t, step, 1.0, q, v))
-    assert not np.any(q)
+def below(cls):
+    for child in cls.__subclasses__():
+        yield child
+        yield from below(child)
 
 
-def test_windows_close_where_they_say():
-    q = np.zeros(5)
-    assert not np.any(PULSE.torque(1.05, 2, 1.0, q, q))
-    start, stop = PULSE.switching_times(2, 1.0)
-    assert np.array_equal(PULSE.torque(start, 2, 1.0, q, q), PULSE.amplitude)
-    assert not np.any(PULSE.torque(stop, 2, 1.0, q, q))
-    assert np.any(PULSE.torque(np.nextafter(stop, 0.0), 2, 1.0, q, q))
-    assert not np.any(PULSE.torque(1.15, 1, 1.0, q, q))
-    stays = DISTURBANCES[1]
-    assert np.any(stays.torque(9.0, 7, 8.9, q, q))
-    total = DISTURBANCES[3]
-    assert isinstance(total, Sum)
-    expected = PULSE.torque(1.15, 2, 1.0, q, q) + total.parts[1].torque(1.15, 2, 1.0, q, q)
-    assert np.array_equal(total.torque(1.15, 2, 1.0, q, q), expected)
+def test_every_leaf_has_a_row_and_a_name():
+    assert "compass" in names("robot")
+    assert "published-identified" in names("gait")
+    for kind, rows in ROWS.items():
+        assert set(rows) == set(names(kind))
+        assert all(find(kind, name).words for name in rows)
+    things = [thing for each in EACH for thing in made(*each)]
+    listed = {type(thing) for thing in things}
+    listed |= {type(x.sampled(PERIOD)) for x in things if isinstance(x, ba.Observer)}
+    for base, (room, parts) in BASES.items():
+        package = importlib.import_module(f"biped_adrc.{room}")
+        for module in pkgutil.iter_modules(package.__path__):
+            importlib.import_module(f"biped_adrc.{room}.{module.name}")
+        own = [cls for cls in below(base) if cls.__module__.startswith("biped_adrc.")]
+        leaves = {cls for cls in own if cls.__name__ not in parts}
+        assert not [cls for cls in leaves if inspect.isabstract(cls)]
+        assert leaves <= listed, leaves - listed
 
 
-@pytest.mark.parametrize("kind", [ba.TorquePulse, ba.TorqueSine])
-def test_bad_windows(kind):
-    for arguments, message in (
-        ({"amplitude": [np.nan] * 5}, "nan"),
-        ({"amplitude": [1.0] * 5, "start": 0.3, "stop": 0.1}, "start < stop"),
-        ({"amplitude": [1.0] * 5, "step": 0}, "counted from 1"),
-    ):
-        with pytest.raises(ba.BipedError, match=message):
-            kind(**arguments)
-    with pytest.raises(ba.BipedError, match="frequency is -1"):
-        ba.TorqueSine([1.0] * 5, frequency=-1.0)
-    with pytest.raises(ba.BipedError, match="use TorquePulse"):
-        ba.TorqueStep([1.0] * 5, stop=1.0)
+# -- the suite itself --------------------------------------------------------------------------------
+@dataclass(frozen=True)
+class OwnObserver(ba.Observer):
+    """Methods alone; its discrete form knows its period, its continuous one has none."""
+
+    period: float | None = None
+    order = 3
+
+    def initial_state(self, y, dy, xi):
+        return np.concatenate((y, dy, xi))
+
+    def estimate(self, z):
+        return Estimate(*z.reshape(3, -1))
+
+    def reset(self, z, policy, swap, y, dy, xi):
+        return self.initial_state(y, dy, xi)
+
+    def flow(self, z, y, input):
+        return 0.0 * z
+
+    def correct(self, z, y):
+        return self.period * z
+
+    def predict(self, z, input):
+        return self.period * z
+
+    def sampled(self, period):
+        return replace(self, period=period)
 
 
-@pytest.mark.parametrize("observer", OBSERVERS, ids=lambda o: f"{type(o).__name__} {o.order}")
-def test_observers(observer):
-    y, dy, xi = np.linspace(0, 1, 4), np.linspace(1, 2, 4), np.linspace(-3, 3, 4)
-    z = observer.initial_state(y, dy, xi)
-    found = observer.estimate(z)
-    assert found.position == pytest.approx(y)
-    momentum = isinstance(observer, MomentumChain)
-    assert found.velocity == pytest.approx(np.zeros(4) if momentum else dy)
-    has_xi = momentum or observer.order > 2
-    assert found.disturbance == pytest.approx(xi if has_xi else np.zeros(4))
-    kept = z.copy()
-    if isinstance(observer, SampledGPIObserver | SampledMomentumObserver):
-        results = [observer.correct(z, y), observer.predict(z, xi)]
-        with pytest.raises(ba.BipedError, match="sampled time only"):
-            observer.flow(z, y, xi)
-    else:
-        results = [observer.flow(z, y, xi)]
-        with pytest.raises(ba.BipedError, match=r"call sampled\(period\)"):
-            observer.predict(z, xi)
-    for policy in ba.ResetPolicy:
-        results.append(observer.reset(z, policy, np.array([1, 0, 3, 2]), y, dy, xi))
-    for result in results:
-        assert result.shape == z.shape
-        assert np.all(np.isfinite(result))
-    assert np.array_equal(z, kept)
+class Meddling(OwnObserver):
+    """Changes what it is given."""
+
+    def correct(self, z, y):
+        z *= 2.0
+        return z
 
 
-@pytest.mark.parametrize("kind", list(CONTROLLERS), ids=lambda k: k.__name__)
-@pytest.mark.parametrize("timing", [ba.ContinuousTime(), ba.SampledTime(1e-3)])
-def test_controllers(biped, gait, kind, timing):
-    walker = ba.Walker(biped, CONTROLLERS[kind](gait.constraint), timing=timing)
-    if walker.sampled and kind in CONTINUOUS:
-        with pytest.raises(ba.BipedError, match="SampledTime"):
-            _ = walker.law
-        return
-    q, v = gait.start(biped)
-    m = walker.measure(0.0, q, v, ba.Mode())
-    law = walker.law
-    s = law.initial_state(m)
-    kept = (s.copy(), q.copy(), v.copy())
-    u = law.output(s, m)
-    assert np.array_equal(u, law.output(s, m))
-    assert u.shape == (biped.p,)
-    assert np.all(np.isfinite(u))
-    swap = biped.relabelling[: biped.p]
-    after = [law.jump(s, m, swap)]
-    after += [law.correct(s, m), law.predict(s, m, u)] if walker.sampled else [law.flow(s, m, u)]
-    for state in after:
-        assert state.shape == s.shape
-        assert np.all(np.isfinite(state))
-    for a, b in zip(kept, (s, q, v), strict=True):
-        assert np.array_equal(a, b)
+def test_an_observer_of_ones_own_is_checked_in_its_discrete_form():
+    conforms(OwnObserver())
+    with pytest.raises(AssertionError):
+        conforms(Meddling())

@@ -9,6 +9,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.passive import Passive
+from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.noise import TorqueNoise
@@ -45,6 +46,39 @@ def placement(biped, q, link):
 def turned(before, after):
     """Angle from one placement to the next, counter-clockwise with x to the right and z up [rad]."""
     return -pin.log3(after.rotation @ before.rotation.T)[1]
+
+
+# -- windows ---------------------------------------------------------------------------------------
+def test_windows_close_where_they_say():
+    pulse = ba.TorquePulse([1.0, 2.0, 3.0, 4.0, 5.0], step=2, start=0.1, stop=0.2)
+    q = np.zeros(5)
+    assert not np.any(pulse.torque(1.05, 2, 1.0, q, q))
+    start, stop = pulse.switching_times(2, 1.0)
+    assert np.array_equal(pulse.torque(start, 2, 1.0, q, q), pulse.amplitude)
+    assert not np.any(pulse.torque(stop, 2, 1.0, q, q))
+    assert np.any(pulse.torque(np.nextafter(stop, 0.0), 2, 1.0, q, q))
+    assert not np.any(pulse.torque(1.15, 1, 1.0, q, q))
+    stays = ba.TorqueStep([1.0] * 5, step=2, start=0.1)
+    assert np.any(stays.torque(9.0, 7, 8.9, q, q))
+    total = pulse + ba.TorqueSine([1.0] * 5, frequency=2.0)
+    assert isinstance(total, Sum)
+    expected = pulse.torque(1.15, 2, 1.0, q, q) + total.parts[1].torque(1.15, 2, 1.0, q, q)
+    assert np.array_equal(total.torque(1.15, 2, 1.0, q, q), expected)
+
+
+@pytest.mark.parametrize("kind", [ba.TorquePulse, ba.TorqueSine])
+def test_bad_windows(kind):
+    for arguments, message in (
+        ({"amplitude": [np.nan] * 5}, "nan"),
+        ({"amplitude": [1.0] * 5, "start": 0.3, "stop": 0.1}, "start < stop"),
+        ({"amplitude": [1.0] * 5, "step": 0}, "counted from 1"),
+    ):
+        with pytest.raises(ba.BipedError, match=message):
+            kind(**arguments)
+    with pytest.raises(ba.BipedError, match="frequency is -1"):
+        ba.TorqueSine([1.0] * 5, frequency=-1.0)
+    with pytest.raises(ba.BipedError, match="use TorquePulse"):
+        ba.TorqueStep([1.0] * 5, stop=1.0)
 
 
 # -- a pulse with sloping edges ---------------------------------------------------------------------

@@ -1,6 +1,5 @@
 """The controllers and observers of the field: what each promises, by a law that its code does not use."""
 
-import ctypes
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,13 +14,11 @@ from biped_adrc.control.linear_adrc import bandwidth_gains, linear_adrc
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.npd import NPDController
 from biped_adrc.control.output_adrc import OutputADRCController
-from biped_adrc.control.pd_gravity import JointGains, PDGravityController
+from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.control.reference_reset import ReferenceReset
-from biped_adrc.engine.program import Program
 from biped_adrc.errors import InputError
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.high_gain import HighGainObserver
-from biped_adrc.observers.momentum import MomentumObserver
 
 K_P, K_D = 5000.0, 50.0
 LIMIT = 150.0
@@ -73,69 +70,6 @@ def test_in_continuous_time(biped, gait, name):
     walk = ba.walk(walker, gait, 3, ba.RK4(h), engine="compiled")
     assert walk.trajectory.status.ok
     assert np.max(np.abs(walk.signals.error)) < PEAK[name][True]
-
-
-# -- compiled against Python -------------------------------------------------------------------
-LAWS = {
-    **{name: made for name, made in FIELD.items() if name != "CLF-QP"},
-    "PD, stiff": lambda c: PDGravityController(c, JointGains([1e3, 2e3, 3e3, 4e3], 50.0)),
-    "ADRC, outputs, reset measured": lambda c: OutputADRCController(
-        c, SLOW, reset=ba.ResetPolicy.MEASURED
-    ),
-    "momentum observer, three poles, as printed": lambda c: MomentumDOBController(
-        c, MomentumObserver.from_poles((-90.0, -60 + 20j, -60 - 20j)), solve_theta=False
-    ),
-}
-
-
-@pytest.mark.parametrize("name", LAWS)
-@pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
-def test_the_closed_loop_in_machine_code_is_python_s(biped, gait, name, sampled):
-    time = SampledTime(1e-3) if sampled else ba.ContinuousTime()
-    heavy = biped.with_errors(mass={"torso": 1.2})
-    law = LAWS[name](gait.constraint)
-    walker = Walker(heavy, law, timing=time, model=biped, torque_limit=LIMIT)
-    random, n, mode = np.random.default_rng(11), biped.n, Mode(3, 0.05)
-    q, v = gait.start(biped)
-    for i in range(60):
-        x = walker.initial_state(*(a + 0.3 * random.normal(size=n) for a in (q, v)))
-        x[2 * n :] *= 1.0 + 0.1 * random.normal(size=len(x) - 2 * n)
-        if i == 0:
-            call = functions(walker, x)
-        zeta = 30.0 * random.normal(size=n)
-        pushed = replace(walker, disturbance=ba.TorqueStep(zeta))
-        close(call["flow"](0.1, 3.0, 0.05, x, zeta), pushed.flow(0.1, x, mode))
-        if sampled:
-            close(call["tick"](0.1, 3.0, 0.05, x, zeta), pushed.tick(0.1, x, mode))
-        struck = walker.strike(0.1, x, Mode(2, 0.0))
-        if struck is not None:
-            close(call["strike"](0.1, 3.0, x), struck[0])
-
-
-def functions(walker, x):
-    """Those of the program, by name."""
-    n, nx = walker.plant.n, len(x)
-    held = walker.plant.p if walker.sampled else 0
-    program = Program.of(walker, nx - 2 * n - held)
-    sizes = {"flow": 3 + nx + n, "strike": 2 + nx, "tick": 3 + nx + n}
-    return {name: evaluator(program, name, size) for name, size in sizes.items()}
-
-
-def evaluator(program, name, inputs):
-    address = program.address(name)
-    function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(address) if address else None
-    inp, out = np.zeros(inputs), np.zeros(2 * inputs)
-
-    def call(*parts):
-        np.concatenate([np.atleast_1d(x) for x in parts], out=inp)
-        function(program.K.ctypes.data, inp.ctypes.data, out.ctypes.data)
-        return out.copy()
-
-    return call
-
-
-def close(found, expected):
-    assert np.max(np.abs(found[: len(expected)] - expected)) <= 1e-11 * np.max(np.abs(expected))
 
 
 # -- PD with gravity compensation --------------------------------------------------------------

@@ -1,6 +1,5 @@
-"""Every law as machine code, from the lines that run in Python: the same numbers, and those of the methods."""
+"""Laws of one's own: observers and references that compile under every controller, and others."""
 
-import ctypes
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -16,60 +15,13 @@ from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.passive import Passive
 from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.disturbances.base import Disturbance, disturbance_laws
-from biped_adrc.disturbances.hip_force import HipForce
-from biped_adrc.disturbances.link import OnLink
-from biped_adrc.disturbances.noise import TorqueNoise
-from biped_adrc.engine.compiled_walker import disturbance_code
-from biped_adrc.engine.equations import Function
-from biped_adrc.engine.fingerprint import hash_of
-from biped_adrc.engine.ir import module_text
-from biped_adrc.engine.machine import Text, machine
-from biped_adrc.engine.symbols import Tracer, Vector, column, floats, run
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import CorrectedConstraint
 from biped_adrc.gait.reference import Reference, ReferenceLaws
-from biped_adrc.observers.base import Estimate, Observer, ObserverLaws
+from biped_adrc.observers.base import Observer, ObserverLaws
 from biped_adrc.observers.chain import chain_estimate, chain_reset, chain_state
-from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
-from biped_adrc.observers.high_gain import HighGainObserver
-from biped_adrc.observers.momentum import MomentumObserver, SampledMomentumObserver
-from biped_adrc.scenario.registry import find, names
+from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array
-
-SWAP = np.array([1, 0, 3, 2])
-DOUBLES = ctypes.POINTER(ctypes.c_double)
-FUNCTION = ctypes.CFUNCTYPE(None, DOUBLES, DOUBLES, DOUBLES)
-
-
-def call(code, name, K, inp, size):
-    """What a function of machine code writes."""
-    out = np.full(size, np.nan)
-    pointers = (np.ascontiguousarray(x).ctypes.data_as(DOUBLES) for x in (K, inp, out))
-    FUNCTION(code.addresses[name])(*pointers)
-    return out
-
-
-def agree(law, *arguments):
-    """The result in Python, equal to that of the machine code to 1e-12 of its largest number.
-
-    The code solves linear systems by an elimination of its own, so round-off differs from LAPACK's.
-    """
-    expected = law(*arguments)
-    numbers = np.array([x for argument in arguments for x in floats(argument)] + [0.0])
-    K = Vector("K", len(numbers))
-    made = run(Tracer(), law, *(K.like(argument) for argument in arguments))
-    parts = made if isinstance(made, tuple) else (made,)
-    function = Function(K.symbol, Vector("inp", 1).symbol, column(*parts))
-    text = module_text({"law": function})
-    code = machine(hash_of("tested", text), ["law"], lambda: Text(text))
-    one = (
-        np.concatenate([np.ravel(x) for x in expected]) if isinstance(expected, tuple) else expected
-    )
-    other = call(code, "law", numbers, np.zeros(1), np.size(one))
-    assert np.max(np.abs(np.ravel(one) - other), initial=0.0) <= 1e-12 * np.max(
-        np.abs(one), initial=1.0
-    )
-    return expected
 
 
 def measurements(biped, gait, count=5):
@@ -80,172 +32,6 @@ def measurements(biped, gait, count=5):
         x = q + 0.05 * random.normal(size=5), v + 0.5 * random.normal(size=5)
         m = walker.measure(0.1, *x, Mode())
         yield m._replace(body=biped.body_terms(*x)), random
-
-
-SLOW = GPIObserver.from_bandwidth(20.0)
-"""Its gains do not turn the last bit of an angle into 1e-9 of a rate, as those of Table I do."""
-CONTROLLERS = {
-    "passive": lambda c: Passive(),
-    "PD with gravity": lambda c: PDGravityController(c),
-    "NPD": lambda c: ba.NPDController(c),
-    "ADRC": lambda c: ba.ADRCController(c),
-    "ADRC, discrete": lambda c: ba.ADRCController(c).sampled(1e-3),
-    "ADRC output": lambda c: OutputADRCController(c, SLOW),
-    "DOB, discrete": lambda c: MomentumDOBController(c).sampled(1e-3),
-    "delayed": lambda c: Delayed(OutputADRCController(c, SLOW), 2e-3),
-}
-
-
-@pytest.mark.parametrize("name", list(CONTROLLERS))
-def test_controllers(biped, gait, name):
-    controller = CONTROLLERS[name](gait.constraint)
-    laws = controller.laws
-    k = laws.parameters
-    for m, random in measurements(biped, gait):
-        s = controller.initial_state(m)
-        if laws.initial_state:
-            assert np.array_equal(agree(laws.initial_state, k, m), s)
-        s = s * (1.0 + 0.01 * random.normal(size=len(s)))
-        u = 20.0 * random.normal(size=4)
-        assert np.array_equal(agree(laws.output, k, s, m), controller.output(s, m))
-        for law, rest in (("flow", (m, u)), ("correct", (m,)), ("predict", (m, u))):
-            if getattr(laws, law):
-                expected = agree(getattr(laws, law), k, s, *rest)
-                assert np.array_equal(expected, getattr(controller, law)(s, *rest))
-        if laws.estimate:
-            agree(laws.estimate, k, s, m)
-    assert (laws.flow is not None) == (name in ("ADRC", "ADRC output", "delayed"))
-    assert (laws.correct is None) == (laws.predict is None) == ("discrete" not in name)
-
-
-@pytest.mark.parametrize("policy", ba.ResetPolicy)
-@pytest.mark.parametrize("kind", [ba.ADRCController, MomentumDOBController])
-def test_what_the_impact_does_to_an_observer(biped, gait, kind, policy):
-    controller = kind(gait.constraint, reset=policy)
-    laws = controller.laws
-    for m, random in measurements(biped, gait, 3):
-        s = random.normal(size=len(controller.initial_state(m)))
-        expected = agree(laws.jump, laws.parameters, s, m, SWAP)
-        assert np.array_equal(expected, controller.jump(s, m, SWAP))
-
-
-@pytest.mark.parametrize(
-    "observer",
-    [
-        GPIObserver.from_poles(),
-        GPIObserver.from_poles().sampled(1e-3),
-        HighGainObserver.from_epsilon(0.002),
-        MomentumObserver.from_bandwidth(9.0, 3),
-        MomentumObserver.from_bandwidth(9.0).sampled(1e-3),
-    ],
-    ids=["continuous", "discrete", "high gain", "momentum", "momentum, discrete"],
-)
-def test_observers(observer):
-    laws, random = observer.laws, np.random.default_rng(4)
-    k = laws.parameters
-    x = Estimate(*random.normal(size=(3, 4)))
-    assert np.array_equal(agree(laws.state, k, x).ravel(), observer.initial_state(*x))
-    Z = random.normal(size=(observer.order, 4))
-    z, y, input = Z.ravel(), x.position, x.disturbance
-    for one, other in zip(agree(laws.estimate, k, Z), observer.estimate(z), strict=True):
-        assert np.array_equal(one, other)
-    for policy in ba.ResetPolicy:
-        expected = agree(laws.reset, k, policy.code, Z, SWAP, x)
-        assert np.array_equal(expected.ravel(), observer.reset(z, policy, SWAP, *x))
-    for law, rest in (("flow", (y, input)), ("correct", (y,)), ("predict", (input,))):
-        if getattr(laws, law):
-            expected = agree(getattr(laws, law), k, Z, *rest)
-            assert np.array_equal(expected.ravel(), getattr(observer, law)(z, *rest))
-    sampled = isinstance(observer, SampledGPIObserver | SampledMomentumObserver)
-    assert (laws.flow is None, laws.correct is None, laws.predict is None) == (
-        sampled,
-        not sampled,
-        not sampled,
-    )
-
-
-def zeta_of(disturbance, at):
-    """The sum of the machine code of a disturbance's laws."""
-    t, step, t_start, q, v = at
-    inp, total = np.array([t, step, t_start, *q, *v]), np.zeros(len(q))
-    for law in disturbance_laws(disturbance):
-        K = np.array([*floats(law.parameters), 0.0])
-        total += call(disturbance_code(law, len(q)), "torque", K, inp, len(q))
-    return total
-
-
-def test_disturbances():
-    amplitude, q = np.array([30.0, -20.0, 5.0, 0.0, 1.0]), np.zeros(5)
-    pulse = ba.TorquePulse(amplitude, step=2, start=0.1, stop=0.2)
-    total = pulse + ba.TorqueStep(amplitude, step=2, start=0.1)
-    total += ba.TorqueSine(amplitude, start=0.3, frequency=5.0)
-    total += TorqueNoise(amplitude, step=2, start=0.1, stop=0.3, bandwidth=10.0, seed=1, sines=4)
-    assert len(total.laws) == 4
-    seen = 0
-    for step in (1, 2, 3):
-        for t in (1.0, 1.1, np.nextafter(1.2, 0.0), 1.2, 1.34):
-            at = (float(t), step, 1.0, q, q)
-            expected = total.torque(*at)
-            assert np.max(np.abs(zeta_of(total, at) - expected)) <= 1e-13
-            seen += any(expected)
-    assert 0 < seen <= 15
-
-
-def test_a_force_on_the_hip(biped):
-    force = HipForce(biped, (-3.0, 1.0), steps=(2, 3))
-    q = np.random.default_rng(5).uniform(-1.0, 1.0, 5)
-    J = biped.pinned.jacobian(q, biped.pinned.hip)
-    for step in (1, 2, 3, 4):
-        F = np.array([-3.0, 1.0]) if step in (2, 3) else np.zeros(2)
-        assert np.array_equal(F, force.resultant(0.0, step, 0.0))
-        assert np.max(np.abs(J.T @ F - force.torque(0.0, step, 0.0, q, q))) < 1e-13
-        assert np.max(np.abs(J.T @ F - zeta_of(force, (0.0, step, 0.0, q, q)))) < 1e-13
-
-
-@pytest.mark.parametrize(
-    "wave",
-    [
-        ba.TorquePulse([3.0, -2.0, 1.0], step=2, start=0.1, stop=0.2),
-        ba.TorquePulse([3.0, -2.0, 1.0], step=2, start=0.1, stop=0.2, rise=0.04),
-        ba.TorqueStep([3.0, -2.0, 1.0], step=2, start=0.1),
-        ba.TorqueSine([3.0, -2.0, 1.0], frequency=5.0),
-        TorqueNoise([3.0, -2.0, 1.0], bandwidth=10.0, seed=1, sines=4),
-    ],
-    ids=lambda wave: type(wave).__name__,
-)
-def test_a_force_on_a_link(biped, wave):
-    push, q = OnLink(biped, "right_shin", wave, (0.1, 0.2)), np.linspace(-1.0, 1.0, 5)
-    (law,) = push.laws
-    code, K = disturbance_code(law, 5), np.array([*floats(law.parameters), 0.0])
-    for step, t in ((1, 1.13), (2, 1.13), (3, 1.13)):
-        at = (t, step, 1.0, q, q)
-        assert np.max(np.abs(zeta_of(push, at) - push.torque(*at))) <= 1e-14
-        found = call(code, "resultant", K, np.array([t, step, 1.0, *q, *q]), 2)
-        assert np.max(np.abs(found - push.resultant(t, step, 1.0))) <= 1e-15
-    assert law.switches == wave.switches
-
-
-def test_every_class_with_laws_is_tested_here():
-    for name in names("controller"):
-        find("controller", name).load()  # every controller of the package
-
-    def below(cls):
-        for child in cls.__subclasses__():
-            yield child
-            yield from below(child)
-
-    found = {
-        cls.__name__
-        for base in (Controller, Observer, Reference, Disturbance)
-        for cls in below(base)
-        if cls.__module__.startswith("biped_adrc.") and "laws" in vars(cls)
-    }
-    assert found == {
-        *("NPDController", "Passive", "PDGravityController", "ObservingController", "Delayed"),
-        *("ChainObserver", "GPIObserver", "SampledGPIObserver", "VirtualConstraint", "Windowed"),
-        *("HighGainObserver", "MomentumObserver", "SampledMomentumObserver"),
-        *("OnLink", "HipForce", "Sum"),
-    }
 
 
 class Squared(NamedTuple):

@@ -12,7 +12,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.disturbances.base import DisturbanceLaw
-from biped_adrc.engine.fingerprint import law_text, skeleton
+from biped_adrc.engine.fingerprint import law_text, structure_text
 from biped_adrc.engine.symbols import Untraceable
 from biped_adrc.errors import InputError
 
@@ -53,7 +53,7 @@ REACHED = {
 def text_of(source: str) -> str:
     own = types.ModuleType("own")
     exec(source, vars(own))
-    return law_text(own.law) + skeleton(vars(own).get("k", ()))
+    return law_text(own.law) + structure_text(vars(own).get("k", ()))
 
 
 @pytest.mark.parametrize("source", REACHED.values(), ids=REACHED)
@@ -92,7 +92,7 @@ def test_what_cannot_be_told_is_not_compiled() -> None:
 
 @pytest.mark.parametrize("make", [tuple, list, np.array])
 def test_numbers_are_given_at_run_time(make) -> None:
-    texts = [skeleton(Pair(make(numbers))) for numbers in ([1.5, 2.0], [2.5, 3.0], [2.5])]
+    texts = [structure_text(Pair(make(numbers))) for numbers in ([1.5, 2.0], [2.5, 3.0], [2.5])]
     assert texts[0] == texts[1]
     assert texts[0] != texts[2]
 

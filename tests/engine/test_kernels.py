@@ -22,13 +22,13 @@ from numba import types
 from biped_adrc.engine.kernels import layout, methods
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run import arc
-from biped_adrc.engine.kernels.tables import (
+from biped_adrc.engine.kernels.run_plan import (
     STATUS,
-    Clock,
-    Code,
-    PushCode,
-    Scene,
-    Sizes,
+    ClockTable,
+    DisturbanceTable,
+    GroundTable,
+    LawAddresses,
+    StateSizes,
     plan,
 )
 from biped_adrc.errors import InputError, NotFiniteError, SingularError
@@ -51,7 +51,7 @@ class Walked(NamedTuple):
     """How a walk ended."""
 
     code: int
-    """Of `tables.STATUS`."""
+    """Of `run_plan.STATUS`."""
     impacts: int
     t: float
     """[s]"""
@@ -177,7 +177,7 @@ class Wheel(hybrid.HybridSystem):
     """The same laws for `hybrid.simulate`; mode = (step, start)."""
 
     K: np.ndarray
-    scene: Scene
+    scene: GroundTable
     pulses: tuple = ()
     sampled: hybrid.Clock | None = None
 
@@ -265,28 +265,28 @@ class Case(NamedTuple):
     K: np.ndarray = NUMBERS
     drops: tuple = ((2, 0.004),)
     pulses: tuple = PULSES
-    clock: Clock = Clock()
+    clock: ClockTable = ClockTable()
 
     @property
     def scene(self):
         drops = np.array(self.drops, dtype=float).reshape(-1, 2)
-        return Scene(1e-3, drops)
+        return GroundTable(1e-3, drops)
 
     def plan(self, address, method):
-        names = ("flow" if self.clock.period == 0.0 else "held", *Code._fields[1:])
-        code = Code(*(address[name] for name in names))
+        names = ("flow" if self.clock.period == 0.0 else "held", *LawAddresses._fields[1:])
+        code = LawAddresses(*(address[name] for name in names))
         pulses = self.pulses
         push = (
-            PushCode()
+            DisturbanceTable()
             if not pulses
-            else PushCode(
+            else DisturbanceTable(
                 np.array([address["pulse"]] * len(pulses)),
                 np.ravel(pulses).astype(float),
                 4 * np.arange(len(pulses) + 1),
                 np.array([(p[0], s) for p in pulses for s in p[1:3]], dtype=float),
             )
         )
-        return plan(code, Sizes(1, 4, 1, 2, 2), self.scene, push, self.clock, method)
+        return plan(code, StateSizes(1, 4, 1, 2, 2), self.scene, push, self.clock, method)
 
     def python(self, method, t_end=FAR, impacts=None, every=1, x=START, t0=0.0):
         clock = self.clock
@@ -320,8 +320,8 @@ def same_strikes(trajectory, strikes, tolerance):
         np.testing.assert_allclose(ours, other, rtol=0, atol=tolerance)
 
 
-SAMPLED = Case(clock=Clock(7e-3, 1, 0.0))
-FREE = Case(clock=Clock(7e-3, 0, 0.0))
+SAMPLED = Case(clock=ClockTable(7e-3, 1, 0.0))
+FREE = Case(clock=ClockTable(7e-3, 0, 0.0))
 PAIRS = {
     "rk4": (Case(), methods.rk4(1e-3), integrators.RK4(1e-3), 2e-13),
     "rk4 with long steps": (Case(), methods.rk4(7e-3), integrators.RK4(7e-3), 2e-13),
@@ -434,7 +434,7 @@ def test_threads_do_not_meet(address):
 def test_ticks_are_counted_from_their_start(address, restart):
     """z_1 counts them: from the last strike, or from the start of the run, each at t0 + k T."""
     T, t0 = 7e-3, 0.013
-    case = Case(clock=Clock(T, restart, t0), pulses=())
+    case = Case(clock=ClockTable(T, restart, t0), pulses=())
     _, (times, before, _) = case.walk(address, methods.rk4(2e-3), impacts=4, t0=t0)
     starts = [t0, *times[:-1]]
     if restart:
@@ -564,7 +564,12 @@ def test_the_constants_are_those_of_the_python_loop():
 
 def fitted(tick, period, method):
     return plan(
-        Code(1, tick, 1, 1), Sizes(1, 4, 1), Case().scene, PushCode(), Clock(period, 1, 0.0), method
+        LawAddresses(1, tick, 1, 1),
+        StateSizes(1, 4, 1),
+        Case().scene,
+        DisturbanceTable(),
+        ClockTable(period, 1, 0.0),
+        method,
     )
 
 

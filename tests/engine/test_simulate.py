@@ -16,7 +16,7 @@ from biped_adrc.control.base import Controller, ControllerLaws
 from biped_adrc.control.npd import npd_torque
 from biped_adrc.control.tracking import TrackedParameters
 from biped_adrc.engine import program
-from biped_adrc.engine.fingerprint import law_text, skeleton
+from biped_adrc.engine.fingerprint import law_text, structure_text
 from biped_adrc.engine.mechanics import robot_of
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.engine.symbols import Untraceable, Vector
@@ -472,8 +472,8 @@ def test_the_fingerprint_sees_what_a_law_reaches(monkeypatch):
     monkeypatch.setitem(keyword.__kwdefaults__, "factor", 0.9)
     after = law_text(through_module), law_text(with_keyword)
     assert all(one != other for one, other in zip(before, after, strict=True))
-    assert skeleton(made(2)) == skeleton(made(2))
-    assert skeleton(made(2)) != skeleton(made(3))
+    assert structure_text(made(2)) == structure_text(made(2))
+    assert structure_text(made(2)) != structure_text(made(3))
 
 
 ROOMS = sorted(

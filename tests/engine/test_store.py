@@ -10,11 +10,11 @@ import pytest
 
 from biped_adrc.engine.machine import (
     VARIABLE,
-    Text,
+    ModuleText,
     _path,
     cache_folder,
+    load_or_compile,
     load_source,
-    machine,
     stored,
 )
 
@@ -28,6 +28,15 @@ ret void
 """
 
 
+@pytest.fixture(scope="module", autouse=True)
+def cache(tmp_path_factory):
+    """A folder of these tests' own, as they damage what is in it; all others share one."""
+    with pytest.MonkeyPatch.context() as patch:
+        folder = tmp_path_factory.mktemp("cache")
+        patch.setenv(VARIABLE, str(folder))
+        yield folder
+
+
 def result(code):
     import ctypes
 
@@ -39,7 +48,7 @@ def result(code):
 
 def make(key="some-key", text=TEXT):
     made = []
-    code = machine(key, ["f"], lambda: (made.append(1), Text(text))[1])
+    code = load_or_compile(key, ["f"], lambda: (made.append(1), ModuleText(text))[1])
     return result(code), len(made)
 
 

@@ -10,9 +10,9 @@ from scipy.io import loadmat, savemat
 import biped_adrc as ba
 from biped_adrc.errors import GaitError, InputError, OutputError
 from biped_adrc.gait.conventions import CONVENTIONS, convention
-from biped_adrc.gait.curves import Bezier, Polynomial, ramp
+from biped_adrc.gait.curves import Bezier, Polynomial
 from biped_adrc.gait.exchange.closure import check, closing_conventions
-from biped_adrc.gait.exchange.convert import mapped, record_of, reversed_curve
+from biped_adrc.gait.exchange.convert import mapped, record_of
 from biped_adrc.gait.exchange.files import (
     RUN_UNITS,
     export_run,
@@ -158,10 +158,10 @@ def test_curves_given_from_the_end_of_the_step(degree, biped, gait, record):
         h = kind(rng.normal(size=(3, degree + 1)))
         A, b = rng.normal(size=(2, 3)), rng.normal(size=2)
         for s in rng.uniform(0, 1, 5):
-            assert reversed_curve(h)(s)[0] == pytest.approx(h(1 - s)[0], abs=1e-12)
+            assert h.reversed()(s)[0] == pytest.approx(h(1 - s)[0], abs=1e-12)
             assert mapped(h, A, b)(s)[0] == pytest.approx(A @ h(s)[0] + b, abs=1e-12)
             assert mapped(h, A, b)(s)[2] == pytest.approx(A @ h(s)[2], abs=1e-10)
-            line = kind(ramp(kind, degree, 3.4, 2.9)[np.newaxis])
+            line = kind(kind.ramp(degree, 3.4, 2.9)[np.newaxis])
             assert line(s)[0] == pytest.approx(3.4 - 0.5 * s, abs=1e-13)
 
 

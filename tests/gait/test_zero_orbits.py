@@ -15,7 +15,8 @@ from biped_adrc.analysis.zero_report import zero_report
 from biped_adrc.cli import app
 from biped_adrc.errors import GaitError, InputError
 from biped_adrc.gait.curves import Polynomial
-from biped_adrc.gait.zero_orbits import Limits, ZeroOrbits, domain
+from biped_adrc.gait.zero_domain import DomainLimits, domain
+from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.robots.robot_toml import KnownLimits
 from biped_adrc.robots.robot_toml import Limits as WithinLimits
 from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
@@ -80,7 +81,7 @@ def test_walks_from_inside_the_domain_and_stalls_outside(orbits, published):
             assert run.certificates[0].duration == pytest.approx(orbits.period(zeta), rel=1e-5)
 
 
-@pytest.mark.parametrize("limits", [Limits(friction=0.5), Limits(torque=90.0)])
+@pytest.mark.parametrize("limits", [DomainLimits(friction=0.5), DomainLimits(torque=90.0)])
 def test_the_upper_end_is_where_the_simulated_step_needs_the_limit(orbits, published, limits):
     instant = WithinLimits(window=1e-6)
     upper = domain(orbits, limits).upper
@@ -103,8 +104,8 @@ def test_friction_of_a_step_decides_whether_it_is_in_the_domain(any_biped, share
     step = dense.orbit(orbits.delta * orbits.sigma(zeta))
     F_T, F_N = step.ground_reaction.T
     needed = float(np.max(np.abs(F_T) / F_N))
-    assert domain(orbits, Limits(friction=1.02 * needed)).holds(zeta)
-    assert not domain(orbits, Limits(friction=0.98 * needed)).holds(zeta)
+    assert domain(orbits, DomainLimits(friction=1.02 * needed)).holds(zeta)
+    assert not domain(orbits, DomainLimits(friction=0.98 * needed)).holds(zeta)
 
 
 def test_feet_leave_the_ground_beyond_the_upper_end(orbits, published):
@@ -137,7 +138,7 @@ def test_the_sense_of_theta_is_a_matter_of_taste(orbits, bare, published):
     zeta = 1.2 * orbits.zeta_star
     assert turned.sigma(zeta) == pytest.approx(orbits.sigma(zeta), rel=1e-12)
     assert turned.period(zeta) == pytest.approx(orbits.period(zeta), rel=1e-10)
-    one, other = (domain(o, Limits(0.6)).upper for o in (turned, orbits))
+    one, other = (domain(o, DomainLimits(0.6)).upper for o in (turned, orbits))
     assert one.zeta == pytest.approx(other.zeta, rel=1e-9)
     assert one.theta == pytest.approx(-other.theta, abs=1e-6)
 
@@ -199,16 +200,16 @@ def test_a_spoke_pushes_along_itself():
     """The hub flies off when rate^2 > g cos x, first at the end; friction asked for is tan(alpha), always."""
     slope = 0.2
     orbits = orbits_of(*wheel(slope))
-    upper = domain(orbits, Limits(slope=slope)).upper
+    upper = domain(orbits, DomainLimits(slope=slope)).upper
     assert upper.cause == "lift-off"
     assert upper.theta == pytest.approx(math.pi - slope - ALPHA)
     assert orbits.rho(upper.zeta) == pytest.approx(
         0.5 * GRAVITY * math.cos(slope + ALPHA), rel=1e-8
     )
-    rough = domain(orbits, Limits(friction=0.42, slope=slope))  # tan(alpha) = 0.4142
+    rough = domain(orbits, DomainLimits(friction=0.42, slope=slope))  # tan(alpha) = 0.4142
     assert not rough.empty
     assert rough.upper.zeta == pytest.approx(upper.zeta, rel=1e-8)
-    assert domain(orbits, Limits(friction=0.41, slope=slope)).empty
+    assert domain(orbits, DomainLimits(friction=0.41, slope=slope)).empty
 
 
 def test_multiplier_of_the_wheel_is_delta_squared():
@@ -260,25 +261,25 @@ def test_zeta_outside_of_the_domain(orbits):
     with pytest.raises(GaitError, match="closeness is 0"):
         orbits.steps_to(orbits.zeta_star, 0.0)
     with pytest.raises(InputError, match="friction is -1"):
-        Limits(friction=-1.0)
+        DomainLimits(friction=-1.0)
     with pytest.raises(InputError, match="right angle"):
-        Limits(slope=1.6)
+        DomainLimits(slope=1.6)
 
 
 # -- report, picture, command ----------------------------------------------------------------------------
 def test_report_says_what_does_not_hold(bare, published):
-    good = zero_report(bare, published.constraint, Limits(0.6, 150.0))
+    good = zero_report(bare, published.constraint, DomainLimits(0.6, 150.0))
     assert good.walkable
     assert good.speeds[0] == 0.0
     assert "leaves the constraint" not in good.text()
     assert (
         "the periodic orbit does not keep"
-        in zero_report(bare, published.constraint, Limits(torque=60.0)).text()
+        in zero_report(bare, published.constraint, DomainLimits(torque=60.0)).text()
     )
     recipe = ba.load_gait("recipe", bare)
     assert "the impact leaves the constraint" in zero_report(bare, recipe.constraint).text()
     with pytest.raises(GaitError, match=r"above the ground of slope 0\.1 rad"):
-        zero_report(bare, published.constraint, Limits(slope=0.1))
+        zero_report(bare, published.constraint, DomainLimits(slope=0.1))
     c = published.constraint
     shifted = ba.VirtualConstraint(c.curve, c.phase, c.theta_plus + 0.01, c.theta_minus)
     with pytest.raises(GaitError, match="begins at Theta = "):

@@ -18,7 +18,7 @@ RANDOM = np.random.default_rng(11)
 def ticks(sensors, path, count, n=2, p=1, period=T):
     """(q^, v^) at each tick along path(t) -> (q, v)."""
     k = sensors.parameters(n, p, period)
-    w = sensor_state(k, *path(0.0), sensors.start)
+    w = sensor_state(k, *path(0.0), sensors.random)
     seen = []
     for i in range(count):
         w = sense(k, w, *path(i * period))
@@ -82,7 +82,7 @@ def test_noise_has_its_deviation_and_its_seed():
 def test_at_impact_differences_start_anew():
     sensors = Sensors(counts=8192.0)
     k = sensors.parameters(2, 1, T)
-    w = sense(k, sensor_state(k, np.zeros(2), np.ones(2), sensors.start), np.zeros(2), np.ones(2))
+    w = sense(k, sensor_state(k, np.zeros(2), np.ones(2), sensors.random), np.zeros(2), np.ones(2))
     q, v, expected = np.array([5.0, 6.0]), np.array([-3.0, -4.0]), np.array([-2.5, -4.5])
     w = sensed_impact(k, w, q, v, expected)
     assert np.array_equal(w[2:4], expected)

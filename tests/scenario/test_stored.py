@@ -22,7 +22,7 @@ from biped_adrc.errors import InputError, OutputError
 from biped_adrc.hybrid.storage import load, load_beside, save
 from biped_adrc.resources import data_folder
 from biped_adrc.scenario import registry
-from biped_adrc.scenario.plain import Reader, Writer
+from biped_adrc.scenario.walker_record import Reader, Writer
 
 OLD = Path(__file__).parents[1] / "data"
 FAST = {"engine": "compiled", "impacts": 1}

@@ -1,10 +1,15 @@
-"""One arc: the ticks that are due, steps to the next switching time or tick, and so on to the first event.
+"""One arc: the sample instants that are due, steps to the next break, and so on to the first event.
 
-A run is a vector s: the head of `layout`, then x. `arc` goes on from s; `strike`, or another END,
-makes it the next arc or the next stretch of the same one. Nodes (t, x, x') go into the rows of R.
+A break is a switching time of the disturbance or a sample instant. A run is a vector s: the head of
+`layout`, then x. `arc` goes on from s; `strike`, or another END, makes it the next arc or the next
+stretch of the same one. Nodes (t, x, x') go into the rows of R.
 
-`stride` is the whole walk in compiled code: arcs and strikes until enough of them, the end, or a terminal
-status.
+`stride` is the whole walk in compiled code, for many walks at once: arcs and impacts until enough
+of them, the end, or a terminal status. `hold` is for controllers in Python: it moves the plant to
+the next sample instant and computes there what the controller is given.
+
+The order of what happens at equal times is that of `hybrid.simulator`, whose results these loops
+repeat.
 """
 
 from __future__ import annotations
@@ -22,12 +27,17 @@ from biped_adrc.types import Array
 
 @inner
 def is_tick(F: Array, t: float, start: float) -> bool:
+    """Whether t [s] is exactly a sample instant of the clock that began at `start` [s].
+
+    Sample instants are always computed as start + k T, so equality is exact.
+    """
     k = np.floor((t - start) / F[PERIOD] + 0.5)
     return t == start + k * F[PERIOD]
 
 
 @inner
 def next_tick(F: Array, t: float, start: float) -> float:
+    """The first sample instant after t [s] of the clock that began at `start` [s]."""
     k = np.floor((t - start) / F[PERIOD])
     while start + k * F[PERIOD] <= t:
         k += 1.0
@@ -36,7 +46,7 @@ def next_tick(F: Array, t: float, start: float) -> float:
 
 @inner
 def next_break(P: Ints, F: Array, W: Array, t: float, start: float) -> float:
-    """The first switching time or tick after t, at most the end."""
+    """The first switching time or sample instant after t [s], at most the END of the run."""
     first = next_switch(P, F, W, t, W[END])
     if F[PERIOD] > 0.0:
         first = min(first, next_tick(F, t, start))
@@ -47,7 +57,9 @@ def next_break(P: Ints, F: Array, W: Array, t: float, start: float) -> float:
 
 @inner
 def release(P: Ints, F: Array, W: Array, t: float, start: float) -> None:
-    """Where a part of the period has passed since a tick, the waiting torque acts."""
+    """Where a fraction of the period has passed since a sample instant, the waiting torque acts: in
+    X0 the last p numbers are replaced by the p before them [N m].
+    """
     begin = start + F[PERIOD_PART]
     if t >= begin and is_tick(F, t, begin):
         x, nx, p = row(P, W, X0), P[STATES], P[JOINTS]
@@ -57,7 +69,11 @@ def release(P: Ints, F: Array, W: Array, t: float, start: float) -> None:
 
 @inner
 def travel(P: Ints, F: Array, K: Array, W: Array, R: Array) -> int:
-    """From X0 at TIME to the first event or END; a code, 0 at END."""
+    """From X0 at TIME to the first event or END; a code, COMPLETED at END.
+
+    Each round: the sample instant that is due, the release of a waiting torque that is due, then
+    steps to the next break. X0 (nx,) and TIME [s] are left where it ended.
+    """
     start = W[ARC] if P[RESTART] == 1 else F[T_FIRST]
     while W[TIME] < W[END]:
         t = W[TIME]
@@ -76,7 +92,10 @@ def travel(P: Ints, F: Array, K: Array, W: Array, R: Array) -> int:
 
 @inner
 def arm(P: Ints, F: Array, K: Array, W: Array) -> None:
-    """The witnesses at the start of an arc; what is left of the one that has just fired is taken as zero."""
+    """Values of the event functions (GUARDS,) at the start of an arc.
+
+    What is left of the one that has just fired is round-off and taken as zero, which never fires.
+    """
     W[ARC] = W[TIME]
     after = row(P, W, AFTER)
     watch(P, F, K, W, W[TIME], row(P, W, X0), after)
@@ -88,7 +107,7 @@ def arm(P: Ints, F: Array, K: Array, W: Array) -> None:
 
 @inner
 def load(P: Ints, W: Array, s: Array) -> None:
-    """The head of W and row X0 from the vector of a run."""
+    """The head of W and row X0 from the run vector s (HEAD + nx,)."""
     copy(s, W, HEAD)
     copy(shift(s, HEAD), row(P, W, X0), P[STATES])
     W[ZERO_PIVOT] = 0.0
@@ -96,14 +115,19 @@ def load(P: Ints, W: Array, s: Array) -> None:
 
 @inner
 def save(P: Ints, W: Array, s: Array) -> None:
-    """The vector of a run from the head of W and row X0."""
+    """The run vector s (HEAD + nx,) from the head of W and row X0."""
     copy(W, s, HEAD)
     copy(row(P, W, X0), shift(s, HEAD), P[STATES])
 
 
 @unit
 def go_on(P: Ints, F: Array, K: Array, W: Array, s: Array, R: Array) -> int:
-    """From the run's vector s, whose ROOM is the rows of R, to the first event or its END; a code."""
+    """From the run vector s (HEAD + nx,), whose ROOM is the rows of R, to the first event or its
+    END; a code.
+
+    s is written only where R was not FULL, so that the call can be repeated with more room. An arc
+    that ends before its first step leaves one node, so that no arc is empty.
+    """
     load(P, W, s)
     lower(P, F, W)
     if W[ARMED] == 0.0:
@@ -122,16 +146,19 @@ def go_on(P: Ints, F: Array, K: Array, W: Array, s: Array, R: Array) -> int:
 
 @kernel
 def arc(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array, kept: Rows) -> int:
-    """Go on from `run` to the first event or its END; a code. `run` is as it was where `kept` is FULL."""
+    """Go on from `run` (HEAD + nx,) to the first event or its END; a code. `run` is as it was where
+    `kept` is FULL.
+    """
     run[ROOM] = kept.shape[0]
     return go_on(data(ints), data(floats), data(numbers), data(work), data(run), data(kept))
 
 
 @unit
 def hold(given: Ints, seen: Array) -> int:
-    """As `arc`, and in `seen` (t, q, q') there, with what a law says of them.
+    """As `arc`; then in `seen` (t, q, q') there, and behind them what a law says of these.
 
-    given: addresses of P, F, K, W, s and R, of the law, and of its numbers.
+    given (8,): addresses of P, F, K, W, s and R, of the law, and of its numbers. By addresses, so
+    that Python passes two pointers and no arrays.
     """
     P, F, K, W = ints_at(given[0]), floats_at(given[1]), floats_at(given[2]), floats_at(given[3])
     s = floats_at(given[4])
@@ -145,7 +172,9 @@ def hold(given: Ints, seen: Array) -> int:
 
 @kernel
 def strike(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array) -> int:
-    """x+ in place of x- in `run`, and the head of the next arc; a status, `run` untouched where it is not 0."""
+    """x+ in place of x- in `run` (HEAD + nx,), and the head of the next arc; a status, `run`
+    untouched where it is not 0.
+    """
     P, K, W, s = data(ints), data(numbers), data(work), data(run)
     load(P, W, s)
     x, x_plus = row(P, W, X0), row(P, W, XE)
@@ -167,9 +196,11 @@ def stride(
     impacts: int,
     strikes: Rows,
 ) -> tuple[int, int]:
-    """From `run` over `impacts` strikes, or over any number until END for 0: status and strikes made.
+    """From `run` (HEAD + nx,) over `impacts` impacts, or over any number until END for 0: status
+    and how many were made.
 
-    strikes (m, 1 + 2 nx) gets a row (t, x-, x+) of each; more than m of them are a limit of events.
+    strikes (m, 1 + 2 nx) gets a row (t, x-, x+) of each; more than m of them end as EVENT_LIMIT. No
+    nodes are kept in between.
     """
     P, F, K, W, s = data(ints), data(floats), data(numbers), data(work), data(run)
     nx, made = P[STATES], 0

@@ -1,43 +1,62 @@
 """Pointers, calls of C functions by their addresses at run time, and how the loops are compiled.
 
-The loops work on pointers, written and read as arrays are; a vector is a pointer to its first number.
-numba compiles what a function calls once more into each of its callers; a `unit` is compiled once, and called
-by its symbol.
+The loops work on pointers, written and read as arrays are; a vector is a pointer to its first
+number. Generated laws are called by an address that is data of the run, so the loops are compiled
+once for all walkers.
+
+There are three decorators. `inner` functions are compiled into each of their callers, `unit`s once
+each and called by their symbol, which keeps the compile time down; `kernel`s are what Python calls.
+The annotations of units and kernels are read as their signatures (int, float, Ints, Array, Rows),
+so nothing is compiled for types seen at run time.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 import numba
 import numpy as np
 from llvmlite import binding, ir
 from numba import extending
+from numba.core.dispatcher import Dispatcher
+from numba.core.types import Type
+from numba.core.typing.templates import Signature
 from numpy.typing import NDArray
 
 Ints = NDArray[np.int64]
 Rows = NDArray[np.float64]
-_Function = TypeVar("_Function", bound=Callable[..., Any])
+_Function = TypeVar("_Function", bound=Callable[..., object])
+"""A function that keeps its type through a decorator."""
 
 
+Generated = tuple[Signature, Callable[..., ir.Value]]
+"""What an intrinsic gives numba: its signature, and the function that writes its instructions."""
+
+
+Context = Any
+"""numba.core.base.BaseContext, whose methods have no annotations."""
 njit: Any = numba.njit
 cfunc: Any = numba.cfunc
 types: Any = numba.types
 
-KERNELS: list[Any] = []
-UNITS: dict[str, tuple[Any, Any]] = {}
+KERNELS: list[Dispatcher] = []
+"""All kernels, to be compiled."""
+UNITS: dict[str, tuple[Signature, Callable[..., object]]] = {}
 """By symbol: the signature and the function, in the order in which they need each other."""
 ADDRESSES: dict[str, int] = {}
 """Of the units in memory, by name."""
 _NUMBERS = {"int": types.int64, "float": types.float64, "None": types.void}
+"""numba's types by the annotations of numbers."""
 _POINTERS = {"Ints": types.CPointer(types.int64), "Array": types.CPointer(types.float64)}
+"""Of vectors, in units."""
 _ARRAYS = {"Ints": types.int64[::1], "Array": types.float64[::1], "Rows": types.float64[:, ::1]}
-_KEEP: list[Any] = []
+"""Of vectors and matrices, in kernels."""
+_KEEP: list[object] = []
 
 
-def intrinsic(function: Callable[..., Any]) -> Any:
-    """numba's, written in LLVM's instructions."""
+def intrinsic(function: Callable[..., Generated]) -> Callable[..., Any]:
+    """numba's decorator for a function that is written in LLVM's instructions."""
     made: Any = extending.intrinsic
     return made(function)
 
@@ -50,7 +69,7 @@ def kernel(function: _Function) -> _Function:
 
 
 def inner(function: _Function) -> _Function:
-    """Compiled into the units and kernels that call it, and kept on disk with them."""
+    """Compiled into the units and kernels that call it, and kept on disk with them; for small functions."""
     return njit(
         nogil=True,
         error_model="numpy",
@@ -59,9 +78,11 @@ def inner(function: _Function) -> _Function:
     )(function)
 
 
-def _signature(function: Any, kinds: dict[str, Any]) -> tuple[list[Any], Any]:
-    """Kinds of the arguments and of the result, from the annotations."""
-    known = _NUMBERS | kinds
+def _signature(
+    function: Callable[..., object], kinds: Mapping[str, Type]
+) -> tuple[list[Type], Any]:
+    """numba's types of the arguments and of the result (None for none known), from the annotations."""
+    known = {**_NUMBERS, **kinds}
     hints = function.__annotations__
     return [known[hint] for name, hint in hints.items() if name != "return"], known.get(
         hints["return"]
@@ -69,17 +90,22 @@ def _signature(function: Any, kinds: dict[str, Any]) -> tuple[list[Any], Any]:
 
 
 def unit(function: _Function) -> _Function:
-    """A C function with a symbol of its own, once `compile_all` has run; its annotations are its signature."""
+    """A C function with a symbol of its own, once `compile_all` has run; its annotations are its signature.
+
+    What it is given comes back as a reference to that symbol, so callers do not compile it again.
+    """
     arguments, result = _signature(function, _POINTERS)
     signature = result(*arguments)
     symbol = f"{function.__module__}.{function.__name__}"
     UNITS[symbol] = signature, function
-    external: Any = types.ExternalFunction(symbol, signature)
-    return external
+    return types.ExternalFunction(symbol, signature)
 
 
 def compile_all() -> None:
-    """The machine code of all units and kernels, from the disk if it is there; no more is compiled after."""
+    """The machine code of all units and kernels, from the disk if it is there; no more is compiled after.
+
+    Units come first, in the order in which they need each other: a kernel links to their symbols.
+    """
     for symbol, (signature, function) in UNITS.items():
         compiled = cfunc(signature, cache=True, error_model="numpy")(function)
         _KEEP.append(compiled)
@@ -90,17 +116,20 @@ def compile_all() -> None:
         made.disable_compile()
 
 
-def _pointer(context: Any, builder: Any, kind: Any, value: Any) -> Any:
+def _pointer(context: Context, builder: ir.IRBuilder, kind: Type, value: ir.Value) -> ir.Value:
+    """The first address of an array; a pointer as it is."""
     if isinstance(kind, types.Array):
         return context.make_array(kind)(context, builder, value).data
     return value
 
 
 @intrinsic
-def call(typingctx: Any, address: Any, K: Any, inp: Any, out: Any) -> Any:
+def call(typingctx: object, address: Type, K: Type, inp: Type, out: Type) -> Generated:
     """Call `void f(double* K, double* inp, double* out)` at `address`, with pointers or arrays of float64."""
 
-    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    def codegen(
+        context: Context, builder: ir.IRBuilder, signature: Signature, arguments: list[ir.Value]
+    ) -> ir.Value:
         double = ir.DoubleType().as_pointer()
         kind = ir.FunctionType(ir.VoidType(), [double] * 3).as_pointer()
         pairs = zip(signature.args[1:], arguments[1:], strict=True)
@@ -112,28 +141,39 @@ def call(typingctx: Any, address: Any, K: Any, inp: Any, out: Any) -> Any:
 
 
 @intrinsic
-def data(typingctx: Any, array: Any) -> Any:
+def data(typingctx: object, array: Any) -> Generated:
     """Pointer to the first number of an array."""
 
-    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    def codegen(
+        context: Context, builder: ir.IRBuilder, signature: Signature, arguments: list[ir.Value]
+    ) -> ir.Value:
         return _pointer(context, builder, signature.args[0], arguments[0])
 
     return types.CPointer(array.dtype)(array), codegen
 
 
 @intrinsic
-def shift(typingctx: Any, pointer: Any, i: Any) -> Any:
-    """Pointer to entry i."""
+def shift(typingctx: object, pointer: Type, i: Type) -> Generated:
+    """Pointer to entry i of what `pointer` points to."""
 
-    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    def codegen(
+        context: Context, builder: ir.IRBuilder, signature: Signature, arguments: list[ir.Value]
+    ) -> ir.Value:
         return builder.gep(arguments[0], [arguments[1]])
 
     return pointer(pointer, types.int64), codegen
 
 
-def _pointer_at(number: Any, kind: Any) -> Any:
-    def at(typingctx: Any, address: Any) -> Any:
-        def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+def _pointer_at(number: Type, kind: ir.Type) -> Callable[..., Any]:
+    """An intrinsic from an address (int64) to a pointer to numbers of this type."""
+
+    def at(typingctx: object, address: Type) -> Generated:
+        def codegen(
+            context: Context,
+            builder: ir.IRBuilder,
+            signature: Signature,
+            arguments: list[ir.Value],
+        ) -> ir.Value:
             return builder.inttoptr(arguments[0], kind.as_pointer())
 
         return types.CPointer(number)(types.int64), codegen

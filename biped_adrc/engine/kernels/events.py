@@ -1,7 +1,11 @@
-"""Crossings of the witnesses in a step, located on the step itself, taken again with a shorter length.
+"""Crossings of the event functions in a step, located on the step itself, taken again with a shorter length.
 
-A step longer than RESOLUTION is looked through first on the cubic Hermite polynomial of q, then, where that
-shows a crossing, at interior points of the step taken again.
+A step longer than RESOLUTION could hide two crossings. It is looked through first on the cubic
+Hermite polynomial of q, which costs nothing but event functions; only where that shows a crossing
+are interior points of the step taken again. The time is found by Brent's method, as SciPy's, so
+that x- has the accuracy of the method and both engines find the same event.
+
+Rows XE and TRIED are left at the event: state, and values of the event functions.
 """
 
 from __future__ import annotations
@@ -17,7 +21,11 @@ from biped_adrc.types import Array
 
 @inner
 def reach(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array, dx: Array, s: float) -> None:
-    """Rows XE and TRIED: state and witnesses at s, by one step from (t, x)."""
+    """Rows XE and TRIED: state and event functions at s [s], by one step from (t, x), x (nx,), dx (nx,).
+
+    DOP853 always starts from X0; the others take one classical step, ETD-RK4 from the end of its
+    sub-steps.
+    """
     xe = row(P, W, XE)
     if P[KIND] == DOP853:
         eighth(P, F, K, W, t, s - t, xe)
@@ -28,7 +36,10 @@ def reach(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array, dx: Array, 
 
 @unit
 def retake(P: Ints, F: Array, K: Array, W: Array, t0: float, s: float) -> None:
-    """Rows XE and TRIED: state and witnesses at s of the step from t0."""
+    """Rows XE and TRIED: state and event functions at s [s] of the step that began at t0 [s].
+
+    For ETD-RK4 by sub-steps with prepared matrices, and one classical step for what is left.
+    """
     if P[KIND] == ETD:
         halve(P, F, K, W, -1, t0, s, s, 0.0)
         reach(P, F, K, W, W[LANDED], row(P, W, XB), row(P, W, DXB), s)
@@ -51,7 +62,12 @@ def brent(
     now: float,
     f_now: float,
 ) -> float:
-    """Brent's method as in `scipy.optimize.brentq`, whose iterates it repeats."""
+    """Time [s] of a root by Brent's method as in `scipy.optimize.brentq`, whose iterates it repeats.
+
+    The guard's event function is f_before at `before` and f_now at `now` [s]; states in between are
+    one step from (base, x), x (nx,), dx (nx,). Secant or inverse quadratic steps, bisection where
+    those do not shrink the bracket.
+    """
     other, f_other = before, f_before
     last = step = now - before
     for _ in range(100):
@@ -93,7 +109,11 @@ def brent(
 def locate(
     P: Ints, F: Array, K: Array, W: Array, guard: int, t0: float, ta: float, tb: float
 ) -> float:
-    """Time of the guard's crossing in (ta, tb] of the step from t0; rows XE and TRIED are left there."""
+    """Time [s] of the guard's crossing in (ta, tb] of the step from t0; rows XE and TRIED are left there.
+
+    For ETD-RK4 sub-steps narrow the bracket first, down to the shortest one; Brent's method goes on
+    within it with classical steps, which are stable at that length.
+    """
     fa, fb = W[VALUES + guard], row(P, W, AFTER)[guard]
     base, x, dx = t0, row(P, W, X0), row(P, W, DX0)
     if P[KIND] == ETD:
@@ -110,7 +130,12 @@ def locate(
 
 @inner
 def crossed(P: Ints, F: Array, K: Array, W: Array, t0: float, ta: float, tb: float) -> int:
-    """The earliest event in (ta, tb], 0 for none; its time in EVENT of NOW, its state in row XE."""
+    """Code of the earliest event in (ta, tb] [s], 0 for none; its time goes into EVENT, its state
+    into row XE.
+
+    Every event function that falls through zero is located and the earliest counts. A touchdown
+    less than LEAST_STEP ahead of the stance foot is no event, so the others are still looked at.
+    """
     after, tried = row(P, W, AFTER), row(P, W, TRIED)
     first, first_guard, last = math.inf, -1, -1
     for guard in range(GUARDS):
@@ -131,13 +156,17 @@ def crossed(P: Ints, F: Array, K: Array, W: Array, t0: float, ta: float, tb: flo
 
 @inner
 def pieces(t0: float, t1: float) -> int:
-    """How many stretches no longer than RESOLUTION make a step."""
+    """How many stretches no longer than RESOLUTION make a step from t0 to t1 [s]."""
     return max(1, math.ceil((t1 - t0) / RESOLUTION - 1e-9))
 
 
 @inner
 def hermite(P: Ints, W: Array, h: float, s: float, out: Array) -> None:
-    """out = q at the fraction s of the step from X0 to X1."""
+    """out (n,) [rad] = q at the fraction s of the step of length h [s] from X0 to X1.
+
+    The cubic through both states with their rates as slopes; q alone, since event functions need no
+    more.
+    """
     n, x0, x1 = P[COORDINATES], row(P, W, X0), row(P, W, X1)
     for i in range(n):
         rise = x1[i] - x0[i]
@@ -147,7 +176,11 @@ def hermite(P: Ints, W: Array, h: float, s: float, out: Array) -> None:
 
 @inner
 def suspect(P: Ints, F: Array, K: Array, W: Array, t0: float, t1: float, count: int) -> bool:
-    """Whether a witness falls through zero between points of the Hermite polynomial; row AFTER is at t1."""
+    """Whether an event function falls through zero between `count` points of the Hermite polynomial.
+
+    A cheap first look at a long step: no flow is evaluated. Row AFTER has the values at t1 [s]
+    already.
+    """
     stage = row(P, W, STAGE)
     v0, v1, v2 = W[VALUES], W[VALUES + 1], W[VALUES + 2]
     for j in range(1, count + 1):
@@ -165,7 +198,11 @@ def suspect(P: Ints, F: Array, K: Array, W: Array, t0: float, t1: float, count: 
 
 @unit
 def event(P: Ints, F: Array, K: Array, W: Array, t0: float, t1: float) -> int:
-    """The earliest event in the step from (t0, X0) to (t1, X1), 0 for none; the witnesses go on to t1."""
+    """Code of the earliest event in the step from (t0, X0) to (t1, X1), times in [s], 0 for none.
+
+    A long step is looked through stretch by stretch, so the first of two events in it is found.
+    Without an event VALUES become those at t1.
+    """
     count, x1, w = pieces(t0, t1), row(P, W, X1), row(P, W, AFTER)
     watch(P, F, K, W, t1, x1, w)
     if count > 1 and not suspect(P, F, K, W, t0, t1, count):

@@ -1,7 +1,9 @@
-"""The laws of a run, called by address: flow, tick, strike, witnesses, and the disturbance's torque.
+"""Calls of a run's functions by address: flow, sample instant, impact, event functions, disturbance.
 
-A row that a law fills ends with its least pivot; where that is exactly zero the run is noted as singular and
-the row is no number, even where a torque limit has made one of it.
+The inputs of a function are put into row INP of W in the order that `run_plan.LawAddresses` gives;
+its outputs go where the caller wants them. An output row ends with the least pivot of the matrices
+inverted; where that is exactly zero, the run is noted as singular and the row is made NaN, even
+where a torque limit has made a finite number of it.
 """
 
 from __future__ import annotations
@@ -13,30 +15,35 @@ from biped_adrc.engine.kernels.layout import *
 from biped_adrc.types import Array
 
 GAUSS = 0.5773502691896257  # 1 / sqrt(3), as in `biped_adrc.disturbances.base`
+"""Node of the two-point rule of Gauss, 1 / sqrt(3) [1], as in `disturbances.base`."""
 
 
 @inner
 def row(P: Ints, W: Array, i: int) -> Array:
-    """Pointer to row i of the work rows."""
+    """Pointer to work row i (width,)."""
     return shift(W, i * P[WIDTH])
 
 
 @inner
 def copy(x: Array, out: Array, size: int) -> None:
+    """out (size,) = x (size,)."""
     for i in range(size):
         out[i] = x[i]
 
 
 @inner
 def copy_held(P: Ints, x: Array, out: Array) -> None:
-    """The torques on the joints, all that a flow looks at of what does not flow."""
+    """The torques on the joints (p,) [N m]: all that a flow needs of what does not flow."""
     for i in range(P[STATES] - P[JOINTS], P[STATES]):
         out[i] = x[i]
 
 
 @inner
 def finite(x: Array, size: int) -> bool:
-    """Whether the sum of squares is finite."""
+    """Whether the sum of squares of x (size,) is finite, as for every state that means anything.
+
+    Four sums side by side, so that no addition waits for the one before it.
+    """
     a = b = c = d = 0.0
     for i in range(0, size - 3, 4):
         a += x[i] * x[i]
@@ -50,7 +57,9 @@ def finite(x: Array, size: int) -> bool:
 
 @inner
 def regular(dx: Array, size: int) -> bool:
-    """Whether every number is finite, however large."""
+    """Whether every number of dx (size,) is finite, however large; a slope may be huge where its
+    square overflows.
+    """
     a = b = c = d = 0.0
     for i in range(0, size - 3, 4):
         a += 0.0 * dx[i]
@@ -64,13 +73,18 @@ def regular(dx: Array, size: int) -> bool:
 
 @inner
 def broken(W: Array) -> int:
-    """The status of a run whose state or slope is not finite."""
+    """The status of a run whose state (nx,) or slope is not finite: SINGULAR after a pivot of zero,
+    else NOT_FINITE.
+    """
     return SINGULAR if W[ZERO_PIVOT] == 1.0 else NOT_FINITE
 
 
 @inner
 def disturb(P: Ints, F: Array, W: Array, zeta: Array) -> None:
-    """zeta: the sum of the parts at (t, step, t_start, q, v) in row INP."""
+    """zeta (n,) [N m]: the sum of the disturbance's parts at (t, step, t_start, q, v) in row INP.
+
+    Each part is a function of its own, called by its address with its own parameters in F.
+    """
     n, inp, part = P[COORDINATES], row(P, W, INP), row(P, W, PART)
     for i in range(n):
         zeta[i] = 0.0
@@ -85,7 +99,11 @@ def disturb(P: Ints, F: Array, W: Array, zeta: Array) -> None:
 def evaluate(
     P: Ints, F: Array, K: Array, W: Array, law: int, t: float, x: Array, out: Array
 ) -> None:
-    """out = law(t, step, t_start, x, zeta)."""
+    """out = law(t, step, t_start, x, zeta) for the flow or the sample instant; out (nx + 1,) or longer.
+
+    t [s] is taken no later than LIMIT, so that a step that ends at a break sees the limit from the
+    left. Of a held state only the torques are passed on to the flow.
+    """
     n, nx, inp, zeta = P[COORDINATES], P[STATES], row(P, W, INP), row(P, W, ZETA)
     inp[0], inp[1], inp[2] = min(t, W[LIMIT]), W[STEP], W[START]
     given = nx if law == TICK else P[MOVING]
@@ -101,13 +119,17 @@ def evaluate(
 
 @inner
 def flow(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array, dx: Array) -> None:
-    """dx = x'(t, x)."""
+    """dx (nx,) = x'(t, x), t in [s], x (nx,)."""
     evaluate(P, F, K, W, FLOW, t, x, dx)
 
 
 @inner
 def next_switch(P: Ints, F: Array, W: Array, t: float, last: float) -> float:
-    """The first switching time after t, at most `last`."""
+    """The first switching time of the disturbance after t [s], at most `last` [s].
+
+    A switch with step 0 counts from the start of the run, any other from the start of that single
+    support.
+    """
     first = last
     for i in range(P[SWITCHES]):
         at = P[SWITCHES_AT] + 2 * i
@@ -120,7 +142,10 @@ def next_switch(P: Ints, F: Array, W: Array, t: float, last: float) -> float:
 
 @inner
 def pushed(P: Ints, F: Array, W: Array, t: float, weight: float, total: Array) -> None:
-    """total (2,) grows by weight times the force from outside at t, with (q, v) in row INP."""
+    """total (2,) grows by weight times the force from outside [N] at t [s], with (q, v) in row INP.
+
+    Only the parts of the disturbance that have a resultant are asked; pure torques have none.
+    """
     inp, part = row(P, W, INP), row(P, W, PART)
     inp[0], inp[1], inp[2] = t, W[STEP], W[START]
     for k in range(P[PARTS]):
@@ -133,7 +158,12 @@ def pushed(P: Ints, F: Array, W: Array, t: float, weight: float, total: Array) -
 
 @inner
 def from_outside(P: Ints, F: Array, W: Array, t: float, given: Array) -> None:
-    """Force from outside at t, its impulse since the last tick as `Disturbance.impulse`, and the drop."""
+    """given (5,): force from outside at t [s] (2) [N], its impulse since the last sample instant
+    (2) [N s], drop [m].
+
+    The impulse is integrated by two points of Gauss in each smooth piece, as `Disturbance.impulse`
+    does.
+    """
     for i in range(4):
         given[i] = 0.0
     given[4] = W[DROP]
@@ -151,7 +181,11 @@ def from_outside(P: Ints, F: Array, W: Array, t: float, given: Array) -> None:
 
 @inner
 def act(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array) -> int:
-    """x after a tick at t, and row DX0 its slope; x as it was where the tick gives no number."""
+    """x (nx,) after a sample instant at t [s], and row DX0 its slope.
+
+    On a non-finite result x is left unchanged and an error code returned. The slope comes with the
+    same call; unless motors lag it is complete, and the first step needs no evaluation of the flow.
+    """
     n, nx, out, dx = P[COORDINATES], P[STATES], row(P, W, OUT), row(P, W, DX0)
     from_outside(P, F, W, t, shift(row(P, W, INP), 3 + nx + n))
     evaluate(P, F, K, W, TICK, t, x, out)
@@ -168,7 +202,10 @@ def act(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array) -> int:
 
 @unit
 def remainder(P: Ints, F: Array, K: Array, W: Array, t: float, y: Array, N: Array) -> None:
-    """N = (N_w, N_E) at (t, y); zeta is asked for at x of y."""
+    """N = (N_w, N_E) at (t, y), t [s], y = (w, E), N_E in the forced rows only.
+
+    The disturbance depends on (q, v), so where there is one, x of y is computed for it first.
+    """
     n, ny = P[COORDINATES], P[SLOW] + P[STIFF] * P[JOINTS]
     inp, zeta = row(P, W, INP), row(P, W, ZETA)
     inp[0], inp[1], inp[2] = min(t, W[LIMIT]), W[STEP], W[START]
@@ -185,13 +222,17 @@ def remainder(P: Ints, F: Array, K: Array, W: Array, t: float, y: Array, N: Arra
 
 @inner
 def join(P: Ints, K: Array, y: Array, x: Array) -> None:
-    """x of y = (w, E)."""
+    """x (nx,) of y = (w, E)."""
     call(P[BACK], K, y, x)
 
 
 @inner
 def jump(P: Ints, K: Array, W: Array, x: Array, out: Array) -> int:
-    """out = x+ at the strike in x; the next single support begins."""
+    """out (nx,) = x+ at the impact in x (nx,); a status.
+
+    On success STEP, START and ARC become those of the single support that begins; on failure they
+    stay.
+    """
     nx, inp = P[STATES], row(P, W, INP)
     inp[0], inp[1] = W[TIME], W[STEP] + 1.0
     copy(x, shift(inp, 2), nx)
@@ -207,7 +248,9 @@ def jump(P: Ints, K: Array, W: Array, x: Array, out: Array) -> int:
 
 @unit
 def watch(P: Ints, F: Array, K: Array, W: Array, t: float, q: Array, out: Array) -> None:
-    """The three witnesses at (t, q), and x of the swing foot."""
+    """out (4,): the event functions at (t, q), t [s], q (n,) [rad]: clearance [m], hip margin [m],
+    time left [s]; then x of the swing foot [m].
+    """
     inp = row(P, W, INP)
     inp[0], inp[1], inp[2] = t, W[START], W[DROP]
     copy(q, shift(inp, 3), P[COORDINATES])
@@ -216,7 +259,7 @@ def watch(P: Ints, F: Array, K: Array, W: Array, t: float, q: Array, out: Array)
 
 @inner
 def lower(P: Ints, F: Array, W: Array) -> None:
-    """How far the steps down of this single support lower the ground it ends on."""
+    """DROP: how far the steps of the ground lower the ground [m] on which this single support ends."""
     W[DROP] = 0.0
     for i in range(P[DROPS]):
         at = P[DROPS_AT] + 2 * i

@@ -1,76 +1,108 @@
-"""Where the loops find their numbers: one vector of integers P, one of floats F, and work rows W.
+"""Places of numbers in memory, shared by the kernels and by Python.
 
-Every function takes some of (P, F, K, W): the plan of a run in integers and in floats, the parameters K that
-the called laws read, and the work rows, whose first is the state of the run. The names here are plain numbers,
-and so constants to the compiler.
+Every kernel function takes some of these vectors:
+
+    P   integers of the plan: addresses, sizes, places in F     read only
+    F   floats of the plan: clock, tolerances, matrices         read only
+    K   parameters that the called laws read                    read only
+    W   work rows (ROWS, width); row 0 is the head of the run   one per run
+    s   the run vector: head, then x                            one per run
+    R   nodes kept (rows, 1 + 2 nx): t, x, x'                   one per run
+
+The names here are plain numbers, and so constants to the compiler. Where several names stand in one
+line, the text below it explains them in their order.
 """
 
 from __future__ import annotations
 
-# P: addresses
-FLOW, TICK, STRIKE, WATCH, TO, BACK, REMAINDER = 0, 1, 2, 3, 4, 5, 6
-TURN = 7
-# P: sizes n, nx, p, nw, k, the forced rows of E, and the levels of halving
+FLOW, TICK, STRIKE, WATCH, TO, BACK, REMAINDER, TURN = 0, 1, 2, 3, 4, 5, 6, 7
+"""P: addresses of the walker's functions, in the order of `run_plan.LawAddresses`."""
 COORDINATES, STATES, JOINTS, SLOW, STIFF, FORCED, LEVELS = 8, 9, 10, 11, 12, 13, 14
-# P: method, clock, and how many drops, switching times and parts of the disturbance there are
+"""P: sizes n, nx, p, nw, k; number of forced rows of E; number of levels of halving."""
 KIND, RESTART, DROPS, SWITCHES, PARTS = 15, 16, 17, 18, 19
-# P: where forced rows and parts begin in P; drops, switching times and weights in F; length of a work row
+"""P: kind of method; whether the clock restarts with each arc; how many drops of the ground, switching
+times, and parts of the disturbance there are.
+"""
 ROWS_AT, PARTS_AT, DROPS_AT, SWITCHES_AT, WEIGHTS_AT = 20, 21, 22, 23, 24
-WIDTH = 25
-# P: how many of the first states flow; the others are held
-MOVING = 26
-# P: parts of the disturbance with a force on the robot as a whole
-RESULTANTS = 27
-P_HEAD = 28
-PART_SIZE = (
-    3  # of a part: its torque's address, where its numbers begin, its resultant's address or 0
-)
-OUTSIDE = 5  # numbers for the meter behind a tick's input: force, impulse, drop
-# F
+"""P: where forced rows and parts of the disturbance begin in P; where drops, switching times and
+matrices (or the tableau) begin in F.
+"""
+WIDTH, MOVING, RESULTANTS, P_HEAD = 25, 26, 27, 28
+"""P: numbers in a work row; how many of the first states flow, the others being held; parts of the
+disturbance with a force on the robot as a whole; length of this head.
+"""
+PART_SIZE = 3
+"""P, of a part of the disturbance: its torque's address, where its parameters begin in F, its
+resultant's address or 0.
+"""
+OUTSIDE = 5
+"""Numbers for the meter behind the inputs of a sample instant: force (2), impulse (2), drop."""
+
 PERIOD, T_FIRST, LEAST_STEP, H, RTOL, ATOL, MAX_STEP = 0, 1, 2, 3, 4, 5, 6
-PERIOD_PART = 7  # [s] after a tick, at which the waiting torque acts
-F_HEAD = 8
+"""F: sampling period [s], 0 for continuous time; start of the run [s]; minimum step length [m]; fixed
+step [s]; tolerances [1] and absolute; longest step [s].
+"""
+PERIOD_PART, F_HEAD = 7, 8
+"""F: time after a sample instant at which the waiting torque acts [s]; length of this head."""
 
-# kinds of method
 RK4, DOP853, ETD = 0, 1, 2
-# the matrices of one level of halving, in the order of PhiTable
+"""Kinds of method."""
 HALF, HALF_PHI, FULL_STEP, FIRST, MIDDLE, LAST, MATRICES = 0, 1, 2, 3, 4, 5, 6
-# the tableau: A (12, 12), B and C (12,), E3 and E5 (13,), one after the other
+"""Matrices of one level of halving, in the order of `hybrid.integrators.PhiTable`; their number."""
 STAGES = 12
+"""Of DOP853."""
 B_AT, C_AT, E3_AT, E5_AT, TABLEAU = 144, 156, 168, 181, 194
+"""Tableau of DOP853: behind A (12, 12) come B and C (12,), E3 and E5 (13,); length of all."""
 
-# guards, in the order in which they are watched
 FOOT_STRIKE, HIP_TOO_LOW, STEP_TOO_LONG, GUARDS = 0, 1, 2, 3
-FOOT_X = 3  # beside the three witnesses: x of the swing foot
+"""Event functions in the order in which they are watched; their number."""
+FOOT_X = 3
+"""Behind the values of the event functions: x of the swing foot [m]."""
 
-# codes that an arc ends with; the first eight are statuses
 COMPLETED, TIME_OUT, FELL, STALLED = 0, 1, 2, 3
+"""Codes that an arc ends with; these and the next four are those of `run_plan.STATUS`."""
 NOT_FINITE, SINGULAR, STEP_FAILED, EVENT_LIMIT = 4, 5, 6, 7
 STRUCK, FULL = 8, 9
+"""An impact ended the arc; R is full. These are no statuses: the caller goes on."""
 
-# head of the vector s of a run, and of W: t [s]; single support; its start [s]; end of the arc or
-# segment [s]; the guard that ended the last arc, -1 for none; every how many steps a node is kept; nodes kept;
-# whether the witnesses are known; the witnesses; start of the arc [s]
 TIME, STEP, START, END, FIRED, EVERY, COUNT, ARMED, VALUES, ARC = 0, 1, 2, 3, 4, 5, 6, 7, 8, 11
-# W only: the steps down; no later than this [s]; whether a pivot was zero; time of the event [s]
+"""Head of s and of W: time [s]; single support; its start [s]; end of the arc or segment [s]; the guard
+that ended the last arc, -1 for none; every how many steps a node is kept, 0 for never; nodes kept;
+whether the event functions have values; their values (3); start of the arc [s].
+"""
 DROP, LIMIT, ZERO_PIVOT, EVENT = 12, 13, 14, 15
-# W only: rows of R; time reached and next step to try; time after the sub-steps, end and witness of the bracket
+"""Head of W: drop of the ground [m]; laws are asked for no later time than this [s]; 1 where a pivot was
+zero; time of the event [s].
+"""
 ROOM, REACHED, TRY, LANDED, FAR, FAR_VALUE = 16, 17, 18, 19, 20, 21
-# W only: whether row DX0 has the slope at row X0 already
-SLOPED = 22
-HEAD = 23
+"""Head of W: rows of R; of an adaptive step the time reached and the next length to try [s]; of
+sub-steps their last time, the end of the bracket [s] and the event function there.
+"""
+SLOPED, HEAD = 22, 23
+"""Head of W: 1 where row DX0 has the slope at row X0 already; length of the head."""
 
-# rows of W, after the head in row 0
 INP, OUT, ZETA, PART, AFTER, TRIED = 1, 2, 3, 4, 5, 6
+"""Rows of W behind the head: inputs and outputs of a law; zeta and one part of it; event functions at
+the end of a step, and at a time tried in it.
+"""
 X0, DX0, X1, DX1, STAGE, K2, K3, K4 = 7, 8, 9, 10, 11, 12, 13, 14
-XE, DXE, XB, DXB = 15, 16, 17, 18  # at the event; after the sub-steps towards it
+"""Rows of W: state and slope at both ends of a step; state of a stage, and slopes of RK4."""
+XE, DXE, XB, DXB = 15, 16, 17, 18
+"""Rows of W: state and slope at the event, and after the sub-steps towards it."""
 Y0, N0, Y1, N1, YA, YB, NA, NB, NC = 19, 20, 21, 22, 23, 24, 25, 26, 27
+"""Rows of W for ETD-RK4: y and remainder at both ends; stages a and b; remainders at a, b and c."""
 E_HALF, Y_SUB, N_SUB, Y_TRY = 28, 29, 30, 31
-SLOPES = 32  # 13 rows of DOP853
-ROWS = 45
+"""Rows of W for ETD-RK4: e^(hA/2) E; y and remainder of the sub-steps, and y of one that is tried."""
+SLOPES, ROWS = 32, 45
+"""Rows of W: the first of 13 slopes of DOP853; number of all rows."""
 
-RESOLUTION = 2e-3  # [s], longest stretch of a step without a look at the witnesses
-MOST_STEPS = 10_000_000  # of one segment; more of them are a method that cannot go on
-LANDING = 1e-9  # a last step longer than h by this fraction is still one step
-SAME_STEP = 1e-9  # relative difference below which two steps share their matrices
-XTOL, XRTOL = 1e-15, 9e-16  # [s] and relative, of the time of an event
+RESOLUTION = 2e-3
+"""Longest stretch of a step without a look at the event functions [s]."""
+MOST_STEPS = 10_000_000
+"""Of one segment; with more of them a method cannot go on (STEP_FAILED)."""
+LANDING = 1e-9
+"""A last step longer than h by this fraction [1] is still one step."""
+SAME_STEP = 1e-9
+"""Relative difference [1] below which two steps share their matrices."""
+XTOL, XRTOL = 1e-15, 9e-16
+"""Tolerances [s] and [1] of the time of an event."""

@@ -1,4 +1,10 @@
-"""The kernels as one module on disk, so that its machine code is kept under the hash of all of its text."""
+"""The kernels as one module on disk, so that its machine code is kept under the hash of all of its text.
+
+numba's own cache looks at one file at a time and would not notice that a kernel in another file has
+changed. So the files of FILES are joined into one text, without their imports of each other,
+written to the cache folder by `engine.machine`, and imported from there. Read the files as one
+module; in the editor and for type checks they are ordinary ones.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +17,7 @@ from types import ModuleType
 from biped_adrc.engine.machine import forget, load_source, seal
 
 FILES = ("layout", "call", "laws", "steps", "events", "segment", "arc")
-"""In the order in which they need each other."""
+"""The kernel files, in the order in which they need each other."""
 _OWN = "biped_adrc.engine.kernels"
 
 
@@ -26,6 +32,7 @@ def kernels() -> ModuleType:
 
 @lru_cache(maxsize=1)
 def _kernels() -> ModuleType:
+    """The module, compiled or loaded. Where loading fails, all machine code is forgotten and made again."""
     text = source()
     module = load_source(text)
     try:
@@ -46,6 +53,7 @@ def source() -> str:
 
 
 def _alone(text: str) -> str:
+    """A file's text with imports from this package's kernels and from __future__ blanked; line numbers stay."""
     lines = text.splitlines()
     for statement in ast.parse(text).body:
         if isinstance(statement, ast.ImportFrom) and (

@@ -1,13 +1,18 @@
-"""The methods of the compiled loops, and the matrices of ETD-RK4 for a step and its halvings.
+"""Tables of the one-step methods for the compiled loops, and the matrices of ETD-RK4 for a step and
+its halvings.
 
-phi_0 = e^z, phi_(j+1)(z) = (phi_j(z) - 1/j!) / z; by their series for steps so short that |hA| < 1/2, and
-doubled from there:
+    phi_0 = e^z,   phi_(j+1)(z) = (phi_j(z) - 1/j!) / z
+
+An event or a sample instant rarely falls on a multiple of h, and a matrix exponential inside a
+kernel would be slow. So steps to such a time are made of sub-steps h 2^-level, whose matrices are
+computed here beforehand. By their series for steps so short that |hA| < 1/2, and doubled from
+there:
 
     phi_0(2z) = phi_0^2                    phi_1(2z) = (phi_0 phi_1 + phi_1) / 2
     phi_2(2z) = (phi_0 phi_2 + phi_1 + phi_2) / 4
     phi_3(2z) = (phi_0 phi_3 + phi_1 / 2 + phi_2 + phi_3) / 8
 
-by plain sums, so that they are the same whatever BLAS there is.
+by plain sums and not by BLAS, whose order of summation differs from machine to machine.
 """
 
 from __future__ import annotations
@@ -17,25 +22,27 @@ import math
 import numpy as np
 
 from biped_adrc.engine.kernels import layout
-from biped_adrc.engine.kernels.tables import Ints, Method
+from biped_adrc.engine.kernels.run_plan import Ints, MethodTable
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hybrid.integrators import Phi, PhiTable
 from biped_adrc.types import Array
 
 TERMS = 24
-"""Of the series; |z|^24 / 24! < 1e-30."""
+"""Terms of the series; |z|^24 / 24! < 1e-30 for |z| < 1/2."""
 STABLE = 0.1
-"""Largest |lambda| h 2^-(levels - 1) for the classical step that ends a landing."""
+"""Largest |lambda| h 2^-(levels - 1) [1] for which the classical step that ends a landing is taken
+as stable.
+"""
 
 
-def rk4(h: float) -> Method:
+def rk4(h: float) -> MethodTable:
     """The classical method with step h [s]. Raises InputError."""
     check_positive(h, f"step h [s] is {h}")
-    return Method(layout.RK4, h=h)
+    return MethodTable(layout.RK4, h=h)
 
 
-def dop853(rtol: float, atol: float, max_step: float) -> Method:
-    """Dormand and Prince 8(5, 3) with step control; max_step [s]. Raises InputError."""
+def dop853(rtol: float, atol: float, max_step: float) -> MethodTable:
+    """Dormand and Prince 8(5, 3) with step control: rtol [1], atol, max_step [s]. Raises InputError."""
     for name, value in (("rtol", rtol), ("atol", atol), ("max_step [s]", max_step)):
         check_positive(value, f"{name} is {value}")
     least = 100.0 * np.finfo(float).eps
@@ -43,14 +50,14 @@ def dop853(rtol: float, atol: float, max_step: float) -> Method:
         raise InputError(
             f"rtol is {rtol:g}, expected at least {least:.1e}, the round-off of a step"
         )
-    return Method(layout.DOP853, rtol=rtol, atol=atol, max_step=max_step)
+    return MethodTable(layout.DOP853, rtol=rtol, atol=atol, max_step=max_step)
 
 
-def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> Method:
+def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> MethodTable:
     """ETD-RK4 with step h [s] for E' = A E + N_E, A (k, k) [1/s], N_E zero but in `rows`.
 
-    levels: the shortest sub-step of a landing is h 2^-(levels - 1). Raises InputError, also where the classical
-    step below it would not be stable.
+    levels: the shortest sub-step of a landing is h 2^-(levels - 1). Raises InputError, also where
+    the classical step below the shortest sub-step would not be stable.
     """
     check_positive(h, f"step h [s] is {h}")
     A, rows = np.array(A, dtype=float), np.array(rows, dtype=np.int64)
@@ -69,10 +76,11 @@ def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> Method:
             f"the fastest pole is {fastest:.3g} rad/s and the shortest sub-step {shortest:.2e} s; "
             f"their product has to be below {STABLE}: give more levels or a shorter h"
         )
-    return Method(layout.ETD, h=h, phi=phi_levels(A, h, levels), rows=rows)
+    return MethodTable(layout.ETD, h=h, phi=phi_levels(A, h, levels), rows=rows)
 
 
 def _times(A: Array, B: Array) -> Array:
+    """A B, both (k, k), by plain sums."""
     product: Array = np.einsum("ij,jk->ik", A, B)
     return product
 
@@ -91,6 +99,7 @@ def _series(Z: Array) -> Phi:
 
 
 def _doubled(phi: Phi) -> Phi:
+    """phi_0 to phi_3 of 2z from those of z, each (k, k)."""
     p0, p1, p2, p3 = phi
     return (
         _times(p0, p0),
@@ -101,7 +110,9 @@ def _doubled(phi: Phi) -> Phi:
 
 
 def phi_levels(A: Array, h: float, levels: int) -> Array:
-    """The six matrices of `hybrid.integrators.PhiTable` for h 2^-level, (levels, 6, k, k)."""
+    """The six matrices of `hybrid.integrators.PhiTable` for h 2^-level, (levels, 6, k, k); A (k, k)
+    [1/s], h [s].
+    """
     size = float(np.max(np.sum(np.abs(A), axis=1), initial=0.0)) * h
     short = max(0, math.ceil(math.log2(2.0 * size))) if size > 0.0 else 0
     phi = _series(A * (h * 0.5 ** max(short, levels)))

@@ -1,4 +1,4 @@
-"""An arc from Python: the kernel with arrays made for it."""
+"""An arc from Python: the kernel `arc` with work rows and room for nodes made for it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.tables import Plan
+from biped_adrc.engine.kernels.run_plan import RunPlan
 from biped_adrc.types import Array
 
 
@@ -16,19 +16,23 @@ class ArcRun(NamedTuple):
     """Nodes of one arc and how it ended."""
 
     code: int
-    """Of `tables.STATUS`, or `layout.STRUCK`; x is then x-."""
+    """One of `run_plan.STATUS`, or `layout.STRUCK` for an impact; x is then x-."""
     s: Array
-    """The run's vector at the end."""
+    """The run vector at the end (HEAD + nx,)."""
     t: Array
-    """(m,) [s]"""
+    """Node times (m,) [s]."""
     x: Array
-    """(m, nx)"""
+    """States (m, nx)."""
     dx: Array
-    """(m, nx)"""
+    """Slopes (m, nx)."""
 
 
-def arc(made: Plan, K: Array, s: Array, every: int = 1, room: int = 1024) -> ArcRun:
-    """One arc from the run's vector s to its first event or END, every k-th step kept; s stays as it was."""
+def arc(made: RunPlan, K: Array, s: Array, every: int = 1, room: int = 1024) -> ArcRun:
+    """One arc from the run vector s (HEAD + nx,) to its first event or END, every k-th step kept.
+
+    s stays as it was. Where the nodes do not fit into `room` rows, the arc is made again with twice
+    as many.
+    """
     nx, W = made.nx, made.work()
     while True:
         end, R = s.copy(), np.empty((room, 1 + 2 * nx))

@@ -1,6 +1,11 @@
 """Steps over a segment in which all is smooth, to its end or the first event.
 
-Nodes (t, x, x') go into the rows of R, every k-th step and points inside of a long one.
+A segment lies between two breaks. Within it the method steps from X0 to X1 (for ETD-RK4 from Y0 to
+Y1), the event functions are looked at after every step, and nodes (t, x, x') go into the rows of R,
+every k-th step and points inside of a long one.
+
+EVERY = 0 keeps no nodes. Then slopes that only nodes need are not computed: ETD-RK4 evaluates its
+remainder, and gets x from y for the event functions.
 """
 
 from __future__ import annotations
@@ -17,13 +22,16 @@ from biped_adrc.types import Array
 
 @inner
 def left(t: float) -> float:
-    """The number just before t."""
+    """The number just before t [s]: for limits from the left."""
     return np.nextafter(t, -np.inf)
 
 
 @inner
 def node(P: Ints, W: Array, R: Array, t: float, x: Array, dx: Array) -> bool:
-    """Keep (t, x, dx); False when there is no room."""
+    """Keep (t, x, dx), x and dx (nx,), as the next row of R; False when there is no room.
+
+    The caller then reports FULL, and Python repeats the arc with more rows.
+    """
     i, nx = int(W[COUNT]), P[STATES]
     if i >= W[ROOM]:
         return False
@@ -37,7 +45,9 @@ def node(P: Ints, W: Array, R: Array, t: float, x: Array, dx: Array) -> bool:
 
 @inner
 def nodes(P: Ints, F: Array, K: Array, W: Array, R: Array, t0: float, t1: float) -> bool:
-    """Keep the end of a step, and of a long one points inside; False when there is no room."""
+    """Keep the end of a step from t0 to t1 [s], and of a long one points inside, where a cubic
+    would be too coarse; False when there is no room.
+    """
     count, xe, dxe = pieces(t0, t1), row(P, W, XE), row(P, W, DXE)
     for j in range(1, count):
         s = t0 + (t1 - t0) * j / count
@@ -50,7 +60,12 @@ def nodes(P: Ints, F: Array, K: Array, W: Array, R: Array, t0: float, t1: float)
 
 @inner
 def begin(P: Ints, F: Array, K: Array, W: Array, t: float) -> None:
-    """What the first step of a smooth segment starts from, beside X0."""
+    """What the first step of a segment at t [s] starts from, beside X0: slope DX0 (nx,), for
+    ETD-RK4 Y0 and N0.
+
+    After a sample instant the slope is known (SLOPED) and not computed again. ETD-RK4 needs it for
+    nodes only.
+    """
     x, y = row(P, W, X0), row(P, W, Y0)
     if P[KIND] == ETD:
         call(P[TO], K, x, y)
@@ -62,7 +77,11 @@ def begin(P: Ints, F: Array, K: Array, W: Array, t: float) -> None:
 
 @unit
 def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int) -> int:
-    """X1 and what the next step starts from, at t1; none follows the last before a break. A status."""
+    """X1 (nx,) and what the next step starts from, at t1 [s], by RK4 or ETD-RK4; a status.
+
+    last: 1 for the step before a break, after which the laws change and slope and remainder would
+    be wasted. A step of ETD-RK4 that is not h long is made of sub-steps and one classical step.
+    """
     sloped, x1, y1 = W[EVERY] > 0.0, row(P, W, X1), row(P, W, Y1)
     if P[KIND] == RK4:
         classical(P, F, K, W, t, row(P, W, X0), row(P, W, DX0), t1 - t, x1)
@@ -91,7 +110,7 @@ def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int)
 
 @inner
 def pass_on(P: Ints, W: Array) -> None:
-    """The end of a step is the start of the next."""
+    """The end of a step becomes the start of the next: X1, DX1 (nx,), and for ETD-RK4 Y1, N1."""
     copy(row(P, W, X1), row(P, W, X0), P[MOVING])
     copy(row(P, W, DX1), row(P, W, DX0), P[MOVING])
     if P[KIND] == ETD:
@@ -101,7 +120,10 @@ def pass_on(P: Ints, W: Array) -> None:
 
 @inner
 def stop(P: Ints, F: Array, K: Array, W: Array, R: Array, code: int) -> int:
-    """X0 and TIME at the event just found, kept as a node; its code."""
+    """X0 (nx,) and TIME at the event just found, kept as a node with its slope from the left; its code.
+
+    FULL where there is no room for the node; then the arc is made again.
+    """
     te, x, dx = W[EVENT], row(P, W, X0), row(P, W, DX0)
     copy(row(P, W, XE), x, P[STATES])
     W[TIME] = te
@@ -114,7 +136,11 @@ def stop(P: Ints, F: Array, K: Array, W: Array, R: Array, code: int) -> int:
 
 @unit
 def through(P: Ints, F: Array, K: Array, W: Array, t_next: float, R: Array) -> int:
-    """From X0 at TIME to t_next, over which all is smooth; a code, 0 at t_next."""
+    """From X0 at TIME to t_next [s], over which all is smooth; a code, 0 at t_next.
+
+    Steps of fixed length are counted and not added up, so round-off does not grow. More than
+    MOST_STEPS steps, or a step of no length, end as STEP_FAILED.
+    """
     t0 = t = W[TIME]
     every, skipped, steps, h = int(W[EVERY]), 0, 0, F[H]
     W[LIMIT] = left(t_next)

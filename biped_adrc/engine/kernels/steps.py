@@ -1,12 +1,14 @@
 """One step of each method: the classical Runge-Kutta method, ETD-RK4 with landing by halving, and DOP853.
 
-ETD-RK4 in the coordinates y = (w, E), E (k, p) row by row, with N_E in the forced rows only; its equations are
-in `biped_adrc.hybrid.integrators`. A length that is not the step h is taken in sub-steps h 2^-level, and what
-is left below the last level by one classical step, which is stable there.
+ETD-RK4 in the coordinates y = (w, E), E (k, p) row by row, with N_E in the forced rows only; its
+equations are in `hybrid.integrators`. A length that is not the step h is taken in sub-steps h
+2^-level, whose matrices are prepared (`kernels.methods`), and what is left below the last level by
+one classical step, which is stable there.
 
-DOP853 is the explicit pair of Dormand and Prince of order 8(5, 3), with SciPy's initial step and step control.
-Coefficients are those of `scipy.integrate.DOP853`; the initial step, the error's norm and the factors are as in
-Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.4 and II.10.
+DOP853 is the explicit pair of Dormand and Prince of order 8(5, 3), with SciPy's initial step and
+step control. Coefficients are those of `scipy.integrate.DOP853`; the initial step, the error's norm
+and the factors are as in Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.4
+and II.10.
 """
 
 from __future__ import annotations
@@ -25,7 +27,11 @@ from biped_adrc.types import Array
 def classical(
     P: Ints, F: Array, K: Array, W: Array, t: float, x: Array, dx: Array, h: float, out: Array
 ) -> None:
-    """out = one step of length h from (t, x) with the slope dx."""
+    """out (nx,) = one RK4 step of length h [s] from (t, x) with the slope dx (nx,).
+
+    Only the first MOVING numbers move; the rest, held between sample instants, is copied. The
+    stages see the torques of it, which is all that a flow reads.
+    """
     m, rest, stage = P[MOVING], P[STATES] - P[MOVING], row(P, W, STAGE)
     k2, k3, k4 = row(P, W, K2), row(P, W, K3), row(P, W, K4)
     if rest > 0:
@@ -47,20 +53,23 @@ def classical(
 
 @inner
 def matrix(P: Ints, F: Array, level: int, which: int) -> Array:
-    """One of the matrices of a level."""
+    """Pointer to one of the six matrices (k, k) of a level in F; `which` is HALF, HALF_PHI, ..."""
     return shift(F, P[WEIGHTS_AT] + (MATRICES * level + which) * P[STIFF] * P[STIFF])
 
 
 @inner
 def turn(P: Ints, M: Array, y: Array, out: Array) -> None:
-    """E of out = M E of y."""
+    """E of out = M E of y, M (k, k), E (k, p); w of out is left as it is.
+
+    By generated vector code: k and p are constants in it.
+    """
     nw = P[SLOW]
     call(P[TURN], M, shift(y, nw), shift(out, nw))
 
 
 @inner
 def push(P: Ints, M: Array, factor: float, N: Array, out: Array) -> None:
-    """E of out += factor M N_E."""
+    """E (k, p) of out += factor M N_E, where only the forced rows of N_E are stored."""
     k, p, nw = P[STIFF], P[JOINTS], P[SLOW]
     for i in range(k):
         for j in range(P[FORCED]):
@@ -71,7 +80,7 @@ def push(P: Ints, M: Array, factor: float, N: Array, out: Array) -> None:
 
 @inner
 def drift(P: Ints, y: Array, h: float, N: Array, out: Array) -> None:
-    """w of out = w + h N_w."""
+    """w of out (nw,) = w + h N_w, h in [s]."""
     for i in range(P[SLOW]):
         out[i] = y[i] + h * N[i]
 
@@ -89,7 +98,12 @@ def exponential(
     N: Array,
     out: Array,
 ) -> None:
-    """out = one step of length h from (t, y) with the remainder N; h is that of the level."""
+    """out = y after one step of ETD-RK4 of length h [s] from (t, y) with the remainder N; h is that
+    of the level.
+
+    The equations of `hybrid.integrators`, stages a, b and c in rows YA and YB; w takes the
+    classical RK4 with the same stages.
+    """
     ny, e_half = P[SLOW] + P[STIFF] * P[JOINTS], row(P, W, E_HALF)
     a, b = row(P, W, YA), row(P, W, YB)
     Na, Nb, Nc = row(P, W, NA), row(P, W, NB), row(P, W, NC)
@@ -123,9 +137,12 @@ def exponential(
 def halve(
     P: Ints, F: Array, K: Array, W: Array, guard: int, t: float, ta: float, tb: float, fb: float
 ) -> None:
-    """Sub-steps from (t, Y0) that end before tb, and after ta only before the guard's crossing.
+    """Sub-steps from (t, Y0) that end before tb [s], and after ta [s] only before the guard's crossing.
 
-    Leaves the state in rows XB, DXB, its time in LANDED, and the end of the bracket with its witness in FAR.
+    Binary search with the prepared matrices: a sub-step of each level is taken or left out. One
+    that ends behind the crossing is not taken and becomes the end of the bracket. Leaves the state
+    in rows XB, DXB (nx,), its time in LANDED, and the end of the bracket with its event function in
+    FAR, FAR_VALUE. guard -1: without an event, towards tb alone.
     """
     ny, levels = P[SLOW] + P[STIFF] * P[JOINTS], P[LEVELS]
     y, N, trial = row(P, W, Y_SUB), row(P, W, N_SUB), row(P, W, Y_TRY)
@@ -155,7 +172,7 @@ def halve(
 
 @inner
 def weighted(P: Ints, W: Array, c: Array, stages: int, i: int) -> float:
-    """sum_s c_s K_s,i."""
+    """Entry i of a weighted sum of slopes: sum_s c_s K_s,i with the first `stages` weights of c (stages,)."""
     slopes, width, total = row(P, W, SLOPES), P[WIDTH], 0.0
     for s in range(stages):
         total += slopes[s * width + i] * c[s]
@@ -164,7 +181,10 @@ def weighted(P: Ints, W: Array, c: Array, stages: int, i: int) -> float:
 
 @unit
 def eighth(P: Ints, F: Array, K: Array, W: Array, t: float, h: float, out: Array) -> None:
-    """out = one step of length h from (t, X0) with the slope DX0."""
+    """out (nx,) = one step of DOP853 of length h [s] from (t, X0) with the slope DX0.
+
+    Twelve stages; their slopes stay in rows SLOPES for the error estimate.
+    """
     nx, A = P[STATES], shift(F, P[WEIGHTS_AT])
     x, stage, B = row(P, W, X0), row(P, W, STAGE), shift(A, B_AT)
     copy(row(P, W, DX0), row(P, W, SLOPES), nx)
@@ -178,7 +198,10 @@ def eighth(P: Ints, F: Array, K: Array, W: Array, t: float, h: float, out: Array
 
 @inner
 def error_norm(P: Ints, F: Array, W: Array, h: float) -> float:
-    """Of the step from X0 to X1 with slopes in rows SLOPES, as a fraction of the tolerance."""
+    """Error of the step of length h [s] from X0 to X1 (nx,), as a fraction of the tolerance [1].
+
+    The estimates of order 5 and 3 combined as in Hairer's code; below 1 the step is accepted.
+    """
     nx, A, x, x1 = P[STATES], shift(F, P[WEIGHTS_AT]), row(P, W, X0), row(P, W, X1)
     fifth, third = 0.0, 0.0
     for i in range(nx):
@@ -192,7 +215,13 @@ def error_norm(P: Ints, F: Array, W: Array, h: float) -> float:
 
 @unit
 def adaptive(P: Ints, F: Array, K: Array, W: Array, t: float, t_end: float, h: float) -> int:
-    """X1, DX1 from X0, DX0, the time in REACHED, the next step to try in TRY; a status."""
+    """X1, DX1 (nx,) from X0, DX0, with a step that meets the tolerance; a status.
+
+    h [s]: first step to try. The time reached goes into REACHED, the next step to try into TRY. A
+    step is shortened by at most 5, lengthened by at most 10, and not lengthened right after a
+    rejection, as SciPy does. Below ten times the spacing of floats it ends as STEP_FAILED, or as
+    NOT_FINITE or SINGULAR where numbers are lost.
+    """
     nx, least = P[STATES], 10.0 * (np.nextafter(t, np.inf) - t)
     x1, dx1 = row(P, W, X1), row(P, W, DX1)
     h, rejected = max(min(h, F[MAX_STEP]), least), False
@@ -220,7 +249,7 @@ def adaptive(P: Ints, F: Array, K: Array, W: Array, t: float, t_end: float, h: f
 
 @inner
 def rms(P: Ints, F: Array, W: Array, x: Array, y: Array, sign: float) -> float:
-    """Root mean square of x + sign * y on the scale of the tolerance at X0."""
+    """Root mean square [1] of x + sign * y (nx,) on the scale of the tolerance at X0."""
     nx, x0, total = P[STATES], row(P, W, X0), 0.0
     for i in range(nx):
         scale = F[ATOL] + abs(x0[i]) * F[RTOL]
@@ -230,7 +259,7 @@ def rms(P: Ints, F: Array, W: Array, x: Array, y: Array, sign: float) -> float:
 
 @inner
 def initial_step(P: Ints, F: Array, K: Array, W: Array, t: float, t_end: float) -> float:
-    """The first step to try from (t, X0) with the slope DX0."""
+    """The first step to try [s] from (t, X0) with the slope DX0 (nx,): Hairer's rule, II.4."""
     length, x, dx = t_end - t, row(P, W, X0), row(P, W, DX0)
     stage, k2 = row(P, W, STAGE), row(P, W, K2)
     d0, d1 = rms(P, F, W, x, x, 0.0), rms(P, F, W, dx, dx, 0.0)

@@ -1,10 +1,16 @@
-"""IPOPT on a programme: its options, progress, interruption, and what to say when nothing keeps the limits."""
+"""IPOPT on a nonlinear programme: options, progress, Ctrl-C, and the reason when no solution exists.
+
+`solve` runs IPOPT once. Where it finds no feasible point, `relaxed` solves the same programme with a slack
+variable s >= 0 in each limit and sum s minimised (an elastic, or l1, relaxation): a slack that stays above zero
+names a limit that cannot be kept, and an end without slack is a feasible point to start from again. Called by
+`optimise`; knows nothing of gaits but the rows of `nlp`.
+"""
 
 from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -13,52 +19,61 @@ import casadi as ca
 import numpy as np
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.design.nlp import Bounded, Programme
+from biped_adrc.gait.design.nlp import Bounded, NonlinearProgram
 from biped_adrc.types import Array
 
-Progress = Callable[[int, float, float], None]
-"""Told the iteration, the objective, and by how much the worst row is missed."""
+IpoptProgress = Callable[[int, float, float], None]
+"""Called after each iteration with its number, the objective, and the largest violation of a constraint."""
 Bounds = tuple[Array, Array]
+"""Lower and upper bounds of the decision vector, both (nx,)."""
 
 MAX_ITERATIONS = 250
+"""Of one run of IPOPT."""
 MAX_SECONDS = 60.0
-"""Of one attempt [s]."""
+"""Wall time of one run of IPOPT [s]."""
 ASKED = ("the speed", "the step length")
-ASKED_WEIGHT = 100.0  # so that a limit is named before what was asked
-MISSED = 1e-5  # a limit that has to give by more than this is named
+"""Names of the equality rows that state what was asked for rather than the physics of the step."""
+ASKED_WEIGHT = 100.0
+"""Weight of the slacks of ASKED in the relaxation, so that a limit gives way before what was asked does."""
+MISSED = 1e-5
+"""Largest slack of a limit that counts as kept."""
 _SOLVED = ("Solve_Succeeded", "Solved_To_Acceptable_Level")
 
 
 @dataclass(frozen=True)
-class Found:
-    """What IPOPT ends with."""
+class IpoptResult:
+    """How one run of IPOPT ended."""
 
     x: Array
+    """Decision vector (nx,) of the last iteration, a solution or not."""
     status: str
+    """IPOPT's return status, such as "Solve_Succeeded" or "Infeasible_Problem_Detected"."""
     iterations: int
 
     @property
     def solved(self) -> bool:
-        """Whether it is a solution."""
+        """Whether IPOPT met its tolerances, or its acceptable ones."""
         return self.status in _SOLVED
 
 
 def solve(
-    programme: Programme,
+    programme: NonlinearProgram,
     x0: Array,
     bounds: Bounds,
-    progress: Progress | None,
+    progress: IpoptProgress | None,
     strategy: str = "adaptive",
-) -> Found:
-    """IPOPT from x0 with bounds of the unknowns; `strategy` is that of its barrier parameter.
+) -> IpoptResult:
+    """Run IPOPT from x0 (nx,) within bounds of the decision vector.
 
-    Raises KeyboardInterrupt on Ctrl-C, after the iteration under way.
+    strategy: how IPOPT lowers its barrier parameter, "adaptive" (fast) or "monotone" (more robust). Raises
+    KeyboardInterrupt on Ctrl-C, after the iteration under way.
     """
     rows = programme.rows
     g = ca.vertcat(*(row.value for row in rows))
     low = np.concatenate([np.full(row.value.numel(), row.low) for row in rows])
     high = np.concatenate([np.full(row.value.numel(), row.high) for row in rows])
     watch = _Watch(programme.x.numel(), low, high, progress)
+    problem = {"x": programme.x, "f": programme.objective, "g": g}
     options: dict[str, Any] = {
         "print_time": False,
         "iteration_callback": watch,
@@ -72,19 +87,22 @@ def solve(
         "ipopt.acceptable_constr_viol_tol": 1e-9,
         "ipopt.acceptable_iter": 5,
     }
-    problem = {"x": programme.x, "f": programme.objective, "g": g}
     solver = ca.nlpsol("gait", "ipopt", problem, options)
     with _interruptible(watch):
         found = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
     stats = solver.stats()
-    return Found(
+    return IpoptResult(
         np.array(found["x"]).ravel(), str(stats["return_status"]), int(stats["iter_count"])
     )
 
 
 @contextmanager
 def _interruptible(watch: _Watch) -> Iterator[None]:
-    """Ctrl-C ends IPOPT at its next iteration and is raised afterwards; CasADi itself would swallow it."""
+    """Context in which Ctrl-C ends IPOPT at its next iteration and is raised afterwards.
+
+    An exception inside of a CasADi callback is swallowed by CasADi, so the signal only sets a flag that the
+    callback reads. Signals reach the main thread alone; in any other nothing is changed.
+    """
     here = threading.current_thread() is threading.main_thread()
     before = signal.signal(signal.SIGINT, lambda *_: watch.interrupt()) if here else None
     try:
@@ -97,9 +115,13 @@ def _interruptible(watch: _Watch) -> Iterator[None]:
 
 
 class _Watch(ca.Callback):
-    """Hands IPOPT's iterations on, and stops them."""
+    """IPOPT's iteration callback: reports progress, and stops IPOPT by returning 1 after Ctrl-C.
 
-    def __init__(self, nx: int, low: Array, high: Array, progress: Progress | None) -> None:
+    CasADi asks it for the sizes of its inputs (the solver's outputs x, f, g and multipliers) by the methods
+    below, whose names are CasADi's.
+    """
+
+    def __init__(self, nx: int, low: Array, high: Array, progress: IpoptProgress | None) -> None:
         ca.Callback.__init__(self)
         ng = len(low)
         self._sizes = {"x": nx, "f": 1, "g": ng, "lam_x": nx, "lam_g": ng, "lam_p": 0}
@@ -118,11 +140,13 @@ class _Watch(ca.Callback):
     def get_n_out(self) -> int:
         return 1
 
-    def get_sparsity_in(self, i: int) -> Any:
+    def get_sparsity_in(self, i: int) -> ca.Sparsity:
+        """Shape of the solver's output i: a dense column, or empty for the multipliers of no parameters."""
         size = self._sizes[ca.nlpsol_out(i)]
         return ca.Sparsity.dense(size, 1) if size else ca.Sparsity(0, 0)
 
-    def eval(self, arg: Any) -> list[int]:
+    def eval(self, arg: Sequence[ca.DM]) -> list[int]:
+        """One iteration: report it, and return [1] to stop, [0] to go on."""
         values = dict(zip((ca.nlpsol_out(i) for i in range(len(arg))), arg, strict=True))
         g = np.array(values["g"]).ravel()
         self._iteration += 1
@@ -135,10 +159,19 @@ class _Watch(ca.Callback):
         return [int(self.interrupted)]
 
 
-def relaxed(programme: Programme, asked: str, x0: Array, bounds: Bounds, status: str) -> Array:
-    """A point that keeps all limits, found by relaxing each by a slack of its own and making the sum least.
+def relaxed(
+    programme: NonlinearProgram, asked: str, x0: Array, bounds: Bounds, status: str
+) -> Array:
+    """A decision vector (nx,) that keeps all limits, found by the relaxation with slacks from x0 (nx,).
 
-    Raises GaitError naming the limits whose slack stays.
+        minimise  w . s + 1e-6 f(x)   subject to  low - s <= g(x) <= high + s,  s >= 0
+
+    Each name of a limit has one slack s, so that all rows of that name give way together; the small share of
+    the objective keeps the solution unique. The problem is always feasible for slacks that are large enough.
+
+    asked, status: what was asked for and how IPOPT failed, for the message. One slack per name of a limit;
+    speed and step length asked for have slacks of weight ASKED_WEIGHT, the equations of the model none.
+    Raises GaitError naming the limits whose slack stays above MISSED.
     """
     soft = [row for row in programme.rows if row.low != row.high or row.name in ASKED]
     hard = [row for row in programme.rows if row.low == row.high and row.name not in ASKED]
@@ -153,7 +186,7 @@ def relaxed(programme: Programme, asked: str, x0: Array, bounds: Bounds, status:
             rows.append(Bounded(row.name, row.value - give, -np.inf, row.high))
     weight = np.array([ASKED_WEIGHT if name in ASKED else 1.0 for name in names])
     count = len(names)
-    softened = Programme(
+    softened = NonlinearProgram(
         ca.vertcat(programme.x, slack),
         ca.dot(weight, slack) + 1e-6 * programme.objective,
         tuple(rows),
@@ -175,8 +208,8 @@ def relaxed(programme: Programme, asked: str, x0: Array, bounds: Bounds, status:
     return found.x[:-count]
 
 
-def _named(programme: Programme, names: list[str], gives: Array) -> list[str]:
-    """The limits that give, the one that gives most first."""
+def _named(programme: NonlinearProgram, names: list[str], gives: Array) -> list[str]:
+    """Sentences for the limits whose slack is above MISSED, the largest slack first."""
     units = {row.name: row.unit for row in programme.rows}
     return [
         f"{name} by {amount:.3g} {units[name]}".rstrip()

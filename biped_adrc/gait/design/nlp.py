@@ -1,4 +1,4 @@
-"""The step as a nonlinear programme on the zero dynamics.
+"""The periodic step as a nonlinear programme on the zero dynamics: unknowns, cost and constraints.
 
 Unknowns: the pre-impact configuration q-, the slopes of the constraint before impact, the Bezier coefficients
 alpha, the phases Theta+ and Theta-, the state and impulse after an impact at Theta'- = 1, and the rates
@@ -9,27 +9,32 @@ alpha, the phases Theta+ and Theta-, the state and impulse after an impact at Th
     sigma-^2 - sigma+^2 = 2 W                         the step closes
     alpha_0, alpha_1 from the impact of alpha_M, alpha_(M-1)   the impact keeps to the constraint
 
-Everything else is an explicit function of the unknowns, so that CasADi's derivatives are exact and nothing is
-integrated in time.
+Everything else (torque, ground reaction, foot height) is an explicit function of the unknowns, so that CasADi's
+derivatives are exact and nothing is integrated in time. All rows are dimensionless: lengths over the leg,
+forces over the weight, speeds over sqrt(g leg), torques over their limit.
+
+`transcribe` is called by `optimise`; each row keeps the name by which `ipopt.relaxed` reports an infeasible
+limit.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import casadi as ca
 import numpy as np
 
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.start import LONGEST
-from biped_adrc.gait.design.step import Step, Unknowns
+from biped_adrc.gait.design.step import SymbolicStep, Unknowns
 from biped_adrc.model.biped import Biped
 
 SHORTEST = 0.05
-"""Step, share of the leg."""
+"""Shortest step that is looked for, as a share of the leg length."""
 PASSED = 0.5
-"""Share of the step from which legs without knees have to hold their foot above the ground too."""
+"""Normalised phase after which the swing foot must be above the ground even where no clearance is asked for:
+legs without knees scuff in the first half of the step, which is then ignored."""
 SMOOTH = 1e-2
 """Width of the smoothed |power| of the cost of transport, share of peak torque times 1 rad/s."""
 CALM = 1e-2
@@ -37,50 +42,62 @@ CALM = 1e-2
 
 
 class Bounded(NamedTuple):
-    """low <= value <= high, all dimensionless; `name` is what a message calls it."""
+    """Constraint low <= value <= high, dimensionless, or [rad] for angles; equality where low = high."""
 
     name: str
-    value: Any
+    """What an error message calls it; several rows may share one name."""
+    value: ca.MX
+    """One column of expressions."""
     low: float
     high: float
     unit: str = ""
-    """What the value is a share of, for messages."""
+    """What the value is a share of, such as "of the weight", for messages."""
 
 
 @dataclass(frozen=True)
-class Programme:
-    """What is looked for, what is made least, and the rows to keep."""
+class NonlinearProgram:
+    """A nonlinear programme: minimise `objective` over x, subject to all rows."""
 
-    x: Any
-    """The unknowns, one column."""
-    objective: Any
-    """Scaled, and smooth where the objective is not."""
+    x: ca.MX
+    """Decision vector, one column."""
+    objective: ca.MX
+    """Cost (1, 1), dimensionless; |power| is smoothed so that it can be differentiated."""
     rows: tuple[Bounded, ...]
+    """Equality and inequality constraints."""
 
 
 def transcribe(
     biped: Biped, request: GaitRequest, limits: RobotLimits, direction: float
-) -> tuple[Programme, Unknowns]:
-    """The programme and its unknowns; `direction` is the sign of Theta'."""
-    step = Step(biped, request, limits, direction)
+) -> tuple[NonlinearProgram, Unknowns]:
+    """The nonlinear programme of a request, and the symbols of its unknowns.
+
+    direction: sign of Theta' in the walk, from the first guess: Theta falls in a walk to +x with the paper's
+    phase, but grows with the phase of other robots.
+    """
+    step = SymbolicStep(biped, request, limits, direction)
     rows = (*_equalities(step), *_limits(step))
-    return Programme(step.x.vector(), _objective(step), rows), step.x
+    return NonlinearProgram(step.x.vector(), _objective(step), rows), step.x
 
 
-def _equalities(k: Step) -> tuple[Bounded, ...]:
-    x, p, c, M = k.x, k.p, k.biped.phase, k.request.degree
+def _equalities(k: SymbolicStep) -> tuple[Bounded, ...]:
+    """Rows that make the step one periodic orbit of the hybrid zero dynamics, and give speed and step asked.
+
+    The end of the curve is the pre-impact state, its start the state after the impact with the legs relabelled,
+    in value and in slope; the angular momentum follows the quadrature to each node and comes back to itself.
+    """
+    x, p, M = k.x, k.p, k.request.degree
     sigma_minus = k.sigma(x.q, k.dq) * x.rate
     sigma_plus = k.sigma(k.q_plus, k.v_plus) * x.rate
     sigma2 = (k.node.inertia * x.rates / k.sigma_scale) ** 2
-    c_row = c[np.newaxis]
+    reach = float(k.request.kind.abscissae(M)[1])
     begin, end = x.alpha[:, 1] - x.alpha[:, 0], x.alpha[:, M] - x.alpha[:, M - 1]
-    zero: list[tuple[str, Any] | tuple[str, Any, str]] = [
+    zero: list[tuple[str, ca.MX] | tuple[str, ca.MX, str]] = [
         ("the swing foot on the ground", k.out @ k.foot / k.leg),
         ("the constraint before impact", x.alpha[:, M] - x.q[:p]),
-        ("the slope before impact", M * end - k.span * x.slope),
+        ("the slope before impact", end / reach - k.span * x.slope),
         ("the constraint after impact", x.alpha[:, 0] - k.q_plus[:p]),
-        ("the slope after impact", M * begin * (c_row @ k.v_plus) - k.span * k.v_plus[:p]),
-        ("the phase", x.theta - ca.vertcat(c_row @ k.q_plus, c_row @ x.q)),
+        ("the slope after impact", begin / reach * (k.phase @ k.v_plus) - k.span * k.v_plus[:p]),
+        ("the phase", x.theta - ca.vertcat(k.phase @ k.q_plus, k.phase @ x.q)),
         ("the impact", k.impact()),
         ("the zero dynamics", sigma2 - sigma_plus**2 - 2.0 * k.until / k.sigma_scale**2),
         ("periodicity", sigma_minus**2 - sigma_plus**2 - 2.0 * k.work / k.sigma_scale**2),
@@ -92,7 +109,14 @@ def _equalities(k: Step) -> tuple[Bounded, ...]:
     return tuple(Bounded(name, ca.vec(value), 0.0, 0.0, *unit) for name, value, *unit in zero)
 
 
-def _limits(k: Step) -> tuple[Bounded, ...]:
+def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
+    """Inequalities at the nodes and at both ends: contact, torque, lift-off, stability, clearance, joint
+    ranges.
+
+    Friction and torque keep `limits.reserve` back for what happens between the nodes. The clearance asked for
+    is a hump 16 h (s (1 - s))^2 over the normalised phase, which is h in the middle of the step and 0, with
+    slope 0, at its ends.
+    """
     x, limits, infinite = k.x, k.limits, np.inf
     weight, kept = k.biped.weight, 1.0 - limits.reserve
     speed = np.sqrt(k.gravity * k.leg)
@@ -119,9 +143,7 @@ def _limits(k: Step) -> tuple[Bounded, ...]:
         Bounded("the swing foot coming down", before / speed, -infinite, -lift, speeds),
         Bounded("the old foot lifting off", after / speed, lift, infinite, speeds),
         Bounded("one way of Theta", k.direction * k.span, 0.05, infinite, "rad"),
-        Bounded(
-            "one way of Theta after impact", k.biped.phase[np.newaxis] @ k.v_plus, 0.02, infinite
-        ),
+        Bounded("one way of Theta after impact", k.phase @ k.v_plus, 0.02, infinite),
         Bounded(
             "the slowest rate", x.rates / x.rate, limits.slowest, infinite, "of that before impact"
         ),
@@ -145,7 +167,12 @@ def _limits(k: Step) -> tuple[Bounded, ...]:
     return tuple(row._replace(value=ca.vec(row.value)) for row in rows)
 
 
-def _objective(k: Step) -> Any:
+def _objective(k: SymbolicStep) -> ca.MX:
+    """The cost, scaled to about 1.
+
+    Objectives other than torque have a little torque squared added (CALM), since they leave the torque
+    undetermined where it costs nothing.
+    """
     u = k.node.u / k.limits.torque
     calm = ca.sum2(ca.sum1(u**2) * k.dt) / k.length * np.sqrt(k.leg * k.gravity)
     match k.request.objective:

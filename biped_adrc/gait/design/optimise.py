@@ -1,27 +1,39 @@
-"""Solving the programme with IPOPT from a cold start, and making its result exact.
+"""Design of a gait: solve the nonlinear programme with IPOPT from a cold start, then make the result exact.
 
-IPOPT meets the equations to about 1e-9. The Gait handed back is built anew from q-, the slopes and the free
-coefficients alone: impact and zero dynamics are Pinocchio's, so that the constraint is hybrid-invariant
-and the orbit periodic to round-off.
+`optimise` goes from an easy programme to the one asked for (level ground and least torque first, then the
+slope, then the objective), each solution being the next first guess.
 
-It is audited: whether it keeps its limits everywhere along the step, by Pinocchio, between the nodes too.
+IPOPT meets the equations to about 1e-9. The Gait handed back is therefore built anew from q-, the slopes and
+the free coefficients alone (`exact_gait`): impact and zero dynamics are Pinocchio's, so that the constraint is
+hybrid-invariant and the orbit periodic to round-off.
+
+The programme keeps its limits at the nodes only. `audited` evaluates the exact gait at many more, and
+`missed_limits` compares all limits there; if one is missed, the programme is solved once more with twice the
+nodes. `studies.gait_design` calls `optimise` and then walks the gait in simulation.
+
+The stages of one attempt (`_staged`), each from the solution of the one before:
+
+    cold start -> least torque, level ground -> least torque, slope -> the objective asked for
+
+A solution that fails its audit starts a second attempt at twice the nodes; a programme without a solution ends
+in `ipopt.relaxed`, which names the limits that contradict each other.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import Bezier
-from biped_adrc.gait.design.ipopt import Found, Progress, relaxed, solve
+from biped_adrc.gait.design.ipopt import IpoptProgress, IpoptResult, relaxed, solve
 from biped_adrc.gait.design.nlp import transcribe
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
-from biped_adrc.gait.design.start import bezier_through, cold_start
+from biped_adrc.gait.design.start import cold_start, curve_through
 from biped_adrc.gait.design.step import Unknowns
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.through_state import onto_section
@@ -32,26 +44,32 @@ from biped_adrc.model.planar import PlanarTree
 from biped_adrc.types import Array
 
 NODES = 120
-SPEED = 1e-4  # largest relative difference to the speed and step asked for
+"""Gauss nodes of the audit, five times those at which the programme keeps its limits by default."""
+SPEED = 1e-4
+"""Largest relative difference of speed and step length from those asked for."""
 
 
 class Audited(NamedTuple):
-    """The periodic step at many nodes."""
+    """The periodic step of a gait at K nodes, by Pinocchio."""
 
     orbit: ZeroDynamicsOrbit
     delta2: float
+    """delta^2, the multiplier of the zero dynamics."""
     length: float
-    """Between the feet [m]."""
+    """Distance between the feet at impact [m]."""
     F_T: Array
-    """Along the ground (K,) [N]."""
+    """Ground reaction along the ground (K,) [N]."""
     F_N: Array
-    """Out of it [N]."""
+    """Ground reaction normal to the ground (K,) [N]."""
     height: Array
-    """Of the swing foot over the ground (K,) [m]."""
+    """Height of the swing foot above the ground (K,) [m]."""
 
 
 def audited(biped: Biped, gait: Gait, nodes: int = NODES) -> Audited:
-    """The step of a gait. Raises GaitError when its zero dynamics have none."""
+    """Evaluate the periodic step of a gait at so many nodes.
+
+    Raises GaitError where it has no periodic orbit.
+    """
     zero = ZeroDynamics.of(biped, gait.constraint, nodes)
     o = zero.cycle
     along, out = ground_axes(gait.slope)
@@ -62,7 +80,7 @@ def audited(biped: Biped, gait: Gait, nodes: int = NODES) -> Audited:
 
 
 def objective_of(biped: Biped, objective: Objective, a: Audited) -> float:
-    """The objective along the step, in its units."""
+    """The value of an objective over the step, in the units of `Objective`."""
     o = a.orbit
     match objective:
         case Objective.TORQUE:
@@ -77,10 +95,10 @@ def objective_of(biped: Biped, objective: Objective, a: Audited) -> float:
 def missed_limits(
     biped: Biped, gait: Gait, limits: RobotLimits, a: Audited | None = None
 ) -> tuple[str, ...]:
-    """What the periodic step of the gait misses; empty when it keeps all limits.
+    """A sentence for each limit that the periodic step violates anywhere; empty when it keeps all of them.
 
-    Friction, torque and ranges are held against the limits themselves, of which the design keeps a reserve;
-    F_N, clearance and lift-off, which have none, against what the reserve leaves of them.
+    Friction, torque and joint ranges are compared with the limits themselves, since the programme kept a
+    reserve to them. F_N, clearance and lift-off have no such reserve, so they may fall short by that share.
     """
     a = audited(biped, gait) if a is None else a
     o, c, left = a.orbit, gait.constraint, 1.0 - limits.reserve
@@ -121,7 +139,7 @@ def missed_limits(
 
 
 def missed_wishes(request: GaitRequest, a: Audited) -> tuple[str, ...]:
-    """Where speed and step are not those asked for."""
+    """A sentence each for a speed or a step length that differs from the one asked for by more than SPEED."""
     reached = {
         "speed": (request.speed, a.length / a.orbit.period),
         "step": (request.step, a.length),
@@ -134,26 +152,36 @@ def missed_wishes(request: GaitRequest, a: Audited) -> tuple[str, ...]:
 
 
 SLOWEST, FASTEST = 0.02, 60.0  # [rad/s], |Theta'|
-WINDING = 1.5  # [rad], how far a coefficient may be from the first guess
+"""Bounds of the unknown rates."""
+WINDING = 1.5
+"""Largest distance of a Bezier coefficient from the first guess [rad]; angles repeat every 2 pi, so that
+without bounds a leg may wind round."""
 
 
 @dataclass(frozen=True)
 class Optimum:
-    """The gait and how it was found."""
+    """The optimal gait and what it took to find it."""
 
     gait: Gait
     objective: float
-    """In the units of Objective."""
+    """Its value in the units of `Objective`, by Pinocchio."""
     iterations: int
+    """Of IPOPT, over all stages and attempts."""
     seconds: float
-    """Wall time."""
+    """Wall time [s]."""
 
 
-def optimise(biped: Biped, request: GaitRequest, progress: Progress | None = None) -> Optimum:
-    """The gait of least objective from a cold start.
+def optimise(biped: Biped, request: GaitRequest, progress: IpoptProgress | None = None) -> Optimum:
+    """The gait of least objective, from a cold start; local optimum, as of any nonlinear programme.
 
-    Least torque on level ground comes first; from there to the slope and to the objective asked for.
-    Raises GaitError naming the limits that would have to give, or the robot that has no such gait.
+    1. Solve the programme in stages at the nodes of the request (`_staged`).
+    2. Build the exact gait of the solution (`exact_gait`), and evaluate it at NODES nodes (`audited`).
+    3. Compare speed, step length and all limits (`missed_wishes`, `missed_limits`). Done if nothing is missed;
+       otherwise start again with twice the nodes, and give up if that misses something too.
+
+    progress: called after each iteration of IPOPT. Raises
+    GaitError naming the limits that would have to give, or the robot that has no such gait (exactly one
+    unactuated coordinate is needed), and KeyboardInterrupt on Ctrl-C.
     """
     begin, limits, spent = perf_counter(), request.limits.of(biped), 0
     if biped.p != biped.n - 1 or biped.p == 0:
@@ -183,16 +211,19 @@ def optimise(biped: Biped, request: GaitRequest, progress: Progress | None = Non
 
 
 def _staged(
-    biped: Biped, request: GaitRequest, limits: RobotLimits, progress: Progress | None
-) -> tuple[Unknowns, int]:
-    """The unknowns and the iterations, by the stages of the request."""
+    biped: Biped, request: GaitRequest, limits: RobotLimits, progress: IpoptProgress | None
+) -> tuple[dict[str, Array], int]:
+    """The unknowns by name and the number of iterations, stage after stage of the request.
+
+    A stage that is not solved hands the guess of the one before on; only the last one has to be solved.
+    """
     stages, iterations = request.stages(), 0
     direction, guess = cold_start(biped, stages[0], limits)
     for stage in stages:
         found, x = _solve(biped, stage, limits, direction, guess, progress, stage is stages[-1])
         iterations += found.iterations
         if found.solved:
-            guess = x._asdict()
+            guess = x
     return x, iterations
 
 
@@ -201,11 +232,15 @@ def _solve(
     request: GaitRequest,
     limits: RobotLimits,
     direction: float,
-    guess: dict[str, Any],
-    progress: Progress | None,
+    guess: Mapping[str, Array],
+    progress: IpoptProgress | None,
     diagnose: bool,
-) -> tuple[Found, Unknowns]:
-    """From a guess; `diagnose` asks for a GaitError that says why there is no solution."""
+) -> tuple[IpoptResult, dict[str, Array]]:
+    """IPOPT from a guess, with the adaptive and then the monotone barrier strategy.
+
+    diagnose: where both fail, relax the limits, start again from the feasible point found, and raise GaitError
+    with the reason if that fails too.
+    """
     programme, unknowns = transcribe(biped, request, limits, direction)
     x0 = np.concatenate([np.ravel(guess[name], order="F") for name in Unknowns._fields])
     bounds = _bounds(unknowns, guess, request, limits)
@@ -227,9 +262,13 @@ def _solve(
 
 
 def _bounds(
-    unknowns: Unknowns, guess: dict[str, Any], request: GaitRequest, limits: RobotLimits
+    unknowns: Unknowns, guess: Mapping[str, Array], request: GaitRequest, limits: RobotLimits
 ) -> tuple[Array, Array]:
-    """Bounds of the unknowns: rates are positive, the peak is the limit unless it is made least."""
+    """Lower and upper bounds (nx,) of the decision vector.
+
+    Rates are positive, coefficients stay within WINDING of the guess (angles repeat every 2 pi), the peak
+    torque is fixed at its limit unless it is the objective, and a given pre-impact state is fixed.
+    """
     low, high = {}, {}
     for name, part in zip(Unknowns._fields, unknowns, strict=True):
         low[name] = np.full(part.numel(), -np.inf)
@@ -248,20 +287,27 @@ def _bounds(
 
 
 # -- the exact gait --------------------------------------------------------------------------------
-def exact_gait(biped: Biped, request: GaitRequest, limits: RobotLimits, x: Unknowns) -> Gait:
-    """The gait of q-, the slopes and the inner coefficients, by Pinocchio's impact and zero dynamics."""
+def exact_gait(
+    biped: Biped, request: GaitRequest, limits: RobotLimits, x: Mapping[str, Array]
+) -> Gait:
+    """The gait that a solution x stands for, hybrid-invariant and periodic to round-off.
+
+    Of x only q- (n,), the slopes (p,) and the inner coefficients (p, M - 3) are used, in the units of
+    `Unknowns`; the outer coefficients follow from Pinocchio's impact, the orbit from the quadrature of the zero
+    dynamics. Raises GaitError where these have no periodic orbit.
+    """
     p, M, c = biped.p, request.degree, biped.phase
-    q = onto_section(biped, x.q.ravel(), request.slope)
-    slope = x.slope.ravel()
+    q = onto_section(biped, x["q"].ravel(), request.slope)
+    slope = x["slope"].ravel()
     dq = np.append(slope, (1.0 - c[:p] @ slope) / c[p])
-    _, theta_plus, theta_minus, alpha = bezier_through(biped, q, dq, M)
-    alpha[:, 2:-2] = x.alpha[:, 2:-2]
-    constraint = VirtualConstraint(Bezier(alpha), c, theta_plus, theta_minus)
+    _, theta_plus, theta_minus, alpha = curve_through(request.kind, biped, q, dq, M)
+    alpha[:, 2:-2] = x["alpha"][:, 2:-2]
+    constraint = VirtualConstraint(request.kind(alpha), c, theta_plus, theta_minus)
     zero = ZeroDynamics.of(biped, constraint, NODES)
     gait = Gait.of_cycle(request.name(), zero, {}, request.slope)
     step = float(np.hypot(*biped.swing_foot(gait.q_minus)))
     provenance = {
-        "method": "direct optimisation on the zero dynamics, hybrid-invariant Bezier curves, IPOPT",
+        "method": "direct optimisation on the zero dynamics, hybrid-invariant curves, IPOPT",
         "asked": request.in_words(),
         "minimised": request.objective.value,
         "limits": ", ".join(f"{k} {v}" for k, v in vars(limits).items()),

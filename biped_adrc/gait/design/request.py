@@ -1,4 +1,10 @@
-"""What is asked of a gait: speed, step, slope, objective, and the limits the step must keep."""
+"""What is asked of a gait: speed, step length, slope, objective, and the limits that its step must keep.
+
+`GaitRequest` is checked when it is made, before anything is computed, and knows how it is solved in stages,
+what its gait is called, and which command designs it again (all three go into the provenance of the gait file).
+`StepLimits` may leave friction and torque to the robot's record; `StepLimits.of` fills them in as
+`RobotLimits`. Used by `studies.gait_design`, by the command line and by the modules of this folder.
+"""
 
 from __future__ import annotations
 
@@ -7,16 +13,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 
-from biped_adrc.errors import GaitError
+from biped_adrc.errors import GaitError, check_positive
+from biped_adrc.gait.curves import ControlledCurve, curve_kind
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_fields
 from biped_adrc.shown import Shown
 
 MOST_NODES = 100
+"""Largest number of nodes that may be asked for; twice as many are tried where limits are missed between
+them."""
 
 
 class Objective(Enum):
-    """What is made least; values are the names of the command line."""
+    """The cost that is minimised; the values are the names on the command line."""
 
     TORQUE = "torque"
     """int u'u dt / L [N^2 m s], Westervelt, Grizzle, Koditschek 2003."""
@@ -28,7 +37,12 @@ class Objective(Enum):
 
 @dataclass(frozen=True)
 class StepLimits(Shown):
-    """Limits of one step; None takes the robot's own from its record."""
+    """Limits of one step; None takes the robot's own from its record (`robot.toml`).
+
+        ba.design_gait("rabbit", 0.8, limits=StepLimits(friction=0.5, torque=100.0, clearance=0.03))
+
+    Raises GaitError for a limit that is negative, zero where it divides, or a range without extent.
+    """
 
     friction: float | None = None
     """|F_T| / F_N in single support."""
@@ -55,7 +69,7 @@ class StepLimits(Shown):
     happens between the nodes."""
 
     def of(self, biped: Biped) -> RobotLimits:
-        """With the record of the robot in place of None. Raises GaitError."""
+        """These limits with the robot's own in place of None. Raises GaitError for a joint it does not have."""
         d = biped.description
         unknown = set(self.ranges) - set(d.joints)
         if unknown:
@@ -96,7 +110,7 @@ class StepLimits(Shown):
 
 @dataclass(frozen=True)
 class RobotLimits(StepLimits):
-    """StepLimits of one robot, nothing left open."""
+    """StepLimits of one robot: friction coefficients and torque [N m] are numbers, never None."""
 
     friction: float
     impulse_friction: float
@@ -105,7 +119,10 @@ class RobotLimits(StepLimits):
 
 @dataclass(frozen=True)
 class GaitRequest(Shown):
-    """At least one of speed and step has to be given; the other is then free."""
+    """A gait to be designed: speed, step length or both (one left out is free), or a state to pass through.
+
+    Raises GaitError for a request that contradicts itself or a value out of range.
+    """
 
     speed: float | None = None
     """Average, along the ground [m/s]."""
@@ -115,12 +132,19 @@ class GaitRequest(Shown):
     """[rad], positive downhill."""
     objective: Objective = Objective.TORQUE
     degree: int = 6
-    """Of the Bezier curves."""
+    """Of the curves: one less than they have coefficients."""
     nodes: int = 24
     """Gauss nodes at which the limits are kept; twice as many where that does not do."""
     limits: StepLimits = StepLimits()
     through: tuple[float, ...] | None = None
     """Pre-impact state (q-, q'-) (2 n,) through which the orbit has to pass, in place of speed and step."""
+    curve: str = "bezier"
+    """By name, one that lies between its ends."""
+
+    @property
+    def kind(self) -> type[ControlledCurve]:
+        """The class of the curves."""
+        return curve_kind(self.curve)  # type: ignore[return-value]
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -134,17 +158,22 @@ class GaitRequest(Shown):
         if self.through is not None and not all(map(math.isfinite, self.through)):
             raise GaitError(f"the state to pass through is {self.through}, expected finite numbers")
         for name, value in (("speed", self.speed), ("step length", self.step)):
-            if value is not None and not (math.isfinite(value) and value > 0.0):
-                raise GaitError(f"the {name} is {value}, expected a positive number")
+            if value is not None:
+                check_positive(value, f"the {name} is {value}", error=GaitError)
         if not abs(self.slope) < 0.5:
             raise GaitError(f"the slope is {self.slope} rad, expected less than 0.5 rad either way")
+        if not issubclass(curve_kind(self.curve), ControlledCurve):
+            raise GaitError(f"gaits are not designed of a {self.curve} curve; take bezier")
         if not 4 <= self.degree <= 12:
             raise GaitError(f"the degree is {self.degree}, expected 4 to 12")
         if not 8 <= self.nodes <= 2 * MOST_NODES:
             raise GaitError(f"found {self.nodes} nodes, expected 8 to {MOST_NODES}")
 
     def stages(self) -> tuple[GaitRequest, ...]:
-        """Requests that lead from an easy one to this one."""
+        """Requests from an easy one to this one, each the first guess of the next.
+
+        Least torque on level ground, least torque on the slope, this one; equal ones are left out.
+        """
         if self.through is not None:
             return (self,)
         sloped = replace(self, objective=Objective.TORQUE)
@@ -152,7 +181,7 @@ class GaitRequest(Shown):
         return (*before, *([] if sloped == self else [sloped]), self)
 
     def in_words(self) -> str:
-        """What is asked, for messages."""
+        """What is asked, for messages and the provenance, such as "0.8 m/s, a slope of 0.05 rad"."""
         parts = ["the given pre-impact state"] if self.through is not None else []
         parts += [f"{self.speed:g} m/s"] if self.speed is not None else []
         parts += [f"a step of {self.step:g} m"] if self.step is not None else []
@@ -160,7 +189,7 @@ class GaitRequest(Shown):
         return ", ".join(parts)
 
     def name(self) -> str:
-        """Name of the gait."""
+        """Name of the gait, such as "v0.8-s0.5", which is also that of its file."""
         if self.through is not None:
             return "through"
         parts = [f"v{self.speed:g}"] if self.speed is not None else []
@@ -169,7 +198,10 @@ class GaitRequest(Shown):
         return "-".join(parts)
 
     def command(self, biped: Biped) -> str:
-        """The command that designs it; a robot of one's own is named, its robot.toml has to be given."""
+        """The command line that designs it again, for the provenance.
+
+        A robot of the user's own appears by its name; whoever repeats the command has to give its robot.toml.
+        """
         limits, usual = self.limits, StepLimits()
         values: dict[str, object] = {
             "robot": biped.description.name,
@@ -179,6 +211,7 @@ class GaitRequest(Shown):
             "slope": self.slope or None,
             "minimise": self.objective.value,
             "degree": self.degree,
+            **({} if self.curve == "bezier" else {"curve": self.curve}),
             "nodes": self.nodes,
             "torque": limits.torque,
             "friction": limits.friction,

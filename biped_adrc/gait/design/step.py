@@ -1,18 +1,27 @@
-"""One step of the zero dynamics in CasADi's symbols: the unknowns, what each node gives, and the impact.
+"""One step of the zero dynamics as CasADi expressions: the unknowns, the model at the nodes, and the impact.
 
-q, Theta' and Theta'' on the constraint, torque and ground reaction are explicit functions of the Bezier
-coefficients, the phases and the rates |Theta'|, so that nothing is integrated in time and all derivatives are
-exact.
+On the constraint q_b = h(Theta), with c = [c_b c_N] the phase row, the configuration and its derivatives are
+
+    q = (h, (Theta - c_b h) / c_N),   q' = dq/dTheta Theta',   q'' = dq/dTheta Theta'' + d2q/dTheta2 Theta'^2
+
+and the unactuated row of D q'' + Omega = (u, 0) gives Theta''. So torque and ground reaction at a node are
+explicit functions of the Bezier coefficients, the phases Theta+ and Theta-, and the rate |Theta'| there:
+nothing is integrated in time, and CasADi's derivatives are exact.
+
+The planar model (`model.planar`) is written for NumPy arrays; with arrays of CasADi scalars the same code gives
+expressions. `nlp` builds cost and constraints from a `SymbolicStep`; `optimise` reads the solution by the names
+of `Unknowns`.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import casadi as ca
 import numpy as np
+from numpy.typing import NDArray
 
-from biped_adrc.gait.curves import Bezier
+from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.zero_dynamics import gauss_nodes
 from biped_adrc.ground import ground_axes
@@ -28,76 +37,97 @@ from biped_adrc.model.planar import (
 )
 from biped_adrc.types import Array
 
+Symbols = NDArray[np.object_]
+"""A NumPy array whose entries are CasADi scalars, as the planar model takes it."""
+
 
 class Unknowns(NamedTuple):
-    """Symbols of the unknowns in their order."""
+    """Symbols of the unknowns, in the order of the decision vector; n coordinates, p motors, K nodes."""
 
-    q: Any
-    """q- (n,)."""
-    slope: Any
-    """dq_b/dTheta before impact (p,)."""
-    alpha: Any
-    """(p, M + 1)."""
-    theta: Any
-    """Theta+, Theta- (2,)."""
-    after: Any
-    """q_e' (n + 2,) after an impact at Theta'- = 1, old labels."""
-    impulse: Any
-    """(F_T, F_N) of that impact (2,)."""
-    rate: Any
-    """|Theta'| before impact (1,)."""
-    rates: Any
-    """|Theta'| at the nodes (1, K)."""
-    peak: Any
-    """Largest torque over the robot's (1,)."""
+    q: ca.MX
+    """q- (n,): configuration just before impact [rad]."""
+    slope: ca.MX
+    """dq_b/dTheta just before impact (p,) [rad/rad]."""
+    alpha: ca.MX
+    """Bezier coefficients (p, M + 1) [rad]."""
+    theta: ca.MX
+    """Theta+ after impact and Theta- before the next one (2,) [rad]."""
+    after: ca.MX
+    """q_e' (n + 2,) just after an impact at Theta'- = 1 rad/s, before the legs are relabelled [rad/s, m/s].
 
-    def vector(self) -> Any:
-        """All as one column."""
+    The impact map is linear in q', so the rates of the real impact are these times Theta'-."""
+    impulse: ca.MX
+    """(F_T, F_N) of that impact (2,) [N s]."""
+    rate: ca.MX
+    """|Theta'| just before impact (1,) [rad/s]."""
+    rates: ca.MX
+    """|Theta'| at the nodes (1, K) [rad/s]."""
+    peak: ca.MX
+    """Largest |u_i| of the step as a share of the torque limit (1,)."""
+
+    def vector(self) -> ca.MX:
+        """The decision vector: all unknowns as one column, matrices column by column."""
         return ca.vertcat(*(ca.vec(part) for part in self))
 
-    def parts(self, x: Array) -> Unknowns:
-        """Numbers in place of the symbols."""
+    def parts(self, x: Array) -> dict[str, Array]:
+        """The numbers in a decision vector x (nx,), by name, in shapes such as (n, 1) and (p, M + 1)."""
         sizes = [part.numel() for part in self]
         cuts = np.split(np.asarray(x).ravel(), np.cumsum(sizes)[:-1])
-        shaped = (cut.reshape(part.shape, order="F") for cut, part in zip(cuts, self, strict=True))
-        return Unknowns(*shaped)
+        named = zip(self._fields, cuts, self, strict=True)
+        return {name: cut.reshape(part.shape, order="F") for name, cut, part in named}
 
 
 class Node(NamedTuple):
-    """What one node gives, in the order of the function's rows."""
+    """The model at K nodes, one column each, in the order of the rows of `node_function`."""
 
-    inertia: Any
-    gravity: Any
-    u: Any
-    v_b: Any
-    force: Any
-    foot: Any
-    q: Any
+    inertia: ca.MX
+    """I(Theta) (1, K): sigma = I Theta' [kg m^2]."""
+    gravity: ca.MX
+    """G_N (1, K): gravity torque on the unactuated coordinate [N m]."""
+    u: ca.MX
+    """Joint torques (p, K) [N m]."""
+    v_b: ca.MX
+    """Joint rates (p, K) [rad/s]."""
+    force: ca.MX
+    """Ground reaction on the stance foot (2, K), horizontal and vertical [N]."""
+    foot: ca.MX
+    """Position of the swing foot from the stance foot (2, K) [m]."""
+    q: ca.MX
+    """Configuration (n, K) [rad]."""
 
 
-def bernstein(degree: int, s: Array) -> tuple[Array, Array, Array]:
-    """Values, first and second derivatives of the Bernstein polynomials, each (M + 1, K)."""
-    basis = Bezier(np.eye(degree + 1))
+def basis_functions(
+    kind: type[ControlledCurve], degree: int, s: Array
+) -> tuple[Array, Array, Array]:
+    """The basis of a kind of curve at s (K,) in [0, 1], its first and second derivatives, each (M + 1, K).
+
+    It is the curve whose coefficients are the identity matrix.
+    """
+    basis = kind(np.eye(degree + 1))
     values, first, second = (np.array(rows).T for rows in zip(*map(basis, s), strict=True))
     return values, first, second
 
 
-def each(x: Any) -> Any:
-    """The numbers of a column of symbols, as NumPy takes them."""
+def each(x: ca.SX) -> Symbols:
+    """A CasADi column of m symbols as a NumPy array (m,) of CasADi scalars; the inverse of `together`."""
     out = np.empty(x.numel(), dtype=object)
     for i in range(len(out)):
         out[i] = x[i]
     return out
 
 
-def together(values: Any) -> Any:
-    """A column or matrix of symbols, from NumPy."""
-    rows = [ca.horzcat(*row) for row in np.reshape(values, (len(values), -1))]
-    return ca.vertcat(*rows)
+def together(values: Symbols) -> ca.SX:
+    """A NumPy array (m,) or (m, k) of CasADi scalars as one CasADi column or matrix."""
+    rows = np.reshape(values, (len(values), -1))
+    return ca.vertcat(*(ca.horzcat(*map(ca.SX, row)) for row in rows))
 
 
-def node_function(tree: PlanarTree, phase: Array, degree: int, direction: float) -> Any:
-    """CasADi function (alpha, Theta+-, s, b, b', b'', |Theta'|) -> the rows of Node, stacked."""
+def node_function(tree: PlanarTree, phase: Array, degree: int, direction: float) -> ca.Function:
+    """CasADi function (alpha, (Theta+, Theta-), s, b, b', b'', |Theta'|) -> the rows of `Node`, stacked.
+
+    phase: c (n,), Theta = c q. direction: sign of Theta'. s: normalised phase of the node; b, b', b'' (M + 1,):
+    Bernstein polynomials and derivatives there, which enter as inputs so that one function serves all nodes.
+    """
     n, K = len(tree.A), tree.K
     p, M = n - 1, degree
     alpha, theta, s, r = (ca.SX.sym(*a) for a in (("a", p * (M + 1)), ("t", 2), ("s"), ("r")))
@@ -117,31 +147,46 @@ def node_function(tree: PlanarTree, phase: Array, degree: int, direction: float)
     u = (D @ a + Omega)[:p]
     t, force = turned(tree, x), ground_reaction(tree, K, x, v, each(a))
     foot, (G, _) = point(t, K.foot_re, K.foot_im), gravity_and_turning(tree, K, t, v)
-    rows = Node(inertia, G[p], u, together(v[:p]), together(force), ca.vertcat(*foot), q)
+    rows = (inertia, G[p], u, together(v[:p]), together(force), ca.vertcat(*foot), q)
     return ca.Function("node", [alpha, theta, s, *basis, r], [ca.vertcat(*rows)])
 
 
-def pose_function(tree: PlanarTree) -> Any:
-    """CasADi function q -> D_s (n, n), d(m p_com)/dq (2, n), J_2 (2, n) and the swing foot (2,)."""
+def pose_function(tree: PlanarTree) -> ca.Function:
+    """CasADi function of the configuration q (n,): what the impact equations (7) need of it.
+
+    Returns the inertia matrix D_s (n, n) [kg m^2], d(m p_com)/dq (2, n) [kg m], the Jacobian J_2 (2, n) [m] of
+    the swing foot, and its position (2,) [m].
+    """
     n, K = len(tree.A), tree.K
     q = ca.SX.sym("q", n)
-    x, rest = each(q), np.zeros(n)
-    t, (D, _) = turned(tree, x), inertia_and_bias(tree, K, x, rest)
+    x = each(q)
+    rest: Symbols = np.zeros(n, dtype=object)
+    t = turned(tree, x)
+    D, _ = inertia_and_bias(tree, K, x, rest)
     J_m, J_2 = jacobian(tree, t, K.w_re, K.w_im), jacobian(tree, t, K.foot_re, K.foot_im)
     foot = ca.vertcat(*point(t, K.foot_re, K.foot_im))
     return ca.Function("pose", [q], [*map(together, (D, J_m, J_2)), foot])
 
 
 def unknowns(n: int, degree: int, nodes: int) -> Unknowns:
-    """The symbols."""
+    """Fresh symbols for n coordinates, Bezier curves of a degree, and so many Gauss nodes."""
     p, scalar = n - 1, (1, 1)
     sizes = (n, 1), (p, 1), (p, degree + 1), (2, 1), (n + 2, 1), (2, 1), scalar, (1, nodes), scalar
     named = zip(Unknowns._fields, sizes, strict=True)
     return Unknowns(*(ca.MX.sym(name, *size) for name, size in named))
 
 
-class Step:
-    """What the rows are made of; scales are the weight, the leg, and the peak torque."""
+class SymbolicStep:
+    """The step as CasADi expressions of the unknowns, from which `nlp` builds cost and constraints.
+
+    node: the model at the K Gauss nodes; everywhere: there and at both ends of the step, at the normalised
+    phases `places`. work: W (1, 1) = int -G_N I dTheta over the step, until (1, K): the same up to each node
+    [kg^2 m^4/s^2]. dt (1, K): time of each node's share of the step, duration: their sum [s]. length: distance
+    of the feet along the ground [m]. dq (n,): dq/dTheta before impact. q_plus, v_plus (n,): state after the
+    impact at Theta'- = 1, legs relabelled.
+
+    Constraints are made dimensionless by the leg length, the weight, and sigma_scale = m g l sqrt(l / g).
+    """
 
     def __init__(
         self, biped: Biped, request: GaitRequest, limits: RobotLimits, direction: float
@@ -155,10 +200,11 @@ class Step:
         x = self.x = unknowns(self.n, request.degree, request.nodes)
         s, w, C = gauss_nodes(request.nodes)
         self.function = node_function(self.tree, biped.phase, request.degree, direction)
-        self.q_plus = biped.R @ x.q + biped.relabel(np.zeros(self.n))
-        self.v_plus = biped.R @ x.after[: self.n]
+        R, self.phase = ca.DM(biped.R), ca.DM(biped.phase[np.newaxis])
+        self.q_plus = R @ x.q + biped.relabel(np.zeros(self.n))
+        self.v_plus = R @ x.after[: self.n]
         self.node = self.at(s, x.rates)
-        first = (biped.phase[np.newaxis] @ self.v_plus) * x.rate
+        first = (self.phase @ self.v_plus) * x.rate
         ends = self.at(np.array([0.0, 1.0]), ca.horzcat(first, x.rate))
         self.everywhere = Node(*(ca.horzcat(*pair) for pair in zip(self.node, ends, strict=True)))
         self.places = np.concatenate((s, [0.0, 1.0]))
@@ -169,27 +215,30 @@ class Step:
         self.work, self.until = drive @ w, drive @ C.T
         c_b, c_N = biped.phase[: self.p], biped.phase[self.p]
         self.dq = ca.vertcat(x.slope, (1.0 - ca.dot(c_b, x.slope)) / c_N)
-        along, out = ground_axes(request.slope)
-        self.along, self.out = along[np.newaxis], out[np.newaxis]
+        self.along, self.out = (ca.DM(axis[np.newaxis]) for axis in ground_axes(request.slope))
         self.pose = pose_function(self.tree)
         self.D, self.J_m, self.J_2, self.foot = self.pose(x.q)
         self.length = self.along @ self.foot
 
-    def at(self, s: Array, rates: Any) -> Node:
-        """Node at the shares s (K,) of the step, with |Theta'| (1, K)."""
+    def at(self, s: Array, rates: ca.MX) -> Node:
+        """The model at the normalised phases s (K,), where |Theta'| is `rates` (1, K) [rad/s]."""
         count, p, x = len(s), self.p, self.x
         columns = ca.repmat(ca.vec(x.alpha), 1, count), ca.repmat(x.theta, 1, count)
-        basis = bernstein(self.request.degree, s)
+        basis = basis_functions(self.request.kind, self.request.degree, s)
         stacked = self.function.map(count)(*columns, s[np.newaxis], *basis, rates)
         sizes = (1, 1, p, p, 2, 2, self.n)
         return Node(*ca.vertsplit(stacked, [0, *np.cumsum(sizes).tolist()]))
 
-    def sigma(self, q: Any, v: Any) -> Any:
-        """sigma over its scale."""
+    def sigma(self, q: ca.MX, v: ca.MX) -> ca.MX:
+        """Angular momentum about the stance foot at (q, v), each (n,), over sigma_scale."""
         return self.pose(q)[0][self.n - 1, :] @ v / self.sigma_scale
 
-    def impact(self) -> Any:
-        """D_e (q_e'+ - q_e'-) - E_2' F and E_2 q_e'+ at Theta'- = 1, (7), scaled (n + 4,)."""
+    def impact(self) -> ca.MX:
+        """Residual (n + 4,) of the impact equations (7) at Theta'- = 1, dimensionless; zero at a solution.
+
+        D_e (q_e'+ - q_e'-) = E_2' F balances the momenta, E_2 q_e'+ = 0 lets the swing foot neither slip nor
+        rebound.
+        """
         x, m, J_m, J_2 = self.x, self.mass, self.J_m, self.J_2
         change = x.after - ca.vertcat(self.dq, 0.0, 0.0)
         turn, move = change[: self.n], change[self.n :]

@@ -1,16 +1,19 @@
-"""Does a gait that comes from elsewhere close, and if not, in which angle convention would it?
+"""Does a gait from another program close, and if not, in which angle convention would it?
 
-The end of a step, relabelled, is the start of the next: q(0) = R q(1), every coordinate of it, and with a
-robot dq/dTheta after the impact is the slope at s = 0 (the constraint is hybrid-invariant). Every failure is
-a GaitError that names the joint, what was found, what was expected, the likely cause and what to try.
+A periodic gait closes: the end of a step, relabelled, is the start of the next one, q(0) = R q(1) for every
+coordinate. With a robot, also dq/dTheta after the impact is the slope at s = 0 (the constraint is
+hybrid-invariant). The usual mistakes when gaits are exchanged (degrees, a sign, an order of joints, another
+convention) all break closure, so this check finds them without knowing which one was made.
 
-A `Misfit` is one thing that can be wrong, with one check each.
+Each check returns a `Misfit` or None, in the order of `first_misfit`: the first failure is reported, since
+later ones mostly follow from it. The error names the joint, what was found, what was expected, the likely cause
+and what to try; if the same numbers close in another convention, it says which. Called by `importing`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -28,8 +31,8 @@ from biped_adrc.types import Array
 def check(record: GaitRecord, biped: Biped | None = None, slopes: bool = True) -> Coordinates:
     """The gait in this paper's coordinates, once it is known to close. Raises GaitError.
 
-    biped: also its feet, and with `slopes` the impact. slopes=False accepts constraints that are not
-    hybrid-invariant, such as those of the recipe of section IV.
+    biped: checks its feet too (they are on the ground at both ends) and, with `slopes`, its impact.
+    slopes=False accepts constraints that are not hybrid-invariant, such as those of the recipe of section IV.
     """
     try:
         along = coordinates(record)
@@ -42,7 +45,7 @@ def check(record: GaitRecord, biped: Biped | None = None, slopes: bool = True) -
 
 
 def closing_conventions(record: GaitRecord, biped: Biped | None = None) -> tuple[str, ...]:
-    """The conventions in which these numbers would be a gait that closes, slopes not considered."""
+    """Names of the conventions in which the same numbers would be a gait that closes, slopes aside."""
     closing = []
     for name in CONVENTIONS:
         try:
@@ -55,6 +58,7 @@ def closing_conventions(record: GaitRecord, biped: Biped | None = None) -> tuple
 
 
 def _error(record: GaitRecord, m: Misfit, biped: Biped | None) -> GaitError:
+    """The error for a misfit, with another convention as the likely cause where that would close."""
     text = f"{m.where}: found {m.found}, expected {m.expected}. Likely cause: "
     hint = _hint(record, biped) if m.geometric else ""
     if hint:
@@ -64,7 +68,7 @@ def _error(record: GaitRecord, m: Misfit, biped: Biped | None) -> GaitError:
 
 
 def _hint(record: GaitRecord, biped: Biped | None) -> str:
-    """Which conventions would close, as the end of a message; empty where none would."""
+    """End of a message: the other conventions in which the gait would close; empty where none would."""
     others = [name for name in closing_conventions(record, biped) if name != record.convention]
     if not others:
         return ""
@@ -78,7 +82,7 @@ RATES = 1e-2
 """[rad/s]: largest gap between the stored rates before impact and those of the curve."""
 LARGEST = 4.0 * np.pi
 """[rad]: angles above this are taken for degrees."""
-_JOINTS = {
+_JOINTS = {  # names of the paper's coordinates for messages, by their number
     5: ("stance hip q1", "swing hip q2", "stance knee q3", "swing knee q4", "torso q5"),
     3: ("stance hip q1", "swing hip q2", "torso q3"),
 }
@@ -91,12 +95,16 @@ def _joints(record: GaitRecord) -> tuple[str, ...]:
 
 
 class Misfit(NamedTuple):
-    """What is wrong with a gait."""
+    """One thing that is wrong with a gait, in words for an error message."""
 
     where: str
+    """The joint, foot or entry."""
     found: str
+    """The number found, with its unit."""
     expected: str
+    """The number expected, with its tolerance."""
     cause: str
+    """The likely cause, and what to try."""
     geometric: bool = True
     """Whether another angle convention can be the cure."""
 
@@ -104,24 +112,32 @@ class Misfit(NamedTuple):
 def first_misfit(
     record: GaitRecord, along: Coordinates, biped: Biped | None, slopes: bool
 ) -> Misfit | None:
-    """The first thing that is wrong, or None."""
-    checks: list[Callable[[], Misfit | None]] = [
-        lambda: _radians(record),
-        lambda: _direction(along),
-        lambda: _phase_of_rows(record, along),
-        lambda: _closure(record, along),
-        lambda: _state(record, along),
-    ]
+    """The first check that fails, or None. Without a robot only those that need none."""
+    return next(filter(None, _checks(record, along, biped, slopes)), None)
+
+
+def _checks(
+    record: GaitRecord, along: Coordinates, biped: Biped | None, slopes: bool
+) -> Iterator[Misfit | None]:
+    """The results of all checks in their order, each computed when it is asked for."""
     if biped is not None:
-        checks[:0] = [lambda: _fits(along, biped)]
-        checks.append(lambda: _feet(along, biped, record.slope))
+        yield _fits(along, biped)
+    yield _radians(record)
+    yield _direction(along)
+    yield _phase_of_rows(record, along)
+    yield _closure(record, along)
+    yield _state(record, along)
+    if biped is not None:
+        yield _feet(along, biped, record.slope)
         if slopes:
-            checks.append(lambda: _slopes(record, along, biped))
-    return next((misfit for c in checks if (misfit := c()) is not None), None)
+            yield _slopes(record, along, biped)
 
 
 def _radians(record: GaitRecord) -> Misfit | None:
-    """The rows are angles in radians."""
+    """The rows are angles in radians: none above LARGEST at the start, middle and end of the step.
+
+    Two turns are more than any joint of a walker makes, while a hip near half a turn is 180 in degrees.
+    """
     values = np.array([record.curve_of_rows(s)[0] for s in (0.0, 0.5, 1.0)])
     largest = np.max(np.abs(values), axis=0)
     row = int(np.argmax(largest))
@@ -138,6 +154,7 @@ def _radians(record: GaitRecord) -> Misfit | None:
 
 
 def _fits(along: Coordinates, biped: Biped) -> Misfit | None:
+    """The gait has as many joints and coordinates as the robot; otherwise no other check would make sense."""
     n = len(along.phase)
     if (n - 1, n) == (biped.p, biped.n):
         return None
@@ -151,7 +168,10 @@ def _fits(along: Coordinates, biped: Biped) -> Misfit | None:
 
 
 def _direction(along: Coordinates) -> Misfit | None:
-    """Theta falls while the robot walks to +x."""
+    """The paper's phase falls while the robot walks to +x.
+
+    A phase that is not parallel to the paper's row may run either way, so it is not checked.
+    """
     if not along.virtual_leg or along.theta_plus > along.theta_minus:
         return None
     return Misfit(
@@ -164,7 +184,11 @@ def _direction(along: Coordinates) -> Misfit | None:
 
 
 def _phase_of_rows(record: GaitRecord, along: Coordinates) -> Misfit | None:
-    """With one row per coordinate the phase is said twice: c q(s) and the range."""
+    """c q(s) runs linearly from theta+ to theta- within CLOSES [rad].
+
+    With one row per coordinate the phase is given twice, by the curves and by its range; with outputs it is
+    not, and there is nothing to compare. Curves fitted over time fail here.
+    """
     if not record.of_all_coordinates:
         return None
     span = along.theta_minus - along.theta_plus
@@ -184,7 +208,10 @@ def _phase_of_rows(record: GaitRecord, along: Coordinates) -> Misfit | None:
 
 
 def _closure(record: GaitRecord, along: Coordinates) -> Misfit | None:
-    """q(0) = R q(1)."""
+    """q(0) = R q(1) within CLOSES [rad]: the end of the step, relabelled, is its start.
+
+    Both are poses of double support. The joint with the largest gap is the one that is reported.
+    """
     n, layout = len(along.phase), record.layout
     R = layout.relabelling if layout.name == OWN else convention("paper", n == 5).relabelling
     begin, end = along.curve(0.0)[0], R.angles(along.curve(1.0)[0])
@@ -202,7 +229,11 @@ def _closure(record: GaitRecord, along: Coordinates) -> Misfit | None:
 
 
 def _state(record: GaitRecord, along: Coordinates) -> Misfit | None:
-    """The stored state before impact lies on the curve."""
+    """The state before impact, where the record has one, lies on the end of the curve.
+
+    q- = q(1) within CLOSES [rad], and q'- = dq/ds(1) s' within RATES [rad/s], with s' from the state's own
+    Theta'.
+    """
     state = state_to_paper(record, along.turns)
     if state is None:
         return None
@@ -227,7 +258,11 @@ def _state(record: GaitRecord, along: Coordinates) -> Misfit | None:
 
 
 def _feet(along: Coordinates, biped: Biped, slope: float) -> Misfit | None:
-    """The swing foot starts and ends on the ground, and ends ahead of the stance foot."""
+    """The swing foot starts and ends on ground of `slope` [rad] within CLOSES [m], and ends ahead of the stance
+    foot.
+
+    This needs the robot's link lengths, and fails for a gait that was made for other ones.
+    """
     for s, when in ((0.0, "start"), (1.0, "end")):
         x, z = biped.swing_foot(along.curve(s)[0])
         height = float(z + math.tan(slope) * x)
@@ -253,7 +288,11 @@ def _feet(along: Coordinates, biped: Biped, slope: float) -> Misfit | None:
 
 
 def _slopes(record: GaitRecord, along: Coordinates, biped: Biped) -> Misfit | None:
-    """dq/dTheta after the impact is the slope at the start."""
+    """dq/dTheta after the impact is the slope at the start, within SLOPES: the constraint is hybrid-invariant.
+
+    The impact is linear in the rates, so the direction dq/dTheta after it does not depend on the speed. It
+    depends on the masses, which makes this the one check that tells robots of equal link lengths apart.
+    """
     span = along.theta_minus - along.theta_plus
     end, start = along.curve(1.0), along.curve(0.0)
     rate = np.sign(span) * end[1] / span

@@ -8,24 +8,27 @@ Koditschek, IEEE TAC 48(1), 2003)
     q'(s) = [H0; c']^-1 [y(s); theta+ + s (theta- - theta+)]
 
 and the last row is a curve too, so every coordinate is.
+
+`coordinates` brings a record into the paper's coordinates (called by `closure.check`), `record_of` takes a gait
+to another convention (called by `importing.export_gait`). Both keep kind and degree of the curves.
 """
 
 from __future__ import annotations
 
-from math import comb
 from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import OWN, AngleMap, Convention, convention
-from biped_adrc.gait.curves import Bezier, Curve, ramp
+from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import Gait
 from biped_adrc.types import Array
 
 _TURN = 2.0 * np.pi
-_PARALLEL = 1e-12  # relative, of two phase rows
+_PARALLEL = 1e-12
+"""Largest relative difference of two phase rows that count as parallel."""
 
 
 class Coordinates(NamedTuple):
@@ -36,7 +39,9 @@ class Coordinates(NamedTuple):
     phase: Array
     """c (n,), Theta = c q."""
     theta_plus: float
+    """Theta at s = 0, after impact [rad]."""
     theta_minus: float
+    """Theta at s = 1, before the next impact [rad]."""
     virtual_leg: bool
     """Whether c is this paper's own row."""
     turns: Array
@@ -51,35 +56,22 @@ class Coordinates(NamedTuple):
 
 def mapped(curve: Curve, A: Array, b: Array) -> Curve:
     """The curve A h(s) + b, of the same kind and degree; A (rows, p), b (rows,) [rad]."""
-    a = A @ curve.coefficients
-    if isinstance(curve, Bezier):
-        a = a + b[:, np.newaxis]
-    else:
-        a[:, 0] += b
-    return type(curve)(a)
-
-
-def reversed_curve(curve: Curve) -> Curve:
-    """The curve h(1 - s), of the same kind and degree."""
-    a = curve.coefficients
-    if isinstance(curve, Bezier):
-        return Bezier(a[:, ::-1])
-    degree = curve.degree
-    T = [
-        [comb(k, j) * (-1.0) ** j if j <= k else 0.0 for j in range(degree + 1)]
-        for k in range(degree + 1)
-    ]
-    return type(curve)(a @ np.array(T))
+    turned = type(curve)(A @ curve.coefficients)
+    return type(curve)(turned.shifted(b))
 
 
 def coordinates(record: GaitRecord) -> Coordinates:
-    """All coordinates of this paper along the step. Raises GaitError when the rows do not determine "
-    "them."""
+    """All coordinates of this paper along the step of a record.
+
+    Reverses the curve where the record says so, completes the coordinates by the phase, maps the angles, scales
+    the phase to the paper's own row where it is parallel to it, and adds whole turns. Raises GaitError when the
+    rows do not determine the coordinates.
+    """
     layout = record.layout
     c = layout.phase if record.phase is None else record.phase
     curve = record.curve_of_rows
     if record.reverse:
-        curve = reversed_curve(curve)
+        curve = curve.reversed()
     if not record.of_all_coordinates:
         curve = _completed(record, curve, c)
     to_paper = layout.to_paper
@@ -100,7 +92,10 @@ def coordinates(record: GaitRecord) -> Coordinates:
 
 
 def _completed(record: GaitRecord, curve: Curve, c: Array) -> Curve:
-    """q'(s) from the outputs and the phase."""
+    """q'(s), all n coordinates, from the outputs y(s) and the phase row c (n,) by [H0; c] q' = [y; theta].
+
+    Raises GaitError where outputs and phase together are not n independent rows.
+    """
     layout = record.layout
     outputs = layout.outputs if record.outputs is None else record.outputs
     H = np.vstack((outputs, c))
@@ -111,7 +106,7 @@ def _completed(record: GaitRecord, curve: Curve, c: Array) -> Curve:
             f"{np.linalg.matrix_rank(H)}, expected {layout.n} independent ones; give a phase that moves "
             "with the coordinate that has no row, or one row per coordinate"
         )
-    phase = ramp(type(curve), curve.degree, record.theta_plus, record.theta_minus)
+    phase = type(curve).ramp(curve.degree, record.theta_plus, record.theta_minus)
     q: Array = np.asarray(
         np.linalg.solve(H, np.vstack((curve.coefficients, phase))), dtype=np.float64
     )
@@ -119,15 +114,21 @@ def _completed(record: GaitRecord, curve: Curve, c: Array) -> Curve:
 
 
 def whole_turns(middle: Array) -> Array:
-    """Turns (n,) to add so that hips in the middle of a step lie in (0, 2 pi), knees and torso in "
-    "(-pi, pi)."""
+    """Whole turns (n,) to add to q in the middle of a step (n,) [rad].
+
+    Then hips lie in (0, 2 pi), knees and torso in (-pi, pi). Angles that differ by whole turns are the same
+    pose, but not the same phase c q.
+    """
     centre = np.zeros(len(middle))
     centre[:2] = np.pi
     return np.asarray(-np.round((middle - centre) / _TURN) + 0.0)
 
 
 def state_to_paper(record: GaitRecord, turns: Array) -> tuple[Array, Array] | None:
-    """(q-, q'-) of the record in this paper's coordinates, each (n,), or None when it has none."""
+    """(q-, q'-) of the record in this paper's coordinates, each (n,) [rad, rad/s]; None when it has none.
+
+    turns: (n,), those that `coordinates` added to the curve.
+    """
     if record.q_minus is None or record.v_minus is None:
         return None
     to_paper = record.layout.to_paper
@@ -136,9 +137,10 @@ def state_to_paper(record: GaitRecord, turns: Array) -> tuple[Array, Array] | No
 
 
 def record_of(gait: Gait, to: str = "paper", own: Convention | None = None) -> GaitRecord:
-    """The gait in the words of another convention, with that convention's outputs and sense of the phase.
+    """The gait as a record in another convention, with that convention's outputs and sense of the phase.
 
-    own: of the robot, for the convention "own", in which the coordinates are left as they are.
+    own: of the robot, for the convention "own", in which the coordinates are left as they are. Raises
+    InputError for a convention that there is not.
     """
     constraint = gait.constraint
     n = len(constraint.phase)

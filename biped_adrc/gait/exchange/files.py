@@ -4,7 +4,20 @@ The names are those of `docs/notation.md` and of the stored gaits; a stored gait
 record in this paper's convention.
 
 MATLAB files are of version 5, read by MATLAB and Octave: plain arrays, text, and the struct. A run is columns
-over time.
+over time. Every array has a unit in the struct `units`, which is written last, so that a file cut off is
+noticed.
+
+Entries are checked here for what only a file can get wrong (missing keys, text in place of numbers);
+`record.GaitRecord` checks shapes and numbers, `closure` whether it is a gait.
+
+A gait file of another program needs three entries, and one more unless the caller states the convention:
+
+    coefficients             (rows, M + 1) [rad], one row per output or coordinate
+    theta_plus, theta_minus  range of the phase [rad]
+    convention               a name of `conventions.CONVENTIONS`
+
+All other fields of `GaitRecord` may be added under their names. What is called differently is mapped by
+`names`.
 """
 
 from __future__ import annotations
@@ -31,10 +44,11 @@ LONGEST_NAME = 31
 """Letters of a variable's name in a .mat file."""
 
 
-def write_mat(path: Path | str, entries: Mapping[str, Any], units: Mapping[str, str]) -> None:
-    """Write numbers, arrays and text under their names; rows of one dimension become columns.
+def write_mat(path: Path | str, entries: Mapping[str, object], units: Mapping[str, str]) -> None:
+    """Write numbers, arrays and text under their names as a .mat file; arrays (K,) become columns (K, 1).
 
-    Raises InputError for a name MATLAB cannot have or an entry without a unit, and OutputError.
+    units: of each array, "1" where it has none. Raises InputError for a name MATLAB cannot have or an entry
+    without a unit, and OutputError.
     """
     for name, value in entries.items():
         if not (name.isidentifier() and name.isascii() and not name.startswith("_")) or (
@@ -74,15 +88,16 @@ def read_mat(path: Path | str) -> dict[str, Any]:
     return {name: _text(value) for name, value in found.items() if not name.startswith("__")}
 
 
-def _text(value: Any) -> Any:
-    """Text that MATLAB keeps as an array of characters, as str."""
+def _text(value: object) -> object:
+    """The value, or str for text, which MATLAB keeps as an array of characters."""
     if isinstance(value, np.ndarray) and value.dtype.kind == "U":
         return "".join(value.ravel().tolist())
     return value
 
 
 FORMAT = "biped_adrc exchanged gait 1"
-UNITS = {
+"""Entry `format` of a gait file written here; files of other programs need none."""
+UNITS = {  # of the entries of a gait file, written into it
     "coefficients": "rad",
     "theta_plus": "rad",
     "theta_minus": "rad",
@@ -101,7 +116,11 @@ _TEXT = ("convention", "curve", "name", "robot", "preset")
 
 
 def write_record(record: GaitRecord, path: Path | str) -> None:
-    """Write a record as .json or .mat. Raises InputError for another suffix, and OutputError."""
+    """Write a record as .json or .mat: the fields of `GaitRecord` by name, a `format`, and the units.
+
+    What is None is left out; provenance is text of JSON in a .mat file. Raises InputError for another suffix,
+    and OutputError.
+    """
     path = output_path(path, (".json", ".mat"))
     entries = {key: getattr(record, key) for key in _KEYS if getattr(record, key) is not None}
     entries["provenance"] = json.dumps(dict(record.provenance))
@@ -177,8 +196,8 @@ def _inside(found: Mapping[str, Any]) -> Mapping[str, Any]:
     return {}
 
 
-def _ours(found: Mapping[str, Any], names: Mapping[str, str]) -> dict[str, Any]:
-    """The entries under our names. Raises GaitError for names that are not there."""
+def _ours(found: Mapping[str, object], names: Mapping[str, str]) -> dict[str, object]:
+    """The entries by the names of `GaitRecord` or `Samples`. Raises GaitError for names that are not there."""
     known = (*_KEYS, *_SAMPLES)
     unknown = [ours for ours in names if ours not in known]
     if unknown:
@@ -192,8 +211,12 @@ def _ours(found: Mapping[str, Any], names: Mapping[str, str]) -> dict[str, Any]:
 
 
 def _record(
-    found: Mapping[str, Any], convention: str | None, robot: Convention | None
+    found: Mapping[str, object], convention: str | None, robot: Convention | None
 ) -> GaitRecord:
+    """The record of the entries of a file, under our names.
+
+    Raises GaitError for missing entries, a convention that is not stated or stated twice, and wrong types.
+    """
     missing = [key for key in _REQUIRED if key not in found]
     if missing:
         raise GaitError(
@@ -228,8 +251,8 @@ def _record(
     return GaitRecord(**given, own=robot if given["convention"] == OWN else None)
 
 
-def _provenance(value: Any) -> dict[str, Any]:
-    """Text of JSON (in .mat files) or a mapping."""
+def _provenance(value: object) -> dict[str, object]:
+    """Provenance by name, from a mapping, text of JSON (in .mat files), or any other text as its source."""
     if isinstance(value, str):
         try:
             value = json.loads(value)
@@ -241,6 +264,7 @@ def _provenance(value: Any) -> dict[str, Any]:
 
 
 RUN_FORMAT = "biped_adrc exchanged run 1"
+"""Entry `format` of a walk as a .mat file."""
 RUN_UNITS = {
     name: unit
     for unit, names in {
@@ -265,10 +289,13 @@ def export_run(
     units: Mapping[str, str] | None = None,
     note: str = "",
 ) -> None:
-    """Write columns (K,) or (K, ...) over the same K nodes as a .mat file, such as `vars(walk.signals)`.
+    """Write columns (K,) or (K, ...) over the same K instants as a .mat file, such as `vars(walk.signals)`.
 
-    units: of columns that are not of this package. Angles are in this paper's convention. Raises InputError
-    for a column without a unit or of another length, and OutputError.
+        export_run({"t": s.t, "lag": lag}, "lag.mat", units={"lag": "rad"})
+
+    columns: by name, 't' [s] among them. units: of columns that are not of this package. note: free text.
+    Angles are in this paper's convention. Raises InputError for a column without a unit or of another length,
+    and OutputError.
     """
     path = output_path(path, (".mat",))
     known = {**RUN_UNITS, **(units or {})}
@@ -286,7 +313,10 @@ def export_run(
 
 
 def read_run(path: Path | str) -> dict[str, Array]:
-    """The columns of a file `export_run` wrote, each (K,) or (K, ...). Raises InputError."""
+    """The columns of a file that `export_run` wrote, each (K,) or (K, ...), in the units stored with them.
+
+    Raises InputError for another file.
+    """
     found = read_mat(path)
     if found.get("format") != RUN_FORMAT:
         raise InputError(

@@ -1,4 +1,10 @@
-"""From records of gaits to gaits of this package, and back: `import_gait`, `export_gait`."""
+"""Import and export of gaits: `import_gait` and `export_gait`, the two functions a user calls.
+
+An import reads a file or takes a `GaitRecord`, converts it to the paper's coordinates, checks that it closes
+(`closure`), completes what is missing (state before impact, period) from the zero dynamics, and ends with the
+same `Gait.check` that stored gaits pass. Robots with a URDF of the user's own are refused: the conventions
+describe the angles of the packaged robots only.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +29,7 @@ from biped_adrc.robots.robot_toml import robot_names
 
 
 def import_constraint(record: GaitRecord) -> VirtualConstraint:
-    """The virtual constraint of a record that closes, without a robot. Raises GaitError."""
+    """The virtual constraint of a record, without a robot. Raises GaitError where it does not close."""
     return check(record).constraint
 
 
@@ -46,6 +52,10 @@ def import_gait(
 
     To `Samples` of a step over time (t, q, and perhaps v) curves of this degree are fitted; slope [rad]: of the
     ground that they are of.
+
+        gait = ba.import_gait("ames.mat", biped, convention="frost", names={"coefficients": "alpha"})
+
+    The gait is named by the record ("imported" where it has no name) and can be walked and saved as any other.
 
     Raises GaitError that names the joint, what was found, what was expected, the likely cause and what to
     try; InputError for a file that cannot be read.
@@ -72,7 +82,7 @@ def import_gait(
         own = Gait.of_cycle(record.name, ZeroDynamics.of(biped, constraint), {})
         period = own.period
         state = (own.q_minus, own.v_minus) if state is None else state
-    provenance = dict(record.provenance) or {
+    provenance: dict[str, object] = dict(record.provenance) or {
         "method": f"imported from convention '{record.convention}'",
         "source": source,
     }

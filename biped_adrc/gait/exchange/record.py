@@ -1,8 +1,10 @@
-"""A gait in the words of one angle convention: plain arrays, as they come from elsewhere.
+"""A gait in one angle convention as plain arrays, the form in which gaits are exchanged.
 
     y(s) = H0 q'(s),   s = (theta - theta+) / (theta- - theta+),   theta = c' q'
 
-The rows of `coefficients` are y: by default the outputs of the convention, or all of its coordinates.
+The rows of `coefficients` are y: by default the outputs of the convention, or all of its coordinates, which the
+number of rows tells. The record checks itself when it is made (shapes, finite numbers, a phase range), so that
+`convert` and `closure` need not; whether the numbers are a gait is for `closure` to say.
 """
 
 from __future__ import annotations
@@ -10,28 +12,35 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.conventions import CONVENTIONS, OWN, Convention, convention
-from biped_adrc.gait.curves import CURVES, Curve
+from biped_adrc.gait.curves import CURVES, Curve, curve_kind
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, read_only
 
-_COORDINATES = {5: True, 3: False}  # with knees, without
+_COORDINATES = {5: True, 3: False}
+"""By the number of coordinates, whether the robot has knees."""
 
 
 @dataclass(frozen=True)
 class GaitRecord(Shown):
-    """Coefficients (rows, M + 1) [rad] and the phase, in convention `convention`; n coordinates.
+    """A gait of a robot with n coordinates in one angle convention.
 
-    Raises GaitError that names the entry, what was found, what was expected and what to try.
+        record = GaitRecord("frost", alpha, theta_plus=-0.25, theta_minus=0.25, name="from FROST")
+        gait = ba.import_gait(record, biped)
+
+    Only convention, coefficients and the range of the phase are needed; everything else has a default or
+    follows from the robot when the record is imported. Raises GaitError that names the entry, what was found,
+    what was expected and what to try.
     """
 
     convention: str
+    """Name of the angle convention, of `conventions.CONVENTIONS`."""
     coefficients: Array
+    """Of the curves (rows, M + 1) [rad], one row per output or per coordinate."""
     theta_plus: float
     """[rad] just after impact."""
     theta_minus: float
@@ -41,20 +50,22 @@ class GaitRecord(Shown):
     outputs: Array | None = None
     """H0 (rows, n); the convention's own outputs, or all coordinates, when None."""
     curve: str = "bezier"
+    """Kind of the curves, "bezier" or "polynomial"."""
     reverse: bool = False
     """True if the first coefficients belong to the end of the step (s runs from 1 to 0)."""
     q_minus: Array | None = None
     """(n,) just before impact [rad], in this convention; from the zero dynamics when None."""
     v_minus: Array | None = None
-    """(n,) [rad/s]."""
+    """(n,) just before impact [rad/s]; given together with q_minus."""
     period: float | None = None
-    """[s]."""
+    """Duration of a step [s]; from the zero dynamics when None."""
     slope: float = 0.0
     """Of the ground [rad], positive downhill."""
     name: str = "imported"
     robot: str = ""
     preset: str = ""
-    provenance: Mapping[str, Any] = field(default_factory=dict)
+    provenance: Mapping[str, object] = field(default_factory=dict)
+    """Where the gait comes from, free text by name."""
     own: Convention | None = field(default=None, repr=False)
     """The robot's coordinates, `own_convention(biped)`, for the convention "own"."""
 
@@ -98,13 +109,13 @@ class GaitRecord(Shown):
 
     @property
     def of_all_coordinates(self) -> bool:
-        """Whether the rows are the coordinates themselves."""
+        """True where the rows are the n coordinates themselves rather than outputs."""
         return self.outputs is None and self.coefficients.shape[0] == self.layout.n
 
     @property
     def curve_of_rows(self) -> Curve:
-        """y(s)."""
-        return CURVES[self.curve](self.coefficients)
+        """The curve y(s) of the rows [rad]."""
+        return curve_kind(self.curve)(self.coefficients)
 
     def error(self, text: str) -> GaitError:
         """An error that names the gait and its convention."""
@@ -128,6 +139,10 @@ class GaitRecord(Shown):
         return self.own
 
     def _known(self, knees: bool) -> Convention:
+        """The convention of the record, for a robot with knees or without.
+
+        Raises GaitError for an unknown name.
+        """
         if self.convention not in CONVENTIONS:
             raise GaitError(
                 f"gait '{self.name}': there is no angle convention '{self.convention}'; choose one of "
@@ -136,6 +151,10 @@ class GaitRecord(Shown):
         return convention(self.convention, knees)
 
     def _wrong_rows(self, rows: int) -> GaitError:
+        """The error for a number of rows that the convention does not have.
+
+        The likely cause is another convention that has so many rows, or a matrix that is transposed.
+        """
         takes = _counts_of(self.convention)
         others = [name for name in CONVENTIONS if rows in _counts_of(name)]
         columns = self.coefficients.shape[1]
@@ -151,6 +170,10 @@ class GaitRecord(Shown):
         return self.error(f"coefficients have {rows} joints (rows), expected {expected}; {cause}")
 
     def _array(self, key: str, value: object, dimensions: int) -> Array:
+        """An entry as a read-only real array of so many dimensions.
+
+        Raises GaitError that says what is wrong.
+        """
         try:
             a = np.array(value)
             if np.iscomplexobj(a):
@@ -175,6 +198,10 @@ class GaitRecord(Shown):
         return a
 
     def _check_phase_range(self) -> None:
+        """Make the scalar entries floats.
+
+        Raises GaitError for one that is not finite or a range without extent.
+        """
         for key in ("theta_plus", "theta_minus", "period", "slope"):
             value = getattr(self, key)
             if key == "period" and value is None:
@@ -197,7 +224,7 @@ class GaitRecord(Shown):
 
 
 def _counts_of(name: str) -> tuple[int, ...]:
-    """Numbers of rows in a convention, with knees and without."""
+    """Numbers of rows that a gait may have in a convention, with knees and without."""
     return tuple(k for knees in (True, False) for k in _row_counts(convention(name, knees)))
 
 

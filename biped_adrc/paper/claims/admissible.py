@@ -1,4 +1,17 @@
-"""The admissible choices, read from the file in which they were declared before the run."""
+"""The admissible choices: what the paper leaves open, chosen in a file that was written before the runs.
+
+The paper prints no push amplitude, no masses and no start of the observer. A claim tested at one choice could
+be an accident of it; tested at choices picked afterwards it would prove nothing. admissible.toml therefore
+declares
+
+    factors      preset, amplitude, onset, joints (three levels each), rise, start, Theta'' (two levels each)
+    fraction     36 of the 3^4 2^3 = 648 combinations, an orthogonal array of strength 2: any two factors meet
+                 in all pairs of levels equally often, so that no effect hides behind another one
+    steps        the integration steps, and by how much a number may change when they are halved
+    limits       the numbers from which a claim holds
+
+Read by `claims.walks` and `claims.evidence`, which run the choices, and by the rows, for their limits.
+"""
 
 from __future__ import annotations
 
@@ -8,32 +21,35 @@ from typing import Any
 
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.resources import packaged
-from biped_adrc.scenario.push import Push, joints_push
+from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.scenario import Scenario
 
 
 def declared() -> dict[str, Any]:
-    """The file admissible.toml."""
+    """The tables of admissible.toml."""
     return packaged("biped_adrc.paper.claims", "admissible.toml")
 
 
 @dataclass(frozen=True)
 class Member:
-    """One member of the set: what the paper leaves open, chosen."""
+    """One member of the set: a value for everything that the paper leaves open."""
 
     preset: str
+    """Of RABBIT."""
     amplitude: float
-    """[N m]."""
+    """Of the push [N m]."""
     onset: float
-    """[s] after the impact."""
+    """Of the push [s] after the impact."""
     joints: tuple[str, ...]
+    """On which the push acts."""
     rise: float
-    """[s]."""
+    """Time in which the push rises and falls [s]."""
     start: str
-    """model or zero."""
+    """How the observer starts: "model" (xi^ from the model) or "zero"."""
     theta: str
-    """solved or printed."""
+    """Theta'' in (20): "solved" from the dynamics, or as "printed"."""
     gait: str = "published"
+    """"published" (a) or "recipe" (b)."""
 
     @property
     def name(self) -> str:
@@ -46,14 +62,14 @@ class Member:
 
     @property
     def push(self) -> Push:
-        """The push."""
+        """The push, in the step that the file declares."""
         k = declared()["push"]
         stop = round(self.onset + k["duration"], 9)
-        window = {"step": k["step"], "start": self.onset, "stop": stop, "rise": self.rise}
-        return joints_push(self.amplitude, self.joints, **window)
+        torque = dict.fromkeys(self.joints, self.amplitude)
+        return Push(torque, k["step"], self.onset, stop, rise=self.rise)
 
     def run(self, controller: str, h: float, impacts: int = 1) -> Scenario:
-        """From the pushed step on, compiled."""
+        """The walk from the pushed step on, on the compiled engine; h: integration step [s]."""
         return Scenario(
             controller,
             preset=self.preset,
@@ -70,7 +86,7 @@ class Member:
 
 
 def method(controller: str) -> str:
-    """By which the walks of the claims are integrated."""
+    """The integration method of a controller's walks: ADRC's observer is stiff, and its feedback is linear."""
     return "feedback" if controller == "ADRC" else "rk4"
 
 
@@ -86,15 +102,20 @@ def members() -> tuple[Member, ...]:
 
 
 def in_all(cases: int) -> int:
-    """How many cases are declared where each preset has so many."""
+    """How many cases are declared where each preset has this many."""
     return cases * len(declared()["factors"]["preset"])
 
 
 def _levels(rule: dict[str, list[int]], i: int, j: int, count: int) -> dict[str, int]:
+    """Level of each factor at (i, j): a i + b j modulo the number of levels, a rule that balances
+    the fraction.
+    """
     return {name: (a * i + b * j) % count for name, (a, b) in rule.items()}
 
 
 def convergence() -> tuple[float, float]:
-    """Share and round-off by which a number may move when the step is halved."""
+    """Largest relative and absolute change of a number at half of the step with which it counts as
+    converged.
+    """
     steps = declared()["steps"]
     return float(steps["convergence"]), float(steps["round_off"])

@@ -1,10 +1,22 @@
-"""Runs and closed forms on which the claims beside the push on the joints rest, and the tasks for them."""
+"""Runs and closed forms for all claims beside the push on the joints, and the tasks that compute them.
+
+    cycles          multipliers and speed of the walking cycle of both gaits under both controllers
+    needs           friction, torque and cost of both gaits, undisturbed
+    unmatched       pushes on the torso, which no motor drives
+    uncertainty     a plant heavier than the model
+    pushed_recipe   a push on gait (b)
+    basin           starts just below and above the least speed that reaches the next impact
+    jumps           how far the total disturbance is from smooth
+
+Each function takes a preset and returns records whose numbers are at the step used and at half of it. The runs
+are declared in admissible.toml. `paper.plan` runs `claim_tasks`; `claims.table` reads the `Evidence`.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from collections.abc import Iterable
+from dataclasses import dataclass, fields, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,17 +28,15 @@ from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import BipedError
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.paper.claims import evidence
 from biped_adrc.paper.claims.admissible import Member, declared, members, method
 from biped_adrc.paper.claims.orders import Order, orders
-from biped_adrc.paper.claims.tally import Figure
+from biped_adrc.paper.claims.tally import AtTwoSteps
 from biped_adrc.paper.claims.walks import (
     MemberOutcome,
     nominal,
     prepared,
     tracks,
     tried,
-    tried_all,
 )
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.scenario.push import Push
@@ -36,33 +46,46 @@ from biped_adrc.studies.cycle_stability import poincare
 from biped_adrc.types import Array
 
 GAITS = ("published", "recipe")
+"""Gait (a), through x*, and gait (b), by the recipe of section IV."""
 TEN = 10
-"""Numbers in the state of the paper's robot."""
+"""Numbers in the state of the paper's robot: five angles, five rates."""
 
 
 class GaitCycle(NamedTuple):
     """The walking cycle of a gait under a controller; NaN where none was found."""
 
     name: str
+    """For a reader."""
     preset: str
+    """Of RABBIT."""
     gait: str
+    """One of `GAITS`."""
     controller: str
+    """NPD or ADRC."""
     theta: str
-    multiplier: Figure
+    """Theta'' in (20): "solved" or "printed"."""
+    multiplier: AtTwoSteps
     """Largest |lambda| by central differences of the return map."""
-    rate: Figure
+    rate: AtTwoSteps
     """Theta' before the impact [rad/s]."""
     period: float
     """Of a step of the stored gait [s]."""
 
 
 def cycles(preset: str) -> tuple[GaitCycle, ...]:
-    """Of both gaits under both controllers, and of gait (a) with Theta'' as printed."""
+    """Walking cycles of a preset: both gaits under both controllers, and gait (a) with Theta'' as printed.
+
+    The claims on stability rest on their largest multiplier, that on the recipe's speed on Theta'.
+    """
     found = [_cycle(preset, gait, c, "solved") for gait in GAITS for c in CONTROLLERS]
     return (*found, *(_cycle(preset, "published", c, "printed") for c in CONTROLLERS))
 
 
 def _cycle(preset: str, gait: str, controller: str, theta: str) -> GaitCycle:
+    """One cycle at both integration steps; a search that fails gives NaN, so that the case does not hold.
+
+    The return map is that of (q, q') alone: the observer's states are no coordinates of it.
+    """
     h = declared()["steps"]["plain"]
     run = Scenario(controller, preset=preset, gait=gait, solve_theta=theta == "solved")
     run = replace(run, method=method(controller), engine=COMPILED)
@@ -79,33 +102,41 @@ def _cycle(preset: str, gait: str, controller: str, theta: str) -> GaitCycle:
     made, rates = zip(at(h), at(0.5 * h), strict=True)
     name = f"gait ({'a' if gait == 'published' else 'b'}), {preset}, {controller}, Theta'' {theta}"
     return GaitCycle(
-        name, preset, gait, controller, theta, Figure(*made), Figure(*rates), of.period
+        name, preset, gait, controller, theta, AtTwoSteps(*made), AtTwoSteps(*rates), of.period
     )
 
 
 class Needs(NamedTuple):
-    """What a gait asks of the ground and the motors over its cycle, undisturbed."""
+    """What a gait needs from ground and motors over its cycle, undisturbed."""
 
     name: str
+    """For a reader."""
     preset: str
+    """Of RABBIT."""
     gait: str
-    friction: Figure
-    """Largest |F_T| / F_N of the force in the mean over the window of `Limits`."""
-    friction_at_an_instant: Figure
-    impulse_ratio: Figure
-    torque: Figure
-    """[N m]."""
-    cost: Figure
-    """Cost of transport."""
-    work: Figure
+    """One of `GAITS`."""
+    friction: AtTwoSteps
+    """Largest |F_T| / F_N of the force averaged over the window of `Limits`."""
+    friction_at_an_instant: AtTwoSteps
+    """Largest |F_T| / F_N of the force itself."""
+    impulse_ratio: AtTwoSteps
+    """|F_T| / F_N of the impulse at impact."""
+    torque: AtTwoSteps
+    """Largest torque [N m]."""
+    cost: AtTwoSteps
+    """Cost of transport, without unit."""
+    work: AtTwoSteps
     """Net joint work per step length [J/m]."""
     rate_jump: float
-    """Largest jump of a joint's rate against its reference at impact [rad/s]."""
+    """Largest difference of a joint's rate from its reference after the impact [rad/s]; 0 for an invariant
+    gait.
+    """
     illegal: tuple[str, ...]
-    normal: Figure
-    """Least F_N in the mean over the window [N]."""
+    """Which limits of ground and motors it breaks, in words."""
+    normal: AtTwoSteps
+    """Least F_N averaged over the window [N]."""
     same: bool = True
-    """Whether it is legal or not alike at half of the step."""
+    """Whether it is legal at both steps, or at neither."""
 
 
 def needs(preset: str) -> tuple[Needs, ...]:
@@ -114,6 +145,7 @@ def needs(preset: str) -> tuple[Needs, ...]:
 
 
 def _needs(preset: str, gait: str) -> Needs:
+    """What the second step of an undisturbed walk needs, at both integration steps."""
     h = declared()["steps"]["needs"]
     run = Scenario("NPD", preset=preset, gait=gait, engine=COMPILED)
     made = prepared(run)
@@ -122,8 +154,8 @@ def _needs(preset: str, gait: str) -> Needs:
     why, at_half = (tuple(one.illegal().values()) for one in steps)
     biped = nominal(preset, gait)[0]
 
-    def figure(name: str) -> Figure:
-        return Figure(*(float(getattr(one, name)) for one in steps))
+    def figure(name: str) -> AtTwoSteps:
+        return AtTwoSteps(*(float(getattr(one, name)) for one in steps))
 
     return Needs(
         f"gait ({'a' if gait == 'published' else 'b'}), {preset}",
@@ -134,7 +166,7 @@ def _needs(preset: str, gait: str) -> Needs:
         figure("impulse_ratio"),
         figure("peak_torque"),
         figure("cost_of_transport"),
-        Figure(*(one.joint_work / one.step_length for one in steps)),
+        AtTwoSteps(*(one.joint_work / one.step_length for one in steps)),
         float(np.max(np.abs(impact_smoothness(made.gait, biped)))),
         at_half,
         figure("mean_normal_force"),
@@ -146,17 +178,21 @@ class Pair(NamedTuple):
     """Two walks that differ in the controller alone."""
 
     name: str
-    peak: dict[str, Figure]
-    """max |q_b - q_d| over all steps, between the nodes too [rad], by controller."""
-    delay: dict[str, Figure]
-    """Largest change of a step's time against that of the gait [s], by controller; NaN where one never ends."""
+    """For a reader."""
+    peak: dict[str, AtTwoSteps]
+    """By controller: max |q_b - q_d| over all steps [rad], between the nodes too."""
+    delay: dict[str, AtTwoSteps]
+    """By controller: largest change of a step's time against that of the gait [s]; NaN where a step
+    never ends.
+    """
     made: dict[str, bool]
-    """Whether all impacts were made at both steps, by controller."""
+    """By controller: whether all impacts were made at both integration steps."""
     same: bool = True
-    """Whether both walks make as many at half of the step."""
+    """Whether both walks make as many impacts at half of the step."""
 
 
 def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
+    """Two walks under both controllers at both integration steps, reduced to errors, delays and impacts."""
     peak, delay = {}, {}
     made: dict[str, bool] = {}
     same = True
@@ -166,41 +202,47 @@ def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
         walks = [ready.simulate(step, run.impacts) for step in (h, 0.5 * h)]
         found = [tracks(ready, walk) for walk in walks]
         # NumPy's, since max passes over the NaN of a step that never ends
-        peak[c] = Figure(*(float(np.max([t.peak for t in at])) for at in found))
+        peak[c] = AtTwoSteps(*(float(np.max([t.peak for t in at])) for at in found))
         late = ([abs(t.period - ready.gait.period) for t in at] for at in found)
-        delay[c] = Figure(*(float(np.max(at)) for at in late))
+        delay[c] = AtTwoSteps(*(float(np.max(at)) for at in late))
         impacts = [len(walk.events(FOOT_STRIKE)) for walk in walks]
         made[c], same = min(impacts) == run.impacts, same and impacts[0] == impacts[1]
     return Pair(name, peak, delay, made, same)
 
 
-def _both(**settings: Any) -> dict[str, Scenario]:
-    return {c: Scenario(c, method=method(c), engine=COMPILED, **settings) for c in CONTROLLERS}
+def _both(run: Scenario) -> dict[str, Scenario]:
+    """The run under NPD and under ADRC, each with its method, on the compiled engine."""
+    return {c: replace(run, controller=c, method=method(c), engine=COMPILED) for c in CONTROLLERS}
 
 
 def torso_push(torque: float) -> Push:
-    """On the coordinate that no motor drives [N m]."""
+    """A push of `torque` [N m] on q5, which no motor drives, for 0.2 s."""
     step = declared()["push"]["step"]
     return Push({"q5": torque}, step=step, start=0.1, stop=0.3)
 
 
 def unmatched(preset: str) -> tuple[Pair, ...]:
-    """Pushes on the torso; the last one is the fatal one."""
+    """Pushes on the torso by amplitude; the last one is chosen large enough to stop a walk.
+
+    No controller of the joints can cancel them: they change Theta'' itself, and with it the time of the step.
+    """
     k = declared()["unmatched"]
     found = []
     for torque in (*k["amplitudes"], k["fatal"]):
         push = torso_push(torque)
-        runs = _both(preset=preset, pushes=(push,), first_step=push.step, impacts=4)
+        runs = _both(Scenario(preset=preset, pushes=(push,), first_step=push.step, impacts=4))
         found.append(_pair(f"{preset}, {torque:g} N m on the torso", runs))
     return tuple(found)
 
 
 def uncertainty(preset: str) -> tuple[Pair, ...]:
-    """A plant heavier than the model."""
+    """A plant heavier than the controller's model: in its masses, and in masses and inertias."""
     k = dict(declared()["uncertainty"])
     impacts = k.pop("impacts")
     return tuple(
-        _pair(f"{preset}, heavier {kind}", _both(preset=preset, impacts=impacts, **factors))
+        _pair(
+            f"{preset}, heavier {kind}", _both(Scenario(preset=preset, impacts=impacts, **factors))
+        )
         for kind, factors in k.items()
     )
 
@@ -213,24 +255,32 @@ def pushed_recipe(preset: str) -> tuple[MemberOutcome, ...]:
 
 
 class Start(NamedTuple):
-    """A walk from a speed of one's choice after the impact."""
+    """A walk that starts with a chosen speed after the impact."""
 
     name: str
+    """For a reader."""
     least: float
-    """Speed that reaches the next impact, of the gait's own, by one quadrature of the zero dynamics."""
+    """The speed that just reaches the next impact, relative to the gait's, from one quadrature of the zero
+    dynamics.
+    """
     factor: float
-    """Speed of this start over the least."""
+    """Speed of this start relative to the least."""
     impacts: dict[str, int]
-    """Made, by controller."""
+    """By controller: impacts made."""
     asked: int
+    """Impacts asked for."""
     same: bool = True
-    """Whether as many are made at half of the step."""
+    """Whether as many impacts are made at half of the step."""
 
 
 def basin(preset: str) -> tuple[Start, ...]:
-    """Starts on the constraint just below and above the least speed."""
+    """Starts on the constraint just below and just above the least speed that reaches the next impact.
+
+    The least speed comes from the zero dynamics in closed form; the walks show whether it is the boundary. It
+    matters for the paper's promise of global stability: no controller of the joints helps a start below it.
+    """
     k, h = declared()["basin"], declared()["steps"]["plain"]
-    runs = _both(preset=preset)
+    runs = _both(Scenario(preset=preset))
     least = least_speed(runs["NPD"])
     found = []
     for factor in k["factors"]:
@@ -244,11 +294,17 @@ def basin(preset: str) -> tuple[Start, ...]:
 
 
 def _strikes(run: Scenario, speed: float, h: float, impacts: int) -> int:
+    """Impacts made from a start with `speed` times the gait's rates; h [s]."""
     return len(prepared(run, speed=speed).simulate(h, impacts).events(FOOT_STRIKE))
 
 
 def least_speed(run: Scenario) -> float:
-    """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact."""
+    """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact.
+
+    sigma is the angular momentum about the stance foot. On the zero dynamics sigma^2(Theta) is its initial
+    value plus a function of Theta, whose minimum (of a parabola through three nodes) decides whether the robot
+    passes mid-stance.
+    """
     biped, gait = nominal(run.preset, run.gait)
     zero = ZeroDynamics.of(biped, gait.constraint, nodes=120)
     sigma = biped.angular_momentum(*gait.start(biped))
@@ -260,19 +316,24 @@ def least_speed(run: Scenario) -> float:
 
 
 class Jumps(NamedTuple):
-    """How far the total disturbance xi of (13) is from smooth, largest over the joints [rad/s^2].
+    """Jumps of the total disturbance xi of (13), largest over the joints [rad/s^2].
 
-    Both are differences of closed forms at one state: there is no step to halve.
+    Both are differences of closed forms at one state, so that there is no step to halve.
     """
 
     name: str
+    """The preset."""
     at_impact: float
+    """Between the states before and after the impact of gait (a)."""
     at_edge: float
-    """Of a push of 30 N m on all joints."""
+    """At the edge of a push of 30 N m on all joints."""
 
 
 def jumps(preset: str) -> tuple[Jumps, ...]:
-    """Of xi on gait (a)."""
+    """How far xi, the total disturbance of (13), is from smooth on gait (a).
+
+    The observer models xi as a polynomial in time; at an impact and at the edge of a push it is none.
+    """
     run = Scenario("NPD", preset=preset)
     biped, gait = nominal(run.preset, run.gait)
     before = biped.reduction(gait.q_minus, gait.v_minus)
@@ -284,17 +345,23 @@ def jumps(preset: str) -> tuple[Jumps, ...]:
 
 
 def fastest_decay(period: float) -> float:
-    """What is left of a tracking error after a step under Table II: exp(-K_d T / 2)."""
+    """What is left of a tracking error after a step under Table II: exp(-K_d T / 2). period T [s]."""
     return float(np.exp(-0.5 * float(np.max(TABLE_II.K_d)) * period))
 
 
 def longest_step(multiplier: float) -> float:
-    """Step after which a tracking error under Table II has decayed to no less than this share [s]."""
+    """Period [s] in which a tracking error under Table II decays to `multiplier`; the inverse of
+    `fastest_decay`.
+    """
     return float(-2.0 * np.log(multiplier) / float(np.max(TABLE_II.K_d)))
 
 
 def noise_spectrum() -> Array:
-    """Medians of the ten sorted |lambda| that (26), (27) give for independent normal numbers."""
+    """What the regression (26), (27) makes of noise: medians of the sorted |lambda|, (10,), of random numbers.
+
+    The states at impacts are replaced by independent normal numbers, which have no dynamics at all: a spectrum
+    that the regression gives for them says nothing of a walk.
+    """
     k = declared()["noise"]
     random = np.random.default_rng(k["seed"])
     found = [
@@ -304,48 +371,77 @@ def noise_spectrum() -> Array:
     return np.median(found, axis=0)
 
 
-PRESET_PARTS = ("cycles", "needs", "unmatched", "uncertainty", "pushed_recipe", "basin", "jumps")
-
-
 @dataclass(frozen=True)
 class Evidence:
-    """Outcomes of all runs for the claims, over the presets that were asked for."""
+    """All that the claims rest on, for the presets asked for; also a part of it, with the other
+    fields empty.
+    """
 
-    members: tuple[MemberOutcome, ...]
-    cycles: tuple[GaitCycle, ...]
-    needs: tuple[Needs, ...]
-    unmatched: tuple[Pair, ...]
-    uncertainty: tuple[Pair, ...]
-    pushed_recipe: tuple[MemberOutcome, ...]
-    basin: tuple[Start, ...]
-    jumps: tuple[Jumps, ...]
-    orders: tuple[Order, ...]
+    members: tuple[MemberOutcome, ...] = ()
+    """The push on the joints at all admissible choices."""
+    cycles: tuple[GaitCycle, ...] = ()
+    """As of `cycles`."""
+    needs: tuple[Needs, ...] = ()
+    """As of `needs`."""
+    unmatched: tuple[Pair, ...] = ()
+    """As of `unmatched`."""
+    uncertainty: tuple[Pair, ...] = ()
+    """As of `uncertainty`."""
+    pushed_recipe: tuple[MemberOutcome, ...] = ()
+    """As of `pushed_recipe`."""
+    basin: tuple[Start, ...] = ()
+    """As of `basin`."""
+    jumps: tuple[Jumps, ...] = ()
+    """As of `jumps`."""
+    orders: tuple[Order, ...] = ()
+    """Observers of different order, as of `claims.orders`."""
 
 
-def preset_evidence(preset: str) -> dict[str, tuple[Any, ...]]:
+def member_evidence(preset: str) -> Evidence:
+    """The push on the joints at the choices with this preset."""
+    return Evidence(members=tuple(tried(m) for m in members() if m.preset == preset))
+
+
+def preset_evidence(preset: str) -> Evidence:
     """What is computed once for a preset, beside the members of the set."""
-    return {part: getattr(evidence, part)(preset) for part in PRESET_PARTS}
+    return Evidence(
+        cycles=cycles(preset),
+        needs=needs(preset),
+        unmatched=unmatched(preset),
+        uncertainty=uncertainty(preset),
+        pushed_recipe=pushed_recipe(preset),
+        basin=basin(preset),
+        jumps=jumps(preset),
+    )
 
 
-def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task]:
-    """By name, the longest first."""
+def order_evidence(preset: str) -> Evidence:
+    """Observers of different order in this preset."""
+    return Evidence(orders=orders(preset))
+
+
+def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task[Evidence]]:
+    """The tasks by name, the longest first; each returns a part of the evidence.
+
+    Per preset one task for the members of the set and one for all else; one for the observers of different
+    order.
+    """
     out = {}
     for preset in presets:
-        of_preset = tuple(member for member in members() if member.preset == preset)
+        count = sum(member.preset == preset for member in members())
         out[f"claims members {preset}"] = Task(
-            f"claims, {len(of_preset)} pushes, {preset}", tried_all, (of_preset,)
+            f"claims, {count} pushes, {preset}", member_evidence, (preset,)
         )
     for preset in presets:
         out[f"claims rest {preset}"] = Task(
             f"claims, cycles and needs, {preset}", preset_evidence, (preset,)
         )
-    out["claims orders"] = Task("claims, order of the observer", orders, (presets[0],))
+    out["claims orders"] = Task("claims, order of the observer", order_evidence, (presets[0],))
     return out
 
 
-def gathered(presets: tuple[str, ...], found: Mapping[str, Any]) -> Evidence:
-    """The evidence in the results of `claim_tasks`, by their names behind "claims"."""
-    rest = [found[f"rest {preset}"] for preset in presets]
-    parts = {part: tuple(x for one in rest for x in one[part]) for part in PRESET_PARTS}
-    tried = tuple(o for preset in presets for o in found[f"members {preset}"])
-    return Evidence(members=tried, orders=found["orders"], **parts)
+def gathered(parts: Iterable[Evidence]) -> Evidence:
+    """The whole evidence of its parts, field by field in the order of the parts."""
+    found = tuple(parts)
+    names = (field.name for field in fields(Evidence))
+    return Evidence(**{x: tuple(y for part in found for y in getattr(part, x)) for x in names})

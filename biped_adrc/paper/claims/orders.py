@@ -1,4 +1,13 @@
-"""One extended state against the paper's seven: gains, what they do to noise, and the error left."""
+"""Is the order of the observer worth it? One extended state against the seven of the paper (section III.A).
+
+The paper says that more extended states avoid high gains. Two observers with m = 1 are compared with that of
+Table I: one of the same bandwidth, one of the same delay margin, since a comparison of gains alone depends on
+which of the two is kept. Linear closed forms give gains, noise and errors (`observer_design.observer_loop`);
+the error under the push comes from a walk. Part of `claims.evidence`; judged in `rows_control.high_gains`.
+
+The observer of order m estimates position, rate, xi and the first m - 1 derivatives of xi, with m + 2 poles: of
+Table I there are nine, so that m = 7.
+"""
 
 from __future__ import annotations
 
@@ -11,31 +20,33 @@ from scipy.optimize import brentq
 from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper.claims.admissible import Member, declared
-from biped_adrc.paper.claims.tally import Figure
+from biped_adrc.paper.claims.tally import AtTwoSteps
 from biped_adrc.paper.claims.walks import walked
 
 SLOW = 2.0 * np.pi * 5.0
-"""[rad/s], a disturbance of 5 Hz."""
+"""Frequency of a slow disturbance, 5 Hz [rad/s]."""
 
 
 class Order(NamedTuple):
-    """An observer and what it costs."""
+    """An observer, and what its order costs and gives."""
 
     name: str
+    """For a reader."""
     m: int
+    """Number of extended states: xi and its first m - 1 derivatives; the observer has m + 2 poles."""
     bandwidth: float
     """Geometric mean of the poles [rad/s]."""
     largest_gain: float
-    """max |l_k|, l_0 here, in the units of (17)."""
+    """max |l_k|, in the units of (17)."""
     noise_gain: float
-    """Largest acceleration asked for per error of measured position [1/s^2]."""
+    """Largest gain from an error of the measured position to the acceleration asked for [1/s^2]."""
     delay_margin: float
-    """[s]."""
+    """Largest delay in the loop with which it is stable [s]."""
     slow: float
-    """Tracking error at 5 Hz per unit of disturbance [s^2]."""
+    """Amplitude of the tracking error at 5 Hz per unit of disturbance [s^2]."""
     worst: float
     """The same at the frequency where it is largest [s^2]."""
-    pushed: Figure
+    pushed: AtTwoSteps
     """Peak error under the push [rad]."""
 
 
@@ -53,11 +64,14 @@ def orders(preset: str) -> tuple[Order, ...]:
 
 
 def _margin(observer: GPIObserver) -> float:
+    """Delay margin [s]."""
     return observer_loop(observer).delay_margin().delay
 
 
 def bandwidth_with(margin: float, m: int) -> float:
-    """Of m + 2 equal poles [rad/s] with this delay margin [s]."""
+    """The position of m + 2 equal poles [rad/s] whose delay margin is `margin` [s], by root finding
+    on log w.
+    """
 
     def excess(log_w: float) -> float:
         return float(np.log(_margin(GPIObserver.from_bandwidth(np.exp(log_w), m)) / margin))
@@ -66,6 +80,7 @@ def bandwidth_with(margin: float, m: int) -> float:
 
 
 def _order(preset: str, name: str, observer: GPIObserver) -> Order:
+    """The record of one observer."""
     loop, w = observer_loop(observer), np.geomspace(1.0, 1e7, 2000)
     return Order(
         name,
@@ -80,7 +95,8 @@ def _order(preset: str, name: str, observer: GPIObserver) -> Order:
     )
 
 
-def _pushed(preset: str, observer: GPIObserver) -> Figure:
+def _pushed(preset: str, observer: GPIObserver) -> AtTwoSteps:
+    """Peak error of ADRC with this observer under a push of 30 N m on all joints [rad]."""
     joints = ("q1", "q2", "q3", "q4")
     member = Member(preset, 30.0, 0.12, joints, 0.0, "model", "solved")
     run = member.run("ADRC", declared()["steps"]["ADRC"])

@@ -1,4 +1,8 @@
-"""Claims about the controller and its observer: section III, model uncertainty, what is not matched."""
+"""Claims about the controller and its observer: section III, uncertainty of the model, unmatched disturbances.
+
+One function per claim: it makes cases of the evidence, and the values of the claim's text. Called by
+`claims.table`; cases are judged in `claims.tally`, texts are in claims.toml.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +17,8 @@ from biped_adrc.paper.claims.orders import Order
 from biped_adrc.paper.claims.tally import (
     CONTRADICTED,
     NOT_TESTABLE,
-    Case,
-    Figure,
+    AtTwoSteps,
+    ClaimCase,
     Tally,
     against,
     below_limit,
@@ -22,7 +26,7 @@ from biped_adrc.paper.claims.tally import (
     fewer,
 )
 from biped_adrc.paper.claims.walks import MemberOutcome, quotient
-from biped_adrc.paper.claims.words import Claim, Span, limited, row, told
+from biped_adrc.paper.claims.words import Claim, Extremes, limited, row, told
 from biped_adrc.paper.physical_laws import HELD
 
 
@@ -34,7 +38,7 @@ def control_claims(
     orders: Sequence[Order],
     numerics: Mapping[str, float],
 ) -> list[Claim]:
-    """All rows of this module; numerics: the figures of the laws, of a held joint."""
+    """All rows of this module; numerics: figures of the held joint by name."""
     fatal = f"{declared()['unmatched']['fatal']:g} N m"
     return [
         unmatched_rejection([p for p in unmatched if fatal not in p.name]),
@@ -49,35 +53,41 @@ def control_claims(
     ]
 
 
-def _ratios(pairs: Sequence[Pair], what: str) -> list[Figure]:
+def _ratios(pairs: Sequence[Pair], what: str) -> list[AtTwoSteps]:
+    """Of each pair, ADRC's value of `what` over NPD's."""
     return [quotient(getattr(p, what)["ADRC"], getattr(p, what)["NPD"]) for p in pairs]
 
 
-def _tally(pairs: Sequence[Pair], over: Sequence[Figure], limit: float, declared: int) -> Tally:
-    """A case holds where both controllers make all impacts and the ratio is at most `limit`."""
+def _tally(pairs: Sequence[Pair], over: Sequence[AtTwoSteps], limit: float, declared: int) -> Tally:
+    """Cases that hold where both controllers make all impacts and the ratio is at most `limit`."""
     cases = (
         below_limit(p.name, f, limit)
         if all(p.made.values())
-        else Case(p.name, f, False, not p.same)
+        else ClaimCase(p.name, f, False, not p.same)
         for p, f in zip(pairs, over, strict=True)
     )
     return Tally(tuple(cases), in_all(declared))
 
 
 def unmatched_rejection(pairs: Sequence[Pair]) -> Claim:
-    """A torque on the torso: what it does to the time of a step."""
+    """A torque on the torso: by how much the time of a step changes under ADRC, over NPD.
+
+    A ratio near 1 means that the observer does not help against it.
+    """
     limit, over = declared()["limits"]["ratio"], _ratios(pairs, "delay")
     return row(
         "unmatched_rejection",
         _tally(pairs, over, limit, len(declared()["unmatched"]["amplitudes"])),
-        slow=Span(1e3 * p.delay["ADRC"].at_half for p in pairs),
-        ratios=Span.of(over),
-        peaks=Span.of(_ratios(pairs, "peak")),
+        slow=Extremes(1e3 * p.delay["ADRC"].at_half for p in pairs),
+        ratios=Extremes.of(over),
+        peaks=Extremes.of(_ratios(pairs, "peak")),
     )
 
 
 def not_at_risk(pairs: Sequence[Pair]) -> Claim:
-    """A disturbance that stops ADRC in every preset."""
+    """ "The stability of the limit cycle is not at risk": every disturbance that stops ADRC speaks
+    against it.
+    """
     firm = [p for p in pairs if p.same]
     stopped = [p.name for p in firm if not p.made["ADRC"]]
     values = {
@@ -92,31 +102,40 @@ def not_at_risk(pairs: Sequence[Pair]) -> Claim:
 
 
 def model_uncertainty(pairs: Sequence[Pair]) -> list[Claim]:
-    """A heavier plant: what ADRC removes of NPD's error, and whether it helps at all."""
+    """A heavier plant: the peak error of ADRC over that of NPD.
+
+    Two rows on the same cases: at most the declared ratio (the claim), and below 1 at all.
+    """
     over = _ratios(pairs, "peak")
     count = len(declared()["uncertainty"]) - 1  # all but its number of impacts
     limits = {"model_uncertainty": declared()["limits"]["ratio"], "less_error": 1.0}
     return [
-        row(name, _tally(pairs, over, limit, count), ratios=Span.of(over))
+        row(name, _tally(pairs, over, limit, count), ratios=Extremes.of(over))
         for name, limit in limits.items()
     ]
 
 
 def independent_of_the_gait(outcomes: Sequence[MemberOutcome]) -> Claim:
-    """The push on gait (b), whose impacts leave an error of their own."""
+    """The push on gait (b), whose impacts leave a tracking error of their own, judged as
+    `rows_push.rejection`.
+    """
     limit = declared()["limits"]["ratio"]
     return limited(
         "independent_of_the_gait",
         ((o.member.name, o.rejection) for o in outcomes),
         limit,
         in_all(1),
-        deviations=Span.of(o.rejection for o in outcomes),
-        peaks=Span.of(o.tracking for o in outcomes),
+        deviations=Extremes.of(o.rejection for o in outcomes),
+        peaks=Extremes.of(o.tracking for o in outcomes),
     )
 
 
 def high_gains(orders: Sequence[Order]) -> Claim:
-    """Section III.A: more extended states avoid high gains."""
+    """Section III.A: more extended states avoid high gains.
+
+    Table I against m = 1, at equal bandwidth and at equal delay margin: largest gain of (17), and gain from the
+    measurement to the acceleration. A case holds where Table I has the smaller one.
+    """
     by_name = {o.name: o for o in orders}
     table, equal = by_name["Table I"], by_name["m = 1, equal delay margin"]
     cases, shown = [], []
@@ -126,7 +145,7 @@ def high_gains(orders: Sequence[Order]) -> Claim:
             ("largest gain of (17)", table.largest_gain, one.largest_gain),
             ("gain from measurement to acceleration", table.noise_gain, one.noise_gain),
         ):
-            cases.append(Case(f"{what}, {name}", Figure(a, a), a < b))
+            cases.append(ClaimCase(f"{what}, {name}", AtTwoSteps(a, a), a < b))
             shown.append(f"{what} {a:.1e} against {b:.1e} ({name})")
     tally = Tally(tuple(cases))
     values = {
@@ -143,27 +162,33 @@ def high_gains(orders: Sequence[Order]) -> Claim:
 
 
 def smooth_disturbance(jumps: Sequence[Jumps]) -> Claim:
-    """Section I on the total disturbances."""
+    """Section I: the total disturbance is smooth. Every preset in which it jumps at impact speaks
+    against it.
+    """
     rough = sum(j.at_impact > declared()["limits"]["jump"] for j in jumps)
     values = {
-        "impacts": Span(j.at_impact for j in jumps),
-        "edges": Span(j.at_edge for j in jumps),
+        "impacts": Extremes(j.at_impact for j in jumps),
+        "edges": Extremes(j.at_edge for j in jumps),
     }
     share = f"{rough} of {len(jumps)} presets jump{fewer(len(jumps), in_all(1))}"
     return told("smooth_disturbance", against(rough, len(jumps)), values, share=share)
 
 
 def hurwitz() -> Claim:
-    """Section III.A on (19)."""
+    """Section III.A: the characteristic polynomial (19) is Hurwitz."""
     slow, fast = max(TABLE_I), min(TABLE_I)
     poles = f"poles from {-slow:.0f} to {-fast:.0f} rad/s" if slow < 0 else "unstable poles"
     return told("hurwitz", values={"poles": poles})
 
 
 def tends_to_zero(numerics: Mapping[str, float]) -> Claim:
-    """(23) under a disturbance that goes on."""
+    """(23): the tracking error tends to zero.
+
+    Under a disturbance that goes on, a sine on one held joint, it keeps an amplitude. The claim is contradicted
+    where the simulated one is that of (23) corrected, within 1 %, and does not depend on the step.
+    """
     simulated, half, corrected, printed = (numerics.get(name, math.nan) for name in HELD)
-    amplitude, share = Figure(simulated, half), convergence()[0]
+    amplitude, share = AtTwoSteps(simulated, half), convergence()[0]
     seen = simulated > 0.0 and abs(simulated - corrected) <= 0.01 * corrected
     firm = amplitude.converged(share, 0.0)
     return told(

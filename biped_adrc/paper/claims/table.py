@@ -1,4 +1,9 @@
-"""The table of claims: one row for each claim of the paper, from the abstract to its last section."""
+"""The table of claims: one row for each claim of the paper, from the abstract to its last section.
+
+Puts the rows of `rows_push`, `rows_control` and `rows_gait` in order, with the claims that no run can decide.
+`claims` takes the results of a reproduction, `rows` plain outcomes, so that a row can be tested without runs.
+Called by `paper.reproduction`.
+"""
 
 from __future__ import annotations
 
@@ -17,14 +22,14 @@ from biped_adrc.paper.results import Results
 from biped_adrc.paper.verdicts import distance
 
 UNDECIDED = ("lumped", "smooth_references", "same_gains", "curves", "earlier_approaches")
-"""Rows that no run can decide."""
+"""Claims that no run can decide; their rows are texts alone."""
 
 
 def claims(plan: Plan, r: Results) -> list[Claim]:
-    """All rows, from the results of the reproduction."""
+    """All rows, from the results of a reproduction."""
     made = {c: (head.outcome.impacts, head.outcome.run.impacts) for c, head in r.heads.items()}
     farthest = float(np.max([distance(o) for _, o in r.nominal(plan)]))
-    return rows(gathered(plan.presets, r.claims), r.figures, made, farthest, r.cells)
+    return rows(gathered(r.claims.values()), r.figures, made, farthest, r.cells)
 
 
 def rows(
@@ -34,9 +39,11 @@ def rows(
     farthest: float,
     cells: Sequence[PushCell] = (),
 ) -> list[Claim]:
-    """All rows, from outcomes alone; farthest: of the undisturbed walks on gait (a) from x*.
+    """All rows, from outcomes alone.
 
-    cells: of the map of pushes.
+    e: the evidence; numerics: figures of the held joint by name; made: impacts made and asked for, by
+    controller; farthest: largest distance of the undisturbed walks on gait (a) from x*; cells: of the map of
+    pushes.
     """
     return [
         long_walk(made),

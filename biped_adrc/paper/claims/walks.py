@@ -1,4 +1,15 @@
-"""Walks for the claims: what is kept of them is a handful of numbers, at a step and at half of it."""
+"""Walks of the claims, reduced to a few numbers, each at the integration step used and at half of it.
+
+What a push does is separated from what the controller does anyway: the error of the pushed step is compared
+with that of the same step without a push. Peaks are taken of an interpolant, since the largest error lies
+between two nodes. Walks start on the orbit of their gait at the pushed step.
+
+Runs the members of `claims.admissible`; also the parts that `claims.evidence` and `claims.orders` use.
+
+For each member and controller these are simulated: the pushed step at h and h/2, the same without a push
+(shared by all pushes on that walk), and four impacts at the longer step for what comes later, at that step and
+at half.
+"""
 
 from __future__ import annotations
 
@@ -17,33 +28,36 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.claims.admissible import Member, declared
-from biped_adrc.paper.claims.tally import Figure
+from biped_adrc.paper.claims.tally import AtTwoSteps
 from biped_adrc.paper.pair import CONTROLLERS
-from biped_adrc.scenario.build import Scene, build
+from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import watched
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array
 
 
-class Walked(NamedTuple):
-    """What is left of a walk from the pushed step on."""
+class MemberWalk(NamedTuple):
+    """What is kept of a walk from the pushed step on."""
 
     status: str
+    """How it ended."""
     impacts: int
+    """Impacts made."""
     asked: int
-    peak: Figure
+    """Impacts asked for."""
+    peak: AtTwoSteps
     """max |q_b - q_d| in the pushed step, between the nodes too [rad]."""
-    deviation: Figure
+    deviation: AtTwoSteps
     """The same of the error less that of the walk without a push, from the onset on [rad]."""
-    rate: Figure
+    rate: AtTwoSteps
     """Theta' at the end of the pushed step less that of the walk without a push [rad/s]."""
-    period: Figure
+    period: AtTwoSteps
     """Of the pushed step [s]."""
     illegal: tuple[str, ...]
-    """What the ground or the motors could not have given, by step."""
+    """What ground or motors could not have given, by step."""
     same: bool = True
-    """Whether the walk ends alike, and is legal or not alike, at half of the step."""
+    """Whether the walk ends alike at half of the step, legality included."""
 
     @property
     def made(self) -> bool:
@@ -56,34 +70,40 @@ class MemberOutcome:
     """A member of the set under both controllers."""
 
     member: Member
-    walked: dict[str, Walked]
+    """The choices."""
+    walked: dict[str, MemberWalk]
+    """By controller."""
 
     @property
-    def tracking(self) -> Figure:
-        """Peak error of ADRC over NPD's."""
+    def tracking(self) -> AtTwoSteps:
+        """Peak error of ADRC over that of NPD."""
         return quotient(self.walked["ADRC"].peak, self.walked["NPD"].peak)
 
     @property
-    def rejection(self) -> Figure:
+    def rejection(self) -> AtTwoSteps:
         """Deviation that the push makes under ADRC over that under NPD."""
         return quotient(self.walked["ADRC"].deviation, self.walked["NPD"].deviation)
 
 
-def quotient(one: Figure, other: Figure) -> Figure:
+def quotient(one: AtTwoSteps, other: AtTwoSteps) -> AtTwoSteps:
     """One over the other at either step; infinite over zero."""
-    return Figure(*(a / b if b else float("inf") for a, b in zip(one, other, strict=True)))
+    return AtTwoSteps(*(a / b if b else float("inf") for a, b in zip(one, other, strict=True)))
 
 
 class Prepared(NamedTuple):
-    """A run, ready to be integrated with one step or another."""
+    """A run whose walker is built, to be simulated with different integration steps."""
 
     run: Scenario
+    """Its values."""
     gait: Gait
+    """On which it starts."""
     walker: Walker
+    """Robot, controller, pushes."""
     x0: Array
+    """State after the impact before the first step."""
 
     def simulate(self, h: float, impacts: int) -> Trajectory:
-        """From the gait's orbit on."""
+        """The trajectory with this integration step h [s] and number of impacts."""
         mode = Mode(self.run.first_step)
         return simulate_by(
             self.run.engine,
@@ -98,8 +118,8 @@ class Prepared(NamedTuple):
 
 @lru_cache(maxsize=16)
 def nominal(preset: str | None, gait: str) -> tuple[Biped, Gait]:
-    """RABBIT in a preset and one of its gaits."""
-    scene = Scene.of(Scenario(preset=preset, gait=gait))
+    """RABBIT in a preset and one of its gaits, shared and read-only."""
+    scene = RobotAndGait.of(Scenario(preset=preset, gait=gait))
     biped, found = scene.biped, scene.walked
     for shared in (found.q_minus, found.v_minus):
         shared.flags.writeable = False
@@ -107,12 +127,13 @@ def nominal(preset: str | None, gait: str) -> tuple[Biped, Gait]:
 
 
 def prepared(run: Scenario, zero: bool = False, speed: float = 1.0) -> Prepared:
-    """At the impact of the gait's orbit; with `zero` the observer starts at xi^ = 0.
+    """The run at the impact of its gait's orbit, ready to be simulated.
 
-    speed: factor on the rates after impact, which leaves the gait's orbit along its constraint.
+    zero: the observer starts at xi^ = 0 instead of the model's xi. speed: factor on the rates after impact,
+    which keeps the state on the constraint and takes it off the orbit.
     """
     biped, gait = nominal(run.preset, run.gait)
-    walker = build(run, Scene(biped, gait))
+    walker = build(run, RobotAndGait(biped, gait))
     q, v = gait.start(biped)
     x = walker.initial_state(q, speed * v, Mode(run.first_step))
     if zero and run.controller == "ADRC":
@@ -121,27 +142,29 @@ def prepared(run: Scenario, zero: bool = False, speed: float = 1.0) -> Prepared:
 
 
 class Track(NamedTuple):
-    """The error over time in a single support, and Theta' before the impact that ends it."""
+    """One single support: the tracking error over time, and Theta' before the impact that ends it."""
 
     t: Array
+    """(K,) from the start of the step [s]."""
     error: Array
     """(K, p) [rad]."""
     derror: Array
-    """(K, p) its derivative in time [rad/s]."""
+    """(K, p), its derivative in time [rad/s]."""
     rate: float
-    """[rad/s], NaN when there is no impact."""
+    """Theta' before the impact [rad/s], NaN when there is no impact."""
     period: float
-    """[s], NaN when there is no impact."""
+    """Of the step [s], NaN when there is no impact."""
 
     @property
     def peak(self) -> float:
-        """Between the nodes too [rad]."""
+        """Largest |error|, between the nodes too [rad]."""
         return largest(self.t, self.error, self.derror)
 
     def away_from(self, usual: Track, onset: float) -> float:
-        """max |error - that of `usual`| from the onset on, while both last [rad].
+        """max |error - that of `usual`| [rad] from the onset [s] on, while both steps last.
 
-        `usual` is smooth: cubics between its nodes. NaN when there is nothing to compare.
+        `usual` has no push and is smooth: cubic Hermite interpolants between its nodes. NaN without a common
+        time.
         """
         seen = (self.t >= onset) & (self.t <= usual.t[-1])
         t, first = np.unique(usual.t, return_index=True)
@@ -159,6 +182,7 @@ def tracks(made: Prepared, walk: Trajectory) -> tuple[Track, ...]:
 
 
 def _track(s: Signals, arc: Arc) -> Track:
+    """One single support, from its signals."""
     struck = arc.event is not None and arc.event.guard == FOOT_STRIKE
     rate, period = (s.dtheta[-1], s.t[-1] - s.t[0]) if struck else (np.nan, np.nan)
     p = s.error.shape[1]
@@ -169,7 +193,7 @@ def _track(s: Signals, arc: Arc) -> Track:
 def _undisturbed(
     preset: str, controller: str, gait: str, start: str, theta: str, h: float
 ) -> Track:
-    """The same walk without a push, its error at nodes for cubics between them."""
+    """The same walk without a push, computed once for all pushes on it; h [s]."""
     plain = Member(preset, 0.0, 0.0, ("q1",), 0.0, start, theta).run(controller, h)
     made = prepared(replace(plain, pushes=(), gait=gait), start == "zero")
     found = tracks(made, made.simulate(h, 1))[0]
@@ -178,8 +202,12 @@ def _undisturbed(
     return found
 
 
-def walked(run: Scenario, start: str = "model") -> Walked:
-    """The pushed step with run.h and half of it, and all impacts with the step for what comes later."""
+def walked(run: Scenario, start: str = "model") -> MemberWalk:
+    """A run under the push, reduced to numbers.
+
+    The pushed step with run.h and half of it, since its error is a spike of milliseconds; then all impacts with
+    the longer step declared for what comes later, of which only ending and legality are kept.
+    """
     steps = declared()["steps"]
     made = prepared(run, start == "zero")
     assert run.h is not None
@@ -190,20 +218,20 @@ def walked(run: Scenario, start: str = "model") -> Walked:
     usual = [_undisturbed(*of, share * run.h) for share in (1.0, 0.5)]
     both = list(zip(pushed, usual, strict=True))
     first, second = (_ending(made, share * steps["later"]) for share in (1.0, 0.5))
-    return Walked(
+    return MemberWalk(
         *first[:2],
         run.impacts,
-        Figure(*(one.peak for one in pushed)),
-        Figure(*(one.away_from(other, onset) for one, other in both)),
-        Figure(*(one.rate - other.rate for one, other in both)),
-        Figure(*(one.period for one in pushed)),
+        AtTwoSteps(*(one.peak for one in pushed)),
+        AtTwoSteps(*(one.away_from(other, onset) for one, other in both)),
+        AtTwoSteps(*(one.rate - other.rate for one, other in both)),
+        AtTwoSteps(*(one.period for one in pushed)),
         first.illegal,
         first[:2] == second[:2] and bool(first.illegal) == bool(second.illegal),
     )
 
 
 class Ending(NamedTuple):
-    """How a walk ends."""
+    """How a walk ends: status, impacts made, and what makes it illegal."""
 
     status: str
     impacts: int
@@ -211,7 +239,7 @@ class Ending(NamedTuple):
 
 
 def _ending(made: Prepared, h: float) -> Ending:
-    """Of all impacts of a run, with steps of h."""
+    """Of all impacts of a run, with integration steps of h [s]."""
     walk = made.simulate(h, made.run.impacts)
     why: tuple[str, ...] = ("not finite",)
     if all(bool(np.all(np.isfinite(arc.x))) for arc in walk.arcs):
@@ -220,12 +248,7 @@ def _ending(made: Prepared, h: float) -> Ending:
 
 
 def tried(member: Member) -> MemberOutcome:
-    """Carry a member out under both controllers."""
+    """Carry a member out under both controllers, each with the integration step declared for it."""
     steps = declared()["steps"]
     runs = {c: member.run(c, steps[c], steps["impacts"]) for c in CONTROLLERS}
     return MemberOutcome(member, {c: walked(run, member.start) for c, run in runs.items()})
-
-
-def tried_all(members: tuple[Member, ...]) -> tuple[MemberOutcome, ...]:
-    """Carry out a part of the set."""
-    return tuple(tried(member) for member in members)

@@ -1,4 +1,18 @@
-"""The rows of the table of claims: texts of claims.toml with the values of the runs in them."""
+"""The rows of the table of claims: the texts of claims.toml with the values of the runs in them.
+
+Wording is kept apart from computing: claims.toml has for each claim where the paper says it, what the number
+means and why the word is what it is, with braces for values; "like" takes the texts of another claim. The rows
+(`rows_*`) compute values and call `limited`, `row` or `told`.
+
+An entry of claims.toml, whose check is part of the reproduction since it is asserted:
+
+    [unaffected]
+    claim = "Figure 6: the limit cycle of ADRC 'has not been affected by the external disturbances'"
+    where = "VI"
+    number = "change of Theta' at the impact after the push: ADRC at most {adrc:.1e} rad/s, ..."
+    reason = "holds up to {limit[cycle]:g} rad/s. ..."
+    asserted = true
+"""
 
 from __future__ import annotations
 
@@ -10,19 +24,20 @@ from typing import Any
 
 from biped_adrc.checks import Check, at_least, at_most
 from biped_adrc.paper.claims.admissible import declared
-from biped_adrc.paper.claims.tally import Figure, Tally, below_limit
+from biped_adrc.paper.claims.tally import AtTwoSteps, Tally, below_limit
 from biped_adrc.resources import packaged
 from biped_adrc.viz.pages import CLAIM_COLUMNS
 
 
 @cache
 def texts() -> dict[str, Any]:
-    """The file claims.toml: the rows of the table in words, by name."""
-    return dict(_joined(packaged("biped_adrc.paper.claims", "claims.toml")))
+    """The tables of claims.toml by name of the claim, each text on one line."""
+    said = packaged("biped_adrc.paper.claims", "claims.toml")
+    return {name: _joined(x) for name, x in said.items()}
 
 
-def _joined(value: Any) -> Any:
-    """Texts of several lines as one."""
+def _joined(value: object) -> object:
+    """The value with the lines of each text joined to one."""
     if isinstance(value, dict):
         return {name: _joined(x) for name, x in value.items()}
     return " ".join(value.split()) if isinstance(value, str) else value
@@ -31,45 +46,55 @@ def _joined(value: Any) -> Any:
 PREFACE: str = texts()["preface"]
 """What the report says before the table."""
 MEANINGS: dict[str, str] = texts()["words"]
-"""Every word, and what it says of a claim."""
+"""Every word of a verdict, and what it says of a claim."""
 
 
 @dataclass(frozen=True)
 class Claim:
-    """One row of the table.
-
-    asserted: share of the cases that hold, of a claim that a check of the reproduction asks to hold in all.
-    marginal: number of its cases that are not converged.
-    """
+    """One row of the table. Raises ValueError for a word that is not defined."""
 
     claim: str
+    """What the paper says."""
     where: str
+    """Its section."""
     word: str
+    """The verdict, one of `MEANINGS`."""
     number: str
+    """The numbers found."""
     reason: str
+    """Why the word is what it is."""
     share: str = ""
+    """How many cases hold, in words."""
     convergence: str = ""
+    """How far the numbers change at half of the step."""
     asserted: float | None = None
+    """Share of the cases that hold, of a claim that a check of the reproduction asks to hold in
+    all; else None.
+    """
     marginal: int = 0
+    """Number of its cases that are not converged."""
 
     def __post_init__(self) -> None:
         if self.word not in MEANINGS:
             raise ValueError(f"word '{self.word}' is none of {list(MEANINGS)}")
 
-    def record(self) -> dict[str, Any]:
-        """As plain values, the columns of the table."""
+    def record(self) -> dict[str, object]:
+        """In plain values, the columns of the table."""
         return {key: getattr(self, key) for key in CLAIM_COLUMNS}
 
 
 def limited(
     name: str,
-    figures: Iterable[tuple[str, Figure]],
+    figures: Iterable[tuple[str, AtTwoSteps]],
     limit: float,
     declared: int,
     bound: Sequence[float] | None = None,
-    **values: Any,
+    **values: object,
 ) -> Claim:
-    """The row of a claim whose cases, (name, figure) each, hold for a number <= limit; further as of `row`."""
+    """The row of a claim whose cases (name, number) hold for a number <= limit.
+
+    bound: as of `AtTwoSteps.converged`; values: in the texts.
+    """
     cases = tuple(below_limit(case, figure, limit, bound) for case, figure in figures)
     return row(name, Tally(cases, declared), **values)
 
@@ -83,24 +108,40 @@ def judged(
     return Claim(claim, where, *said, value if asserted else None, len(tally.marginal))
 
 
-def row(name: str, tally: Tally, **values: Any) -> Claim:
-    """The row of claims.toml for a claim that was tried on cases, with these values in its texts."""
+def row(name: str, tally: Tally, **values: object) -> Claim:
+    """The row of claims.toml by name, with the verdict of a tally and these values in its texts."""
     x = _said(name, values)
     asserted = bool(x.get("asserted"))
     return judged(x["claim"], x["where"], tally, x["number"], x["reason"], asserted=asserted)
 
 
-def told(name: str, word: str = "", values: Mapping[str, Any] | None = None, **rest: Any) -> Claim:
-    """The row of claims.toml with these values in its texts, and a word that no tally gives.
+def told(
+    name: str,
+    word: str = "",
+    values: Mapping[str, object] | None = None,
+    *,
+    share: str = "",
+    convergence: str = "",
+    marginal: int = 0,
+) -> Claim:
+    """The row of claims.toml by name, with a word that no tally gives.
 
-    word: that of the file by default. rest: of `Claim`.
+    word: that of the file if empty. values: in its texts. share, convergence, marginal: as of `Claim`.
     """
-    said = _said(name, values or {})
-    word = word or said["word"]
-    return Claim(said["claim"], said["where"], word, said["number"], said["reason"], **rest)
+    x = _said(name, values or {})
+    word = word or x["word"]
+    return Claim(
+        *(x["claim"], x["where"], word, x["number"], x["reason"]),
+        *(share, convergence),
+        marginal=marginal,
+    )
 
 
-def _said(name: str, values: Mapping[str, Any]) -> dict[str, Any]:
+def _said(name: str, values: Mapping[str, object]) -> dict[str, Any]:
+    """The texts of a claim with the values in them, and what it takes from another claim by "like".
+
+    Limits of admissible.toml are known to every text as {limit[name]}.
+    """
     found = texts()[name]
     found = {**texts().get(found.get("like"), {}), **found}
     of = {"limit": declared()["limits"], **values}
@@ -108,9 +149,10 @@ def _said(name: str, values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def claim_checks(claims: Sequence[Claim]) -> list[Check]:
-    """Every claim that is said to be replicated has to stay so: all of its cases hold, none is marginal.
+    """The checks of the claims, for the exit code of the reproduction.
 
-    And no case of any claim may be marginal.
+    Claims that are said to be replicated have to stay so: all of their cases hold. And no case of any claim may
+    change its number or verdict at half of the step.
     """
     kind = "reproduced"
     doubtful = "claims: cases whose number or verdict is another at half the step"
@@ -122,12 +164,12 @@ def claim_checks(claims: Sequence[Claim]) -> list[Check]:
     return [at_most(doubtful, "law", sum(c.marginal for c in claims), 0), *shares]
 
 
-class Span(tuple[float, ...]):
-    """Numbers of which a text names the smallest and the largest."""
+class Extremes(tuple[float, ...]):
+    """Numbers of which a text names the smallest and the largest: "{peaks:.2g}" becomes "0.011 to 0.034"."""
 
     @classmethod
-    def of(cls, figures: Iterable[Figure]) -> Span:
-        """At half of the step."""
+    def of(cls, figures: Iterable[AtTwoSteps]) -> Extremes:
+        """The numbers at half of the step."""
         return cls(f.at_half for f in figures)
 
     def __format__(self, form: str) -> str:
@@ -135,7 +177,7 @@ class Span(tuple[float, ...]):
 
 
 def span(values: Sequence[float], form: str = ".3g") -> str:
-    """From the smallest to the largest; NaN is said."""
+    """From the smallest to the largest number, in words; NaN is counted and said."""
     known = [v for v in values if not math.isnan(v)]
     if not known:
         return "none"

@@ -75,7 +75,7 @@ def _trial(s: Plain) -> Ready:
 def _run(s: Plain) -> Ready:
     pushes = tuple(parse_push(text) for text in s["pushes"])
     run = ba.Scenario(pushes=pushes, **values_of_0_1(s["fields"]))
-    scene = scenario.Scene.of(run)
+    scene = scenario.RobotAndGait.of(run)
     g, w = scene.walked, scenario.build(run, scene)
     q, v = g.start(w.nominal)
 

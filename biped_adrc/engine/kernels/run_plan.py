@@ -1,7 +1,9 @@
-"""What a compiled walk is given, what its codes mean, and the plan of a run.
+"""The plan of a compiled run: what the kernels are given, and what the codes they return mean.
 
-The plan is what a run needs, flattened into the integers P and floats F of the kernels, once for any number of
-runs.
+`engine.compiled_walker` fills the records below (addresses, sizes, ground, disturbance, clock,
+method) with names; `plan` checks that they fit together and flattens them into the vectors of
+integers P and floats F, whose places `layout` names. A plan is read only and serves any number of
+runs, in any thread; what changes during a run is in the run vector s and in the work rows W.
 """
 
 from __future__ import annotations
@@ -9,7 +11,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from itertools import accumulate
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +24,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.types import Array
 
 Ints = NDArray[np.int64]
+T = TypeVar("T", np.int64, np.float64)
 
 STATUS = (
     Status.COMPLETED,
@@ -35,15 +39,15 @@ STATUS = (
 """By the code of a kernel; `layout.STRUCK` and `layout.FULL` are no statuses."""
 
 
-class Code(NamedTuple):
-    """Addresses of `void f(double* K, double* inp, double* out)`, 0 for none.
+class LawAddresses(NamedTuple):
+    """Addresses of the walker's functions `void f(double* K, double* inp, double* out)`, 0 for none.
 
-    zeta is (n,) [N m]; pivot, the least of the matrices inverted, makes a state that is not finite SINGULAR
-    where it is exactly 0, and is infinite without one.
+    zeta is (n,) [N m]. pivot is the least of the matrices inverted, infinite without one; where it
+    is exactly 0 a state that is not finite ends as SINGULAR.
     """
 
     flow: int
-    """(t, step, t_start, x, zeta) -> (dx, pivot); in sampled time only q and v flow."""
+    """(t, step, t_start, x, zeta) -> (dx, pivot); in sampled time only q, v and lagging motors move."""
     tick: int
     """(t, step, t_start, x, zeta, outside) -> (x after the tick, pivot, q''), in sampled time. outside (5,):
     force from outside (2) [N], its impulse since the last tick (2) [N s], drop of the ground [m]."""
@@ -61,85 +65,107 @@ class Code(NamedTuple):
     """For a matrix M (k, k) in place of K: E -> M E."""
 
 
-class Sizes(NamedTuple):
-    """n coordinates, nx states, p joints, nw and (k, p) numbers of y = (w, E).
-
-    moving: how many of the first states flow, all for 0; the others are held between ticks.
-    """
+class StateSizes(NamedTuple):
+    """How many numbers the parts of a state have."""
 
     n: int
+    """Coordinates."""
     nx: int
+    """Numbers in x."""
     p: int
+    """Actuated joints."""
     nw: int = 0
+    """Numbers in w, for the exponential method."""
     k: int = 0
+    """Rows of E (k, p)."""
     moving: int = 0
+    """How many of the first states flow, all for 0; the others are held between sample instants."""
 
 
-class Scene(NamedTuple):
-    """least_step [m]; drops (m, 2): rows (single support, height [m])."""
+class GroundTable(NamedTuple):
+    """The ground and what counts as a step on it."""
 
     least_step: float
+    """Minimum step length [m]; shorter ground contacts are ignored."""
     drops: Array
+    """(m, 2): rows (single support, height [m] by which the ground is lower where it ends)."""
 
 
-class PushCode(NamedTuple):
-    """zeta as a sum of parts, each a function (t, step, t_start, q, v) -> zeta (n,); 0 without any.
-
-    Part i has the parameters K[offsets[i]:offsets[i + 1]]. switches (m, 2): rows (step, s); the torque is not
-    smooth s [s] after that single support began, or for step 0 at the time s.
-    """
+class DisturbanceTable(NamedTuple):
+    """zeta as a sum of parts, each a function (t, step, t_start, q, v) -> zeta (n,) [N m]; 0 without any."""
 
     addresses: Ints = np.zeros(0, dtype=np.int64)
+    """Of the parts' functions."""
     K: Array = np.zeros(0)
+    """Parameters of all parts, one after the other."""
     offsets: Ints = np.zeros(1, dtype=np.int64)
+    """Part i has the parameters K[offsets[i]:offsets[i + 1]]."""
     switches: Array = np.zeros((0, 2))
+    """(m, 2): rows (step, s); the torque is not smooth s [s] after that single support began, or
+    for step 0 at the time s.
+    """
     resultants: tuple[int, ...] = ()
     """Addresses of (t, step, t_start, q, v) -> force (2,) [N] on the robot as a whole, 0 for none."""
 
 
-class Clock(NamedTuple):
-    """Ticks every `period` [s], 0 for continuous time, from the arc's start or, without restart, t_first."""
+class ClockTable(NamedTuple):
+    """When the controller acts."""
 
     period: float = 0.0
+    """[s]; 0 for continuous time."""
     restart: int = 1
+    """1 where sample instants are counted from the start of each arc, 0 where from t_first."""
     t_first: float = 0.0
+    """Start of the run [s]."""
     part: float = 0.0
     """[s] after each tick at which the waiting torque acts, 0 for none."""
 
 
-class Method(NamedTuple):
-    """Step or tolerances, and for ETD-RK4 phi (levels, 6, k, k) and the forced rows."""
+class MethodTable(NamedTuple):
+    """A one-step method with its numbers; made by `methods`."""
 
     kind: int
+    """layout.RK4, DOP853 or ETD."""
     h: float = 1.0
+    """Fixed step [s]."""
     rtol: float = 1.0
+    """Relative tolerance of DOP853 [1]."""
     atol: float = 1.0
+    """Absolute tolerance of DOP853."""
     max_step: float = 1.0
+    """Longest step of DOP853 [s]."""
     phi: Array = np.zeros((0, layout.MATRICES, 0, 0))
+    """Matrices of ETD-RK4 for h and its halvings (levels, 6, k, k)."""
     rows: Ints = np.zeros(0, dtype=np.int64)
+    """Rows of E that the remainder enters."""
 
 
 TABLEAU = np.concatenate([getattr(DOP853, name).ravel() for name in ("A", "B", "C", "E3", "E5")])
-"""Of `scipy.integrate.DOP853`."""
+"""Coefficients of `scipy.integrate.DOP853` (TABLEAU,), in the order of `layout`."""
 LEAST_PERIOD = 1e-9
-"""[s]; what is shorter cannot be counted in floats."""
+"""Shortest sampling period [s]; what is shorter cannot be counted in floats."""
 
 
 @dataclass(frozen=True)
-class Plan:
+class RunPlan:
     """P and F, read only, and the sizes of what a run needs beside them."""
 
     P: Ints
+    """Integers: addresses, sizes, places in F."""
     F: Array
+    """Floats: clock, tolerances, ground, disturbance, matrices."""
     nx: int
+    """Numbers in a state."""
     width: int
+    """Numbers in a work row."""
 
     def work(self) -> Array:
-        """Work rows; one matrix for each run that goes on at the same time."""
+        """Work rows (ROWS, width), zero; each run that goes on at the same time needs its own."""
         return np.zeros((layout.ROWS, self.width))
 
     def start(self, x: Array, t: float, step: int, t_start: float, end: float) -> Array:
-        """The vector s of a run from x at t [s], in the single support `step` that began at t_start [s].
+        """The run vector s (HEAD + nx,) of a run from x (nx,) at t [s] to `end` [s] at the latest,
+        in the single support `step` that began at t_start [s].
 
         Raises InputError for a state that is not finite or has another shape.
         """
@@ -154,9 +180,14 @@ class Plan:
 
 
 def plan(
-    code: Code, sizes: Sizes, scene: Scene, push: PushCode, clock: Clock, method: Method
-) -> Plan:
-    """Raises InputError for parts that do not fit together."""
+    code: LawAddresses,
+    sizes: StateSizes,
+    scene: GroundTable,
+    push: DisturbanceTable,
+    clock: ClockTable,
+    method: MethodTable,
+) -> RunPlan:
+    """The plan of these parts. Raises InputError for parts that do not fit together."""
     _check(code, sizes, push, clock, method)
     P = np.zeros(layout.P_HEAD, dtype=np.int64)
     P[: len(code)] = code
@@ -183,10 +214,17 @@ def plan(
     parts = [(a, at[3] + o, r) for a, o, r in given]
     P, where = _joined([P, method.rows, np.array(parts, dtype=np.int64)], np.int64)
     P[layout.ROWS_AT], P[layout.PARTS_AT] = where[1], where[2]
-    return Plan(P, F, sizes.nx, _width(sizes))
+    return RunPlan(P, F, sizes.nx, _width(sizes))
 
 
-def _check(code: Code, sizes: Sizes, push: PushCode, clock: Clock, method: Method) -> None:
+def _check(
+    code: LawAddresses,
+    sizes: StateSizes,
+    push: DisturbanceTable,
+    clock: ClockTable,
+    method: MethodTable,
+) -> None:
+    """Raise InputError for parts that do not fit together: compiled code would read elsewhere in memory."""
     if len(push.offsets) != len(push.addresses) + 1 or push.offsets[-1] > len(push.K):
         raise InputError(
             f"{len(push.addresses)} parts of a disturbance with {len(push.K)} parameters have offsets "
@@ -208,14 +246,13 @@ def _check(code: Code, sizes: Sizes, push: PushCode, clock: Clock, method: Metho
         raise InputError(f"no address of {', '.join(missing)}, which this method and clock call")
 
 
-def _joined(parts: Sequence[Array | Ints], dtype: Any) -> tuple[Any, list[int]]:
-    """All in one vector, and where each begins."""
-    flat = [np.asarray(part, dtype=dtype).ravel() for part in parts]
-    ends = np.cumsum([len(part) for part in flat])
-    return np.concatenate(flat), [0, *ends[:-1].tolist()]
+def _joined(parts: Sequence[Array | Ints], dtype: type[T]) -> tuple[NDArray[T], list[int]]:
+    """All parts in one vector, and where each begins."""
+    flat: list[NDArray[T]] = [np.asarray(part, dtype=dtype).ravel() for part in parts]
+    return np.concatenate(flat), [0, *accumulate(map(len, flat[:-1]))]
 
 
-def _width(sizes: Sizes) -> int:
+def _width(sizes: StateSizes) -> int:
     """Numbers of the longest row: a law's input or output, or the head of a run."""
     states = max(sizes.nx, sizes.nw + sizes.k * sizes.p)
     return max(layout.HEAD, 3 + states + max(sizes.n, 2) + layout.OUTSIDE)

@@ -1,0 +1,139 @@
+"""Feedback linearisation with a filtered PID of the measured angles, without rates.
+
+    e = q_b - q_d,   e_f'' = w^2 (e - e_f) - 2 zeta w e_f',   s' = e_f
+    u = kappa^-1 (a - xi),   a = q_d'' - K_d e_f' - K_p e_f - K_i s
+
+So a - q_d'' = -C(s) e with
+
+    C(s) = (K_d s^2 + K_p s + K_i) / (s (s^2 / w^2 + 2 zeta s / w + 1)).
+
+A linear ADRC of the output e'' = v + d, with observer gains l_1, l_2, l_3 (m = 1) and gains k_p, k_d, is the
+same C(s) with
+
+    w^2 = l_2 + k_p + k_d l_1,   2 zeta w = l_1 + k_d,
+    w^2 (K_d, K_p, K_i) = (k_p l_1 + k_d l_2 + l_3, k_p l_2 + k_d l_3, k_p l_3),
+
+as eliminating its observer's states shows. In general m extended states make a C(s) of order m + 2 with m
+poles at zero. What tells them apart is not the transfer function: ADRC does without xi of the model, its
+observer is fed with the torque applied, so that it does not wind up, and is reset at impact.
+Astrom, Hagglund, Advanced PID Control, ISA, 2006.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import expm
+
+from biped_adrc.control.base import Controller, ControllerLaws, Measurement, measured
+from biped_adrc.control.tracking import (
+    TABLE_II,
+    Gains,
+    TrackingParameters,
+    solved_acceleration,
+    tracked_laws,
+)
+from biped_adrc.errors import check_positive
+from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.types import Array
+
+
+class PIDParameters(NamedTuple):
+    """Gains, K_i [1/s^3], and M (3, 3), b (3,) of the filter: Z' = M Z + b e, or Z one period later."""
+
+    gains: TrackingParameters
+    K_i: float
+    M: Array
+    b: Array
+
+
+def npid_torque(k: PIDParameters, r: ReferencePoint, s: Array, m: Measurement) -> Array:
+    """u (p,) [N m] for the rows e_f [rad], e_f' [rad/s] and s [rad s] of the filter."""
+    e_f, de_f, total = s.reshape(3, -1)
+    f = -k.gains.K_p * e_f - k.gains.K_d * de_f - k.K_i * total
+    return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)
+
+
+def filtered(k: PIDParameters, r: ReferencePoint, s: Array, m: Measurement, u: Array) -> Array:
+    """The slope of the filter's rows, or the rows one period later (3 p,)."""
+    e = measured(m).position - r.q_d
+    return (k.M @ s.reshape(3, -1) + np.outer(k.b, e)).ravel()
+
+
+def filter_start(k: PIDParameters, r: ReferencePoint, m: Measurement) -> Array:
+    """Rows (3 p,) that agree with the error and its rate, without an integral."""
+    x = measured(m)
+    e, de = x.position - r.q_d, x.velocity - r.dq_d
+    return np.concatenate((e, de, np.zeros(len(e))))
+
+
+def filter_jump(
+    k: PIDParameters, r: ReferencePoint, s: Array, after: Measurement, swap: Array
+) -> Array:
+    """Rows after impact: a new start, with the integral relabelled by swap (p,)."""
+    p = len(swap)
+    return np.concatenate((filter_start(k, r, after)[: 2 * p], s[2 * p :][swap]))
+
+
+@dataclass(frozen=True)
+class NPIDController(Controller):
+    """The module's equations, for K_i [1/s^3] below K_p K_d, above which the loop is unstable.
+
+    filter_bandwidth, damping: w [rad/s] and zeta of the filter.
+    period [s]: of the discrete form, in which the error is held from tick to tick; set by `sampled`.
+    Raises InputError for numbers that are not positive.
+    """
+
+    reference: Reference
+    gains: Gains = TABLE_II
+    K_i: float = 50000.0
+    filter_bandwidth: float = 1000.0
+    damping: float = 1.0
+    period: float | None = None
+
+    def __post_init__(self) -> None:
+        check_positive(self.K_i, f"the integral gain K_i is {self.K_i} 1/s^3")
+        check_positive(self.filter_bandwidth, f"the PID's filter is {self.filter_bandwidth} rad/s")
+        check_positive(self.damping, f"the damping of the PID's filter is {self.damping}")
+
+    @classmethod
+    def like_adrc(
+        cls, reference: Reference, gains: Gains = TABLE_II, bandwidth: float = 500.0
+    ) -> NPIDController:
+        """With C(s) of the linear ADRC whose three observer poles are at -bandwidth [rad/s].
+
+        gains: that ADRC's, one number for all joints.
+        """
+        check_positive(bandwidth, f"observer bandwidth is {bandwidth} rad/s")
+        k_p, k_d = float(gains.K_p), float(gains.K_d)
+        l_1, l_2, l_3 = 3.0 * bandwidth, 3.0 * bandwidth**2, bandwidth**3
+        w2 = l_2 + k_p + k_d * l_1
+        K_d, K_p, K_i = k_p * l_1 + k_d * l_2 + l_3, k_p * l_2 + k_d * l_3, k_p * l_3
+        w = math.sqrt(w2)
+        return cls(reference, Gains(K_p / w2, K_d / w2), K_i / w2, w, 0.5 * (l_1 + k_d) / w)
+
+    @cached_property
+    def parameters(self) -> PIDParameters:
+        """What the laws need."""
+        w, zeta = self.filter_bandwidth, self.damping
+        A = np.array([[0.0, 1.0, 0.0], [-w * w, -2.0 * zeta * w, 0.0], [1.0, 0.0, 0.0]])
+        b = np.array([0.0, w * w, 0.0])
+        gains = self.gains.parameters(solve_theta=True)
+        if self.period is None:
+            return PIDParameters(gains, float(self.K_i), A, b)
+        held = expm(np.block([[A, b[:, np.newaxis]], [np.zeros((1, 4))]]) * self.period)
+        return PIDParameters(gains, float(self.K_i), held[:3, :3].copy(), held[:3, 3].copy())
+
+    @property
+    def laws(self) -> ControllerLaws:
+        own = ControllerLaws(self.parameters, npid_torque, filter_start, jump=filter_jump)
+        if self.period is None:
+            return tracked_laws(self.reference, own._replace(flow=filtered))
+        return tracked_laws(self.reference, own._replace(predict=filtered))
+
+    def sampled(self, period: float) -> NPIDController:
+        return replace(self, period=period)

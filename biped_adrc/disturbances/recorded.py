@@ -1,0 +1,146 @@
+"""Torques from a recording: straight lines between its rows, zero before the first and from the last on.
+
+    zeta_i(t) = zeta_ij + (s - t_j) (zeta_i,j+1 - zeta_ij) / (t_j+1 - t_j),   t_j <= s < t_j+1,   s = t - start
+
+A corner at a row is no switching time: a step of integration may go across it, since zeta does not jump there.
+Where it does jump, at the first row and at the last, none does.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.disturbances.base import (
+    Disturbance,
+    DisturbanceLaw,
+    WindowParameters,
+    onset,
+    window_acts,
+)
+from biped_adrc.errors import InputError, check_count
+from biped_adrc.files import reading
+from biped_adrc.model.biped import Biped
+from biped_adrc.types import Array, read_only
+
+PIECES = 16
+"""Straight pieces in one law; a recording has as many laws as it needs, of which one acts at a time."""
+
+
+class RecordedParameters(NamedTuple):
+    """The window, with the torque where it opens (n,), and of the pieces [s], (PIECES,): where they begin, and
+    how long they are; slopes (n, PIECES) [N m/s]."""
+
+    window: WindowParameters
+    begin: Array
+    width: Array
+    slopes: Array
+
+
+def recorded_torque(
+    k: RecordedParameters, t: float, step: int, t_start: float, q: Array, v: Array
+) -> Array:
+    """zeta (n,) [N m] in the window."""
+    s = t - onset(k.window, t_start)
+    return k.window.amplitude + k.slopes @ np.clip(s - k.begin, 0.0, k.width)
+
+
+@dataclass(frozen=True)
+class RecordedTorque(Disturbance):
+    """times (K,) [s] that increase, torques (K, n) [N m]. Read a file with `read`.
+
+    start [s]: where time 0 of the recording is, after the start of single support `step`, with which it then
+    ends at the latest; without `step`, after the start of the run. Raises InputError.
+    """
+
+    times: Array
+    torques: Array
+    step: int | None = None
+    start: float = 0.0
+
+    def __post_init__(self) -> None:
+        times, torques = read_only(self.times), read_only(self.torques)
+        if times.ndim != 1 or len(times) < 2 or torques.shape[:1] != times.shape:
+            raise InputError(
+                f"the recording has times of shape {times.shape} and torques of shape {torques.shape}, "
+                "expected (K,) and (K, n) for K >= 2 rows and n coordinates"
+            )
+        finite = np.isfinite(times) & np.all(np.isfinite(torques), axis=1)
+        bad = np.flatnonzero(~finite | (np.diff(times, prepend=-math.inf) <= 0.0))
+        if len(bad):
+            raise InputError(
+                f"row {bad[0] + 1} of the recording has t = {times[bad[0]]:g} s and torques "
+                f"{torques[bad[0]].tolist()} N m, expected finite numbers and a time after that of the row "
+                "before"
+            )
+        if not (math.isfinite(self.start) and self.start + times[0] >= 0.0):
+            raise InputError(
+                f"the recording begins at {self.start + times[0]:g} s, expected a time from 0 on"
+            )
+        if self.step is not None:
+            check_count(self.step, f"torque step is {self.step}; single supports count from 1")
+        object.__setattr__(self, "times", times)
+        object.__setattr__(self, "torques", torques)
+
+    @classmethod
+    def read(
+        cls, file: str | Path, biped: Biped, step: int | None = None, start: float = 0.0
+    ) -> RecordedTorque:
+        """The recording in a CSV file: a column `t` [s], and one [N m] for each joint that is named.
+
+        Joints are those of the robot, or q1..qN; the others have no torque. Raises InputError.
+        """
+        with reading("recording", file, InputError):
+            with Path(file).open(newline="", encoding="utf-8-sig") as text:
+                head, *rows = [[x.strip() for x in row] for row in csv.reader(text) if row] or [[]]
+            if head.count("t") != 1 or len(set(head)) < max(len(head), 2):
+                raise InputError(
+                    f"its columns are {head}, expected one 't' [s] and different joints, as t,q1,q3"
+                )
+            numbers = [_numbers(row, i, len(head)) for i, row in enumerate(rows, 2)]
+            columns = dict(zip(head, np.array(numbers).reshape(-1, len(head)).T, strict=True))
+            times = columns.pop("t")
+            torques = np.zeros((len(times), biped.n))
+            for joint, values in columns.items():
+                torques[:, biped.description.joint_index(joint)] += values
+            return cls(times, torques, step, start)
+
+    @property
+    def switches(self) -> tuple[tuple[int, float], ...]:
+        """As `DisturbanceLaw.switches`: where it begins and ends."""
+        return tuple((self.step or 0, float(self.start + t)) for t in self.times[[0, -1]])
+
+    @property
+    def laws(self) -> tuple[DisturbanceLaw, ...]:
+        ends = [*range(0, len(self.times) - 1, PIECES), len(self.times) - 1]
+        laws = [DisturbanceLaw(self._part(*part), recorded_torque) for part in pairwise(ends)]
+        first, *rest = (law._replace(active=window_acts) for law in laws)
+        return (first._replace(switches=self.switches), *rest)
+
+    def _part(self, first: int, last: int) -> RecordedParameters:
+        """The parameters of the pieces from one row to another."""
+        t, zeta = self.times[first : last + 1], self.torques[first : last + 1]
+        begin, width = np.zeros(PIECES), np.zeros(PIECES)
+        slopes = np.zeros((zeta.shape[1], PIECES))
+        begin[: len(t) - 1], width[: len(t) - 1] = t[:-1] - t[0], np.diff(t)
+        slopes[:, : len(t) - 1] = (np.diff(zeta, axis=0) / np.diff(t)[:, np.newaxis]).T
+        opens, closes = float(self.start + t[0]), float(self.start + t[-1])
+        window = WindowParameters(zeta[0].copy(), float(self.step or 0), opens, closes)
+        return RecordedParameters(window, begin, width, slopes)
+
+
+def _numbers(row: list[str], line: int, columns: int) -> list[float]:
+    """A row of the file. Raises InputError with the line."""
+    try:
+        numbers = [float(x) for x in row]
+    except ValueError as error:
+        raise InputError(f"line {line}: {error}; expected numbers [s], [N m]") from None
+    if len(numbers) != columns:
+        raise InputError(f"line {line} has {len(numbers)} numbers, expected {columns}")
+    return numbers

@@ -1,0 +1,89 @@
+"""Cubic B-splines of the phase: curves with local support and two continuous derivatives.
+
+    h(s) = sum_k alpha_k N_k(s),   knots 0, 0, 0, 0, 1/J, 2/J, ..., 1, 1, 1, 1,   J = M - 2 pieces
+
+Each coefficient reaches over four pieces at most, where one of a Bezier curve reaches over all of the step.
+By de Boor's recursion, on the polynomials of each piece:
+
+    N_k,d = (s - t_k) / (t_k+d - t_k) N_k,d-1 + (t_k+d+1 - s) / (t_k+d+1 - t_k+1) N_k+1,d-1
+
+with N_k,0 one on [t_k, t_k+1) and zero elsewhere, and 0 for what is divided by 0. The third derivative jumps at
+the knots. de Boor, A Practical Guide to Splines, Springer, 1978.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from biped_adrc.errors import GaitError
+from biped_adrc.gait.curves import ControlledCurve, Curve
+from biped_adrc.types import Array
+
+CUBIC = 3
+
+
+@dataclass(frozen=True)
+class BSpline(ControlledCurve):
+    """The module's equation; alpha (p, M + 1) [rad], M >= 3. Raises GaitError."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.degree < CUBIC:
+            raise GaitError(
+                f"a cubic B-spline has {self.degree + 1} coefficients per joint, expected at least 4"
+            )
+
+    @property
+    def pieces(self) -> tuple[Array, Array]:
+        return knots(self.degree)[CUBIC + 1 : -CUBIC - 1], self.coefficients @ basis(self.degree)
+
+    @classmethod
+    def abscissae(cls, degree: int) -> Array:
+        t = knots(degree)
+        return np.array([np.mean(t[k + 1 : k + 1 + CUBIC]) for k in range(degree + 1)])
+
+    @classmethod
+    def like(cls, curve: Curve, degree: int = 8) -> BSpline:
+        """Least squares from another curve, with its ends and their slopes."""
+        (h, dh, _), (end, last, _) = curve(0.0), curve(1.0)
+        alpha, s = cls.between(h, dh, last, end, degree), np.linspace(0.0, 1.0, 20 * degree)
+        alpha[:, 2:-2] = 0.0
+        N = np.array([cls(np.eye(degree + 1))(x)[0] for x in s])
+        left = np.array([curve(x)[0] for x in s]) - N @ alpha.T
+        alpha[:, 2:-2] = np.linalg.lstsq(N[:, 2:-2], left, rcond=None)[0].T
+        return cls(alpha)
+
+
+def knots(degree: int) -> Array:
+    """t (M + 5,)."""
+    inner = np.linspace(0.0, 1.0, degree - CUBIC + 2)
+    return np.concatenate((np.zeros(CUBIC), inner, np.ones(CUBIC)))
+
+
+@lru_cache(maxsize=32)
+def basis(degree: int) -> Array:
+    """(J, M + 1, 4): of the N_k on each piece, the coefficients in powers of s."""
+    t = knots(degree)
+    made = np.zeros((degree - CUBIC + 1, degree + 1, CUBIC + 1))
+    for j in range(len(made)):
+        N = np.zeros((len(t) - 1, CUBIC + 1))
+        N[CUBIC + j, 0] = 1.0
+        for d in range(1, CUBIC + 1):
+            N = np.array([_raised(t, N, k, d) for k in range(len(N) - 1)])
+        made[j] = N
+    made.setflags(write=False)
+    return made
+
+
+def _raised(t: Array, N: Array, k: int, d: int) -> Array:
+    """N_k,d (4,) from those of degree d - 1."""
+    found = np.zeros(CUBIC + 1)
+    for i, sign, at in ((k, 1.0, t[k]), (k + 1, -1.0, t[k + d + 1])):
+        width = t[i + d] - t[i]
+        if width > 0.0:
+            found[1:] += sign / width * N[i, :-1]
+            found -= sign * at / width * N[i]
+    return found

@@ -1,0 +1,160 @@
+"""Domain of attraction of a walking cycle on the zero dynamics: how slow and how fast the steps may be.
+
+On the constraint the ground reaction and the torques are affine in Theta'^2, hence in zeta = sigma-^2 / 2
+before the last impact:
+
+    F(Theta) = F_0 + F_1 Theta'^2,   Theta'^2 = 2 (delta^2 zeta - V_zero(Theta)) / I^2
+
+so each of  F_N > 0,  mu F_N -+ F_T > 0,  u_max -+ u_i > 0  reads  A(Theta) + B(Theta) zeta > 0, and all
+Theta together leave an interval of zeta. rho is increasing, so a walk that starts inside an interval
+around zeta* stays inside it: the interval is a domain of attraction that the ground and the motors allow.
+The unilateral contact is what Westervelt, Grizzle, Koditschek (IEEE TAC 48(1), 2003) ask of an orbit.
+
+`zero_orbits.ZeroOrbits` gives the return map rho and zeta*; `domain` cuts the interval in which the next step
+is finished by these limits. Used by `analysis.zero_report` and the command line.
+
+    domain(orbits, DomainLimits(friction=0.6))     zeta from 82.3 (V_max) to 484.1 (friction) for the published
+    gait
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from biped_adrc.errors import InputError
+from biped_adrc.gait.zero_orbits import ZeroOrbits, grid, series
+from biped_adrc.ground import ground_axes
+from biped_adrc.types import Array
+
+LIFT_OFF, FRICTION, TORQUE = "lift-off", "friction", "torque"
+PASSING = "V_max"
+"""The step has to pass the highest point of V_zero."""
+UNLIMITED = "no limit"
+
+
+@dataclass(frozen=True)
+class DomainLimits:
+    """What ground and motors allow in `domain`; None leaves a limit out. F_N > 0 holds in any case.
+
+    Raises InputError for a limit that is not positive or a slope of a right angle and more.
+    """
+
+    friction: float | None = None
+    """mu, largest |F_T| / F_N."""
+    torque: float | None = None
+    """Largest |u_i| [N m]."""
+    slope: float = 0.0
+    """Of the ground [rad], positive downhill."""
+
+    def __post_init__(self) -> None:
+        for name in ("friction", "torque"):
+            value = getattr(self, name)
+            if value is not None and not (math.isfinite(value) and value > 0):
+                raise InputError(f"limit of {name} is {value}, expected a positive number or None")
+        if not abs(self.slope) < 0.5 * math.pi:
+            raise InputError(f"the slope is {self.slope} rad, expected less than a right angle")
+
+
+class Bound(NamedTuple):
+    """One end of the domain, and the limit that sets it."""
+
+    zeta: float
+    """[kg^2 m^4/s^2]."""
+    cause: str
+    """"V_max", "lift-off", "friction", "torque", or "no limit"."""
+    theta: float
+    """Where it happens first [rad]; NaN without limit."""
+
+
+class Domain(NamedTuple):
+    """The interval lower.zeta < zeta < upper.zeta [kg^2 m^4/s^2]."""
+
+    lower: Bound
+    upper: Bound
+
+    @property
+    def empty(self) -> bool:
+        """True where no speed keeps all limits."""
+        return not self.lower.zeta < self.upper.zeta
+
+    def holds(self, zeta: float) -> bool:
+        """True where zeta is inside, both ends excluded."""
+        return self.lower.zeta < zeta < self.upper.zeta
+
+
+def domain(orbits: ZeroOrbits, limits: DomainLimits | None = None) -> Domain:
+    """The interval of zeta whose next step is finished and keeps the limits; F_N > 0 without limits.
+
+    It contains zeta* when the periodic orbit keeps them, and is then a domain of attraction: each limit leaves
+    an interval, and the domain is their intersection.
+    """
+    lower = Bound(orbits.lowest, PASSING, orbits.theta_max)
+    upper = Bound(math.inf, UNLIMITED, math.nan)
+    for margin in _margins(orbits, DomainLimits() if limits is None else limits):
+        lower = max(lower, _end(orbits, margin, 1.0), key=lambda bound: bound.zeta)
+        upper = min(upper, _end(orbits, margin, -1.0), key=lambda bound: bound.zeta)
+    return Domain(lower, upper)
+
+
+class Margin(NamedTuple):
+    """One limit as still + moving Theta'^2 > 0, at the K Gauss nodes; forces [N] or torques [N m]."""
+
+    cause: str
+    """Which limit, as in `Bound.cause`."""
+    still: Array
+    """Distance to the limit at rest (K,)."""
+    moving: Array
+    """Its change with Theta'^2 (K,), per rad^2/s^2."""
+
+
+def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
+    """All limits of the domain.
+
+    The model is affine in Theta'^2, so its values at Theta' = 0 and 1 rad/s give both coefficients.
+    """
+    zero = orbits.zero
+    rest, moving = ([zero.dynamics(k, rate) for k in range(len(zero.theta))] for rate in (0.0, 1.0))
+    u_0, u_1 = (np.array([found[1] for found in rows]) for rows in (rest, moving))
+    F_0, F_1 = (np.array([found[2] for found in rows]) for rows in (rest, moving))
+    along, across = ground_axes(limits.slope)
+    rows = [(LIFT_OFF, across)]
+    if limits.friction is not None:
+        rows += [(FRICTION, limits.friction * across + sign * along) for sign in (-1.0, 1.0)]
+    found = [Margin(cause, F_0 @ row, (F_1 - F_0) @ row) for cause, row in rows]
+    if limits.torque is not None:
+        for j in range(zero.biped.p):
+            for sign in (-1.0, 1.0):
+                still = limits.torque + sign * u_0[:, j]
+                found.append(Margin(TORQUE, still, sign * (u_1 - u_0)[:, j]))
+    return found
+
+
+def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
+    """The lower (sign 1) or upper (sign -1) end that one margin leaves: the extreme of -A / B over Theta."""
+    still, moving = series(orbits.zero, margin.still), series(orbits.zero, margin.moving)
+
+    def reach(theta: Array) -> Array:
+        """sign * zeta of the crossing; -inf where this end is not limited, inf where nothing helps."""
+        gain = 2.0 * moving(theta) / orbits.inertia(theta) ** 2
+        A, B = still(theta) - gain * orbits.potential(theta), sign * orbits.delta**2 * gain
+        crossing = -A / np.where(B > 0, B, 1.0)
+        return np.where(B > 0, crossing, np.where((B == 0) & (A <= 0), math.inf, -math.inf))
+
+    theta = grid(orbits.zero)
+    found = reach(theta)
+    k = int(np.argmax(found))
+    near = slice(max(k - 1, 0), k + 2)
+    where, most = float(theta[k]), float(found[k])
+    if np.all(np.isfinite(found[near])):
+        ends = sorted((theta[near][0], theta[near][-1]))
+        best = minimize_scalar(
+            lambda x: -float(reach(x)), bounds=ends, method="bounded", options={"xatol": 1e-12}
+        )
+        if -best.fun > most:
+            where, most = float(best.x), -float(best.fun)
+    return Bound(sign * most, margin.cause, where)

@@ -1,0 +1,87 @@
+"""An inertial sensor on the torso: the unactuated pitch and its rate, with a bias and a drift, in sampled time.
+
+    q_N^ = q_N + b + k d T + white noise,      v_N^ = v_N + d        at the k-th tick
+
+d [rad/s] is the bias of the gyroscope, by which the integrated angle drifts, b [rad] how the sensor sits. It
+is put behind encoders, `Sensors(...) + PitchSensor(...)`, whose joints it leaves alone.
+
+The state w is (q_N^, v_N^, b + k d T, r), r of the noise. After an impact the rate is read anew, the angle is
+that of the last tick.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from biped_adrc.errors import InputError, check_whole
+from biped_adrc.hardware.sensing import Sensor, SensorLaws, Sight
+from biped_adrc.hardware.sensors import SIZE, normals, seeded
+from biped_adrc.types import Array
+
+
+class PitchParameters(NamedTuple):
+    """d T [rad] of a tick, d [rad/s], b [rad], the noise [rad], and 1 with noise."""
+
+    tick: float
+    rate: float
+    bias: float
+    noise: float
+    noisy: int
+
+
+def pitch_sense(k: PitchParameters, w: Array, q: Array, v: Array) -> Array:
+    """w at a tick at (q, v)."""
+    r, g = normals(w[3:], 1) if k.noisy > 0 else (w[3:], np.zeros(1))
+    off = np.array([w[2] + k.tick])
+    return np.concatenate((q[-1:] + w[2] + k.noise * g, v[-1:] + k.rate, off, r))
+
+
+def pitch_impact(k: PitchParameters, w: Array, q: Array, v: Array, v_model: Array) -> Array:
+    """w after an impact to (q, v): the rate jumps, the angle as last seen stays."""
+    return np.concatenate((w[:1], v[-1:] + k.rate, w[2:]))
+
+
+def pitch_seen(k: PitchParameters, w: Array, q: Array, v: Array) -> Sight:
+    """q^ and v^ (n,): the pitch of w, all else as it comes."""
+    return np.concatenate((q[:-1], w[:1])), np.concatenate((v[:-1], w[1:2]))
+
+
+@dataclass(frozen=True)
+class PitchSensor(Sensor):
+    """bias: b [rad]. drift: d [rad/s]. noise: standard deviation of the angle at a tick [rad], by `seed`.
+
+    Raises InputError for numbers that are not finite or a noise that is negative.
+    """
+
+    bias: float = 0.0
+    drift: float = 0.0
+    noise: float = 0.0
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        for name, unit in (("bias", "rad"), ("drift", "rad/s"), ("noise", "rad")):
+            value = getattr(self, name)
+            if not math.isfinite(value) or (name == "noise" and value < 0.0):
+                raise InputError(
+                    f"the pitch sensor's {name} is {value} {unit}, expected a finite number, and none "
+                    "below zero of noise"
+                )
+        check_whole(self.seed, f"the pitch sensor's seed is {self.seed}", 0)
+
+    @property
+    def noisy(self) -> bool:
+        return self.noise > 0.0
+
+    def laws(self, n: int, p: int, period: float) -> SensorLaws:
+        d, b, noise = float(self.drift), float(self.bias), float(self.noise)
+        k = PitchParameters(d * period, d, b, noise, int(self.noisy))
+        size = 3 + (SIZE if self.noisy else 0)
+        return SensorLaws(k, size, pitch_sense, pitch_impact, pitch_seen)
+
+    def start(self, k: Any, q: Array, v: Array) -> Array:
+        r = seeded(self.seed) if self.noisy else np.zeros(0)
+        return np.concatenate(([q[-1] + k.bias, v[-1] + k.rate, k.bias], r))

@@ -1,0 +1,118 @@
+"""The chain of integrators with the gains of a steady-state Kalman filter, from the intensities of two noises.
+
+    x_1' = x_2,   x_2' = x_3 + kappa u,   ...,   x_(m+2)' = w,      y = x_1 + r
+
+w and r are white with the intensities W [rad^2/s^(2 m + 3)] and R [rad^2 s]. The estimate of least variance is
+the observer (17) with the gains of the algebraic Riccati equation, which for a chain are known in closed form:
+the poles are those of a Butterworth filter of order m + 2 with the bandwidth
+
+    omega = (W / R)^(1 / (2 (m + 2))).
+
+In sampled time the gains L of the current (filtered) form solve the discrete Riccati equation for the noise
+that w adds up to over a period T, and a measurement of variance R / T,
+
+    Q_ij = W T^(2 k - i - j + 1) / ((k - i)! (k - j)! (2 k - i - j + 1)),   k = m + 2,   i, j = 1..k.
+
+Kalman, Bucy, J. Basic Engineering 83(1), 1961; for the poles Kwakernaak, Sivan, Linear Optimal Control Systems,
+1972, 4.4.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import factorial
+
+import numpy as np
+from scipy.linalg import solve_discrete_are
+
+from biped_adrc.errors import check_positive
+from biped_adrc.observers.base import ObserverLaws
+from biped_adrc.observers.chain import ChainObserver, chain_laws, whole
+from biped_adrc.observers.gpi import (
+    GPIParameters,
+    InjectedChain,
+    SampledGPIParameters,
+    gpi_correct,
+    gpi_flow,
+    gpi_predict,
+    held_chain,
+)
+from biped_adrc.types import Array
+
+
+@dataclass(frozen=True)
+class KalmanObserver(InjectedChain):
+    """The module's equations, the same for every joint; `scale` is omega. Make it with `from_noise`."""
+
+    measurement: float = 0.0
+    """R [rad^2 s]."""
+
+    @classmethod
+    def from_noise(cls, drift: float, measurement: float, m: int = 1) -> KalmanObserver:
+        """drift: root of W, what x_(m+2) drifts by in the root of a second; measurement: root of R [rad s^1/2].
+
+        An encoder with errors of standard deviation s at ticks of T seconds has the measurement s T^(1/2).
+        Raises InputError for numbers that are not positive, and for m below 1.
+        """
+        m = whole(m, 1, "m", "order of an observer with a state for the disturbance")
+        check_positive(drift, f"the drift of a Kalman observer is {drift} rad/s^{m + 1.5:g}")
+        check_positive(measurement, f"its measurement noise is {measurement} rad s^(1/2)")
+        return cls(m, float(drift / measurement) ** (1.0 / (m + 2)), float(measurement) ** 2)
+
+    @property
+    def intensity(self) -> float:
+        """W [rad^2/s^(2 m + 3)]."""
+        return self.measurement * self.scale ** (2 * self.order)
+
+    @cached_property
+    def poles(self) -> tuple[complex, ...]:
+        """Those of the Butterworth filter (m + 2,) [rad/s]."""
+        k = self.order
+        angles = np.pi * (0.5 + (np.arange(k) + 0.5) / k)
+        return tuple(complex(pole) for pole in self.scale * np.exp(1j * angles))
+
+    @cached_property
+    def parameters(self) -> GPIParameters:
+        """What the laws `gpi_flow` and `chain_...` need."""
+        gains = np.real(np.poly(np.array(self.poles) / self.scale))[1:]
+        return GPIParameters(np.ascontiguousarray(gains), float(self.scale), self.order)
+
+    @property
+    def laws(self) -> ObserverLaws:
+        return chain_laws(self.parameters, gpi_flow)
+
+    def sampled(self, period: float) -> SampledKalmanObserver:
+        """The steady-state filter for ticks every `period` [s]."""
+        check_positive(period, f"the sampling period is {period} s")
+        return SampledKalmanObserver(self.m, 1.0 / period, period, self)
+
+
+@dataclass(frozen=True)
+class SampledKalmanObserver(ChainObserver):
+    """The discrete filter for one period; `scale` is 1/T."""
+
+    period: float
+    continuous: KalmanObserver
+
+    @cached_property
+    def parameters(self) -> SampledGPIParameters:
+        """What the laws `gpi_correct`, `gpi_predict` and `chain_...` need."""
+        k, T = self.order, self.period
+        Phi, Gamma = held_chain(k, T)
+        R = self.continuous.measurement / T
+        Q = accumulated(k) * self.continuous.intensity * T ** (2 * k - 1) / R
+        C = np.eye(1, k)
+        P = solve_discrete_are(Phi.T, C.T, Q, np.ones((1, 1)))
+        return SampledGPIParameters(Phi, Gamma, P[:, 0] / (P[0, 0] + 1.0), float(self.scale), k)
+
+    @property
+    def laws(self) -> ObserverLaws:
+        return chain_laws(self.parameters, correct=gpi_correct, predict=gpi_predict)
+
+
+def accumulated(order: int) -> Array:
+    """Q (k, k) for W = 1 and T = 1, which is Q in states scaled by powers of T but for T^(2 k - 1)."""
+    left = [order - i for i in range(1, order + 1)]
+    rows = [[1.0 / (factorial(a) * factorial(b) * (a + b + 1)) for b in left] for a in left]
+    return np.array(rows)

@@ -1,0 +1,348 @@
+"""What is asked of every leaf: what it promises in both time bases and in both engines.
+
+`conforms(thing)` runs it over one thing, of the package (rows of test_conformance.py) or of one's own.
+"""
+
+import atexit
+import ctypes
+import pickle
+import shutil
+from dataclasses import replace
+from functools import cache, singledispatch
+from pathlib import Path
+from tempfile import mkdtemp
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.base import controller_laws
+from biped_adrc.control.momentum_dob import MomentumDOBController
+from biped_adrc.disturbances.base import disturbance_laws
+from biped_adrc.engine.compiled_walker import disturbance_code
+from biped_adrc.engine.equations import SymbolicFunction
+from biped_adrc.engine.fingerprint import hash_of
+from biped_adrc.engine.ir import module_text
+from biped_adrc.engine.machine import ModuleText, load_or_compile
+from biped_adrc.engine.program import Program
+from biped_adrc.engine.symbols import Tracer, Vector, column, floats, run
+from biped_adrc.gait.curves import Curve
+from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.observers.base import Estimate, observer_laws
+from biped_adrc.observers.momentum import MomentumChain
+
+PERIOD, SWAP = 1e-3, np.array([1, 0, 3, 2])
+SLOW = ba.GPIObserver.from_bandwidth(20.0)
+"""Its gains do not turn the last bit of an angle into 1e-9 of a rate, as those of Table I do."""
+
+
+@cache
+def robot():
+    return ba.Biped.load("rabbit")
+
+
+@cache
+def gait():
+    return ba.load_gait("published", robot())
+
+
+def written(text, name="given.csv"):
+    """The path of a file with this text."""
+    folder = mkdtemp()
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    (path := Path(folder) / name).write_text(text)
+    return path
+
+
+def outputs(h):
+    return ba.LinearOutputs(np.eye(4, 5), h)
+
+
+# -- what is asked of a thing --------------------------------------------------------------------
+@singledispatch
+def conforms(thing):
+    """Run the suite over one thing: a controller, an observer, a disturbance or a curve."""
+    raise TypeError(f"{thing!r} is no leaf")
+
+
+@conforms.register
+def _(controller: ba.Controller):
+    for timing in (ba.ContinuousTime(), ba.SampledTime(PERIOD)):
+        walker = ba.Walker(robot(), controller, timing=timing)
+        law = unless("Time(", lambda: walker.law)  # noqa: B023
+        if law is None:
+            assert walker.sampled
+            continue
+        for m, random in measurements(3):
+            contract(law, m, random, walker.sampled)
+        if not controller_laws(law).obstacle:
+            laws_compile(law)
+            loop_compiles(replace(walker, plant=heavy(), model=robot(), torque_limit=150.0))
+
+
+@conforms.register
+def _(observer: ba.Observer):
+    still = observer.initial_state(*np.zeros((3, 4))), *np.zeros((2, 4))
+    if unless("sampled time only", lambda: observer.flow(*still)) is None:
+        estimator(observer, ("correct", "predict"))
+        return
+    estimator(observer, ("flow",))
+    discrete = unless("has no discrete form", lambda: observer.sampled(PERIOD))
+    if discrete is not None:
+        estimator(discrete, ("correct", "predict"))
+
+
+@conforms.register
+def _(disturbance: ba.Disturbance):
+    random, n = np.random.default_rng(5), 5
+    seen = []
+    for step in (1, 2, 3):
+        edges = disturbance.switching_times(step, 1.0)
+        before = [np.nextafter(t, 0.0) for t in edges]
+        for t in (1.0, 1.15, 1.3, *edges, *before):
+            q, v = random.normal(size=(2, n))
+            kept, at = (q.copy(), v.copy()), (float(t), step, 1.0, q, v)
+            one = disturbance.torque(*at)
+            assert one.shape == (n,)
+            assert np.all(np.isfinite(one))
+            seen.append(np.array(one))
+            one += 1.0  # what is handed out is the caller's
+            assert np.array_equal(seen[-1], disturbance.torque(*at))
+            assert np.array_equal(kept, (q, v))
+            assert disturbance.resultant(*at[:3]).shape == (2,)
+            torque_compiles(disturbance, at)
+    assert np.any(seen), "it never does anything in the first three single supports"
+
+
+@conforms.register
+def _(sensor: Sensor):
+    """Pure, of the size that it says, at ticks and impacts, in Python, as laws and in the loop."""
+    laws, random = sensor.laws(5, 4, PERIOD), np.random.default_rng(6)
+    k, (q, v, dv) = laws.parameters, random.normal(size=(3, 5))
+    w = sensor.start(k, q, v)
+    assert w.shape == (laws.size,)
+    assert np.array_equal(w, sensor.start(k, q, v))
+    for _ in range(5):
+        kept, at = (w.copy(), q.copy(), v.copy()), (k, w, q, v)
+        after = [agree(laws.sense, *at), agree(laws.impact, *at, v + dv)]
+        assert np.array_equal(after[0], laws.sense(*at))
+        assert all(x.shape == w.shape and np.all(np.isfinite(x)) for x in after)
+        sight = agree(laws.seen, *at)
+        assert [x.shape for x in sight] == [(5,), (5,)]
+        assert all(np.array_equal(a, b) for a, b in zip(kept, (w, q, v), strict=True))
+        w, q, v = after[0], q + 0.01 * v, v + 0.1 * dv
+    timing = ba.SampledTime(PERIOD)
+    walker = ba.Walker(heavy(), ba.NPDController(gait().constraint), timing=timing, sensors=sensor)
+    loop_compiles(replace(walker, model=robot()))
+    assert walker.held.sizes.sensors == laws.size
+    assert pickle.loads(pickle.dumps(walker)).sensors == sensor
+
+
+@conforms.register
+def _(curve: Curve):
+    """Two derivatives, continuous where pieces meet, in both engines; a curve of a gait."""
+    p, d = len(curve(0.0)[0]), 1e-5
+    for s in np.linspace(-0.2, 1.2, 141):
+        h, dh, ddh = curve(float(s))
+        assert h.shape == dh.shape == ddh.shape == (p,)
+        ahead, behind = curve(float(s + d)), curve(float(s - d))
+        scale = 1.0 + np.max(np.abs(ddh))
+        for k in (0, 1):
+            slope = (ahead[k] - behind[k]) / (2.0 * d)
+            assert np.max(np.abs(slope - (dh, ddh)[k])) <= 1e-2 * scale
+        assert np.max(np.abs(ahead[2] - behind[2])) <= 1e-2 * scale
+    for s in curve.pieces[0]:
+        for before, after in zip(curve(float(s - 1e-10)), curve(float(s + 1e-10)), strict=True):
+            assert np.max(np.abs(after - before)) <= 1e-6 * scale
+    c = gait().constraint
+    h = ba.VirtualConstraint(curve, c.phase, c.theta_plus, c.theta_minus)
+    for constraint in (h, ba.continued(h)):
+        laws = constraint.laws
+        for m, _ in measurements(4):
+            found = agree(laws.point, laws.parameters, m.t, m.q, m.v)
+            for one, other in zip(found, constraint(m.t, m.q, m.v), strict=True):
+                assert np.array_equal(one, other)
+
+
+def unless(words, call):
+    """What a call gives, None where it is refused in these words."""
+    try:
+        return call()
+    except ba.BipedError as error:
+        if words not in str(error):
+            raise
+        return None
+
+
+# -- parts of it -----------------------------------------------------------------------------------
+@cache
+def heavy():
+    return robot().with_errors(mass={"torso": 1.2})
+
+
+def measurements(count):
+    """About the orbit, with what a body measures; and the generator."""
+    walker, random = ba.Walker(robot(), ba.Passive()), np.random.default_rng(3)
+    q, v = gait().start(robot())
+    for _ in range(count):
+        x = q + 0.05 * random.normal(size=5), v + 0.5 * random.normal(size=5)
+        m = walker.measure(0.1, *x, ba.Mode())
+        yield m._replace(body=robot().body_terms(*x)), random
+
+
+def contract(law, m, random, sampled):
+    """Pure functions of the right shapes that leave alone what they are given."""
+    s = law.initial_state(m)
+    s = s * (1.0 + 0.01 * random.normal(size=len(s)))
+    kept = [np.copy(x) for x in (s, m.q, m.v)]
+    u = law.output(s, m)
+    assert np.array_equal(u, law.output(s, m))
+    assert u.shape == (len(m.q_b),)
+    assert np.all(np.isfinite(u))
+    after = [law.jump(s, m, SWAP)]
+    after += [law.correct(s, m), law.predict(s, m, u)] if sampled else [law.flow(s, m, u)]
+    for state in after:
+        assert state.shape == s.shape
+        assert np.all(np.isfinite(state))
+    for one, other in zip(kept, (s, m.q, m.v), strict=True):
+        assert np.array_equal(one, other)
+
+
+def laws_compile(law):
+    """Each law of a controller alone: machine code, Python and the methods have the same numbers."""
+    laws = controller_laws(law)
+    k = laws.parameters
+    for m, random in measurements(3):
+        s = law.initial_state(m)
+        s, u = s * (1.0 + 0.01 * random.normal(size=len(s))), 20.0 * random.normal(size=4)
+        given = {"output": (s, m), "flow": (s, m, u), "correct": (s, m), "predict": (s, m, u)}
+        for name, rest in (given | {"initial_state": (m,), "jump": (s, m, SWAP)}).items():
+            if getattr(laws, name) is not None:
+                expected = agree(getattr(laws, name), k, *rest)
+                assert np.array_equal(expected, getattr(law, name)(*rest))
+        if laws.estimate is not None:
+            agree(laws.estimate, k, s, m)
+
+
+def loop_compiles(walker):
+    """The closed loop of a wrong model, pushed and limited: flow, tick and strike in machine code."""
+    random, n, mode = np.random.default_rng(11), walker.plant.n, ba.Mode(3, 0.05)
+    q, v = gait().start(robot())
+    program = struck = None
+    for i in range(40):
+        x = walker.initial_state(*(a + 0.3 * random.normal(size=n) for a in (q, v)))
+        x[2 * n :] *= 1.0 + 0.1 * random.normal(size=len(x) - 2 * n)
+        if program is None:
+            program = Program.of(walker, walker.controller_size(x))
+        zeta = 30.0 * random.normal(size=n)
+        pushed = replace(walker, disturbance=ba.TorqueStep(zeta))
+        close(program, "flow", (0.1, 3.0, 0.05, x, zeta), pushed.flow(0.1, x, mode))
+        if walker.sampled:
+            outside = np.zeros(5)
+            close(program, "tick", (0.1, 3.0, 0.05, x, zeta, outside), pushed.tick(0.1, x, mode))
+        after = walker.strike(0.1, x, ba.Mode(2, 0.0)) if i < 20 or struck is None else None
+        if after is not None:
+            struck = after
+            close(program, "strike", (0.1, 3.0, x), after[0])
+    assert struck is not None
+
+
+def estimator(observer, steps):
+    """Start, estimates, every reset and what moves it, in Python, as laws and under a controller."""
+    y, dy, xi = np.random.default_rng(4).normal(size=(3, 4))
+    z = observer.initial_state(y, dy, xi)
+    kept, x = z.copy(), observer.estimate(z)
+    assert x.position == pytest.approx(y)
+    for found, given in ((x.velocity, dy), (x.disturbance, xi)):
+        assert found == pytest.approx(given) or not np.any(found)
+    given = {"flow": (y, xi), "correct": (y,), "predict": (xi,)}
+    after = [getattr(observer, name)(z, *given[name]) for name in steps]
+    after += [observer.reset(z, policy, SWAP, y, dy, xi) for policy in ba.ResetPolicy]
+    for state in after:
+        assert state.shape == z.shape
+        assert np.all(np.isfinite(state))
+    assert np.array_equal(z, kept)
+    laws = observer_laws(observer)
+    if laws.obstacle:
+        return
+    for name in given.keys() - set(steps):
+        assert getattr(laws, name) is None
+        with pytest.raises(ba.BipedError, match="works in"):
+            getattr(observer, name)(z, *given[name])
+    k, Z = laws.parameters, np.random.default_rng(4).normal(size=z.shape)
+    Z = Z.reshape(observer.order, 4)
+    assert np.array_equal(agree(laws.state, k, Estimate(y, dy, xi)).ravel(), z)
+    for one, other in zip(agree(laws.estimate, k, Z), observer.estimate(Z.ravel()), strict=True):
+        assert np.array_equal(one, other)
+    for policy in ba.ResetPolicy:
+        expected = agree(laws.reset, k, policy.code, Z, SWAP, Estimate(y, dy, xi))
+        assert np.array_equal(expected.ravel(), observer.reset(Z.ravel(), policy, SWAP, y, dy, xi))
+    for name in steps:
+        expected = agree(getattr(laws, name), k, Z, *given[name])
+        found = getattr(observer, name)(Z.ravel(), *given[name])
+        assert np.array_equal(expected.ravel(), found)
+    around = MomentumDOBController if isinstance(observer, MomentumChain) else ba.ADRCController
+    for policy in ba.ResetPolicy:
+        law = around(gait().constraint, observer, reset=policy)
+        assert not law.laws.obstacle
+        for m, random in measurements(1):
+            contract(law, m, random, "predict" in steps)
+            s = random.normal(size=len(law.initial_state(m)))
+            expected = agree(law.laws.jump, law.laws.parameters, s, m, SWAP)
+            assert np.array_equal(expected, law.jump(s, m, SWAP))
+
+
+def torque_compiles(disturbance, at):
+    """Torque and force of a disturbance whose laws compile."""
+    laws = disturbance_laws(disturbance)
+    if any(law.obstacle for law in laws):
+        return
+    inp, n = np.concatenate([np.ravel(x) for x in at]), len(at[3])
+    zeta, force = np.zeros(n), np.zeros(2)
+    for law in laws:
+        code, K = disturbance_code(law, n), np.array([*floats(law.parameters), 0.0])
+        zeta += call(code, "torque", K, inp, n)
+        if law.resultant is not None:
+            force += call(code, "resultant", K, inp, 2)
+    assert np.max(np.abs(zeta - disturbance.torque(*at))) <= 1e-13
+    assert np.max(np.abs(force - disturbance.resultant(*at[:3]))) <= 1e-13
+    assert {switch for law in laws for switch in law.switches} == set(disturbance.switches)
+
+
+# -- machine code ----------------------------------------------------------------------------------
+DOUBLES = ctypes.POINTER(ctypes.c_double)
+FUNCTION = ctypes.CFUNCTYPE(None, DOUBLES, DOUBLES, DOUBLES)
+
+
+def call(code, name, K, inp, size):
+    """What a function of machine code writes."""
+    out = np.full(size, np.nan)
+    pointers = (np.ascontiguousarray(x).ctypes.data_as(DOUBLES) for x in (K, inp, out))
+    FUNCTION(code.addresses[name])(*pointers)
+    return out
+
+
+def close(program, name, given, expected):
+    """A function of a walker's program has these numbers first."""
+    inp = np.concatenate([np.atleast_1d(x) for x in given])
+    found = call(program.machine, name, program.K, inp, 2 * len(inp))[: len(expected)]
+    assert np.max(np.abs(found - expected)) <= 1e-11 * np.max(np.abs(expected))
+
+
+def agree(law, *arguments):
+    """The result in Python, equal to that of the machine code to 1e-12 of its largest number.
+
+    The code solves linear systems by an elimination of its own, so round-off differs from LAPACK's.
+    """
+    expected = law(*arguments)
+    numbers = np.array([x for argument in arguments for x in floats(argument)] + [0.0])
+    K = Vector("K", len(numbers))
+    found = run(Tracer(), law, *(K.like(argument) for argument in arguments))
+    parts = found if isinstance(found, tuple) else (found,)
+    text = module_text({"law": SymbolicFunction(K.symbol, Vector("inp", 1).symbol, column(*parts))})
+    code = load_or_compile(hash_of("tested", text), ["law"], lambda: ModuleText(text))
+    whole = expected if isinstance(expected, tuple) else (expected,)
+    one = np.concatenate([np.ravel(x) for x in whole])
+    other = call(code, "law", numbers, np.zeros(1), len(one))
+    assert np.max(np.abs(one - other), initial=0.0) <= 1e-12 * np.max(np.abs(one), initial=1.0)
+    return expected

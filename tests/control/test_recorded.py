@@ -1,0 +1,62 @@
+"""A recorded push: the file's lines between rows, its work, and what is said of files that are none."""
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.disturbances.recorded import PIECES, RecordedTorque
+
+from .conforms import written
+
+
+def test_it_is_the_files_lines_and_its_impulse_that_of_trapezoids(biped):
+    random = np.random.default_rng(2)
+    times = np.cumsum(random.uniform(0.001, 0.02, 3 * PIECES + 5))
+    torques = 20.0 * random.normal(size=(len(times), 5))
+    recorded, still = RecordedTorque(times, torques, step=2, start=0.01), np.zeros(5)
+    inside = np.linspace(times[0], times[-1] - 1e-9, 400)
+    found = [recorded.torque(1.01 + t, 2, 1.0, still, still) for t in inside]
+    expected = np.array([np.interp(inside, times, column) for column in torques.T]).T
+    assert np.max(np.abs(found - expected)) < 1e-11
+    middles = [
+        recorded.torque(1.01 + t, 2, 1.0, still, still) for t in 0.5 * (times[1:] + times[:-1])
+    ]
+    impulse = np.diff(times) @ np.array(middles)
+    assert impulse == pytest.approx(
+        np.diff(times) @ (0.5 * (torques[1:] + torques[:-1])), rel=1e-12
+    )
+    for t, step in ((1.01 + times[0] - 1e-9, 2), (1.01 + times[-1], 2), (1.1, 1)):
+        assert not np.any(recorded.torque(t, step, 1.0, still, still))
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "its columns are"),
+        ("t\n0\n1", "expected one 't'"),
+        ("q1,q2\n0,1\n1,2", "expected one 't'"),
+        ("t,q1,q1\n0,1,1\n1,1,1", "different joints"),
+        ("t,q1\n0,1", "K >= 2 rows"),
+        ("t,q1\n0,1\n0,2", "row 2 of the recording has t = 0 s"),
+        ("t,q1\n0,nan\n1,2", "row 1 of the recording"),
+        ("t,q1\n0,1\nx,2", "line 3: could not convert string to float: 'x'"),
+        ("t,q1\n0,1\n1", "line 3 has 1 numbers, expected 2"),
+        ("t,q9\n0,1\n1,2", "no joint 'q9'"),
+        ("t,q1\n-1,1\n1,1", "begins at -1 s"),
+    ],
+)
+def test_bad_recordings(biped, text, message):
+    with pytest.raises(ba.BipedError, match=message) as raised:
+        RecordedTorque.read(written(text), biped)
+    assert "given.csv" in str(raised.value)
+
+
+def test_by_name_and_without_its_file(biped):
+    file = str(written("t,q1\n0,0\n0.1,20\n0.3,0\n"))
+    named = {"push": "recorded", "pushed_step": 1, "onset": 0.05, "impacts": 1}
+    walk = ba.walk_scenario(ba.Scenario("NPD", own={"file": file}, **named))
+    assert walk.walker.disturbance.switches == ((0, 0.05), (0, 0.35))
+    with pytest.raises(ba.BipedError, match="needs file"):
+        ba.walk_scenario(ba.Scenario("NPD", **named))
+    with pytest.raises(ba.BipedError, match=r"gone\.csv' not found"):
+        ba.walk_scenario(ba.Scenario("NPD", own={"file": "gone.csv"}, **named))
