@@ -26,6 +26,8 @@ package a dataclass or a NamedTuple is preferred.
 
 DaskClient: TypeAlias = Any
 """`distributed.Client`, the connection to a Dask scheduler: Dask is optional and has no types of its own."""
+DaskFuture: TypeAlias = Any
+"""`distributed.Future`, a task on the cluster, for the same reason."""
 
 
 def read_only(values: ArrayLike) -> Array:

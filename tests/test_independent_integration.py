@@ -12,7 +12,8 @@ import pytest
 from scipy.integrate import LSODA
 
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.paper.plan import BOTH, Plan, headline, pushed_run
+from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.paper.plan import Plan, headline, pushed_run
 from biped_adrc.scenario.build import RobotAndGait, build
 
 WITHIN = 0.005
@@ -42,7 +43,7 @@ def peak_error(walker, constraint, x, mode, t_end):
     return most
 
 
-@pytest.mark.parametrize("controller", BOTH)
+@pytest.mark.parametrize("controller", CONTROLLERS)
 @pytest.mark.parametrize("preset", ["identified", "identified-bare", "tac2003"])
 def test_the_peak_under_the_push(preset, controller):
     run = pushed_run(Plan(preset), controller)

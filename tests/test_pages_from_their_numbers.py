@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.bench.compare_study import figures
-from biped_adrc.paper.plan import BOTH
+from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.viz.figure_numbers import as_text, differences, numbers_of
 from biped_adrc.viz.plots.push_map import push_map_figure
 
@@ -75,7 +75,7 @@ def test_the_caption_of_the_readme_has_the_numbers_of_the_runs():
     stored = (ROOT / "docs" / "results" / "summary.json").read_text(encoding="utf-8")
     runs = json.loads(stored)["tables"]["Runs"]
     peak = runs["columns"].index("peak error [rad]")
-    npd, adrc = (next(r[peak] for r in runs["rows"] if r[0] == f"push {c}") for c in BOTH)
+    npd, adrc = (next(r[peak] for r in runs["rows"] if r[0] == f"push {c}") for c in CONTROLLERS)
     readme = (ROOT / "README.md").read_text(encoding="utf-8").replace("\n", " ")
     assert (
         f"NPD leaves its reference by {1e3 * npd:.1f} mrad, ADRC by {1e6 * adrc:.1f} µrad" in readme

@@ -42,9 +42,9 @@ def acceleration(k: ObservingParameters, q: Any, v: Any, Z: Any, A_N: Any, a_N: 
     p = A_N.numel()
     h, dh, ddh, dtheta = constraint(k.h, q, v)
     x1, x2 = Z[0, :].T, Z[1, :].T * k.observer.scale
-    f = -k.tracking.K_d * (x2 - dh * dtheta) - k.tracking.K_p * (x1 - h)
+    f = -k.own.K_d * (x2 - dh * dtheta) - k.own.K_p * (x1 - h)
     drift = ddh * dtheta**2 + f
-    if k.tracking.loop == 0.0:
+    if k.own.loop == 0.0:
         return drift
     H = dh @ k.h.c[np.newaxis]
     return ca.solve(ca.SX.eye(p) - H[:, :p] - H[:, p] @ A_N, drift + H[:, p] * a_N)

@@ -19,11 +19,13 @@ from typing import ClassVar, ParamSpec, TypeVar, cast
 
 from biped_adrc.campaign.workers import Workers, WorkersError
 from biped_adrc.errors import InputError
-from biped_adrc.types import DaskClient
+from biped_adrc.types import DaskClient, DaskFuture
 from biped_adrc.versions import differences, numerical_versions
 
 TIMEOUT = 10.0
 """Time for a scheduler to answer, and for its first worker to appear [s]."""
+PATIENT = 6
+"""Timeouts without any result and without any worker, after which a study ends; Dask replaces them sooner."""
 
 P = ParamSpec("P")
 """Arguments of what is submitted."""
@@ -62,7 +64,7 @@ class Cluster(Workers):
         except BaseException:
             client.close(timeout=1)
             raise
-        return _Checked(client, client.get_executor(pure=False), numerical_versions())
+        return _Checked(client, numerical_versions())
 
     def count(self, executor: Executor) -> int:
         """Threads of all workers."""
@@ -83,14 +85,21 @@ class Cluster(Workers):
 
         return super().broken(error) or isinstance(error, KilledWorker)
 
-    def check(self, executor: Executor) -> None:
-        """Raises WorkersError where the connection to the scheduler is closed."""
+    def check(self, executor: Executor, idle: float) -> None:
+        """Raises WorkersError where the connection to the scheduler is closed, and where nothing has ended for
+        longer than `PATIENT` timeouts and no worker is left.
+        """
         client = _client_of(executor)
         comm = client.scheduler_comm
         if client.status != "running" or comm is None or comm.comm.closed():
             raise WorkersError(
                 f"the scheduler at {self.address} has gone away; what was finished is kept. Start the cluster "
                 "again, and then the study: it goes on from there"
+            )
+        if idle > PATIENT * self.timeout and not client.nthreads():
+            raise WorkersError(
+                f"the scheduler at {self.address} has had no worker for {idle:.0f} s; what was finished is "
+                f"kept. Start some with 'dask worker {self.address}', then the study: it goes on from there"
             )
 
 
@@ -174,15 +183,32 @@ def _run(expected: Versions, function: Callable[P, T], *args: P.args, **kwargs: 
 
 @dataclass(frozen=True)
 class _Checked(Executor):
-    """Dask's executor, which lets each worker look at its versions before it runs anything."""
+    """Dask's client as an executor, which lets each worker look at its versions before it runs anything.
+
+    Dask's own executor takes a result and the state of its task one after the other; a worker that dies between
+    the two leaves a future that never ends. Here one call gives either the result or an error.
+    """
 
     client: DaskClient
-    inner: Executor
     versions: Versions
 
     def submit(self, function: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
         checked: Callable[..., T] = partial(_run, dict(self.versions), function)
-        return self.inner.submit(checked, *args, **kwargs)
+        there = self.client.submit(checked, *args, pure=False, **kwargs)
+        here: Future[T] = Future()
+        here.add_done_callback(lambda ended: there.cancel() if ended.cancelled() else None)
+        there.add_done_callback(partial(_hand_over, here))
+        return here
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        self.inner.shutdown(wait=wait and not cancel_futures)
+        """Nothing: `Cluster.stop` closes the connection, which gives up what has not ended."""
+
+
+def _hand_over(here: Future[T], there: DaskFuture) -> None:
+    """The outcome of a task on the cluster, as that of the future that was handed out."""
+    if not here.set_running_or_notify_cancel():
+        return
+    try:
+        here.set_result(there.result())
+    except BaseException as error:
+        here.set_exception(error)

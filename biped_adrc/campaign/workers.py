@@ -83,8 +83,8 @@ class Workers(ABC):
         """Whether an error means that a worker died, rather than an error in what it ran."""
         return isinstance(error, BrokenExecutor)
 
-    def check(self, executor: Executor) -> None:
-        """Called when nothing has come for a while. Raises WorkersError when nothing will."""
+    def check(self, executor: Executor, idle: float) -> None:
+        """Called when nothing has come for a while, `idle` [s]. Raises WorkersError when nothing will."""
         return
 
 

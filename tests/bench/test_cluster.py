@@ -10,12 +10,13 @@ from pathlib import Path
 
 import pytest
 import standin
+from distributed import Client
 from standin import about, records, results, rows
 
 from biped_adrc.bench.study_file import read_study
 from biped_adrc.bench.sweep import sweep
 from biped_adrc.campaign import dask_cluster as of_cluster
-from biped_adrc.campaign.dask_cluster import Cluster, difference
+from biped_adrc.campaign.dask_cluster import Cluster, _Checked, difference
 from biped_adrc.campaign.execute import run_study
 from biped_adrc.campaign.store_open import open_store
 from biped_adrc.campaign.workers import Threads
@@ -105,6 +106,41 @@ def test_a_record_that_kills_every_worker_is_named(tmp_path, address):
     given = [{**r, "kill": 1} if r["x"] == 3 else r for r in records(12)]
     found, _ = run(tmp_path / "kill.sqlite", given, Cluster(address), chunk=2)
     assert [k for k, _, _, row in found if row["status"] == "CRASHED"] == [3]
+
+
+def test_a_cluster_that_loses_all_its_workers_ends_the_study_and_keeps_what_was_finished(tmp_path):
+    process, address = started(1)
+    path = tmp_path / "r.sqlite"
+
+    def retire(p):
+        if p.fresh >= 20:
+            with Client(address, set_as_default=False) as client:
+                client.retire_workers()
+
+    with pytest.raises(SimulationError, match="has had no worker for"):
+        run(path, records(400, 5e-3), Cluster(address, timeout=1.0), chunk=4, progress=retire)
+    process.communicate("")
+    with open_store(path, about()) as store:
+        assert 20 <= len(store) < 400
+
+
+def test_a_worker_that_dies_with_a_result_that_nobody_has_fetched(address):
+    class Lost:
+        """A task whose state says that its worker died, while its result has come all the same."""
+
+        status = "error"
+
+        def add_done_callback(self, call):
+            call(self)
+
+        def result(self):
+            return [1, 2, 3, 4]
+
+    class Client:
+        def submit(self, *args, **kwargs):
+            return Lost()
+
+    assert _Checked(Client(), {}).submit(len, "four").result(timeout=5.0) == [1, 2, 3, 4]
 
 
 def test_a_scheduler_that_goes_away_ends_the_study_and_keeps_what_was_finished(tmp_path):

@@ -28,7 +28,7 @@ FALL = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
 
 def npd_output(k, s, m):
     """NPD on a virtual constraint; k is `NPDController(...).laws.parameters`."""
-    return npd_torque(k.tracking, virtual_constraint(k.h, m.q, m.v), m)
+    return npd_torque(k.own, virtual_constraint(k.h, m.q, m.v), m)
 
 
 @dataclass(frozen=True)

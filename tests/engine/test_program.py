@@ -25,7 +25,7 @@ COUNT = 10_000
 
 def npd_output(k, s, m):
     """NPD on a virtual constraint; k is `NPDController(...).laws.parameters`."""
-    return npd_torque(k.tracking, virtual_constraint(k.h, m.q, m.v), m)
+    return npd_torque(k.own, virtual_constraint(k.h, m.q, m.v), m)
 
 
 def evaluator(program, name, inputs, outputs):

@@ -40,7 +40,7 @@ PULSE = (30.0, 0.0, -10.0, 5.0, 3.0)
 
 def npd_output(k, s, m):
     """NPD on a virtual constraint; k is `NPDController(...).laws.parameters`."""
-    return npd_torque(k.tracking, virtual_constraint(k.h, m.q, m.v), m)
+    return npd_torque(k.own, virtual_constraint(k.h, m.q, m.v), m)
 
 
 def npd(gait, **more):
