@@ -11,10 +11,11 @@ take seconds to load, and most programs need only some of them.
 from __future__ import annotations
 
 import re
+from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 _STUB = Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
 _HOMES = {
@@ -31,7 +32,9 @@ def __getattr__(name: str) -> object:
     Raises AttributeError for what is no public name.
     """
     if name not in _HOMES:
-        raise AttributeError(f"module 'biped_adrc' has no attribute '{name}'")
+        near = get_close_matches(name, _HOMES, 1)
+        meant = f"; did you mean '{near[0]}'?" if near else ""
+        raise AttributeError(f"module 'biped_adrc' has no attribute '{name}'{meant}")
     return getattr(import_module(f"biped_adrc.{_HOMES[name]}"), name)
 
 

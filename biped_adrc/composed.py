@@ -19,6 +19,9 @@ from collections.abc import Callable
 from functools import cached_property, partial
 from typing import Any, ClassVar
 
+from biped_adrc.parts import check_fields
+from biped_adrc.shown import Shown
+
 
 def written_over(part: object, given: str, methods: frozenset[str]) -> str:
     """Name of a method that a subclass writes anew below the class that defines `given`; empty for none.
@@ -36,13 +39,17 @@ def written_over(part: object, given: str, methods: frozenset[str]) -> str:
     return ""
 
 
-class Composed(ABC):
+class Composed(Shown, ABC):
     """Base class of what has laws. A subclass states its kind, the methods its laws replace, and `laws`."""
 
     _kind: ClassVar[str]
     """What it is, in a word for messages, such as "controller"."""
     _methods: ClassVar[frozenset[str]]
     """Names of the methods that call the laws; one of them written anew by a subclass is an obstacle."""
+
+    def __post_init__(self) -> None:
+        """Raises InputError for a field that is not what its annotation says."""
+        check_fields(self)
 
     @property
     @abstractmethod

@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass
 
 from biped_adrc.errors import InputError
+from biped_adrc.parts import check_fields
 
 LONGEST_PERIOD = 0.1
 """Largest sampling period accepted [s].
@@ -54,6 +55,7 @@ class SampledTime:
     delay_known: bool = False
 
     def __post_init__(self) -> None:
+        check_fields(self)
         if not (math.isfinite(self.period) and 0.0 < self.period <= LONGEST_PERIOD):
             raise InputError(
                 f"the sampling period is {self.period} s, expected a positive number, at most "

@@ -16,6 +16,8 @@ from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from biped_adrc import __version__
+
 SHOWN = ("biped-adrc", "pin", "numpy", "scipy", "meshcat", "matplotlib")
 """Packages that a report lists."""
 NUMERICAL = (
@@ -51,11 +53,14 @@ user passes in are hashed on their own.
 
 
 def packages(names: Iterable[str]) -> dict[str, str]:
-    """Installed version by name of package; "none" for one that is not installed."""
+    """Installed version by name of package; "none" for one that is not installed.
+
+    That of this package is its `__version__`.
+    """
     found = {}
     for name in names:
         try:
-            found[name] = version(name)
+            found[name] = __version__ if name == "biped-adrc" else version(name)
         except PackageNotFoundError:
             found[name] = "none"
     return found

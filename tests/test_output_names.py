@@ -118,7 +118,7 @@ def test_a_finished_run_is_written_before_it_is_printed(folder, monkeypatch):
     assert load("kept.npz").status.ok
 
 
-@pytest.mark.parametrize("out", ["o.csv", "o.parquet", "o.json", "o.npz.gz", ".", "", "own"])
+@pytest.mark.parametrize("out", ["o.txt", "o.parquet", "o.json", "o.npz.gz", ".", "", "own"])
 def test_a_name_that_is_no_runs_is_refused_before_the_walk(out, folder, monkeypatch):
     before = contents(folder)
     walk = "biped_adrc.scenario.run.walk_in_parts"

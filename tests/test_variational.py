@@ -13,6 +13,7 @@ from biped_adrc.analysis.stability import (
     StabilityMethod,
     StabilityTable,
     Tolerances,
+    central_row,
     invariance_gap,
     regression_row,
     stability_table,
@@ -532,3 +533,43 @@ def test_recipe_gait_without_invariance(biped):
     close(directional(P, step.s, w, 1e-5), values[first].real * w, 1e-5)
     delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
     assert abs(delta2 - values[first].real) > 10.0 * Tolerances().relative
+
+
+# -- the noise of differences ----------------------------------------------------------------------
+def test_differences_are_within_their_noise_and_it_is_no_blank_cheque():
+    """The multipliers of gait v0.8 are 1e-7, with sensitivities of a hundred: the bound has to hold, to fall
+    with the step to the tolerance, and to be seen where d is small."""
+    cycle = ba.find_cycle("rabbit", gait="v0.8")
+    bounds = {}
+    for h, widths in ((1e-3, [1e-4]), (5e-4, [1e-4, 1e-7])):
+        P = replace(cycle.P, method=ba.RK4(h))
+        orbit, step = periodic_orbit(P, cycle.guess)
+        for d in widths:
+            row = central_row(replace(P, difference=d), P.project(orbit.x_minus), step)
+            wrong = np.max(np.abs(row.magnitudes - np.abs(step.multipliers)))
+            assert wrong <= np.max(row.noise)
+            bounds[h, d] = wrong, np.max(row.noise)
+    assert bounds[5e-4, 1e-4][1] < min(5e-6, 0.1 * bounds[1e-3, 1e-4][1])
+    wrong, bound = bounds[5e-4, 1e-7]
+    assert wrong > 1e-7
+    assert bound < 200.0 * wrong
+
+
+def test_a_difference_within_the_noise_agrees_and_one_beyond_does_not():
+    noise = np.array([1e-9, 5e-7])
+    assert not table_of(EQUATION, rows_of(0.7, 1e-3 + 1.5e-7)).agree
+    within = table_of(EQUATION, rows_of(0.7, 1e-3 + 1.5e-7, noise=noise))
+    assert within.agree
+    assert (
+        "1e-07 absolute or what root finder and step leave open, at most 5.0e-07." in within.verdict
+    )
+    assert not table_of(EQUATION, rows_of(0.7, 1e-3 + 6e-7, noise=noise)).agree
+    assert not table_of(
+        EQUATION, rows_of(0.7 + 1e-6, 1e-3, noise=noise)
+    ).agree  # its own noise is small
+
+
+def test_poincare_of_a_gait_with_small_multipliers_agrees():
+    found = ba.cycle_stability(ba.find_cycle("rabbit", gait="v0.8"), samples=0)
+    assert "Central differences: agrees within" in found.table.verdict
+    assert found.table.agree

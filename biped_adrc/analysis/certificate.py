@@ -25,6 +25,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.robots.robot_toml import ENDS, ROUND_OFF, KnownLimits, Limits, completed
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 REASONS = ("normal_force", "friction", "torque", "scuffing")
@@ -32,7 +33,7 @@ REASONS = ("normal_force", "friction", "torque", "scuffing")
 
 
 @dataclass(frozen=True)
-class Support:
+class Support(Shown):
     """One single support, also an unfinished one. A friction is infinite where the ground never pushed."""
 
     step: int

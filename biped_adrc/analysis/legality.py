@@ -30,6 +30,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.robots.robot_toml import KnownLimits, Limits
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 OUTCOMES = {
@@ -75,7 +76,7 @@ def _over_steps(worst: Callable[[list[float]], float], name: str, text: str) -> 
 
 
 @dataclass(frozen=True)
-class Legality:
+class Legality(Shown):
     """What the single supports of a walk needed, the last unfinished one included, compared with limits.
 
     The numbers below are extremes over all single supports, with the units of `Support`.

@@ -16,11 +16,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from biped_adrc.errors import InputError
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)
-class Regression:
+class Regression(Shown):
     """Phi of (27), its eigenvalues, and how well the data determine it."""
 
     Phi: Array

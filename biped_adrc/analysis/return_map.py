@@ -31,6 +31,8 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.linear import solve
+from biped_adrc.parts import check_fields
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray
 
 if TYPE_CHECKING:
@@ -45,7 +47,7 @@ Mapper = Callable[[Callable[[AfterImpact], Array], Iterable[AfterImpact]], Itera
 
 
 @dataclass(frozen=True)
-class PeriodicOrbit:
+class PeriodicOrbit(Shown):
     """A fixed point of the return map."""
 
     x_minus: Array
@@ -64,7 +66,7 @@ class PeriodicOrbit:
 
 
 @dataclass(frozen=True)
-class ReturnMap:
+class ReturnMap(Shown):
     """The map P in section coordinates s, for a walker and an integration method.
 
     Raises InputError for a walker with noise or a meter, whose state never returns.
@@ -84,6 +86,7 @@ class ReturnMap:
     """Either "compiled" or "pinocchio", which also replaces it where a part has no compiled form."""
 
     def __post_init__(self) -> None:
+        check_fields(self)
         check_engine(self.engine)
         w = self.walker
         noisy = w.sensors is not None and w.sensors.noisy

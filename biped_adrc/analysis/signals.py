@@ -20,6 +20,7 @@ from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 LONG = 2000
@@ -27,7 +28,7 @@ LONG = 2000
 
 
 @dataclass(frozen=True)
-class Signals:
+class Signals(Shown):
     """All signals of a walk; rows are the K stored nodes. Impacts and sample instants repeat their
     time, with the values before and after.
     """
@@ -84,6 +85,10 @@ class Signals:
     """(K,) x of the stance foot in the world [m]."""
     foothold_height: Array
     """(K,) z of the stance foot in the world [m]."""
+
+    def __repr__(self) -> str:
+        ends = f"{self.t[0]:.4g} to {self.t[-1]:.4g} s"
+        return f"Signals({len(self.t)} nodes, {ends}, n = {self.q.shape[1]}, p = {self.u.shape[1]})"
 
     @property
     def xi_unmatched(self) -> Array:

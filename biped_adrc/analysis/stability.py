@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
+from scipy.linalg import eig
 from scipy.optimize import linear_sum_assignment
 
 from biped_adrc.analysis.regression import Regression
@@ -29,7 +30,9 @@ from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.hybrid.simulator import event_time_error
 from biped_adrc.model.biped import Biped
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray
 
 
@@ -43,7 +46,7 @@ class StabilityMethod(Enum):
 
 
 @dataclass(frozen=True)
-class Tolerances:
+class Tolerances(Shown):
     """Two multipliers agree within `relative` of the larger one or within `absolute`; dimensionless."""
 
     relative: float = 1e-6
@@ -59,17 +62,19 @@ class Tolerances:
         for name, value in vars(self).items():
             check_positive(value, f"tolerance '{name}' is {value}")
 
-    def distance(self, one: ComplexArray, other: ComplexArray) -> Array:
+    def distance(self, one: ComplexArray, other: ComplexArray, noise: Array | None = None) -> Array:
         """|one_i - other_j| (k, l) in units of what is allowed, for k and l multipliers; at most 1
-        where they agree.
+        where they agree. noise (l,): what errors of computing may do to each of `other`, allowed too.
         """
         a, b = one[:, np.newaxis], other[np.newaxis]
         allowed = np.maximum(self.absolute, self.relative * np.maximum(np.abs(a), np.abs(b)))
+        if noise is not None:
+            allowed = np.maximum(allowed, noise)
         return np.abs(a - b) / allowed
 
 
 @dataclass(frozen=True)
-class MethodRow:
+class MethodRow(Shown):
     """Multipliers by one method."""
 
     method: StabilityMethod
@@ -79,6 +84,10 @@ class MethodRow:
     uncertainty: float = 0.0
     """How far the method itself says that each may be off (central differences: what the extrapolation
     changes); 0 where it says nothing.
+    """
+    noise: Array | None = None
+    """(k,) of central differences: what the root finder's error in the time of the impact and the step of the
+    method may do to each multiplier at most, see `noise_of_differences`.
     """
     doubt: str = ""
     """Why the method is not to be trusted; empty when it is."""
@@ -90,7 +99,7 @@ class MethodRow:
 
 
 @dataclass(frozen=True)
-class StabilityTable:
+class StabilityTable(Shown):
     """One row per method; `verdict` says whether they agree within `tolerances` and which to trust.
 
     Raises InputError without rows, for two rows of one method, and for multipliers that are not
@@ -148,12 +157,18 @@ class StabilityTable:
         delta^2 is compared with the multiplier next to it. Infinite for a row of another number of
         multipliers.
         """
-        ratio = self.tolerances.distance(row.multipliers, self.trusted.multipliers)
+        ratio = self._ratio(row, row.noise)
         if row.method is StabilityMethod.ZERO_DYNAMICS:
             return float(np.min(ratio))
         if ratio.shape[0] != ratio.shape[1]:
             return float("inf")
         return _farthest(ratio)
+
+    def _ratio(self, row: MethodRow, noise: Array | None) -> Array:
+        """Distances (k, l) of a row to the trusted one; noise counts where it is of as many multipliers."""
+        trusted = self.trusted.multipliers
+        known = noise is not None and len(noise) == len(trusted)
+        return self.tolerances.distance(row.multipliers, trusted, noise if known else None)
 
     @property
     def verdict(self) -> str:
@@ -172,6 +187,12 @@ class StabilityTable:
             return f"{name}: not to be trusted, {row.doubt}."
         gap, t = self.gap(row), self.tolerances
         within = f"{t.relative:g} relative or {t.absolute:g} absolute"
+        if row.noise is not None and np.isfinite(gap):
+            plain = _farthest(self._ratio(row, None))
+            if plain > 1.0 or gap > 1.0:
+                within += (
+                    f" or what root finder and step leave open, at most {np.max(row.noise):.1e}"
+                )
         if gap <= 1.0:
             return f"{name}: agrees within {within}."
         if not np.isfinite(gap):
@@ -228,15 +249,36 @@ def variational_row(step: StepDerivative, tolerances: Tolerances) -> MethodRow:
     return MethodRow(StabilityMethod.VARIATIONAL, step.multipliers, doubt=doubt)
 
 
-def central_row(P: ReturnMap, s: Array) -> MethodRow:
+def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
+    """How far apart differences and variational equation may leave each multiplier lambda_i (k,), at most.
+
+    The root finder leaves the impact at most tau from its time, which moves each image by f- tau at most. In
+    (4 J(d/2) - J(d)) / 3 an entry of column j is then wrong by f- eta_j, |eta_j| <= 3 tau / d. The curve of the
+    method passes the impact with a velocity that is f- up to the relative error r of its step,
+    `StepDerivative.flow_residual`, and differences see that velocity in the part f- dt/ds of dP/ds. To first
+    order, with left and right eigenvectors y_i, x_i,
+
+        |y_i x_i| |delta lambda_i| <= |y_i f-| (3 tau / d |x_i|_1 + r |dt/ds| |x_i|)
+    """
+    values, left, right = eig(step.jacobian, left=True, right=True)
+    y, size = left.conj().T, np.abs(right)
+    late = 3.0 * event_time_error(step.duration) / P.difference * np.sum(size, axis=0)
+    late += step.flow_residual * np.abs(step.earlier) @ size
+    noise: Array = np.abs(y @ step.end_flow) * late / np.abs(np.sum(left.conj() * right, axis=0))
+    return noise[np.argsort(-np.abs(values))]
+
+
+def central_row(P: ReturnMap, s: Array, step: StepDerivative | None = None) -> MethodRow:
     """Central differences at s (k,) [rad, rad/s] with P.difference and half of it, extrapolated.
 
     The uncertainty is the distance to the half's own multipliers, which shows the error d^2 as well
-    as round-off.
+    as round-off. step: the derivative at s, from which the noise is found.
     """
     wide, narrow = P.jacobian(s), replace(P, difference=0.5 * P.difference).jacobian(s)
     best, half = sorted_eigenvalues((4.0 * narrow - wide) / 3.0), sorted_eigenvalues(narrow)
-    return MethodRow(StabilityMethod.CENTRAL, best, _farthest(np.abs(best[:, np.newaxis] - half)))
+    changes = _farthest(np.abs(best[:, np.newaxis] - half))
+    noise = None if step is None else noise_of_differences(P, step)
+    return MethodRow(StabilityMethod.CENTRAL, best, changes, noise)
 
 
 def regression_row(regression: Regression) -> MethodRow:
@@ -308,7 +350,7 @@ def stability_table(
         )
     rows = [variational_row(step, t)]
     if differences:
-        rows.append(central_row(P, step.s))
+        rows.append(central_row(P, step.s, step))
     zero = zero_dynamics_row(P.walker, t)
     rows += [] if zero is None else [zero]
     rows += [] if regression is None else [regression_row(regression)]

@@ -42,6 +42,7 @@ from biped_adrc.gait.curves import Polynomial
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray
 
 BUMP = 64.0 * np.array([0.0, 0.0, 0.0, 1.0, -3.0, 3.0, -1.0])
@@ -67,7 +68,7 @@ DIRECTIONS: Mapping[str, tuple[float, ...]] = {
 
 
 @dataclass(frozen=True)
-class StrideResponse:
+class StrideResponse(Shown):
     """The linear map from step to step of one gait and one direction."""
 
     a: float
@@ -165,7 +166,7 @@ def stride_response(
 
 
 @dataclass(frozen=True)
-class DirectionMerit:
+class DirectionMerit(Shown):
     """What one direction d (p,) of the correction gains and costs."""
 
     name: str

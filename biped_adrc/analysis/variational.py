@@ -51,6 +51,7 @@ from biped_adrc.model.derivatives import (
     impact_derivatives,
     torque_derivatives,
 )
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray
 
 DIFFERENCE = 2e-4
@@ -261,7 +262,7 @@ class VariationalSystem(HybridSystem):
 
 # -- one step --------------------------------------------------------------------------------------
 @dataclass(frozen=True)
-class StepDerivative:
+class StepDerivative(Shown):
     """The return map and its derivative at one point; 2 n states, 2 n - 1 section coordinates."""
 
     s: Array
@@ -277,6 +278,10 @@ class StepDerivative:
     flow_residual: float
     """max |Phi f(0) - f-| / max |f-|: zero for the exact Phi of a flow that does not depend on time, so it
     shows a wrong A, a reference in time, and the error of the method."""
+    end_flow: Array
+    """f- in section coordinates (2 n - 1,): how the image moves per second that the event is found late."""
+    earlier: Array
+    """-dt/ds (2 n - 1,) [s/rad, s^2/rad] of the time t of the impact: dP/ds has the part f- times this."""
 
     @property
     def multipliers(self) -> ComplexArray:
@@ -298,11 +303,19 @@ def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
     dh = height_derivative(walker, x_end)
     D = impact_derivatives(walker.plant, *np.split(x, 2)).matrix
     through = Phi @ D @ section_tangent(walker, x)
-    through -= np.outer(f_end, dh @ through) / _descent(dh, f_end)
+    earlier = dh @ through
+    through -= np.outer(f_end, earlier) / _descent(dh, f_end)
     residual = float(np.max(np.abs(Phi @ f0 - f_end)) / np.max(np.abs(f_end)))
     monodromy = split_matrix(end.x_plus)[1]
     return StepDerivative(
-        s, P.project(x_end), np.delete(through, k, axis=0), monodromy, end.t, residual
+        s,
+        P.project(x_end),
+        np.delete(through, k, axis=0),
+        monodromy,
+        end.t,
+        residual,
+        np.delete(f_end, k),
+        earlier / _descent(dh, f_end),
     )
 
 

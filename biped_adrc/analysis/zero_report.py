@@ -23,6 +23,8 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_part
+from biped_adrc.shown import Shown
 
 CLOSENESS = 1e-3
 """Distance from zeta*, relative to it, within which a walk counts as settled."""
@@ -31,7 +33,7 @@ UNIT = "kg^2 m^4/s^2"
 
 
 @dataclass(frozen=True)
-class ZeroDynamicsReport:
+class ZeroDynamicsReport(Shown):
     """The periodic orbit, the range of speeds around it and the margins; `text()` is all of it with units."""
 
     orbits: ZeroOrbits
@@ -150,6 +152,7 @@ def zero_report(
     Raises GaitError when Theta is no phase, when no periodic orbit exists or it is not stable, and
     when the curve does not end on the ground or the next step does not begin where it begins.
     """
+    check_part(biped, "biped", Biped)
     limits = DomainLimits(biped.description.friction_coefficient) if limits is None else limits
     orbits = ZeroOrbits.of(ZeroDynamics.of(biped, constraint))
     _check_ends(biped, constraint, limits.slope)

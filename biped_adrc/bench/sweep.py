@@ -38,6 +38,7 @@ from biped_adrc.campaign.store_open import open_store, read_store
 from biped_adrc.campaign.workers import Workers, workers_of
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.values import reason
+from biped_adrc.shown import Shown
 from biped_adrc.versions import numerical_versions
 
 RESULTS = "results.sqlite"
@@ -47,7 +48,7 @@ PARAMETER = "parameter."
 
 
 @dataclass(frozen=True)
-class Table:
+class Table(Shown):
     """Columns of results by name, each of shape (N,), one row for each finished point.
 
     A column of whole numbers is an array of ints; other numbers are floats with NaN for no value; anything else
@@ -82,7 +83,7 @@ class Table:
 
 
 @dataclass(frozen=True)
-class Sweep:
+class Sweep(Shown):
     """The results of a study in its file, finished or not; they are read each time they are asked for."""
 
     path: Path

@@ -12,6 +12,7 @@ import shlex
 import sys
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Annotated
 
 import typer
 from rich.console import Console
@@ -24,6 +25,7 @@ from rich.progress import (
     TimeElapsedColumn,
 )
 
+import biped_adrc
 from biped_adrc.files import keep_inputs, output_path
 
 EXIT_CHECK_FAILED, EXIT_FELL, EXIT_INTERRUPTED = 1, 4, 130
@@ -34,6 +36,7 @@ app = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
     help="Underactuated walking with active disturbance rejection control (ADRC with a GPI observer).\n\n"
     "Exit codes: 0 all is well, 1 a check of 'reproduce' or 'robot check' does not hold, 2 wrong command "
     "line, 3 bad input, 4 the robot fell, 5 cannot write, 130 interrupted.",
@@ -42,6 +45,24 @@ gait_app = typer.Typer(
     no_args_is_help=True, rich_markup_mode=None, help="Design, show, import and export gaits."
 )
 app.add_typer(gait_app, name="gait")
+
+
+def _say_version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"biped-adrc {biped_adrc.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _of_every_command(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_say_version, is_eager=True, help="Print the version."),
+    ] = False,
+) -> None:
+    """Options of the command itself."""
+
+
 console = Console()
 """Where all commands print; rich fits tables to the terminal."""
 
@@ -87,8 +108,8 @@ def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
 
     if out is None:
         return None
-    path = output_path(out, (".npz", ".mat"), default=True)
-    if path.suffix.lower() == ".mat":
+    path = output_path(out, (".npz", ".mat", ".csv"), default=True)
+    if path.suffix.lower() != ".npz":
         keep_inputs((path,), read)
         return path
     path, beside = run_files(path)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from biped_adrc.cli.app import FIGURES, GAITS, console, gait_app, inputs, say, say_written
 from biped_adrc.cli.options import texts
+from biped_adrc.errors import InputError
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
@@ -92,7 +93,8 @@ def gait_export(
 
     path = output_path(out, (".json", ".mat"), default=True)
     keep_inputs((path,), inputs(robot, gait))
-    export_gait(load_gait(gait, Biped.load(robot, preset)), path, convention)
+    biped = Biped.load(robot, preset)
+    export_gait(load_gait(gait, biped), path, convention, biped)
     say_written(path)
 
 
@@ -103,17 +105,31 @@ def gait_import(
     robot: str = "rabbit",
     preset: str | None = None,
     convention: str | None = None,
+    name: list[str] | None = None,
     slopes: bool = True,
+    degree: int = 6,
+    slope: float = 0.0,
     out: Path | None = None,
 ) -> None:
-    """Bring along a gait: check that it closes, store it in this paper's convention."""
+    """Bring along a gait, or fit one to samples of a step; check that it closes, and store it for the robot."""
     from biped_adrc.gait.exchange.importing import import_gait
     from biped_adrc.model.biped import Biped
 
     read = (file, *inputs(robot))
     out = None if out is None else output_path(out, GAITS, default=True)
     keep_inputs((out,) if out else (), read)
-    _save(import_gait(file, Biped.load(robot, preset), convention, slopes=slopes), out, read)
+    biped, names = Biped.load(robot, preset), _pairs(name or [])
+    _save(import_gait(file, biped, convention, names, slopes, degree, slope), out, read)
+
+
+def _pairs(texts: list[str]) -> dict[str, str]:
+    """{ours: theirs} of --name OURS=THEIRS. Raises InputError."""
+    for text in texts:
+        if not all(word.strip() for word in text.partition("=")):
+            raise InputError(
+                f"--name is '{text}', expected OURS=THEIRS, such as coefficients=R.alpha"
+            )
+    return {ours.strip(): theirs.strip() for ours, _, theirs in (t.partition("=") for t in texts)}
 
 
 @gait_app.command("zero")

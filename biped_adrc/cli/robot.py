@@ -17,6 +17,7 @@ from rich.table import Table
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, console, say
 from biped_adrc.cli.options import texts
 from biped_adrc.errors import InputError, ModelError
+from biped_adrc.robots.robot_toml import GRAVITY
 
 if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped
@@ -40,6 +41,7 @@ def robot_check(
     torque: float | None = None,
     friction: float | None = None,
     armature: float = 0.0,
+    gravity: float = GRAVITY,
     tip: str | None = None,
 ) -> None:
     """Read a URDF as a biped: say what was guessed, and check it against the laws of mechanics.
@@ -49,7 +51,9 @@ def robot_check(
     from biped_adrc.robot_import.import_robot import derive
 
     try:
-        derived = derive(file, _hints(feet, actuated, hip, torque, friction, armature, tip))
+        derived = derive(
+            file, _hints(feet, actuated, hip, torque, friction, armature, gravity, tip)
+        )
     except InputError as error:
         _complain(f"error: {error}")
         raise typer.Exit(EXIT_CHECK_FAILED) from error
@@ -71,12 +75,13 @@ def robot_new(
     torque: float | None = None,
     friction: float | None = None,
     armature: float = 0.0,
+    gravity: float = GRAVITY,
     tip: str | None = None,
 ) -> None:
     """Write floating.urdf and robot.toml of a URDF, for Biped.load("FOLDER/robot.toml")."""
     from biped_adrc.robot_import.import_robot import derive
 
-    derived = derive(file, _hints(feet, actuated, hip, torque, friction, armature, tip))
+    derived = derive(file, _hints(feet, actuated, hip, torque, friction, armature, gravity, tip))
     if derived.broken:
         raise ModelError(f"URDF '{file}': {'; '.join(map(str, derived.broken))}")
     record = derived.write(out)
@@ -119,15 +124,15 @@ def _hints(
     torque: float | None,
     friction: float | None,
     armature: float,
+    gravity: float,
     tip: str | None,
 ) -> Hints:
     """What the options say about the robot, so that it need not be guessed."""
     from biped_adrc.robot_import.import_robot import Hints
 
     place = None if tip is None else _place(tip)
-    return Hints(
-        _names(feet), _names(actuated), hip, torque, friction, armature=armature, tip=place
-    )
+    given = {"armature": armature, "gravity": gravity, "tip": place}
+    return Hints(_names(feet), _names(actuated), hip, torque, friction, **given)  # type: ignore[arg-type]
 
 
 def _place(text: str) -> tuple[float, float, float]:

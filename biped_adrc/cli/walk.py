@@ -91,7 +91,7 @@ def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> N
         full, half = full.until_illegal(limits), half and half.until_illegal(limits)
     if out is not None:
         # first, as printing may fail
-        (full.export if out.suffix.lower() == ".mat" else full.save)(out)
+        (full.save if out.suffix.lower() == ".npz" else full.export)(out)
     if half is None:
         _print_passive(full, limits)
     else:

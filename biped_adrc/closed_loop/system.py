@@ -22,7 +22,8 @@ import numpy as np
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.semantics import Instant, Loop, Mode, Plant, instant, unknown
 from biped_adrc.control.base import Controller, Measurement, check_output, check_state, misshapen
-from biped_adrc.errors import InputError, NotFiniteError, SimulationError
+from biped_adrc.control.tracking import Gains
+from biped_adrc.errors import BipedError, InputError, NotFiniteError, SimulationError
 from biped_adrc.gait.reference import Reference, ReferencePoint, check_point
 from biped_adrc.hardware import sample_hold as held
 from biped_adrc.hardware.meter import MeterParameters, Outside
@@ -31,6 +32,7 @@ from biped_adrc.hardware.sample_hold import Held, HeldParameters
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.system import Clock, HybridSystem
 from biped_adrc.model.reduction import disturbance_parts
+from biped_adrc.parts import check_fields
 from biped_adrc.timing import ContinuousTime, SampledTime, check_timing
 from biped_adrc.types import Array, Indices
 
@@ -58,8 +60,9 @@ class ClosedLoop(HybridSystem, Generic[P]):
     """Between controller and plant, in sampled time; None for ideal ones."""
 
     def check(self) -> None:
-        """Raise InputError for a timing that is none, or a model with another number of coordinates."""
+        """Raise InputError for a part that is none, or a model with another number of coordinates."""
         check_timing(self.timing)
+        check_fields(self)
         if self.nominal.n != self.plant.n:
             raise InputError(
                 f"the model has {self.nominal.n} coordinates, the plant {self.plant.n}; they must agree"
@@ -168,8 +171,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
         """
         mode = Mode() if mode is None else mode
         m = self.measure(mode.start, np.asarray(q, dtype=float), np.asarray(v, dtype=float), mode)
-        for reference in _references(self.law):
-            check_point(reference, reference(m.t, m.q, m.v), self.plant.p, self.plant.n)
+        for part in _with_inner(self.law):
+            _check_tracking(part, m, self.plant.p)
         s, k = self.law.initial_state(m), self.held
         u = np.asarray(self.law.output(s, m))
         check_output(self.controller, u, self.plant.p)
@@ -231,13 +234,31 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return (control, Clock("motors", time.period, self._release, time.restart, after))
 
 
-def _references(controller: Controller | None) -> Iterator[Reference]:
-    """The references that a controller and the controllers nested in it (`inner`) track."""
+def _with_inner(controller: Controller | None) -> Iterator[Controller]:
+    """A controller and the controllers nested in it (`inner`)."""
     while controller is not None:
-        reference = getattr(controller, "reference", None)
-        if isinstance(reference, Reference):
-            yield reference
+        yield controller
         controller = getattr(controller, "inner", None)
+
+
+def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
+    """Raise InputError for a reference or gains of a robot with other joints than p motors, len(m.q) in all."""
+    gains, reference = (getattr(controller, name, None) for name in ("gains", "reference"))
+    if isinstance(gains, Gains):
+        gains.check(p)
+    if not isinstance(reference, Reference):
+        return
+    try:
+        point = reference(m.t, m.q, m.v)
+    except BipedError:
+        raise
+    except (ValueError, IndexError, TypeError) as error:
+        raise InputError(
+            f"the {type(reference).__name__} of {type(controller).__name__} cannot be evaluated at the "
+            f"{len(m.q)} coordinates of this robot: {error}; expected one of this robot, such as the "
+            "constraint of a gait that was designed for it"
+        ) from error
+    check_point(reference, point, p, len(m.q))
 
 
 class InstantSignals(NamedTuple):

@@ -82,11 +82,12 @@ class Walker(ClosedLoop[Biped]):
 
     def __post_init__(self) -> None:
         """Raise InputError for values that do not fit together; see the class."""
+        self.check()
+        self.plant.check_motors()
         check_slope(self.slope)
         limit = self.torque_limit
         if limit is not None and not (math.isfinite(limit) and limit > 0):
             raise InputError(f"the torque limit is {limit} N m, expected a positive number or None")
-        self.check()
         check_ends(self.max_step_time, self.fall_height)
         parts = (self.sensors, self.motors, self.meter)
         check_parts(self.plant.n, self.timing, *parts, self.impact_gain)

@@ -18,6 +18,7 @@ from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import ErrorSystem, Estimate
+from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
 
@@ -48,6 +49,9 @@ class Measurement(NamedTuple):
     def v_b(self) -> Array:
         """Their rates (p,) [rad/s]."""
         return self.v[: len(self.terms.kappa)]
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 def measured(m: Measurement) -> Estimate:
@@ -82,6 +86,9 @@ class ControllerLaws(NamedTuple):
     def functions(self) -> ControllerLaws:
         """The laws alone, without their parameters."""
         return self._replace(parameters=None, obstacle="")
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 class Controller(Composed):

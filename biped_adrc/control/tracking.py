@@ -27,6 +27,8 @@ from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
 from biped_adrc.linear import solve
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate
+from biped_adrc.parts import numbers
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 
@@ -39,7 +41,7 @@ class TrackingParameters(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Gains:
+class Gains(Shown):
     """K_p [1/s^2] and K_d [1/s] of Table II, one number for all joints or one per joint."""
 
     K_p: Array | float = 5000.0
@@ -47,12 +49,20 @@ class Gains:
 
     def __post_init__(self) -> None:
         for name in ("K_p", "K_d"):
-            value = np.asarray(getattr(self, name), dtype=float)
+            value = numbers(getattr(self, name), f"gain {name}")
             if value.ndim > 1 or not np.all(np.isfinite(value)) or np.any(value <= 0):
                 raise InputError(
                     f"gain {name} is {value}, expected positive numbers, one per joint"
                 )
             object.__setattr__(self, name, float(value) if value.ndim == 0 else value)
+
+    def check(self, p: int) -> None:
+        """Raise InputError for gains per joint of another number of joints than p."""
+        for name, row in zip(("K_p", "K_d"), self._rows, strict=True):
+            if len(row) not in (1, p):
+                raise InputError(
+                    f"gain {name} has {len(row)} numbers, expected 1 or {p}: one for each joint with a motor"
+                )
 
     @cached_property
     def _rows(self) -> tuple[Array, Array]:

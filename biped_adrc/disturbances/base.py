@@ -14,6 +14,8 @@ import numpy as np
 
 from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError, check_count
+from biped_adrc.parts import numbers
+from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
 GAUSS = 0.5773502691896257
@@ -39,6 +41,9 @@ class DisturbanceLaw(NamedTuple):
     def acts(self, t: float, step: int, t_start: float) -> bool:
         """Whether torque and resultant act."""
         return self.active is None or self.active(self.parameters, t, step, t_start) > 0
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 class Disturbance(Composed):
@@ -192,7 +197,8 @@ class Windowed(Disturbance):
     stop: float = math.inf
 
     def __post_init__(self) -> None:
-        amplitude = np.array(self.amplitude, dtype=float)
+        super().__post_init__()
+        amplitude = numbers(self.amplitude, "torque amplitude")
         if amplitude.ndim != 1 or not np.all(np.isfinite(amplitude)):
             raise InputError(
                 f"torque amplitude is {amplitude}, expected one finite number [N m] per coordinate"

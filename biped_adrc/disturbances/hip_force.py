@@ -62,6 +62,7 @@ class HipForce(Disturbance):
     steps: tuple[int, int] | None = None
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if len(self.force) != 2 or not all(math.isfinite(f) for f in self.force):
             raise InputError(
                 f"the force on the hip is {self.force}, expected two finite numbers (F_x, F_z) [N]"

@@ -72,6 +72,7 @@ class OnLink(Disturbance):
                 f"the wave on link '{self.link}' is a {type(self.wave).__name__}, expected a TorquePulse, "
                 "TorqueStep, TorqueSine, TorqueNoise or another Windowed; add up several OnLink for a sum"
             )
+        super().__post_init__()
         if len(self.wave.amplitude) != 3:
             raise InputError(
                 f"the wave on link '{self.link}' has the amplitude {self.wave.amplitude}, expected three "

@@ -33,6 +33,8 @@ from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
+from biped_adrc.parts import check_fields
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 AHEAD = 4
@@ -42,7 +44,7 @@ STORE = 1_000_000
 
 
 @dataclass(frozen=True)
-class Case:
+class Case(Shown):
     """One walk to be made, from q (n,) [rad], v (n,) [rad/s] at the start of single support `mode.step`."""
 
     walker: Walker
@@ -58,6 +60,10 @@ class Case:
     mode: Mode = Mode()  # noqa: RUF009
     """Single support in which it starts."""
 
+    def __post_init__(self) -> None:
+        """Raises InputError for a part that is none."""
+        check_fields(self)
+
     @property
     def t_end(self) -> float:
         """Latest end of the walk [s]: every single support as long as it may be."""
@@ -71,7 +77,7 @@ class Case:
 
 
 @dataclass(frozen=True)
-class BatchWalk:
+class BatchWalk(Shown):
     """What one walk of a batch leaves; M impacts, states of nx numbers."""
 
     status: Status

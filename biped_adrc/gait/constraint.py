@@ -37,6 +37,7 @@ import numpy as np
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.curves import Curve, CurveParameters, curve
 from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint
+from biped_adrc.parts import check_part
 from biped_adrc.types import Array, read_only
 
 
@@ -105,6 +106,12 @@ class VirtualConstraint(Reference):
     fade: float | None = None
     """Share of the range over which the curvature fades out past the ends; None: the curve goes on as it is."""
 
+    def __repr__(self) -> str:
+        ends = f"Theta from {self.theta_plus:.4g} to {self.theta_minus:.4g} rad"
+        return (
+            f"VirtualConstraint({self.curve!r}, {ends}{'' if self.fade is None else ', continued'})"
+        )
+
     def __post_init__(self) -> None:
         c = read_only(self.phase)
         span = self.theta_minus - self.theta_plus
@@ -151,8 +158,9 @@ def continued(h: VirtualConstraint) -> VirtualConstraint:
     """The same constraint, continued smoothly past Theta+ and Theta-.
 
     A step that ends late, after a push or on a step down, runs past Theta-, where the polynomial itself would
-    soon ask for angles out of reach.
+    soon ask for angles out of reach. Raises InputError for what is no constraint.
     """
+    check_part(h, "what is to go on", VirtualConstraint)
     return replace(h, fade=FADE)
 
 

@@ -30,6 +30,7 @@ from functools import cached_property
 import numpy as np
 
 from biped_adrc.errors import InputError
+from biped_adrc.model.biped import Biped
 from biped_adrc.resources import packaged
 from biped_adrc.types import Array, read_only
 
@@ -118,6 +119,32 @@ class Convention:
     def phase(self) -> Array:
         """c' (n,): row of this convention's own phase, c' q' = sense (Theta - paper_phase b) [rad]."""
         return self.sense * self.paper_phase @ self.to_paper.A + 0.0
+
+
+OWN = "own"
+"""The coordinates of a robot's own record, whatever they are."""
+
+
+def own_convention(biped: Biped) -> Convention:
+    """The coordinates of a robot as they are; `to_paper` is then to these, and the phase is its record's."""
+    n, p, d = biped.n, biped.p, biped.description
+    same = AngleMap(np.eye(n), np.zeros(n))
+    swap = AngleMap(biped.R, biped.relabel(np.zeros(n)))
+    phase = np.array(d.phase)
+    return Convention(OWN, d.joints, same, np.eye(p, n), 1.0, phase, swap, f"robot '{d.name}'")
+
+
+def of_the_paper(biped: Biped) -> bool:
+    """Whether phase and relabelling of a robot are those of the conventions, with knees or without."""
+    if biped.n not in (3, 5):
+        return False
+    ours, theirs = convention("paper", knees=biped.n == 5), own_convention(biped)
+    pairs = (
+        (ours.paper_phase, theirs.paper_phase),
+        (ours.relabelling.A, theirs.relabelling.A),
+        (ours.relabelling.b, theirs.relabelling.b),
+    )
+    return all(np.array_equal(a, b) for a, b in pairs)
 
 
 def between(source: Convention, target: Convention) -> AngleMap:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from biped_adrc.errors import GaitError
 from biped_adrc.resources import packaged
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, read_only
 
 
@@ -51,7 +52,7 @@ def curve(c: CurveParameters, s: float) -> tuple[Array, Array, Array]:
 
 
 @dataclass(frozen=True)
-class Curve(ABC):
+class Curve(Shown, ABC):
     """Coefficients (p, M + 1), one row per joint [rad]. Raises GaitError when not finite or not 2-D."""
 
     coefficients: Array

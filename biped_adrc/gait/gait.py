@@ -25,7 +25,9 @@ from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import curve_kind
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_part
 from biped_adrc.resources import data_folder
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 FORMAT = "biped_adrc gait 1"
@@ -71,7 +73,7 @@ class GaitFile(TypedDict, total=False):
 
 
 @dataclass(frozen=True)
-class Gait:
+class Gait(Shown):
     """A gait of one robot: its virtual constraint and the periodic orbit that walks along it.
 
     The orbit is stored by its state just before impact, from which the impact map gives the start of a step.
@@ -101,6 +103,10 @@ class Gait:
     """How it was made: method, source, command; free text by name."""
     slope: float = 0.0
     """Of the ground it walks on [rad], positive downhill."""
+
+    def __repr__(self) -> str:
+        about = f"Gait('{self.name}', robot '{self.robot}', preset '{self.preset}', period {self.period:.4g} s"
+        return about + (f", slope {self.slope:.4g} rad)" if self.slope else ")")
 
     def start(self, biped: Biped) -> tuple[Array, Array]:
         """(q+, q'+) just after the impact of the periodic orbit on this robot, each (n,) [rad, rad/s]."""
@@ -241,6 +247,8 @@ def load_gait(gait: str | Path, biped: Biped) -> Gait:
 
     Raises GaitError that names the file, the key, what was found and what was expected.
     """
+    check_part(gait, "gait", str, Path)
+    check_part(biped, "biped", Biped)
     path = Path(gait)
     if path.suffix.lower() != ".json":
         robot, preset = biped.description.name, biped.preset

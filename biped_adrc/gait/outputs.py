@@ -28,6 +28,7 @@ import numpy as np
 
 from biped_adrc.errors import GaitError, InputError, NotFiniteError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.shown import Shown, one_line
 from biped_adrc.types import Array, read_only
 
 _SLOPE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0
@@ -48,8 +49,11 @@ class OutputPoint(NamedTuple):
     drift: Array
     """Part of y'' that does not depend on q'' (p,), unit of y per s^2: y'' = J q'' + drift."""
 
+    def __repr__(self) -> str:
+        return one_line(self)
 
-class Outputs(ABC):
+
+class Outputs(Shown, ABC):
     """Base class: outputs as a pure function of (t, q, q')."""
 
     @abstractmethod

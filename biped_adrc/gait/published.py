@@ -47,16 +47,18 @@ class PassiveCycle:
 
 
 def passive_cycle(biped: Biped) -> PassiveCycle:
-    """The stored cycle of this robot and preset.
+    """The stored cycle of this robot and preset: <preset>.toml beside its record, or of the package.
 
     Raises GaitError that names the file, what was found and what was expected.
     """
     robot, preset = biped.description.name, biped.preset
-    path = data_folder("gaits") / robot / f"{preset}.toml"
+    own = biped.description.urdf.parent / f"{preset}.toml"
+    path = own if own.is_file() else data_folder("gaits") / robot / f"{preset}.toml"
     if not path.is_file():
         raise GaitError(
             f"no walking cycle without motors is stored for robot '{robot}', preset '{preset}': there is no "
-            f"file '{path}'"
+            f"file '{own}'; write one with source, slope [rad], max_step_time [s], and the state after impact "
+            "q_plus [rad] and v_plus [rad/s], near which the cycle is searched"
         )
     with reading("cycle", path, GaitError):
         data = tomllib.loads(path.read_text(encoding="utf-8"))

@@ -22,6 +22,7 @@ import numpy as np
 
 from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError
+from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
 
@@ -37,6 +38,9 @@ class ReferencePoint(NamedTuple):
     H: Array
     """(p, n), q_d'' = drift + H q''."""
 
+    def __repr__(self) -> str:
+        return one_line(self)
+
 
 class ReferenceLaws(NamedTuple):
     """The pure function behind a reference."""
@@ -47,6 +51,9 @@ class ReferenceLaws(NamedTuple):
     """point(k, t, q, v) -> q_d, q_d' and q_d'', with t [s], q (n,) [rad], v (n,) [rad/s]."""
     obstacle: str = ""
     """Why it runs in Python only; empty where it compiles."""
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 class Reference(Composed):

@@ -28,6 +28,8 @@ from numpy.polynomial import legendre
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_part
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 NODES = 40
@@ -51,7 +53,7 @@ def gauss_nodes(count: int) -> tuple[Array, Array, Array]:
 
 
 @dataclass(frozen=True)
-class ZeroDynamicsOrbit:
+class ZeroDynamicsOrbit(Shown):
     """One step of the zero dynamics at the nodes; K nodes, n coordinates, p motors."""
 
     theta: Array
@@ -75,7 +77,7 @@ class ZeroDynamicsOrbit:
 
 
 @dataclass(frozen=True)
-class ZeroDynamics:
+class ZeroDynamics(Shown):
     """The model along one constraint at K Gauss nodes, and what follows from it by quadrature.
 
     Make it by `of`.
@@ -102,7 +104,9 @@ class ZeroDynamics:
 
     @classmethod
     def of(cls, biped: Biped, constraint: VirtualConstraint, nodes: int = NODES) -> ZeroDynamics:
-        """Evaluate the model along the constraint at so many Gauss nodes."""
+        """Evaluate the model along the constraint at so many Gauss nodes. Raises InputError."""
+        check_part(biped, "biped", Biped)
+        check_part(constraint, "constraint", VirtualConstraint)
         s, w, C = gauss_nodes(nodes)
         span = constraint.theta_minus - constraint.theta_plus
         theta = constraint.theta_plus + span * s

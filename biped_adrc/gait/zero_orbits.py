@@ -41,6 +41,7 @@ from scipy.optimize import brentq
 
 from biped_adrc.errors import GaitError, check_positive
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 _GRID = 401
@@ -67,7 +68,7 @@ def grid(zero: ZeroDynamics) -> Array:
 
 
 @dataclass(frozen=True)
-class ZeroOrbits:
+class ZeroOrbits(Shown):
     """The restricted return map rho of one constraint, its fixed point and its domain. Make it by `of`.
 
     zeta is always sigma-^2 / 2 before an impact [kg^2 m^4/s^2].

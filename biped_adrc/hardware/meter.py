@@ -31,6 +31,7 @@ from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.reduction import Reduction, disturbance_parts
 from biped_adrc.robots.robot_toml import ROUND_OFF, Limits
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, Indices
 
 READINGS = 18
@@ -309,7 +310,7 @@ def greater(a: Any, b: Any) -> Any:
 
 
 @dataclass(frozen=True)
-class Meter:
+class Meter(Shown):
     """Measures the error from this constraint, and forces against `limits` on the plant's own ground.
 
     lifting [s]: how long after an impact the swing foot may still be in the ground, 3 % of a step of 0.4 s. A

@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.errors import InputError
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, Indices
 
 WHOLE = 1e-9
@@ -85,7 +86,7 @@ def relabelled(line: Line, swap: Indices) -> Line:
 
 
 @dataclass(frozen=True)
-class Motors:
+class Motors(Shown):
     """rate_limit [N m/s], None for none; lag: time constant tau [s], 0 for none. Raises InputError."""
 
     rate_limit: float | None = None

@@ -30,6 +30,7 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.sensing import Sensor, SensorLaws
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 
@@ -89,7 +90,7 @@ def sensed_impact(k: SensorParameters, w: Array, q: Array, v: Array, v_model: Ar
 
 
 @dataclass(frozen=True)
-class Sensors(Sensor):
+class Sensors(Shown, Sensor):
     """counts: of the joints' encoders per revolution, None for exact angles.
 
     pitch_resolution [rad]: of the unactuated pitch; None: as the joints'.

@@ -33,7 +33,7 @@ Progress = Callable[[float, int], None]
 
 RESOLUTION = 2e-3
 """Longest stretch [s] of a step over which a double crossing of a witness could pass unseen."""
-_T_XTOL = 1e-15  # [s], tolerance of the event time
+_T_XTOL, _T_RTOL = 1e-15, 9e-16  # of the event time: [s], and relative to it
 
 
 @dataclass
@@ -249,6 +249,11 @@ def _flow_arc(
     return FlownArc(record.arc(mode, found.event), found.status, "", found.outcome)
 
 
+def event_time_error(t: float) -> float:
+    """How far the root finder may leave the time of an event at t [s] from the root [s], in both engines."""
+    return _T_XTOL + _T_RTOL * abs(t)
+
+
 @dataclass(frozen=True)
 class _Steps:
     """Moves a system over one arc by the steps of a one-step method, and watches its event functions."""
@@ -383,5 +388,5 @@ class _Watch:
 
         if witness(tb) == 0.0:
             return tb, step.at(tb)
-        te = float(brentq(witness, ta, tb, xtol=_T_XTOL, rtol=4.5e-16 * 2))
+        te = float(brentq(witness, ta, tb, xtol=_T_XTOL, rtol=_T_RTOL))
         return te, step.at(te)

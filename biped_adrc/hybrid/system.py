@@ -20,6 +20,7 @@ from typing import Any, NamedTuple
 
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 Mode = Any
@@ -68,7 +69,7 @@ class Direction(Enum):
 
 
 @dataclass(frozen=True)
-class Guard:
+class Guard(Shown):
     """An event function: a named zero crossing of witness(t, x) over (t0, t1], and what follows from it.
 
     - witness(t, x): real function whose zero is the event.
@@ -87,7 +88,7 @@ class Guard:
 
 
 @dataclass(frozen=True)
-class Clock:
+class Clock(Shown):
     """Sample instants at t0 + k * period [s], at which `update(t, x, mode)` gives x+.
 
     - restart: whether t0 is counted from the start of each arc, or once from the start of the run.
@@ -102,7 +103,7 @@ class Clock:
 
 
 @dataclass(frozen=True)
-class Split:
+class Split(Shown):
     """Coordinates x -> (p, E) in which the stiff part is linear: E' = A E + N_E, p' = N_p.
 
     - to(x) -> p, E and back(p, E) -> x are inverse to each other; E has shape (k, c).
@@ -119,7 +120,7 @@ class Split:
     node: Callable[[float, Array, Array], tuple[tuple[Array, Array], Array, Array]] | None = None
 
 
-class HybridSystem:
+class HybridSystem(Shown):
     """A hybrid system; see the module for the equations. Override what the system has."""
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:

@@ -16,6 +16,7 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.status import Status
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ class Viewer(Protocol):
 
 
 @dataclass(frozen=True)
-class Event:
+class Event(Shown):
     """An event function that fired."""
 
     guard: str
@@ -52,7 +53,7 @@ class Event:
 
 
 @dataclass(frozen=True)
-class Arc:
+class Arc(Shown):
     """One flow between two events, as K nodes; at a sample instant or a switch of an input a time
     occurs twice.
     """
@@ -113,7 +114,7 @@ def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, 
 
 
 @dataclass(frozen=True)
-class Trajectory:
+class Trajectory(Shown):
     """A whole run: arcs in order of time. Call it with t [s] for the state."""
 
     arcs: tuple[Arc, ...]
@@ -128,6 +129,13 @@ class Trajectory:
     """Makes the walk that a trajectory is of, which draws it; given by the layer that knows the
     robot. Not stored with a run and not sent to another process.
     """
+
+    def __repr__(self) -> str:
+        first, nodes = self.arcs[0], sum(len(arc.t) for arc in self.arcs)
+        return (
+            f"Trajectory({self.status.name}, {self.t_start:.4g} to {self.t_end:.4g} s: {len(self.arcs)} arcs, "
+            f"{nodes} nodes of {first.x.shape[1]} numbers)"
+        )
 
     def __getstate__(self) -> dict[str, object]:
         return {**self.__dict__, "viewer": None}

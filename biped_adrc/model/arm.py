@@ -29,6 +29,7 @@ from biped_adrc.model.reduction import Reduction, reduce
 from biped_adrc.robots.robot_toml import GRAVITY
 from biped_adrc.robots.urdf import Vector
 from biped_adrc.robots.urdf_reader import numbers, parse, place_of, straightened
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 UR5 = ("ur_description/urdf/ur5_robot.urdf", "tool0")
@@ -49,7 +50,7 @@ class Payload(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Arm:
+class Arm(Shown):
     """An arm with its payload, if any. Make it with `Arm.load` or `Arm.ur5`.
 
     Coordinates q (n,) are [rad] for revolute and [m] for prismatic joints, from the base outwards.

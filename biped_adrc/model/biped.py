@@ -21,6 +21,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from types import NoneType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,9 +31,11 @@ from biped_adrc.model.contact import FloatingDynamics, Impact
 from biped_adrc.model.physical import check_numbers, check_planar
 from biped_adrc.model.pinned import PinnedDynamics, finite_angles, reroot
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
+from biped_adrc.parts import check_part
 from biped_adrc.robots.robot_toml import RobotDescription, load_description
 from biped_adrc.robots.symmetry import absolute_angles, relabelling
 from biped_adrc.robots.urdf import Inertial, Tree
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 STICTION_SPEED = 0.05  # [rad/s], width of the smoothed sign of static friction
@@ -40,7 +43,7 @@ STICTION_SPEED = 0.05  # [rad/s], width of the smoothed sign of static friction
 
 
 @dataclass(frozen=True)
-class Biped:
+class Biped(Shown):
     """A robot with one set of parameters. Make it with `Biped.load`.
 
     Methods take q (n,) [rad], v = q' (n,) [rad/s] and a = q'' (n,) [rad/s^2] in the order of
@@ -58,6 +61,10 @@ class Biped:
     """Rotor inertia of every motor, reflected to its joint [kg m^2]."""
     friction: bool = False
     """Whether `acceleration` includes the joint friction of the record."""
+
+    def __repr__(self) -> str:
+        name, parts = self.description.name, f"n = {self.n}, p = {self.p}, {self.mass:.4g} kg"
+        return f"Biped('{name}', preset '{self.preset}': {parts}{', friction' if self.friction else ''})"
 
     @classmethod
     def load(
@@ -149,6 +156,30 @@ class Biped:
                 "no permutation; use Biped.R and Biped.relabel"
             )
         return np.asarray(columns)
+
+    def check_motors(self) -> None:
+        """Raise ModelError for motors that the impact does not exchange one for one.
+
+        A controller's state and a held torque are relabelled with the legs: u+ = u[swap]. One motor between the
+        legs has an angle that changes its sign instead, for which there is no such exchange.
+        """
+        moved = self.R[: self.p]
+        ones = np.sum(moved == 1.0, axis=1) == 1
+        bad = [
+            self.description.actuated[i]
+            for i in range(self.p)
+            if not ones[i] or np.count_nonzero(moved[i]) != 1 or self._offset[i] != 0.0
+        ]
+        if bad:
+            raise ModelError(
+                f"robot '{self.description.name}': the motors of {bad} are not exchanged with others "
+                "at impact; "
+                "their angles change sign or are combined as the legs change over, and a controller "
+                "is relabelled "
+                "by exchanging motors. Expected a motor for either leg, as between torso and thighs; "
+                "give the "
+                "robot a torso with two hips, or no motors (--actuated '')"
+            )
 
     # -- the two Pinocchio models ----------------------------------------------------------------
     @cached_property
@@ -324,6 +355,8 @@ class Biped:
         the COM as they are. friction: None keeps the setting. Raises ModelError for an unknown body
         or a factor <= 0.
         """
+        check_part(mass, "mass", Mapping, NoneType)
+        check_part(inertia, "inertia", Mapping, NoneType)
         factors = {"mass": mass or {}, "inertia": inertia or {}}
         for kind, by_body in factors.items():
             for body, factor in by_body.items():

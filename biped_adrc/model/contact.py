@@ -33,6 +33,7 @@ from biped_adrc.errors import SingularError
 from biped_adrc.model.pinned import XZ, build, frame_index, velocity_index
 from biped_adrc.robots.robot_toml import RobotDescription
 from biped_adrc.robots.urdf import Tree
+from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
 
@@ -57,6 +58,9 @@ class Impact(NamedTuple):
     def impulse_ratio(self) -> float:
         """|F_T| / F_N, dimensionless: the coefficient of dry friction that the impact asks for."""
         return float(abs(self.impulse[0]) / self.impulse[1])
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 class FloatingDynamics:

@@ -21,6 +21,7 @@ import numpy as np
 from biped_adrc.errors import InputError, ModelError, check_whole
 from biped_adrc.model.biped import Biped
 from biped_adrc.robots.symmetry import twins
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 KINDS = ("mass", "com", "inertia", "friction")
@@ -28,7 +29,7 @@ KINDS = ("mass", "com", "inertia", "friction")
 
 
 @dataclass(frozen=True)
-class ModelErrors:
+class ModelErrors(Shown):
     """Relative errors, dimensionless: 0.1 is ten per cent more.
 
     Raises InputError for an error that is not finite, or that leaves no mass or inertia, or

@@ -22,6 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.linear import solve_positive
+from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
 
@@ -43,6 +44,9 @@ class Reduction(NamedTuple):
     a_N: Array
     """-D22^-1 Omega2 (n - p,) [rad/s^2]."""
 
+    def __repr__(self) -> str:
+        return one_line(self)
+
 
 class BodyTerms(NamedTuple):
     """Terms of the whole robot at one state that few controllers need, besides its `Reduction`.
@@ -59,6 +63,9 @@ class BodyTerms(NamedTuple):
     """m dp_com/dq (2, n) [kg m], the part of (F_T, F_N) that is proportional to q''."""
     F_0: Array
     """(F_T, F_N) (2,) [N] at q'' = 0."""
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 @lru_cache(maxsize=16)

@@ -15,6 +15,7 @@ import numpy as np
 
 from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError
+from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
 
@@ -27,6 +28,9 @@ class Estimate(NamedTuple):
     """x2^ [rad/s]."""
     disturbance: Array
     """xi^ = x3^ [rad/s^2]."""
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 class ResetPolicy(Enum):
@@ -107,6 +111,9 @@ class ObserverLaws(NamedTuple):
     def functions(self) -> ObserverLaws:
         """The laws alone, without their parameters."""
         return self._replace(parameters=None, obstacle="")
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 def rows(k: Any, z: Array) -> Array:

@@ -41,9 +41,11 @@ from typing import Any, NamedTuple, NotRequired, TypedDict, cast
 
 from biped_adrc.errors import InputError, ModelError, check_positive
 from biped_adrc.files import reading
+from biped_adrc.parts import check_part
 from biped_adrc.resources import data_folder
 from biped_adrc.robots.urdf import Inertial, Tree
 from biped_adrc.robots.urdf_reader import load_tree
+from biped_adrc.shown import Shown
 
 
 @dataclass(frozen=True)
@@ -120,7 +122,7 @@ class Preset:
 
 
 @dataclass(frozen=True)
-class RobotDescription:
+class RobotDescription(Shown):
     """Contents of `robot.toml`; lengths [m], torques [N m], angles [rad]."""
 
     name: str
@@ -229,7 +231,13 @@ def load_description(robot: str | Path) -> RobotDescription:
 
     Raises ModelError that names the robot or the key, what was found and what was expected.
     """
+    check_part(robot, "robot", str, Path)
     path = Path(robot)
+    if path.suffix.lower() == ".urdf":
+        raise ModelError(
+            f"robot '{robot}' is a URDF, expected a name or a robot.toml; biped_from_urdf('{robot}') "
+            "takes a URDF, and 'biped-adrc robot new' makes a robot.toml of it"
+        )
     if path.suffix != ".toml":
         if str(robot) not in robot_names():
             raise ModelError(
@@ -353,7 +361,7 @@ class KnownLimits(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Limits:
+class Limits(Shown):
     """What ground and motors can give, within which a walk is legal; None takes the robot's record.
 
     Raises InputError for a friction that is not above 0 and at most 1, or a torque or window that

@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from biped_adrc.errors import ModelError
+from biped_adrc.shown import Shown
 
 Vector = tuple[float, float, float]
 """(x, y, z) [m], or a direction."""
@@ -93,7 +94,7 @@ class Joint:
 
 
 @dataclass(frozen=True)
-class Tree:
+class Tree(Shown):
     """A robot as read from URDF."""
 
     name: str

@@ -18,6 +18,7 @@ from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class Outcome(Shown):
     """Status, impacts, errors, torque and feasibility of one walk."""
 
     run: Scenario

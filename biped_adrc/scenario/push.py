@@ -22,6 +22,7 @@ from pydantic.dataclasses import dataclass
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.values import clear
+from biped_adrc.shown import Shown
 
 if TYPE_CHECKING:
     from biped_adrc.disturbances.base import Disturbance
@@ -35,7 +36,7 @@ _PUSH = re.compile(
 
 @clear()
 @dataclass(frozen=True, config=ConfigDict(extra="forbid"))
-class Push:
+class Push(Shown):
     """Torques on joints during the window [start, stop) of one single support.
 
     Raises InputError for a kind that is not in the registry or a value of the wrong type.

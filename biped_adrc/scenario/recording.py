@@ -34,12 +34,15 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference, TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.robots.robot_toml import Limits
+from biped_adrc.scenario.columns import columns_of, data_frame, write_csv
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
 from biped_adrc.scenario.walker_record import MissingPart
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 if TYPE_CHECKING:
+    import pandas
     from matplotlib.figure import Figure
 
     from biped_adrc.scenario.scenario import Scenario
@@ -51,7 +54,7 @@ def _nothing(t: float) -> tuple[Array, Array, Array]:
 
 
 @dataclass(frozen=True)
-class Walk:
+class Walk(Shown):
     """A finished walk: the walker, the gait it was to follow, the trajectory, and the scenario that asked for
     it.
     """
@@ -67,6 +70,12 @@ class Walk:
     """Signals from the file of a stored walk whose controller is not at hand."""
     said: tuple[str, ...] = ()
     """Remarks from reading a file, such as a changed source of a class."""
+
+    def __repr__(self) -> str:
+        run = self.trajectory
+        impacts = len(run.events(FOOT_STRIKE))
+        made = f"{impacts} impact{'' if impacts == 1 else 's'} in {run.t_end - run.t_start:.4g} s"
+        return f"Walk({self.note}: {made}, {run.status.name})"
 
     @property
     def reference(self) -> Reference:
@@ -173,8 +182,25 @@ class Walk:
 
         return save_walk(self, path, settings)
 
+    def to_csv(self, path: Path | str) -> Path:
+        """Write time, q, v, torques, references, errors, forces and events as a table (.csv); its path.
+
+        A row for each stored node, units in the names of the columns. Raises InputError and OutputError.
+        """
+        return write_csv(columns_of(self.signals, self.trajectory), path)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The table of `to_csv` as a DataFrame. Raises InputError without pandas, of the extra `tables`."""
+        return data_frame(columns_of(self.signals, self.trajectory), self.note)
+
     def export(self, path: Path | str) -> None:
-        """Write all signals for MATLAB (.mat), one array per name. Raises InputError and OutputError."""
+        """Write the table of `to_csv` (.csv), or all signals for MATLAB (.mat), one array per name.
+
+        Raises InputError and OutputError.
+        """
+        if Path(path).suffix.lower() == ".csv":
+            self.to_csv(path)
+            return
         from biped_adrc.gait.exchange.files import export_run
 
         export_run(vars(self.signals), path, note=self.note)

@@ -38,6 +38,7 @@ from biped_adrc.scenario.walk import (
     refined,
     walk_in_parts,
 )
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 METHODS: dict[str, Callable[..., OneStepMethod]] = {
@@ -95,7 +96,7 @@ def halved(s: Scenario, walker: Walker | None = None) -> Scenario:
 
 
 @dataclass(frozen=True)
-class Cycle:
+class Cycle(Shown):
     """A return map and a state from which Newton's method finds its fixed point."""
 
     P: ReturnMap

@@ -30,6 +30,7 @@ from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import Push, parse_push
 from biped_adrc.scenario.registry import find, portable, spelled
 from biped_adrc.scenario.values import clear, described, units_of
+from biped_adrc.shown import Shown
 
 HARDWARE: dict[str, dict[str, object]] = packaged("biped_adrc.scenario", "hardware.toml")
 """Values that `hardware` fills in, by its name: none, continuous time; ideal, exact measurements at 1 kHz;
@@ -80,7 +81,7 @@ FREE = ("adaptive", "stiff")
 @clear(lambda values: HARDWARE.get(str(values.get("hardware", "none")), {}))
 @dataclass(frozen=True, config=ConfigDict(extra="forbid", allow_inf_nan=False))
 @described("scenario.toml")
-class Scenario:
+class Scenario(Shown):
     """One walk in plain values; see `scenario.toml` for the text, unit and range of each field.
 
     Fields come in groups: who walks and how far; the controller and its observer; sampling, sensors and motors;

@@ -18,7 +18,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
+from types import NoneType
 from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
 
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.engine.run import COMPILED, simulate_by
@@ -27,6 +30,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.integrators import RK4, Exponential, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.parts import check_part, numbers
 from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.types import Array
@@ -103,6 +107,9 @@ def walk(
     the status ILLEGAL, where it would leave these limits; without, they are looked up in `Walk.legality` alone.
     Raises InputError for parts that do not fit together.
     """
+    check_part(walker, "what is to walk", Walker)
+    check_part(gait, "the gait of the walk", Gait)
+    check_part(method, "the method of the walk", OneStepMethod, NoneType)
     check_count(impacts, f"the walk asks for {impacts} impacts")
     parts = (
         default_parts(walker, impacts, first_step, engine)
@@ -141,7 +148,8 @@ def walk_in_parts(
     mode = Mode(first_step)
     if start is None:
         assert gait is not None
-        start = gait.start(walker.nominal)
+        start = _start_of(gait, walker)
+    _check_start(*start, walker)
     x, runs = walker.initial_state(*start, mode), list[Trajectory]()
     for part in parts:
         done = sum(len(run.arcs) for run in runs)
@@ -162,6 +170,31 @@ def walk_in_parts(
             break
         x, mode = event.x_plus, Mode(run.arcs[-1].mode.step + 1, event.t)
     return watched(walker, gait, _joined(runs), scenario)
+
+
+def _start_of(gait: Gait, walker: Walker) -> tuple[Array, Array]:
+    """As Gait.start. Raises InputError for a gait of a robot with other coordinates."""
+    robot, n = walker.nominal.description.name, walker.nominal.n
+    if len(gait.q_minus) != n:
+        raise InputError(
+            f"gait '{gait.name}' is of robot '{gait.robot}' with {len(gait.q_minus)} coordinates, and the "
+            f"walker is '{robot}' with {n}; expected a gait of this robot: load_gait(name, biped) or "
+            "design_gait(biped, speed)"
+        )
+    return gait.start(walker.nominal)
+
+
+def _check_start(q: Array, v: Array, walker: Walker) -> None:
+    """Raise InputError for a start that is no state, or has angles beyond a whole turn, as in degrees."""
+    n = walker.plant.n
+    for name, x in (("q", q), ("q'", v)):
+        if np.shape(x) != (n,) or not np.all(np.isfinite(numbers(x, f"the start {name}"))):
+            raise InputError(f"the start {name} is {x}, expected {n} finite numbers")
+    if np.max(np.abs(q)) > 2.0 * math.pi:
+        raise InputError(
+            f"the start q is {q} rad, with an angle beyond a whole turn; expected radians: np.radians(q) and "
+            "np.radians(v) if these are degrees"
+        )
 
 
 def _later(progress: Progress, done: int, t: float, events: int) -> None:

@@ -44,12 +44,14 @@ from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.parts import check_part
 from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.run import SETTLES, Cycle, known_cycle, method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import default_method
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 DIFFERENCE = 1e-4
@@ -59,7 +61,7 @@ BESIDE = 1e-3
 
 
 @dataclass(frozen=True)
-class CycleStability:
+class CycleStability(Shown):
     """The fixed point of a return map and its multipliers by every method that applies."""
 
     cycle: Cycle
@@ -146,6 +148,7 @@ def cycle_stability(
     variational equation is written for the mechanics alone. Raises InputError for 1 or 2 samples,
     SimulationError when no fixed point is found.
     """
+    check_part(cycle, "cycle", Cycle)
     if samples != 0 and samples < 3:
         raise InputError(f"{samples} samples for the regression, expected 0 or at least 3")
     P, t = cycle.P, Tolerances() if tolerances is None else tolerances
@@ -213,7 +216,7 @@ def walk_beside(P: ReturnMap, x_star: Array, impacts: int) -> Array:
 
 
 @dataclass(frozen=True)
-class PoincareResult:
+class PoincareResult(Shown):
     """A fixed point with its multipliers, and delta^2 of the zero dynamics beside them."""
 
     controller: str

@@ -32,8 +32,10 @@ from biped_adrc.gait.recipe import RecipeParameters, design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4, Adaptive
 from biped_adrc.model.biped import Biped
-from biped_adrc.robots.robot_toml import KnownLimits
+from biped_adrc.parts import check_part
+from biped_adrc.robots.robot_toml import ENDS, KnownLimits
 from biped_adrc.scenario.walk import walk
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 RETURNS = 1e-6
@@ -43,7 +45,7 @@ STEPS = 2
 
 
 @dataclass(frozen=True)
-class DesignedGait:
+class DesignedGait(Shown):
     """A designed gait, with the walk that proves it."""
 
     gait: Gait
@@ -82,7 +84,7 @@ class DesignedGait:
             ("least F_N", f"{c.least_normal_force:.1f} N"),
             (
                 "foot clearance",
-                f"{1e3 * c.clearance:.1f} mm, between the first and the last 3 % of the step",
+                f"{1e3 * c.clearance:.1f} mm, between the first and the last {100.0 * ENDS:g} % of the step",
             ),
             ("cost of transport", f"{c.cost_of_transport:.4f}"),
             (f"walked {STEPS} steps under NPD, back within {self.gap:.1e}",),
@@ -114,6 +116,7 @@ def design_gait(
     name, one that lies between its ends. degree: of the curves. nodes: at which limits are kept. progress:
     called after each iteration of IPOPT. Raises GaitError naming what could not be met.
     """
+    check_part(robot, "robot", Biped, str, Path)
     biped = robot if isinstance(robot, Biped) else Biped.load(robot, preset)
     request = GaitRequest(
         speed,
@@ -174,7 +177,7 @@ MOST_SPEEDS = 1000
 
 
 @dataclass(frozen=True)
-class GaitLibrary:
+class GaitLibrary(Shown):
     """Gaits of one robot and preset over speed.
 
     Gaits are not interpolated: a mean of two hybrid-invariant constraints is not hybrid-invariant in general,

@@ -393,8 +393,8 @@ def test_files_that_cannot_be_read(tmp_path, record):
     missing = tmp_path / "none.mat"
     with pytest.raises(InputError, match=r"none.mat' not found"):
         read_record(missing)
-    with pytest.raises(InputError, match=r"expected .json or .mat"):
-        read_record(tmp_path / "gait.csv")
+    with pytest.raises(InputError, match=r"expected .json, .mat or .csv"):
+        read_record(tmp_path / "gait.txt")
     with pytest.raises(InputError, match=r"expected .json or .mat"):
         write_record(record, tmp_path / "gait.csv")
     damaged = tmp_path / "damaged.mat"

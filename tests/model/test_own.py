@@ -377,3 +377,29 @@ def test_new_robot_is_listed_shown_and_not_overwritten(urdf, tmp_path):
     assert listed.exit_code == 0
     for name in ("rabbit", "tac2003", "compass"):
         assert name in listed.stdout
+
+
+def test_one_motor_between_the_legs_is_refused_with_the_reason(tmp_path):
+    """A compass with a motor at the hip: the angle changes its sign at impact, no motor takes its place."""
+    path = data_folder("urdf") / "compass" / "floating.urdf"
+    hip = ba.Biped.load("compass").description.joints[0]
+    with pytest.raises(
+        ba.BipedError, match=r"are not exchanged with others at impact.*torso with two"
+    ):
+        derive(path, Hints(actuated=(hip,), torque=100.0))
+    for words in (["check"], ["new", "-o", str(tmp_path / "out")]):
+        given = ["--actuated", hip, "--torque", "100"]
+        done = CliRunner().invoke(app, ["robot", words[0], str(path), *given, *words[1:]])
+        assert done.exit_code != 0
+        assert "are not exchanged" in f"{done.exception} {done.output}"
+    record = data_folder("urdf") / "compass" / "robot.toml"
+    text = record.read_text().replace("actuated = []", f'actuated = ["{hip}"]')
+    text = text.replace(f'passive = ["{hip}"]', "passive = []")
+    (tmp_path / "robot.toml").write_text(text)
+    (tmp_path / "floating.urdf").write_text(path.read_text())
+    motor = ba.Biped.load(tmp_path / "robot.toml")
+    assert motor.p == 1
+    with pytest.raises(ba.BipedError, match="are not exchanged"):
+        ba.design_gait(motor, 0.5)
+    with pytest.raises(ba.BipedError, match="are not exchanged"):
+        ba.Walker(motor, ba.Passive())

@@ -16,6 +16,8 @@ from enum import Enum
 from biped_adrc.errors import GaitError, check_positive
 from biped_adrc.gait.curves import ControlledCurve, curve_kind
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_fields
+from biped_adrc.shown import Shown
 
 MOST_NODES = 100
 """Largest number of nodes that may be asked for; twice as many are tried where limits are missed between
@@ -34,7 +36,7 @@ class Objective(Enum):
 
 
 @dataclass(frozen=True)
-class StepLimits:
+class StepLimits(Shown):
     """Limits of one step; None takes the robot's own from its record (`robot.toml`).
 
         ba.design_gait("rabbit", 0.8, limits=StepLimits(friction=0.5, torque=100.0, clearance=0.03))
@@ -86,6 +88,7 @@ class StepLimits:
         return RobotLimits(**{**vars(self), **own})
 
     def __post_init__(self) -> None:
+        check_fields(self)
         for name in (f.name for f in fields(self) if f.name != "ranges"):
             value = getattr(self, name)
             if value is not None and not value >= 0.0:
@@ -115,7 +118,7 @@ class RobotLimits(StepLimits):
 
 
 @dataclass(frozen=True)
-class GaitRequest:
+class GaitRequest(Shown):
     """A gait to be designed: speed, step length or both (one left out is free), or a state to pass through.
 
     Raises GaitError for a request that contradicts itself or a value out of range.
@@ -144,6 +147,7 @@ class GaitRequest:
         return curve_kind(self.curve)  # type: ignore[return-value]
 
     def __post_init__(self) -> None:
+        check_fields(self)
         given = [x for x in (self.speed, self.step) if x is not None]
         if self.through is not None and given:
             raise GaitError(

@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.conventions import CONVENTIONS, convention
+from biped_adrc.gait.conventions import CONVENTIONS, OWN, convention
 from biped_adrc.gait.exchange.convert import Coordinates, coordinates, state_to_paper
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import CLOSES
@@ -88,6 +88,12 @@ _JOINTS = {  # names of the paper's coordinates for messages, by their number
 }
 
 
+def _joints(record: GaitRecord) -> tuple[str, ...]:
+    """Names of the coordinates, for a reader."""
+    layout = record.layout
+    return layout.coordinates if layout.name == OWN else _JOINTS[layout.n]
+
+
 class Misfit(NamedTuple):
     """One thing that is wrong with a gait, in words for an error message."""
 
@@ -119,7 +125,7 @@ def _checks(
     yield _radians(record)
     yield _direction(along)
     yield _phase_of_rows(record, along)
-    yield _closure(along)
+    yield _closure(record, along)
     yield _state(record, along)
     if biped is not None:
         yield _feet(along, biped, record.slope)
@@ -201,19 +207,19 @@ def _phase_of_rows(record: GaitRecord, along: Coordinates) -> Misfit | None:
     )
 
 
-def _closure(along: Coordinates) -> Misfit | None:
+def _closure(record: GaitRecord, along: Coordinates) -> Misfit | None:
     """q(0) = R q(1) within CLOSES [rad]: the end of the step, relabelled, is its start.
 
     Both are poses of double support. The joint with the largest gap is the one that is reported.
     """
-    n = len(along.phase)
-    R = convention("paper", knees=n == 5).relabelling
+    n, layout = len(along.phase), record.layout
+    R = layout.relabelling if layout.name == OWN else convention("paper", n == 5).relabelling
     begin, end = along.curve(0.0)[0], R.angles(along.curve(1.0)[0])
     joint = int(np.argmax(np.abs(begin - end)))
     if abs(begin[joint] - end[joint]) <= CLOSES:
         return None
     return Misfit(
-        f"{_JOINTS[n][joint]} across the impact",
+        f"{_joints(record)[joint]} across the impact",
         f"{begin[joint]:.6g} rad at the start of the step",
         f"{end[joint]:.6g} rad, the end of the step with the legs changed over, within {CLOSES:g} "
         "(this paper's coordinates)",
@@ -234,7 +240,7 @@ def _state(record: GaitRecord, along: Coordinates) -> Misfit | None:
     q, v = state
     h, dh, _ = along.curve(1.0)
     rate = float(along.phase @ v) / (along.theta_minus - along.theta_plus)
-    names = _JOINTS[len(q)]
+    names = _joints(record)
     for what, unit, tolerance, found, expected in (
         ("q_minus", "rad", CLOSES, q, h),
         ("v_minus", "rad/s", RATES, v, dh * rate),
@@ -266,7 +272,8 @@ def _feet(along: Coordinates, biped: Biped, slope: float) -> Misfit | None:
                 f"{height:.4g} m above the ground",
                 f"0 within {CLOSES:g} m",
                 "thigh and shin of the gait's robot have other lengths, or the phase range is another "
-                "gait's or a time, or it walks on another slope; load the robot it was made for, or give the "
+                "gait's or a time, or it walks on another slope; load the robot it was made for, or "
+                "give the "
                 "range of the phase [rad] and the slope",
             )
     ahead = float(biped.swing_foot(along.curve(1.0)[0])[0])
@@ -298,10 +305,11 @@ def _slopes(record: GaitRecord, along: Coordinates, biped: Biped) -> Misfit | No
     made_for = f"{record.robot or '?'}, preset {record.preset or '?'}"
     here = f"{biped.description.name}, preset {biped.preset}"
     return Misfit(
-        f"slope of the {_JOINTS[biped.n][joint]} through the impact",
+        f"slope of the {_joints(record)[joint]} through the impact",
         f"{before[joint]:.5g} rad/rad at the start of the step",
         f"{after[joint]:.5g} rad/rad, that after the impact at its end, within {SLOPES:g}",
-        f"the masses differ (gait for {made_for}; robot {here}), or the constraint is not hybrid-invariant; "
+        f"the masses differ (gait for {made_for}; robot {here}), or the constraint is not "
+        "hybrid-invariant; "
         "load the robot with the gait's preset, or accept the jump with slopes=False",
         geometric=False,
     )

@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.conventions import AngleMap, convention
+from biped_adrc.gait.conventions import OWN, AngleMap, Convention, convention
 from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import Gait
@@ -84,10 +84,11 @@ def coordinates(record: GaitRecord) -> Coordinates:
     same = bool(np.max(np.abs(row - k * layout.paper_phase)) <= _PARALLEL * np.max(np.abs(row)))
     if same:
         row, ends = layout.paper_phase, ends / k
-    turns = _whole_turns(curve)
+    own = layout.name == OWN
+    turns = np.zeros(layout.n) if own else whole_turns(curve(0.5)[0])
     curve = mapped(curve, np.eye(len(turns)), _TURN * turns)
     ends = ends + row @ (_TURN * turns)
-    return Coordinates(curve, row, float(ends[0]), float(ends[1]), same, turns)
+    return Coordinates(curve, row, float(ends[0]), float(ends[1]), same and not own, turns)
 
 
 def _completed(record: GaitRecord, curve: Curve, c: Array) -> Curve:
@@ -112,12 +113,12 @@ def _completed(record: GaitRecord, curve: Curve, c: Array) -> Curve:
     return type(curve)(q)
 
 
-def _whole_turns(curve: Curve) -> Array:
-    """Whole turns (n,) to add so that at s = 0.5 hips lie in (0, 2 pi), knees and torso in (-pi, pi) [rad].
+def whole_turns(middle: Array) -> Array:
+    """Whole turns (n,) to add to q in the middle of a step (n,) [rad].
 
-    Angles that differ by whole turns are the same pose, but not the same phase c q.
+    Then hips lie in (0, 2 pi), knees and torso in (-pi, pi). Angles that differ by whole turns are the same
+    pose, but not the same phase c q.
     """
-    middle = curve(0.5)[0]
     centre = np.zeros(len(middle))
     centre[:2] = np.pi
     return np.asarray(-np.round((middle - centre) / _TURN) + 0.0)
@@ -135,27 +136,36 @@ def state_to_paper(record: GaitRecord, turns: Array) -> tuple[Array, Array] | No
     return q, to_paper.rates(record.v_minus)
 
 
-def record_of(gait: Gait, to: str = "paper") -> GaitRecord:
+def record_of(gait: Gait, to: str = "paper", own: Convention | None = None) -> GaitRecord:
     """The gait as a record in another convention, with that convention's outputs and sense of the phase.
 
-    Raises InputError for a convention that there is not.
+    own: of the robot, for the convention "own", in which the coordinates are left as they are. Raises
+    InputError for a convention that there is not.
     """
     constraint = gait.constraint
     n = len(constraint.phase)
-    other = convention(to, knees=n == 5)
+    other = convention(to, knees=n == 5) if own is None else own
     kind = type(constraint.curve).__name__.lower()
     ends = constraint.theta_plus, constraint.theta_minus
     coefficients = constraint.curve.coefficients
-    full = GaitRecord("paper", coefficients, *ends, constraint.phase, curve=kind, name=gait.name)
+    full = GaitRecord(
+        "paper" if own is None else OWN,
+        coefficients,
+        *ends,
+        constraint.phase,
+        curve=kind,
+        name=gait.name,
+        own=own,
+    )
     curve = _completed(full, constraint.curve, constraint.phase)
     back: AngleMap = other.to_paper.inverse
-    own = mapped(curve, back.A, back.b)
+    rows = mapped(curve, back.A, back.b)
     # Theta = c q = c A q' + c b
     row = constraint.phase @ other.to_paper.A
     plus, minus = other.sense * (np.array(ends) - constraint.phase @ other.to_paper.b)
     return GaitRecord(
         to,
-        other.outputs @ own.coefficients,
+        other.outputs @ rows.coefficients,
         float(plus),
         float(minus),
         phase=other.sense * row + 0.0,
@@ -168,4 +178,5 @@ def record_of(gait: Gait, to: str = "paper") -> GaitRecord:
         robot=gait.robot,
         preset=gait.preset,
         provenance=gait.provenance,
+        own=own,
     )

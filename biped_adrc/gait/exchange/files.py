@@ -34,7 +34,9 @@ from scipy.io import loadmat, savemat
 
 from biped_adrc.errors import GaitError, InputError
 from biped_adrc.files import output_path, read_json, reading, write_bytes, write_text
+from biped_adrc.gait.conventions import OWN, Convention
 from biped_adrc.gait.exchange.record import GaitRecord
+from biped_adrc.gait.exchange.samples import Samples, read_csv
 from biped_adrc.gait.gait import FORMAT as STORED
 from biped_adrc.types import Array
 
@@ -53,7 +55,8 @@ def write_mat(path: Path | str, entries: Mapping[str, object], units: Mapping[st
             len(name) > LONGEST_NAME
         ):
             raise InputError(
-                f"'{name}' cannot be a variable of a .mat file; expected a letter, then letters, digits and "
+                f"'{name}' cannot be a variable of a .mat file; expected a letter, then letters, "
+                "digits and "
                 f"underscores, at most {LONGEST_NAME}"
             )
         if not isinstance(value, str) and name not in units:
@@ -106,7 +109,8 @@ UNITS = {  # of the entries of a gait file, written into it
     "period": "s",
     "slope": "rad",
 }
-_KEYS = tuple(f.name for f in fields(GaitRecord))
+_KEYS = tuple(f.name for f in fields(GaitRecord) if f.name != "own")
+_SAMPLES = ("t", "q", "v")
 _REQUIRED = ("coefficients", "theta_plus", "theta_minus")
 _TEXT = ("convention", "curve", "name", "robot", "preset")
 
@@ -135,14 +139,21 @@ def write_record(record: GaitRecord, path: Path | str) -> None:
 
 
 def read_record(
-    path: Path | str, convention: str | None = None, names: Mapping[str, str] | None = None
-) -> GaitRecord:
-    """The record in a .json or .mat file.
+    path: Path | str,
+    convention: str | None = None,
+    names: Mapping[str, str] | None = None,
+    own: Convention | None = None,
+) -> GaitRecord | Samples:
+    """The record in a .json or .mat file, or the samples of a step where it has t and q and no coefficients.
 
-    convention: of a file that does not state its own. names: the file's names of entries that are called
-    differently there, such as {"coefficients": "alpha"}. Raises InputError and GaitError that name the file.
+    convention: where the file does not say its own. names: the file's names of its entries where they are not
+    ours, such as {"coefficients": "alpha"}; entries of a struct are "struct.entry", and where one struct has
+    all that is needed it is looked into. own: of the robot, for the convention "own"; where the gait is one
+    that this package has stored, too. A .csv has samples. Raises InputError and GaitError that name the file.
     """
     path = Path(path)
+    if path.suffix.lower() == ".csv":
+        return Samples(**read_csv(path))
     if path.suffix.lower() == ".mat":
         found = read_mat(path)
     elif path.suffix.lower() == ".json":
@@ -151,25 +162,57 @@ def read_record(
             kind = type(found).__name__
             raise InputError(f"gait file '{path}' holds a {kind}, expected an object")
     else:
-        raise InputError(f"gait file '{path}' ends in '{path.suffix}', expected .json or .mat")
+        raise InputError(
+            f"gait file '{path}' ends in '{path.suffix}', expected .json, .mat or .csv"
+        )
     if found.get("format") == FORMAT and "units" not in found:
         raise InputError(f"gait file '{path}' ends before its units: it is cut off; copy it again")
     with reading("gait file", path, GaitError):
-        return _record(_ours(found, names or {}), convention)
+        entries = _ours(found, names or {})
+        if "coefficients" not in entries and {"t", "q"} <= set(entries):
+            return Samples(*(entries.get(key) for key in _SAMPLES))  # type: ignore[arg-type]
+        return _record(entries, convention, own)
+
+
+def _flat(found: Mapping[str, Any], above: str = "") -> dict[str, Any]:
+    """Entries of structs as "struct.entry", beside what is not in one."""
+    flat = dict[str, Any]()
+    for name, x in found.items():
+        flat[above + name] = x
+        if isinstance(x, Mapping) and name not in ("units", "provenance"):
+            flat |= _flat(x, f"{above}{name}.")
+    return flat
+
+
+def _inside(found: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The one struct that has all that is required, where the file itself has not; else nothing."""
+    for required in (_REQUIRED, ("t", "q")):
+        if set(required) <= set(found):
+            return {}
+        structs = [x for x in _flat(found).values() if isinstance(x, Mapping)]
+        having = [x for x in structs if set(required) <= set(x)]
+        if len(having) == 1:
+            return having[0]
+    return {}
 
 
 def _ours(found: Mapping[str, object], names: Mapping[str, str]) -> dict[str, object]:
-    """The entries under the names of `GaitRecord`. Raises GaitError for names that are not there."""
-    unknown = [ours for ours in names if ours not in _KEYS]
+    """The entries by the names of `GaitRecord` or `Samples`. Raises GaitError for names that are not there."""
+    known = (*_KEYS, *_SAMPLES)
+    unknown = [ours for ours in names if ours not in known]
     if unknown:
-        raise GaitError(f"names gives {unknown}, expected names of {list(_KEYS)}")
-    absent = [theirs for theirs in names.values() if theirs not in found]
+        raise GaitError(f"names gives {unknown}, expected names of {list(known)}")
+    flat = _flat(found)
+    absent = [theirs for theirs in names.values() if theirs not in flat]
     if absent:
-        raise GaitError(f"there are no entries {absent}; the file has {sorted(found)}")
-    return {**found, **{ours: found[theirs] for ours, theirs in names.items()}}
+        raise GaitError(f"there are no entries {absent}; the file has {sorted(flat)}")
+    given = {ours: flat[theirs] for ours, theirs in names.items()}
+    return {**_inside(found), **found, **given}
 
 
-def _record(found: Mapping[str, object], convention: str | None) -> GaitRecord:
+def _record(
+    found: Mapping[str, object], convention: str | None, robot: Convention | None
+) -> GaitRecord:
     """The record of the entries of a file, under our names.
 
     Raises GaitError for missing entries, a convention that is not stated or stated twice, and wrong types.
@@ -177,10 +220,13 @@ def _record(found: Mapping[str, object], convention: str | None) -> GaitRecord:
     missing = [key for key in _REQUIRED if key not in found]
     if missing:
         raise GaitError(
-            f"the entries {missing} are missing; the file has {sorted(found)}. Say what they are called "
-            'there with names={"coefficients": "..."}'
+            f"the entries {missing} are missing; the file has {sorted(_flat(found))}. Say what they are "
+            'called there with names={"coefficients": "..."}, or --name coefficients=...'
         )
-    own = "paper" if found.get("format") == STORED else found.get("convention")
+    stored = OWN if robot is not None else "paper"
+    own = stored if found.get("format") == STORED else found.get("convention")
+    if own is None and convention is None and robot is not None:
+        convention = OWN
     if own is None and convention is None:
         raise GaitError(
             "the file does not say its angle convention; add an entry 'convention' or give convention=..."
@@ -202,7 +248,7 @@ def _record(found: Mapping[str, object], convention: str | None) -> GaitRecord:
     for key in ("coefficients", "outputs"):
         if isinstance(given.get(key), np.ndarray):
             given[key] = np.atleast_2d(given[key])  # one row, squeezed by loadmat
-    return GaitRecord(**given)
+    return GaitRecord(**given, own=robot if given["convention"] == OWN else None)
 
 
 def _provenance(value: object) -> dict[str, object]:

@@ -9,18 +9,22 @@ describe the angles of the packaged robots only.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.conventions import CONVENTIONS
+from biped_adrc.gait.conventions import CONVENTIONS, OWN, of_the_paper, own_convention
+from biped_adrc.gait.conventions import convention as known_convention
 from biped_adrc.gait.exchange.closure import check
 from biped_adrc.gait.exchange.convert import record_of, state_to_paper
 from biped_adrc.gait.exchange.files import read_record, write_record
 from biped_adrc.gait.exchange.record import GaitRecord
+from biped_adrc.gait.exchange.samples import Samples, gait_of_samples
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_part
 from biped_adrc.robots.robot_toml import robot_names
 
 
@@ -30,18 +34,24 @@ def import_constraint(record: GaitRecord) -> VirtualConstraint:
 
 
 def import_gait(
-    gait: GaitRecord | Path | str,
+    gait: GaitRecord | Samples | Path | str,
     biped: Biped,
     convention: str | None = None,
     names: Mapping[str, str] | None = None,
     slopes: bool = True,
+    degree: int = 6,
+    slope: float = 0.0,
 ) -> Gait:
-    """A gait from arrays, or from a .json or .mat file in any angle convention.
+    """A gait from arrays, or from a .json, .mat or .csv file, in any angle convention.
 
-    convention: of a file that does not state its own. names: the file's names of entries that are called
-    differently there, such as {"coefficients": "alpha"}. slopes: also ask that the slopes close through the
-    impact of this robot; False accepts constraints that are not hybrid-invariant. Without q_minus, v_minus or
-    period these come from the zero dynamics.
+    convention: of a file that does not say its own; "own" for the coordinates of the robot's record as they
+    are, which a robot has whose legs and phase are not laid out as the paper's. names: the file's names of its
+    entries where they are not ours, such as {"coefficients": "alpha"}, or "R.alpha" in a struct.
+    slopes: also ask that the slopes close through the impact of this robot; False accepts constraints that are
+    not hybrid-invariant. Without q_minus, v_minus or period these come from the zero dynamics.
+
+    To `Samples` of a step over time (t, q, and perhaps v) curves of this degree are fitted; slope [rad]: of the
+    ground that they are of.
 
         gait = ba.import_gait("ames.mat", biped, convention="frost", names={"coefficients": "alpha"})
 
@@ -50,8 +60,20 @@ def import_gait(
     Raises GaitError that names the joint, what was found, what was expected, the likely cause and what to
     try; InputError for a file that cannot be read.
     """
-    _check_angles(biped.description.name)
-    record = gait if isinstance(gait, GaitRecord) else read_record(gait, convention, names)
+    check_part(biped, "biped", Biped)
+    record, source = gait, "arrays"
+    if not isinstance(gait, GaitRecord | Samples):
+        check_part(gait, "gait", GaitRecord, Samples, str, Path)
+        source = Path(gait).name
+        layout = own_convention(biped)
+        asked = layout if convention == OWN or not of_the_paper(biped) else None
+        record = read_record(gait, convention, names, asked)
+    if isinstance(record, Samples):
+        return _of_samples(record, biped, convention, (degree, slope), source)
+    assert isinstance(record, GaitRecord)
+    _check_angles(record.convention, biped)
+    if record.convention == OWN and record.own is None:
+        record = replace(record, own=own_convention(biped))
     along = check(record, biped, slopes)
     constraint = along.constraint
     state = state_to_paper(record, along.turns)
@@ -62,7 +84,7 @@ def import_gait(
         state = (own.q_minus, own.v_minus) if state is None else state
     provenance: dict[str, object] = dict(record.provenance) or {
         "method": f"imported from convention '{record.convention}'",
-        "source": "arrays" if isinstance(gait, GaitRecord) else Path(gait).name,
+        "source": source,
     }
     if along.turns.any():
         provenance["whole turns added to q"] = ", ".join(f"{k:g}" for k in along.turns)
@@ -72,19 +94,51 @@ def import_gait(
     ).check(biped)
 
 
-def export_gait(gait: Gait, path: Path | str, convention: str = "paper") -> None:
+def _of_samples(
+    samples: Samples,
+    biped: Biped,
+    name: str | None,
+    fit: tuple[int, float],
+    source: str,
+) -> Gait:
+    """The gait of samples; they are in the robot's own coordinates where no convention is named."""
+    if name is None or name == OWN:
+        layout = own_convention(biped)
+    else:
+        _check_angles(name, biped)
+        layout = known_convention(name, knees=biped.n == 5)
+    title = "samples" if source == "arrays" else Path(source).stem
+    return gait_of_samples(samples, biped, layout, *fit, name=title, source=source)
+
+
+def export_gait(
+    gait: Gait, path: Path | str, convention: str = "paper", biped: Biped | None = None
+) -> None:
     """Write a gait as .json or .mat (plain arrays, a `units` struct) in any convention.
 
-    `import_gait` gives it back. Raises InputError for another suffix or convention, and OutputError.
+    biped: its robot, for the convention "own". `import_gait` gives it back. Raises InputError for another
+    suffix or convention, GaitError for a robot that the convention does not fit, and OutputError.
     """
-    _check_angles(gait.robot)
-    write_record(record_of(gait, convention), path)
-
-
-def _check_angles(robot: str) -> None:
-    """Raise GaitError for a robot of the user's own, whose angles are in none of the conventions."""
-    if robot and robot not in robot_names():
+    check_part(gait, "gait", Gait)
+    if biped is not None:
+        _check_angles(convention, biped)
+    elif convention == OWN or (gait.robot and gait.robot not in robot_names()):
         raise GaitError(
-            f"the angles of robot '{robot}' are those of its own URDF, which are in none of the conventions "
-            f"{list(CONVENTIONS)}: its gaits are stored and loaded as they are, by Gait.save and load_gait"
+            f"the gait is of robot '{gait.robot}' and convention '{convention}' is asked for; give "
+            "its robot too: "
+            "export_gait(gait, path, 'own', biped) writes the coordinates of the robot's record as they are"
         )
+    own = own_convention(biped) if biped is not None and convention == OWN else None
+    write_record(record_of(gait, convention, own), path)
+
+
+def _check_angles(name: str, biped: Biped) -> None:
+    """Raises GaitError for a convention of other legs or another phase than the robot's."""
+    if name == OWN or of_the_paper(biped) or name not in CONVENTIONS:
+        return
+    d = biped.description
+    raise GaitError(
+        f"robot '{d.name}' has the coordinates {list(d.joints)} and the phase {list(d.phase)}, which "
+        "are not laid out "
+        f"as convention '{name}' has them; take convention 'own', the coordinates of its record as they are"
+    )

@@ -16,8 +16,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.conventions import CONVENTIONS, Convention, convention
+from biped_adrc.gait.conventions import CONVENTIONS, OWN, Convention, convention
 from biped_adrc.gait.curves import CURVES, Curve, curve_kind
+from biped_adrc.shown import Shown
 from biped_adrc.types import Array, read_only
 
 _COORDINATES = {5: True, 3: False}
@@ -25,7 +26,7 @@ _COORDINATES = {5: True, 3: False}
 
 
 @dataclass(frozen=True)
-class GaitRecord:
+class GaitRecord(Shown):
     """A gait of a robot with n coordinates in one angle convention.
 
         record = GaitRecord("frost", alpha, theta_plus=-0.25, theta_minus=0.25, name="from FROST")
@@ -65,6 +66,8 @@ class GaitRecord:
     preset: str = ""
     provenance: Mapping[str, object] = field(default_factory=dict)
     """Where the gait comes from, free text by name."""
+    own: Convention | None = field(default=None, repr=False)
+    """The robot's coordinates, `own_convention(biped)`, for the convention "own"."""
 
     def __post_init__(self) -> None:
         if self.curve not in CURVES:
@@ -89,6 +92,8 @@ class GaitRecord:
     def layout(self) -> Convention:
         """The convention, with knees or without, as the number of rows tells. Raises GaitError."""
         rows = self.coefficients.shape[0]
+        if self.convention == OWN:
+            return self._of_robot(rows)
         if self.outputs is not None:
             n = self.outputs.shape[1]
             if n not in _COORDINATES or self.outputs.shape[0] != rows:
@@ -115,6 +120,23 @@ class GaitRecord:
     def error(self, text: str) -> GaitError:
         """An error that names the gait and its convention."""
         return GaitError(f"gait '{self.name}' in convention '{self.convention}': {text}")
+
+    def _of_robot(self, rows: int) -> Convention:
+        """The robot's own coordinates. Raises GaitError."""
+        if self.own is None:
+            raise self.error(
+                "the robot is not known; give own=own_convention(biped), or import_gait"
+            )
+        n = self.own.n if self.outputs is None else self.outputs.shape[1]
+        counts = (len(self.own.outputs), n) if self.outputs is None else (len(self.outputs),)
+        if n != self.own.n or rows not in counts:
+            raise self.error(
+                f"coefficients have {rows} rows for {self.own.source}, expected {counts[0]}, one per "
+                "motor, or "
+                f"{self.own.n}, one per coordinate ({', '.join(self.own.coordinates)}); rows are joints, "
+                "columns k = 0..M"
+            )
+        return self.own
 
     def _known(self, knees: bool) -> Convention:
         """The convention of the record, for a robot with knees or without.
@@ -193,7 +215,8 @@ class GaitRecord:
             object.__setattr__(self, key, number)
         if self.theta_plus == self.theta_minus:
             raise self.error(
-                f"theta_plus and theta_minus are both {self.theta_plus} rad, expected two different ends; a "
+                f"theta_plus and theta_minus are both {self.theta_plus} rad, expected two different "
+                "ends; a "
                 "normalised s in [0, 1] needs the phase at s = 0 and at s = 1"
             )
         if self.period is not None and self.period <= 0:

@@ -1,0 +1,109 @@
+"""What a part of a walker is expected to be, and the sentence for a user who gives another thing.
+
+A dataclass calls `check_fields` and has each field held against its own annotation; a function calls
+`check_part` for one argument. Both raise InputError.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from functools import lru_cache
+from numbers import Real
+from types import NoneType, UnionType
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+
+SUCH_AS = {
+    "Mapping": "{'torso': 1.2}",
+    "Biped": "Biped.load('rabbit')",
+    "Controller": "NPDController(gait.constraint)",
+    "Disturbance": "TorquePulse([30, 30, 30, 30, 0], step=3, start=0.1, stop=0.3); a sum of them is a + b",
+    "Gait": "load_gait('published', biped)",
+    "Gains": "Gains(5000.0, 50.0), K_p [1/s^2] and K_d [1/s]",
+    "JointGains": "JointGains(3000.0, 250.0), K_p [N m/rad] and K_d [N m s/rad]",
+    "Observer": "GPIObserver.from_bandwidth(500.0)",
+    "OneStepMethod": "RK4(1e-3)",
+    "Outputs": "LinearOutputs(H0, gait.constraint)",
+    "Reference": "gait.constraint",
+    "SampledTime": "SampledTime(1e-3)",
+    "VirtualConstraint": "gait.constraint",
+    "Walker": "Walker(biped, controller)",
+}
+"""An example of each, for the sentence only."""
+
+
+def check_part(value: object, what: str, *kinds: type) -> None:
+    """Raise InputError, beginning with `what`, unless `value` is an instance of one of the classes."""
+    if isinstance(value, kinds) or (float in kinds and _is_number(value)):
+        return
+    named = [kind for kind in kinds if kind is not NoneType]
+    words = " or ".join("a number" if kind is float else _a(kind) for kind in named)
+    examples = [SUCH_AS[kind.__name__] for kind in named if kind.__name__ in SUCH_AS]
+    such_as = f", such as {examples[0]}" if examples else ""
+    raise InputError(f"{what} is {_shown(value)}, expected {words}{such_as}")
+
+
+def check_fields(part: Any) -> None:
+    """`check_part` for every field of a dataclass that is annotated with parts or numbers, None included."""
+    cls: Any = type(part)
+    for name, kinds in _expected(cls):
+        check_part(getattr(part, name), f"{name} of {type(part).__name__}", *kinds)
+
+
+def numbers(values: object, what: str) -> Array:
+    """A copy as floats of any shape. Raises InputError, beginning with `what`, for what is no number."""
+    try:
+        return np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(
+            f"{what} is {_shown(values)}, expected numbers, as many in every row"
+        ) from None
+
+
+@lru_cache(maxsize=256)
+def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...]], ...]:
+    """Fields and what they may be; without those whose annotation says other things or cannot be read."""
+    try:
+        hints = get_type_hints(cls)
+    except (NameError, TypeError, AttributeError, SyntaxError):
+        return ()
+    found = ((f.name, _members(hints[f.name])) for f in fields(cls))
+    return tuple((name, kinds) for name, kinds in found if kinds and all(map(_looked_at, kinds)))
+
+
+def _members(hint: Any) -> tuple[Any, ...]:
+    return get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+
+
+def _looked_at(kind: Any) -> bool:
+    """Whether an annotation is a class of this package and no protocol, a float, or None."""
+    own = isinstance(kind, type) and kind.__module__.startswith("biped_adrc.")
+    return (own and not getattr(kind, "_is_protocol", False)) or kind in (float, NoneType)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, Real) or (
+        getattr(value, "ndim", None) == 0 and hasattr(value, "dtype")
+    )
+
+
+def _shown(value: Any) -> str:
+    """A value in a few words; a class is said to be one."""
+    if isinstance(value, type):
+        return f"the class {value.__name__}, not made as {value.__name__}(...)"
+    text = repr(value)
+    name = type(value).__name__
+    if value is None or len(text) > 60 or text.startswith(name):
+        return "None" if value is None else _a(type(value))
+    return f"{text} ({_a(type(value))})"
+
+
+def _a(kind: type) -> str:
+    """The name of a class with its article, as it is spoken: an NPDController, a Gait."""
+    name = kind.__name__
+    vowel = name[0] in "AEIOaeio" or (name[0] in "NLMRSFH" and name[:2].isupper())
+    return f"{'an' if vowel else 'a'} {name}"

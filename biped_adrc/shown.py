@@ -1,0 +1,88 @@
+"""What an object looks like where it is printed: one line, with arrays by their shape.
+
+A class below `Shown` shows its fields that are not at their defaults, unless it has a sentence of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import MISSING, fields, is_dataclass
+from numbers import Real
+from typing import Any
+
+import numpy as np
+
+LONGEST = 110
+"""Characters of a line."""
+FEW = 6
+"""Numbers of an array that are shown one by one."""
+SHORT = 48
+"""Characters of a part that is shown inside another one."""
+
+
+class Shown:
+    """Base of dataclasses whose repr is `one_line`; a class that writes a `__repr__` keeps it."""
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        """A dataclass keeps a `__repr__` that its class has, so every class is given the one above it."""
+        super().__init_subclass__(**kwargs)
+        if "__repr__" not in vars(cls):
+            cls.__repr__ = cls.__repr__  # type: ignore[method-assign]
+
+    def __repr__(self) -> str:
+        return one_line(self)
+
+
+def one_line(thing: Any) -> str:
+    """Name(field=value, ...) in at most `LONGEST` characters.
+
+    Fields at their defaults, and empty mappings, are left out.
+    """
+    name = type(thing).__name__
+    told = ", ".join(f"{key}={short(x)}" for key, x in _told(thing))
+    room = LONGEST - len(name) - 2
+    return f"{name}({told if len(told) <= room else told[: room - 3] + '...'})"
+
+
+def short(x: Any) -> str:
+    """A value in a few words: numbers as they are, an array by its shape, a long part by its class."""
+    if isinstance(x, np.ndarray):
+        few = x.ndim == 1 and x.size <= FEW and x.dtype.kind in "bifc"
+        return f"[{' '.join(f'{number:.6g}' for number in x)}]" if few else f"array{x.shape}"
+    if isinstance(x, Real) and not isinstance(x, bool):
+        return f"{x}"
+    if callable(x) and hasattr(x, "__name__"):
+        return str(x.__name__)
+    text = f"{{{len(x)} keys}}" if isinstance(x, Mapping) and len(x) > 2 else repr(x)
+    if len(text) <= SHORT and "\n" not in text:
+        return text
+    if isinstance(x, str):
+        return repr(x[: SHORT - 5] + "...")
+    if isinstance(x, Sequence):
+        return f"({len(x)} items)"
+    return f"{type(x).__name__}(...)"
+
+
+def _told(thing: Any) -> list[tuple[str, Any]]:
+    """Names and values of fields, without those at their defaults."""
+    if not is_dataclass(thing):
+        names = getattr(thing, "_fields", ())
+        usual = getattr(thing, "_field_defaults", {})
+        return [(key, getattr(thing, key)) for key in names if not _same(thing, key, usual)]
+    seen = [f for f in fields(thing) if f.repr and f.init]
+    kind = type(thing)
+    usual = {f.name: getattr(kind, f.name, f.default) for f in seen if f.default is not MISSING}
+    usual |= {f.name: f.default_factory() for f in seen if f.default_factory is not MISSING}
+    return [(f.name, getattr(thing, f.name)) for f in seen if not _same(thing, f.name, usual)]
+
+
+def _same(thing: Any, key: str, usual: Mapping[str, Any]) -> bool:
+    x = getattr(thing, key)
+    if isinstance(x, Mapping) and not x:
+        return True
+    if key not in usual or type(x) is not type(usual[key]):
+        return False
+    try:
+        return bool(np.all(x == usual[key]))
+    except (ValueError, TypeError):
+        return False

@@ -1,0 +1,264 @@
+"""Gaits for any robot: its own coordinates, names and structs of other tools, samples over time, own cycles."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.io import savemat
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.cli import app
+from biped_adrc.gait.exchange.samples import Samples
+from biped_adrc.resources import data_folder
+
+
+def copy_of(robot, folder, *changes):
+    """A robot's folder with lines of its record changed; its Biped and the path of the record."""
+    shutil.copytree(data_folder("urdf") / robot, folder)
+    record = folder / "robot.toml"
+    text = record.read_text()
+    for old, new in (("name = ", 'name = "mine" # '), *changes):
+        assert old in text
+        text = text.replace(old, new, 1)
+    record.write_text(text)
+    return ba.Biped.load(record), record
+
+
+@pytest.fixture(scope="module")
+def mine(tmp_path_factory):
+    """RABBIT in another gravity."""
+    return copy_of(
+        "rabbit",
+        tmp_path_factory.mktemp("mine") / "r",
+        ("peak_torque", "gravity = 9.7\npeak_torque"),
+    )
+
+
+@pytest.fixture(scope="module")
+def turned(tmp_path_factory):
+    """RABBIT with a phase that grows, in none of the conventions."""
+    change = ("phase = [1.0, 0.0, 0.5, 0.0, 1.0]", "phase = [-1.0, 0.0, -0.5, 0.0, -1.0]")
+    return copy_of("rabbit", tmp_path_factory.mktemp("turned") / "r", change)
+
+
+@pytest.fixture(scope="module")
+def step(biped, gait):
+    """Samples of a step under NPD, which tracks to 1e-8 rad."""
+    walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1)
+    t, once = np.unique(walk.signals.t, return_index=True)
+    return Samples(t, walk.signals.q[once], walk.signals.v[once])
+
+
+def run(*words):
+    return CliRunner().invoke(app, [str(word) for word in words])
+
+
+def close(h, gait, within=1e-6):
+    return np.allclose(
+        h.constraint.curve.coefficients, gait.constraint.curve.coefficients, atol=within
+    )
+
+
+# -- robots that are not of the package ------------------------------------------------------------
+def test_a_copy_of_rabbit_takes_gaits_in_every_convention(mine, gait, tmp_path):
+    biped, record = mine
+    ba.export_gait(gait, tmp_path / "frost.mat", "frost")
+    assert close(ba.import_gait(tmp_path / "frost.mat", biped), gait)
+    done = run(
+        "gait", "import", tmp_path / "frost.mat", "--robot", record, "-o", tmp_path / "g.json"
+    )
+    assert done.exit_code == 0, done.output
+    assert close(ba.load_gait(tmp_path / "g.json", biped), gait)
+
+
+def turned_gait(gait, biped):
+    c = gait.constraint
+    h = ba.VirtualConstraint(c.curve, -c.phase, -c.theta_plus, -c.theta_minus)
+    return replace(gait, robot="mine", constraint=h).check(biped)
+
+
+@pytest.mark.parametrize("kind", ["json", "mat"])
+def test_a_robot_of_its_own_coordinates_gives_and_takes_gaits(turned, gait, tmp_path, kind):
+    biped, record = turned
+    own, path, back = turned_gait(gait, biped), tmp_path / f"own.{kind}", tmp_path / "back.json"
+    own.save(tmp_path / "stored.json")
+    ba.export_gait(own, path, "own", biped)
+    again = ba.import_gait(path, biped)
+    assert close(again, own, 0.0)
+    assert np.array_equal(again.constraint.phase, own.constraint.phase)
+    assert np.array_equal(again.q_minus, own.q_minus)
+    assert close(ba.import_gait(tmp_path / "stored.json", biped), own, 0.0)
+    out = tmp_path / f"cli.{kind}"
+    given = ("--robot", record, "--convention", "own")
+    assert run("gait", "export", tmp_path / "stored.json", "-o", out, *given).exit_code == 0
+    assert run("gait", "import", out, "--robot", record, "-o", back).exit_code == 0
+    assert close(ba.load_gait(back, biped), own, 0.0)
+
+
+def test_what_is_wrong_with_an_own_gait_is_said_with_its_own_joints(turned, gait):
+    biped, _ = turned
+    own = turned_gait(gait, biped)
+    c, a = own.constraint, own.constraint.curve.coefficients.copy()
+    a[3, 0] += 0.1
+    record = ba.GaitRecord("own", a, c.theta_plus, c.theta_minus, own=_own(biped))
+    with pytest.raises(ba.BipedError, match="right_knee across the impact"):
+        ba.import_gait(record, biped)
+    with pytest.raises(ba.BipedError, match="take convention 'own'"):
+        ba.import_gait(replace(record, convention="paper"), biped)
+    with pytest.raises(
+        ba.BipedError, match="coefficients have 3 rows for robot 'mine', expected 4"
+    ):
+        ba.import_gait(ba.GaitRecord("own", a[:3], 0.0, 1.0, own=_own(biped)), biped)
+    with pytest.raises(ba.BipedError, match="export_gait"):
+        ba.export_gait(own, "x.json", "own")
+    with pytest.raises(ba.BipedError, match="not laid out as convention 'frost'"):
+        ba.export_gait(own, "x.json", "frost", biped)
+
+
+def _own(biped):
+    from biped_adrc.gait.conventions import own_convention
+
+    return own_convention(biped)
+
+
+# -- names and structs ------------------------------------------------------------------------------
+def entries(gait):
+    c = gait.constraint
+    return c.curve.coefficients, float(c.theta_plus), float(c.theta_minus)
+
+
+def test_entries_of_a_struct_are_named(biped, gait, tmp_path):
+    alpha, plus, minus = entries(gait)
+    path, out = tmp_path / "R.mat", tmp_path / "out.json"
+    savemat(path, {"R": {"alpha": alpha, "th": {"first": plus, "last": minus}}})
+    names = {"coefficients": "R.alpha", "theta_plus": "R.th.first", "theta_minus": "R.th.last"}
+    assert close(ba.import_gait(path, biped, "paper", names), gait)
+    options = [word for ours, theirs in names.items() for word in ("--name", f"{ours}={theirs}")]
+    done = run("gait", "import", path, "--convention", "paper", *options, "-o", out)
+    assert done.exit_code == 0, done.output
+    assert close(ba.load_gait(out, biped), gait)
+    with pytest.raises(ba.BipedError, match=r"no entries \['R.beta'\].*'R.alpha'"):
+        ba.import_gait(path, biped, "paper", {"coefficients": "R.beta"})
+    with pytest.raises(ba.BipedError, match=r"missing.*'R.th.first'.*--name coefficients="):
+        ba.import_gait(path, biped, "paper")
+    assert "expected OURS=THEIRS" in str(run("gait", "import", path, "--name", "alpha").exception)
+
+
+def test_one_struct_that_has_all_is_looked_into(biped, gait, tmp_path):
+    alpha, plus, minus = entries(gait)
+    inside = {"coefficients": alpha, "theta_plus": plus, "theta_minus": minus}
+    savemat(tmp_path / "one.mat", {"gait": inside, "about": {"author": "me"}})
+    assert close(ba.import_gait(tmp_path / "one.mat", biped, "paper"), gait)
+    savemat(tmp_path / "two.mat", {"gait": inside, "other": inside})
+    with pytest.raises(ba.BipedError, match="are missing"):
+        ba.import_gait(tmp_path / "two.mat", biped, "paper")
+
+
+# -- samples over time ------------------------------------------------------------------------------
+@pytest.mark.parametrize("rates", [True, False])
+def test_samples_give_back_the_gait_they_were_made_with(step, rates, biped, gait):
+    found = ba.import_gait(step if rates else step._replace(v=None), biped)
+    assert close(found, gait, 1e-6)
+    assert found.period == pytest.approx(gait.period, abs=1e-6)
+    assert float(found.provenance["misses the samples by at most"].split()[0]) < 1e-7
+
+
+def test_a_fit_that_is_not_exact_closes_with_the_slopes_of_the_impact(step, biped):
+    """Degree 5 misses the samples by millimetres; ends and slopes are set, so the gait is still invariant."""
+    found = ba.import_gait(step, biped, degree=5)
+    h, n = found.constraint, biped.n
+    impact = biped.impact(found.q_minus, found.v_minus)
+    assert np.allclose(h.h(h.theta_plus)[0], impact.q[: n - 1], atol=1e-12)
+    after = impact.v[: n - 1] / (h.phase @ impact.v)
+    assert np.allclose(h.h(h.theta_plus)[1], after, atol=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["csv", "mat", "json"])
+def test_samples_in_files(step, kind, biped, gait, tmp_path):
+    path, out = tmp_path / f"step.{kind}", tmp_path / "out.json"
+    if kind == "csv":
+        names = ["t", *(f"q{i}" for i in range(1, 6)), *(f"v{i}" for i in range(1, 6))]
+        np.savetxt(path, np.column_stack(step), delimiter=",", header=",".join(names), comments="")
+    elif kind == "mat":
+        savemat(path, {"S": step._asdict()})
+    else:
+        path.write_text(json.dumps({name: x.tolist() for name, x in step._asdict().items()}))
+    done = run("gait", "import", path, "-o", out)
+    assert done.exit_code == 0, done.exception
+    found = ba.load_gait(out, biped)
+    assert close(found, gait, 1e-6)
+    assert found.provenance["source"] == path.name
+
+
+def test_samples_in_another_convention(step, biped, gait):
+    from biped_adrc.gait.conventions import convention
+
+    back = convention("optimtraj").to_paper.inverse
+    other = Samples(step.t, back.angles(step.q), back.rates(step.v))
+    assert close(ba.import_gait(other, biped, "optimtraj"), gait, 1e-6)
+
+
+def test_a_bad_fit_is_said_to_be_one(step, biped):
+    with pytest.raises(
+        ba.BipedError, match=r"the fit is bad: .*knee by 0.026 rad.*degree 5 would do"
+    ):
+        ba.import_gait(step, biped, degree=4)
+    rough = step.q.copy()
+    rough[:, 3] += 0.02 * np.sin(200.0 * np.pi * step.t / step.t[-1])  # the swing knee
+    with pytest.raises(ba.BipedError, match="no degree up to 12 does; are they smooth"):
+        ba.import_gait(step._replace(q=rough), biped)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda s: s._replace(q=s.q[:-30], t=s.t[:-30], v=s.v[:-30]), "the samples do not close: "),
+        (lambda s: s._replace(q=np.degrees(s.q)), "expected radians"),
+        (lambda s: s._replace(q=s.q[:, :4]), r"has shape \(418, 4\), expected \(418, 5\)"),
+        (lambda s: s._replace(t=s.t[::-1]), "that grow"),
+        (lambda s: s._replace(v=s.v[:, ::-1]), "do not begin as the impact at their end leaves"),
+        (
+            lambda s: s._replace(q=np.vstack((s.q[1], s.q[0], s.q[2:]))),
+            "Theta turns back at t = 0 s",
+        ),
+        (lambda s: s._replace(t=1.5 * s.t), "last 0.6246 s, and robot 'rabbit'.*takes 0.4164 s"),
+    ],
+)
+def test_samples_that_are_no_step_of_this_robot(step, biped, change, said):
+    with pytest.raises(ba.BipedError, match=said):
+        ba.import_gait(change(step), biped)
+
+
+def test_masses_that_differ_are_told_from_a_bad_fit(step, biped):
+    """Without rates the curves fit, and the time of the step gives it away; with rates the impact does."""
+    heavy = biped.with_errors(mass={"torso": 3.0}, inertia={"torso": 3.0})
+    with pytest.raises(ba.BipedError, match="take the robot with the masses"):
+        ba.import_gait(step, heavy)
+
+
+# -- gravity and passive cycles -----------------------------------------------------------------------
+def test_a_robot_in_another_gravity(tmp_path):
+    urdf = data_folder("urdf") / "rabbit" / "floating.urdf"
+    made = run("robot", "new", urdf, "-o", tmp_path / "moon", "--gravity", "1.62")
+    assert made.exit_code == 0, made.exception
+    assert ba.Biped.load(tmp_path / "moon" / "robot.toml").description.gravity == 1.62
+    bad = run("robot", "new", urdf, "-o", tmp_path / "none", "--gravity", "0")
+    assert "gravity" in str(bad.exception)
+
+
+def test_a_passive_robot_of_ones_own_has_its_cycle_beside_it(tmp_path):
+    _, record = copy_of("compass", tmp_path / "legs")
+    with pytest.raises(ba.BipedError) as caught:
+        ba.find_cycle(str(record))
+    assert f"'{tmp_path / 'legs' / 'goswami1998.toml'}'; write one with source" in str(caught.value)
+    known = data_folder("gaits") / "compass" / "goswami1998.toml"
+    shutil.copy(known, tmp_path / "legs" / "goswami1998.toml")
+    found = ba.cycle_stability(ba.find_cycle(str(record)), samples=0)
+    theirs = ba.cycle_stability(ba.find_cycle("compass"), samples=0)
+    assert np.array_equal(found.orbit.x_minus, theirs.orbit.x_minus)
+    assert ba.passive_walk(record, 2).trajectory.status.ok

@@ -1,0 +1,97 @@
+"""One walk as a table: CSV, pandas, and back as samples."""
+
+from __future__ import annotations
+
+import csv
+import sys
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.cli import app
+
+
+@pytest.fixture(scope="module")
+def walk(biped, gait):
+    return ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 2)
+
+
+def read(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        header, *rows = csv.reader(file)
+    return {name: [row[i] for row in rows] for i, name in enumerate(header)}
+
+
+def test_columns_have_units_and_the_last_bit(walk, tmp_path):
+    found, s = read(walk.to_csv(tmp_path / "walk.csv")), walk.signals
+    assert list(found)[:4] == ["t [s]", "step", "event", "q1 [rad]"]
+    assert np.array_equal(np.array(found["t [s]"], dtype=float), s.t)
+    assert found["step"] == [str(int(k)) for k in s.step]
+    for name, unit, signal in (
+        ("q", "rad", s.q),
+        ("v", "rad/s", s.v),
+        ("u", "N m", s.u),
+        ("q_d", "rad", s.q_d),
+        ("v_d", "rad/s", s.dq_d),
+        ("error", "rad", s.error),
+    ):
+        for i in range(signal.shape[1]):
+            column = np.array(found.pop(f"{name}{i + 1} [{unit}]"), dtype=float)
+            assert np.array_equal(column, signal[:, i])
+    for i, name in enumerate(("F_T [N]", "F_N [N]")):
+        assert np.array_equal(np.array(found.pop(name), dtype=float), s.ground_reaction[:, i])
+    assert set(found) == {"t [s]", "step", "event"}
+
+
+def test_events_are_where_they_happen(walk):
+    table = walk.to_pandas()
+    at = table.index[table["event"] == "foot_strike"]
+    events = walk.trajectory.events("foot_strike")
+    assert list(table["t [s]"][at]) == [event.t for event in events]
+    assert set(table["event"]) == {"", "foot_strike"}
+    q = [f"q{i} [rad]" for i in range(1, 6)]
+    for k, event in zip(at, events, strict=True):
+        assert np.array_equal(table[q].to_numpy()[k], event.x_minus[:5])
+    assert table["step"].dtype.kind == "i"
+    assert table.attrs["note"] == walk.note
+
+
+def test_a_fall_has_its_event(biped, gait):
+    weak = ba.Walker(biped, ba.NPDController(gait.constraint), torque_limit=5.0)
+    fallen = ba.walk(weak, gait, 4)
+    assert not fallen.trajectory.status.ok
+    assert fallen.to_pandas()["event"].iloc[-1] == fallen.trajectory.arcs[-1].event.guard
+
+
+def test_a_walk_without_motors(tmp_path):
+    found = read(ba.passive_walk("compass", 2).to_csv(tmp_path / "walk"))
+    assert {"q1 [rad]", "q2 [rad]", "v2 [rad/s]", "F_N [N]"} < set(found)
+    assert not any(name.startswith(("u", "q_d", "error")) for name in found)
+    assert (tmp_path / "walk.csv").is_file()
+
+
+def test_the_command_writes_it_and_reads_a_step_of_it(biped, gait, tmp_path):
+    path, out = tmp_path / "step.csv", tmp_path / "gait.json"
+    done = CliRunner().invoke(
+        app, ["simulate", "--controller", "NPD", "--impacts", "1", "-o", str(path)]
+    )
+    assert done.exit_code == 0, done.exception
+    assert list(tmp_path.iterdir()) == [path]
+    done = CliRunner().invoke(app, ["gait", "import", str(path), "-o", str(out)])
+    assert done.exit_code == 0, done.exception
+    fitted = ba.load_gait(out, biped).constraint.curve.coefficients
+    assert np.allclose(fitted, gait.constraint.curve.coefficients, atol=1e-6)
+
+
+def test_without_pandas_the_extra_is_named(walk, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ba.BipedError, match=r"pip install 'biped-adrc\[tables\]'.*walk.to_csv"):
+        walk.to_pandas()
+
+
+@pytest.mark.parametrize("path", ["walk.parquet", "walk.npz"])
+def test_other_names_are_refused(walk, path, tmp_path):
+    with pytest.raises(ba.BipedError, match=r"expected \.csv"):
+        walk.to_csv(tmp_path / path)

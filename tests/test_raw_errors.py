@@ -1,0 +1,236 @@
+"""What is given by mistake is one InputError that names it, what was found and what was expected."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.cli import app
+from biped_adrc.control.clf_qp import CLFQPController
+from biped_adrc.gait.design.request import GaitRequest
+
+
+@pytest.fixture(scope="module")
+def three():
+    return ba.Biped.load("three_link")
+
+
+class Silent(ba.Controller):
+    """Its output forgets to return."""
+
+    def output(self, s, m):
+        pass
+
+
+class Lazy(ba.Reference):
+    """A reference written for four joints of five coordinates, with NumPy's own errors."""
+
+    def __call__(self, t, q, v):
+        return np.ones(5) @ q
+
+
+OBSERVER = ba.GPIObserver.from_bandwidth(500.0)
+PULSE = ba.TorquePulse([30.0] * 5)
+CASES = {
+    "a torque too few": (
+        lambda s: s.walk(disturbance=ba.TorquePulse([30.0] * 4)),
+        "gives 4 numbers, expected 5",
+    ),
+    "gains of five joints": (
+        lambda s: s.walk(ba.NPDController(s.h, ba.Gains([1.0] * 5, [1.0] * 5))),
+        "gain K_p has 5 numbers, expected 1 or 4",
+    ),
+    "gains inside another controller": (
+        lambda s: s.walk(ba.ReferenceReset(ba.NPDController(s.h, ba.Gains(1.0, [1.0] * 3)))),
+        "gain K_d has 3 numbers, expected 1 or 4",
+    ),
+    "gains in words": (lambda s: ba.Gains("a"), "gain K_p is 'a' (a str), expected numbers"),
+    "a gait of another robot": (
+        lambda s: ba.walk(ba.Walker(s.three, ba.NPDController(s.h)), s.gait, 1),
+        "gait 'published' is of robot 'rabbit' with 5 coordinates, and the walker is 'three_link' with 3",
+    ),
+    "a constraint of another robot": (
+        lambda s: ba.Walker(s.three, ba.NPDController(s.h)).initial_state(np.zeros(3), np.zeros(3)),
+        "the VirtualConstraint of NPDController cannot be evaluated at the 3 coordinates of this robot",
+    ),
+    "a reference of other sizes": (
+        lambda s: ba.Walker(s.three, ba.NPDController(Lazy())).initial_state(
+            np.zeros(3), np.zeros(3)
+        ),
+        "the Lazy of NPDController cannot be evaluated at the 3 coordinates of this robot",
+    ),
+    "a gait in place of its constraint": (
+        lambda s: ba.NPDController(s.gait),
+        "reference of NPDController is a Gait, expected a Reference, such as gait.constraint",
+    ),
+    "a class in place of a controller": (
+        lambda s: ba.Walker(s.biped, ba.NPDController),
+        "controller of Walker is the class NPDController, not made as NPDController(...)",
+    ),
+    "a class in place of a push": (
+        lambda s: ba.Walker(s.biped, ba.Passive(), ba.TorquePulse),
+        "disturbance of Walker is the class TorquePulse",
+    ),
+    "a class in place of an observer": (
+        lambda s: ba.ADRCController(s.h, ba.GPIObserver),
+        "observer of ADRCController is the class GPIObserver",
+    ),
+    "a class in place of a method": (
+        lambda s: ba.walk(s.walker, s.gait, 1, ba.RK4),
+        "the method of the walk is the class RK4",
+    ),
+    "the name of a gait": (
+        lambda s: ba.walk(s.walker, "published"),
+        "the gait of the walk is 'published' (a str), expected a Gait, such as load_gait(",
+    ),
+    "swapped: walk": (lambda s: ba.walk(s.gait, s.walker), "is a Gait, expected a Walker"),
+    "swapped: Walker": (
+        lambda s: ba.Walker(ba.Passive(), s.biped),
+        "plant of Walker is a Passive, expected a Biped",
+    ),
+    "swapped: load_gait": (lambda s: ba.load_gait(s.biped, "published"), "gait is a Biped"),
+    "swapped: ADRCController": (
+        lambda s: ba.ADRCController(OBSERVER, s.h),
+        "reference of ADRCController is a GPIObserver, expected a Reference",
+    ),
+    "swapped: ZeroDynamics": (lambda s: ba.ZeroDynamics.of(s.h, s.biped), "biped is a VirtualCons"),
+    "swapped: zero_report": (lambda s: ba.zero_report(s.gait, s.biped), "biped is a Gait"),
+    "swapped: design_gait": (lambda s: ba.design_gait(0.8, s.biped), "robot is 0.8 (a float)"),
+    "a list of pushes": (
+        lambda s: ba.Walker(s.biped, ba.Passive(), [PULSE, PULSE]),
+        "disturbance of Walker is a list, expected a Disturbance",
+    ),
+    "a bandwidth as the observer": (
+        lambda s: ba.ADRCController(s.h, 500.0),
+        "observer of ADRCController is 500.0 (a float), expected an Observer, such as "
+        "GPIObserver.from_bandwidth(500.0)",
+    ),
+    "an observer as gains": (
+        lambda s: ba.NPDController(s.h, OBSERVER),
+        "gains of NPDController is a GPIObserver, expected a Gains",
+    ),
+    "degrees as the start": (
+        lambda s: ba.walk(s.walker, s.gait, 1, start=tuple(map(np.degrees, s.gait.start(s.biped)))),
+        "expected radians: np.radians(q)",
+    ),
+    "a start of another length": (
+        lambda s: ba.walk(s.walker, s.gait, 1, start=(np.zeros(5), np.zeros(4))),
+        "the start q' is [0. 0. 0. 0.], expected 5 finite numbers",
+    ),
+    "a start in words": (
+        lambda s: ba.walk(s.walker, s.gait, 1, start=(["a"] * 5, np.zeros(5))),
+        "the start q is ['a', 'a', 'a', 'a', 'a'] (a list), expected numbers",
+    ),
+    "a URDF as the robot": (lambda s: ba.Biped.load("x.urdf"), "biped_from_urdf('x.urdf') takes"),
+    "a number as the robot": (lambda s: ba.Biped.load(5), "robot is 5 (an int), expected a str"),
+    "an output of nothing": (
+        lambda s: s.walk(Silent()),
+        "Silent.output returned an array of shape (), expected (4,)",
+    ),
+    "a speed in words": (
+        lambda s: ba.design_gait(s.biped, speed="fast"),
+        "speed of GaitRequest is 'fast' (a str), expected a number",
+    ),
+    "a period in words": (lambda s: ba.SampledTime("1ms"), "period of SampledTime is '1ms'"),
+    "a slope in words": (
+        lambda s: ba.Walker(s.biped, ba.Passive(), slope="5"),
+        "slope of Walker is '5'",
+    ),
+    "a method in words": (
+        lambda s: ba.walk(s.walker, s.gait, 1, "RK4"),
+        "the method of the walk is 'RK4' (a str), expected an OneStepMethod, such as RK4(1e-3)",
+    ),
+    "a push in words": (lambda s: ba.TorquePulse("abc"), "torque amplitude is 'abc'"),
+    "one number for errors of masses": (
+        lambda s: s.biped.with_errors(mass=1.2),
+        "mass is 1.2 (a float), expected a Mapping, such as {'torso': 1.2}",
+    ),
+    "a gait as a cycle": (lambda s: ba.cycle_stability(s.gait), "cycle is a Gait"),
+    "a gait that is to go on": (lambda s: ba.continued(s.gait), "is a Gait, expected a Virtual"),
+    "a constraint to export": (lambda s: ba.export_gait(s.h, "x.json"), "gait is a VirtualConst"),
+    "a gait as a walker": (lambda s: ba.ReturnMap(s.gait, ba.RK4()), "walker of ReturnMap is a Ga"),
+}
+
+
+class Parts:
+    def __init__(self, biped, gait, three):
+        self.biped, self.gait, self.three, self.h = biped, gait, three, gait.constraint
+
+    @property
+    def walker(self):
+        return ba.Walker(self.biped, ba.NPDController(self.h))
+
+    def walk(self, controller=None, disturbance=None):
+        controller = ba.NPDController(self.h) if controller is None else controller
+        return ba.walk(ba.Walker(self.biped, controller, disturbance), self.gait, 1)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_mistake_is_one_sentence(case, biped, gait, three):
+    mistake, said = CASES[case]
+    with pytest.raises(ba.BipedError) as caught:
+        mistake(Parts(biped, gait, three))
+    assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("command", [["animate"], ["plot"], ["plot", "--with"]])
+def test_the_settings_beside_a_run_are_no_run(command, biped, gait, tmp_path):
+    walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1)
+    walk.save(tmp_path / "run.npz")
+    if "--with" in command:
+        command = ["plot", str(tmp_path / "run.npz"), "--with"]
+    done = CliRunner().invoke(app, [*command, str(tmp_path / "run.json")])
+    assert isinstance(done.exception, ba.BipedError)
+    assert f"it is no run, expected a .npz file; take '{tmp_path / 'run.npz'}'" in str(
+        done.exception
+    )
+    assert "pickle" not in str(done.exception)
+
+
+def test_a_run_that_does_not_begin_as_one_is_damaged(tmp_path):
+    (tmp_path / "run.npz").write_text("hello")
+    with pytest.raises(ba.BipedError, match="is damaged and cannot be read") as caught:
+        ba.load_walk(tmp_path / "run.npz")
+    assert "pickle" not in str(caught.value)
+
+
+def test_the_clearance_of_a_design_says_which_part_of_the_step_it_is_of(biped, gait):
+    """The least between 3 and 97 % of the step, and the text says so."""
+    c = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1).certificates[0]
+    request = GaitRequest(speed=1.0)
+    text = ba.DesignedGait(gait, request, 1.0, c, 0.5, 0.0, 1, 0.0).text()
+    assert f"{1e3 * c.clearance:.1f} mm, between the first and the last 3 % of the step" in text
+
+
+@pytest.mark.parametrize(("name", "near"), [("PDController", "NPDController"), ("wlak", "walk")])
+def test_a_public_name_that_is_not_there_has_a_nearest_one(name, near):
+    with pytest.raises(AttributeError, match=f"no attribute '{name}'; did you mean '{near}'"):
+        getattr(ba, name)
+
+
+def test_a_controller_that_is_unknown_to_compare(tmp_path):
+    done = CliRunner().invoke(
+        app, ["compare", "--controllers", "SMC", "--seeds", "1", "-o", str(tmp_path / "out")]
+    )
+    assert isinstance(done.exception, ba.BipedError)
+    assert "['SMC']" in str(done.exception)
+    assert "'ADRC'" in str(done.exception)
+
+
+def test_annotations_that_say_more_are_not_looked_at(gait):
+    """Numbers of NumPy are numbers, None is one where the annotation says so, and own text is left alone."""
+    from dataclasses import dataclass
+
+    @dataclass(frozen=True)
+    class Own(ba.Controller):
+        reference: ba.Reference
+        law: "not a name of any module"  # noqa: F722
+        gain: float = 1.0
+
+    assert Own(5, "anything", "word").gain == "word"
+    assert ba.SampledTime(np.float64(1e-3)).period == 1e-3
+    assert ba.SampledTime(np.array(1e-3)).period == 1e-3
+    assert CLFQPController(gait.constraint, torque_limit=None).torque_limit is None

@@ -1,0 +1,170 @@
+"""What a user prints fits a line."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.observers.base import Estimate
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.shown import LONGEST, Shown, one_line
+
+LINE = 120
+
+
+@pytest.fixture(scope="module")
+def things(biped, gait):
+    """One of every public class that holds numbers, and what they hand out."""
+    h, pulse = gait.constraint, ba.TorquePulse([30, 30, 30, 30, 0], step=1, start=0.1, stop=0.3)
+    npd, adrc = ba.NPDController(h), ba.ADRCController(h)
+    walker = ba.Walker(biped, adrc, pulse, timing=ba.SampledTime(1e-3), sensors=ba.Sensors())
+    walk = ba.walk(ba.Walker(biped, npd, pulse), gait, 1)
+    q, v = gait.start(biped)
+    m = ba.Walker(biped, npd).measure(0.0, q, v, ba.Mode())
+    zero = ba.ZeroDynamics.of(biped, h)
+    gains = ba.StrideGains(-1.0, -0.4)
+    outputs = ba.LinearOutputs(np.eye(4, 5), h)
+    cycle = ba.find_cycle("compass")
+    asked = ba.walk_scenario(ba.Scenario("NPD", impacts=1, pushes="q1,q2,q3,q4=30@1:0.1-0.3"))
+    found = [
+        *(
+            biped,
+            biped.description,
+            biped.tree,
+            biped.impact(q, v),
+            gait,
+            h,
+            h.curve,
+            h.laws,
+            h(0.0, q, v),
+        ),
+        *(zero, ba.ZeroOrbits.of(zero), outputs, outputs(0.0, q, v), ba.FunctionOutputs(np.sin)),
+        *(
+            npd,
+            npd.laws,
+            npd.gains,
+            adrc,
+            adrc.laws,
+            adrc.observer,
+            adrc.observer.laws,
+            Estimate(q, v, q),
+        ),
+        *(ba.ReferenceReset(adrc), ba.OutputNPDController(outputs), ba.Passive()),
+        *(
+            ba.FiniteTimeController(outputs, 0.9, 0.02),
+            gains,
+            ba.StridePI(npd, 0.7, 0.3, (0.0,) * 4, gains),
+        ),
+        *(
+            pulse,
+            pulse.laws[0],
+            pulse + pulse,
+            ba.TorqueStep([1.0] * 5),
+            ba.HipForce(biped, (3.0, 1.0)),
+        ),
+        *(
+            ba.TorqueNoise([1.0] * 5, bandwidth=10.0, seed=1),
+            ba.TorqueSine([1.0] * 5, frequency=2.0),
+        ),
+        *(ba.OnLink(biped, "torso", ba.TorqueStep([1.0] * 3)), ba.TimeReference(np.sin)),
+        *(
+            walker,
+            m,
+            m.terms,
+            ba.Case(walker, q, v, ba.RK4()),
+            ba.StepDown(1, 0.01),
+            ba.StepUp(1, 0.01),
+        ),
+        *(walk, walk.trajectory, walk.trajectory.arcs[0], walk.signals, walk.certificates[0]),
+        *(walk.legality, asked, asked.outcome, asked.scenario, asked.scenario.pushes[0]),
+        *(ba.RK4(), ba.Adaptive(), ba.Exponential(), ba.Stiff(), ba.Mode(), ba.ContinuousTime()),
+        *(
+            ba.SampledTime(1e-3),
+            ba.Motors(),
+            ba.Sensors(counts=4096),
+            ba.ModelErrors(),
+            ba.Limits(),
+        ),
+        *(ba.StepLimits(), cycle, cycle.P, ba.cycle_stability(cycle, samples=0), ba.GaitLimits()),
+    ]
+    record = ba.GaitRecord(
+        "paper", h.curve.coefficients, h.theta_plus, h.theta_minus, phase=h.phase
+    )
+    samples = ba.Samples(walk.signals.t, walk.signals.q, walk.signals.v)
+    return [*found, record, samples]
+
+
+ELSEWHERE = {
+    "Arm",
+    "ArmSystem",
+    "DesignedGait",
+    "GaitLibrary",
+    "Push",
+    "BipedError",
+    "Status",
+    "ResetPolicy",
+}
+"""Made in other tests, or no records."""
+
+
+def test_everything_fits_a_line(things):
+    for thing in things:
+        text = repr(thing)
+        assert "\n" not in text, type(thing)
+        assert len(text) <= LINE, (len(text), text)
+
+
+def test_no_public_class_is_left_out(things):
+    seen = {type(thing).__name__ for thing in things}
+    classes = {name for name in ba.__all__ if inspect.isclass(getattr(ba, name))}
+    bases = {"Controller", "Disturbance", "Observer", "Outputs", "Reference"}
+    bases |= {"ObservingController", "WindowedTorque"}
+    assert classes - bases - ELSEWHERE <= seen
+    assert all(
+        issubclass(getattr(ba, name), Shown) for name in ("Arm", "ArmSystem", "DesignedGait")
+    )
+
+
+def test_a_class_of_ones_own_fits_too(gait):
+    @dataclasses.dataclass(frozen=True)
+    class Own(ba.Controller):
+        reference: ba.Reference
+        gain: float = 2.0
+        table: tuple[float, ...] = ()
+
+    assert repr(Own(gait.constraint)).startswith("Own(reference=VirtualConstraint(")
+    assert "gain" not in repr(Own(gait.constraint))
+    assert repr(Own(gait.constraint, 3.0)).endswith("gain=3.0)")
+    assert len(repr(Own(gait.constraint, 3.0, (1.0,) * 1000))) <= LONGEST
+
+
+def test_a_sentence_of_ones_own_is_kept():
+    @dataclasses.dataclass(frozen=True)
+    class Told(Shown):
+        x: int
+
+        def __repr__(self):
+            return "told"
+
+    @dataclasses.dataclass(frozen=True)
+    class Below(Told):
+        y: int = 0
+
+    assert repr(Told(1)) == repr(Below(1, 2)) == "told"
+
+
+def test_values_are_shown_as_they_are(biped, gait):
+    assert repr(ba.Gains()) == "Gains()"
+    assert repr(ba.Gains(1.0, np.array([1.0, 2.0]))) == "Gains(K_p=1.0, K_d=[1 2])"
+    assert repr(biped) == f"Biped('rabbit', preset 'identified': n = 5, p = 4, {biped.mass:.4g} kg)"
+    assert repr(gait) == "Gait('published', robot 'rabbit', preset 'identified', period 0.4164 s)"
+    walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1)
+    assert repr(walk).endswith(
+        "NPD on gait 'published', rabbit identified: 1 impact in 0.4164 s, COMPLETED)"
+    )
+    assert one_line(Scenario("NPD")) == "Scenario(controller='NPD')"
+    assert "array(5, 5)" in repr(biped.reduction(*gait.start(biped)))
