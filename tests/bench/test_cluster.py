@@ -6,6 +6,7 @@ import subprocess
 import sys
 import textwrap
 import time
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,7 @@ from standin import about, records, results, rows
 from biped_adrc.bench.study_file import read_study
 from biped_adrc.bench.sweep import sweep
 from biped_adrc.campaign import dask_cluster as of_cluster
+from biped_adrc.campaign import execute
 from biped_adrc.campaign.dask_cluster import Cluster, _Checked, difference
 from biped_adrc.campaign.execute import run_study
 from biped_adrc.campaign.store_open import open_store
@@ -108,20 +110,27 @@ def test_a_record_that_kills_every_worker_is_named(tmp_path, address):
     assert [k for k, _, _, row in found if row["status"] == "CRASHED"] == [3]
 
 
-def test_a_cluster_that_loses_all_its_workers_ends_the_study_and_keeps_what_was_finished(tmp_path):
-    process, address = started(1)
-    path = tmp_path / "r.sqlite"
-
-    def retire(p):
-        if p.fresh >= 20:
-            with Client(address, set_as_default=False) as client:
-                client.retire_workers(close_workers=True)
-
-    with pytest.raises(SimulationError, match="has had no worker for"):
-        run(path, records(400, 5e-3), Cluster(address, timeout=1.0), chunk=4, progress=retire)
+def test_a_cluster_that_has_lost_all_its_workers_ends_a_study(tmp_path, address):
+    crew = Cluster(address, timeout=1.0)
+    process, empty = started(0)
+    with Client(empty, set_as_default=False) as client:
+        executor = _Checked(client, {})
+        crew.check(executor, 5.0)  # they may come back
+        with pytest.raises(SimulationError, match="has had no worker for 7 s"):
+            crew.check(executor, 7.0)
     process.communicate("")
-    with open_store(path, about()) as store:
-        assert 20 <= len(store) < 400
+    executor = crew.start()
+    crew.check(executor, 1e9)  # a long run on workers that are there
+    crew.stop(executor, True)
+
+
+def test_a_study_says_for_how_long_nothing_has_ended(tmp_path, monkeypatch):
+    heard = []
+    monkeypatch.setattr(execute, "PATIENCE", 0.05)
+    monkeypatch.setattr(Threads, "check", lambda crew, executor, idle: heard.append(idle))
+    run(tmp_path / "r.sqlite", records(2, 0.2), Threads(1), chunk=1)
+    assert all(idle >= 0.05 for idle in heard)
+    assert any(later < idle for idle, later in pairwise(heard))  # counted anew once a run has ended
 
 
 def test_a_worker_that_dies_with_a_result_that_nobody_has_fetched(address):
