@@ -4,6 +4,9 @@
 
 xi^ lumps model error and external torques into one signal per joint; the nominal model gives kappa alone
 (and, through Theta'' in q_d'', the unactuated row).
+
+Any observer of the chain x1' = x2, x2' = xi + kappa u fits: it sees q_b, is fed with kappa u for the torque
+applied, and xi^ is what remains. The four functions below say so, as `control.observing.Sight`.
 """
 
 from __future__ import annotations
@@ -35,14 +38,15 @@ def adrc_torque(k: TrackingParameters, r: ReferencePoint, x: Estimate, m: Measur
 
 
 def joints_told(r: ReferencePoint, x: Estimate, m: Measurement) -> Estimate:
-    """The estimates as they are: the observer's coordinates are the joints."""
+    """The estimates as they are, each (p,): the observer's coordinates are the joints."""
     return x
 
 
 @dataclass(frozen=True)
 class ADRCController(ObservingController):
-    """(20) with an observer that is its whole state.
+    """(20) with an observer that is its whole state; Table I and Table II by default.
 
+    gains: K_p [1/s^2], K_d [1/s].
     solve_theta: solve the loop through Theta'' (default), or drop h' Theta'' as printed.
     reset: what happens to the observer at impact.
     """

@@ -5,12 +5,18 @@
 
 The state s is passed in and handed back. A controller without a state needs `output` alone and works in
 both time bases. `u` handed to `flow` and `predict` is the torque applied, after saturation.
+
+At a sample instant `output` comes between `correct` and `predict`: the torque uses the measurement of this
+instant, and the observer inside is told that torque and no other, so it does not wind up at a limit.
+
+A leaf gives `laws`, pure functions of numbers and arrays that the engine turns into machine code, or writes the
+methods, and runs in Python. `closed_loop.semantics` calls either through `controller_laws`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -23,7 +29,7 @@ from biped_adrc.types import Array
 
 
 class Measurement(NamedTuple):
-    """What the controller is given; `terms` are the nominal model's, computed once."""
+    """What the controller is given, as its sensors see it; `terms` are the nominal model's, computed once."""
 
     t: float
     """[s] from the start of the run."""
@@ -55,15 +61,21 @@ class Measurement(NamedTuple):
 
 
 def measured(m: Measurement) -> Estimate:
-    """What the measurement and the nominal model say of the p joints: q_b, q_b' and xi."""
+    """What measurement and nominal model say of the p joints: q_b, q_b' and xi, each (p,).
+
+    In place of an observer's estimates where there is none, and where one starts.
+    """
     p = m.terms.kappa.shape[0]
     return Estimate(m.q[:p], m.v[:p], m.terms.xi)
 
 
 class ControllerLaws(NamedTuple):
-    """The pure functions behind a controller; None for what it has not, as a state or a discrete form."""
+    """The pure functions behind a controller; None for what it has not, as a state or a discrete form.
 
-    parameters: Any
+    s (size,) is the state, of a size that `initial_state` decides; u (p,) [N m]; swap (p,) relabels the joints.
+    """
+
+    parameters: object
     """k, a NamedTuple of numbers and float64 arrays."""
     output: Callable[..., Array]
     """output(k, s, m) -> u."""
@@ -92,7 +104,11 @@ class ControllerLaws(NamedTuple):
 
 
 class Controller(Composed):
-    """Base of all controllers: write `output` and what else it needs, or give `laws`, which they all call."""
+    """Base of all controllers: write `output` and what else it needs, or give `laws`, which they all call.
+
+    Frozen, with gains and parts as fields. A controller with `flow` works in continuous time, one with
+    `correct` and `predict` in sampled time, and `sampled` turns the one into the other.
+    """
 
     _kind: ClassVar[str] = "controller"
     _methods: ClassVar[frozenset[str]] = frozenset(
@@ -115,7 +131,7 @@ class Controller(Composed):
         return None
 
     def output(self, s: Array, m: Measurement) -> Array:
-        """u (p,) [N m]."""
+        """u (p,) [N m] asked of the motors, before any limit. Raises InputError where none is written."""
         law = self._law("output")
         if law is None:
             raise InputError(
@@ -126,12 +142,15 @@ class Controller(Composed):
         return u
 
     def initial_state(self, m: Measurement) -> Array:
-        """s at the start of a run; empty for a controller without state."""
+        """s (size,) at the start of a run; empty (0,) for a controller without state."""
         law = self._law("initial_state")
         return np.zeros(0) if law is None else law(m)
 
     def flow(self, s: Array, m: Measurement, u: Array) -> Array:
-        """s' in continuous time, under the applied torque u."""
+        """s' (size,) in continuous time, under the applied torque u (p,) [N m].
+
+        Raises InputError for a controller that was made for sampled time.
+        """
         law = self._law("flow")
         if law is None and self._law("predict") is not None:
             raise InputError(
@@ -140,7 +159,10 @@ class Controller(Composed):
         return np.zeros(0) if law is None else law(s, m, u)
 
     def correct(self, s: Array, m: Measurement) -> Array:
-        """Sampled: s with the measurement of this tick taken in."""
+        """Sampled: s (size,) with the measurement of this sample instant taken in.
+
+        Raises InputError, as `predict` does, for a controller in continuous time that has a state.
+        """
         if self._laws is None:
             return s
         law = self._law("correct")
@@ -151,7 +173,7 @@ class Controller(Composed):
         return s if law is None else law(s, m)
 
     def predict(self, s: Array, m: Measurement, u: Array) -> Array:
-        """Sampled: s at the next tick, under the applied torque u."""
+        """Sampled: s (size,) at the next sample instant, under the applied torque u (p,) [N m]."""
         if self._laws is None:
             return s
         law = self._law("predict")
@@ -162,12 +184,12 @@ class Controller(Composed):
         return s if law is None else law(s, m, u)
 
     def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
-        """s after impact; `swap` (p,) relabels the joints, `after` is the state after it."""
+        """s (size,) after impact; `swap` (p,) relabels the joints, `after` is measured after it."""
         law = self._law("jump")
         return s if law is None else law(s, after, swap)
 
     def estimate(self, s: Array, m: Measurement) -> Estimate | None:
-        """What an observer inside says; None without one."""
+        """What an observer inside says of the joints, each (p,); None without one. It is for plots."""
         law = self._law("estimate")
         return None if law is None else law(s, m)
 
@@ -189,7 +211,10 @@ class Controller(Composed):
 
 
 def controller_laws(controller: Controller) -> ControllerLaws:
-    """The laws of a controller, or its methods as laws, which run in Python only and say so."""
+    """The laws of a controller, or its methods as laws, which run in Python only and say so.
+
+    So the closed loop calls laws whatever the controller is, and `obstacle` says why one does not compile.
+    """
     if not controller._obstacle:
         laws: ControllerLaws = controller.laws  # type: ignore[assignment]
         return laws
@@ -207,7 +232,7 @@ def controller_laws(controller: Controller) -> ControllerLaws:
 
 
 def misshapen(controller: Controller, u: Array, p: int) -> str:
-    """What is said of an output u that is not one torque for each of p motors."""
+    """What is said of an output u that is not (p,), one torque for each of p motors."""
     return (
         f"{type(controller).__name__}.output returned an array of shape {u.shape}, expected ({p},): one torque "
         "[N m] per motor"
@@ -215,7 +240,10 @@ def misshapen(controller: Controller, u: Array, p: int) -> str:
 
 
 def check_state(controller: Controller, s: Array, m: Measurement, u: Array) -> None:
-    """Raise InputError for a law of the state s that gives another number of numbers than s has."""
+    """Raise InputError for a law of the state s (size,) that gives another number of numbers than s has.
+
+    It is asked once, at the start: machine code would write past the end of the state.
+    """
     calls = {"flow": (s, m, u), "correct": (s, m), "predict": (s, m, u)}
     for name, given in calls.items():
         law = controller._law(name)
@@ -227,7 +255,7 @@ def check_state(controller: Controller, s: Array, m: Measurement, u: Array) -> N
 
 
 def check_output(controller: Controller, u: Array, p: int) -> None:
-    """Raise InputError for a first output that is not one torque per motor, NotFiniteError for NaN."""
+    """Raise InputError for a first output u that is not (p,), one torque per motor, NotFiniteError for NaN."""
     if u.shape != (p,):
         raise InputError(misshapen(controller, u, p))
     if not np.all(np.isfinite(u)):

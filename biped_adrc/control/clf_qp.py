@@ -48,7 +48,9 @@ class Decrease(NamedTuple):
     """V and V' + c V / eps = psi_0 + psi_1 mu."""
 
     V: float
+    """[rad^2/s^2]"""
     psi_0: float
+    """What V does for mu = 0; above 0 it does not fall fast enough."""
     psi_1: Array
     """(p,)."""
 
@@ -67,7 +69,10 @@ class Affine(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """G z <= h for z = (mu, sqrt p delta), whose square is least; the rows of the ground come last."""
+    """G z <= h for z = (mu, sqrt p delta) (p + 1,), whose square is least; the rows of the ground come last.
+
+    Scaling delta by the root of its weight makes the cost |z|^2, which needs no matrix.
+    """
 
     G: Array
     h: Array
@@ -76,7 +81,7 @@ class Rows(NamedTuple):
 
 
 def decrease(y: Array, dy: Array, eps: float) -> Decrease:
-    """For outputs y, y' (p,) and eps [s]."""
+    """V and the terms of its decrease for outputs y [rad], y' [rad/s], each (p,), and eps [s]."""
     a = y / eps
     aa, ab, bb = float(a @ a), float(a @ dy), float(dy @ dy)
     V = ROOT * aa + 2.0 * ab + ROOT * bb
@@ -85,14 +90,17 @@ def decrease(y: Array, dy: Array, eps: float) -> Decrease:
 
 
 def least_norm(d: Decrease, relaxation: float) -> Array:
-    """mu (p,) without limits, p = relaxation."""
+    """mu (p,) [rad/s^2] of least norm without limits, p = relaxation: zero where V falls fast enough."""
     if d.psi_0 <= 0.0:
         return np.zeros_like(d.psi_1)
     return d.psi_1 * (-d.psi_0 / (float(d.psi_1 @ d.psi_1) + 1.0 / relaxation))
 
 
 def affine(r: ReferencePoint, m: Measurement) -> Affine:
-    """Torque and ground force over mu. Raises SingularError where L of y'' is exactly singular."""
+    """Torque and ground force as affine functions of mu (p,), which turn limits on them into rows of the QP.
+
+    Raises SingularError where L of y'' is exactly singular.
+    """
     terms, body, p = m.terms, body_of(m), len(r.q_d)
     rest = r.drift + r.H[:, p:] @ terms.a_N
     columns = np.empty((p, p + 1))
@@ -152,7 +160,7 @@ class CLFQPController(Controller):
         return self._cut(u) if solved is None else to.U @ solved + to.u_0
 
     def allows(self, u: Array, F: Array) -> bool:
-        """Whether a torque (p,) and a force of the ground (F_T, F_N) are within all limits."""
+        """Whether a torque u (p,) [N m] and a force of the ground F = (F_T, F_N) (2,) [N] keep all limits."""
         tangential, normal = F.tolist()
         if self.torque_limit is not None and float(np.max(np.abs(u))) > self.torque_limit:
             return False
@@ -161,7 +169,10 @@ class CLFQPController(Controller):
         return self.friction is None or abs(tangential) <= self.friction * normal
 
     def program(self, d: Decrease, to: Affine) -> Rows:
-        """The rows that the limits make."""
+        """The rows that the decrease of V and the limits make, over (mu, sqrt p delta).
+
+        Those of the ground come last, so that they can be dropped where nothing fulfils all.
+        """
         p = len(to.u_0)
         G: list[Array] = [d.psi_1[np.newaxis]]
         h: list[Array | list[float]] = [[-d.psi_0]]
@@ -191,6 +202,7 @@ class CLFQPController(Controller):
         return None if z is None else z[:-1]
 
     def _cut(self, u: Array) -> Array:
+        """u (p,) within the torque limit, each motor by itself; the last resort, after which V may grow."""
         if self.torque_limit is None:
             return u
         return np.minimum(np.maximum(u, -self.torque_limit), self.torque_limit)

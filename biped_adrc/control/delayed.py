@@ -24,7 +24,7 @@ import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import factorial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -38,7 +38,11 @@ HIGHEST = 10
 
 
 class LineParameters(NamedTuple):
-    """N (k,) and D (k + 1,), lowest power first; 1/d [1/s]; limit [N m]; k; known: 1 or 0."""
+    """The line, as numbers for its laws.
+
+    numerator: N (k,), denominator: D (k + 1,), lowest power first; rate: 1/d [1/s]; limit [N m], infinite for
+    none; order: k; known: 1 where the observer is fed with what acts, else 0.
+    """
 
     numerator: Array
     denominator: Array
@@ -51,7 +55,7 @@ class LineParameters(NamedTuple):
 class DelayedParameters(NamedTuple):
     """Of the controller inside, and of the line."""
 
-    inner: Any
+    inner: object
     line: LineParameters
 
 
@@ -76,19 +80,22 @@ def line_flow(k: LineParameters, R: Array, asked: Array) -> Array:
 
 
 def held_back(k: LineParameters, u: Array) -> Array:
-    """u within the drives' own limit."""
+    """u (p,) [N m] within the drives' own limit."""
     return np.minimum(np.maximum(u, -k.limit), k.limit)
 
 
 def parts(k: LineParameters, s: Array, p: int) -> tuple[Array, Array]:
-    """The inner state and R (k, p) of s."""
+    """The inner state and R (k, p) of s, whose last k p numbers are the line's."""
     size = len(s) - k.order * p
     return s[:size], s[size:].reshape(k.order, p)
 
 
 @lru_cache(maxsize=64)
 def delayed_laws(inner: ControllerLaws) -> ControllerLaws:
-    """The laws of the line behind the laws of any controller, without parameters."""
+    """The laws of the line behind the laws of any controller, without parameters.
+
+    Cached by the inner laws, so that controllers which differ in numbers alone share their machine code.
+    """
 
     def output(k: DelayedParameters, s: Array, m: Measurement) -> Array:
         return line_output(k.line, parts(k.line, s, m.terms.kappa.shape[0])[1])

@@ -8,6 +8,9 @@ Bhat, Bernstein, IEEE TAC 43(5), 1998; for walking Grizzle, Abba, Plestan, IEEE 
 alpha = 0.9, eps = 0.1. On phi = 0 an output comes to rest after eps |eps y'|^(1 - alpha) / (1 - alpha) s. For
 alpha = 1 the law would be linear, with a double pole at -1 / eps. It is continuous but not smooth at rest:
 adaptive methods take small steps there, the smaller alpha the more.
+
+Finite time matters since the error is then zero before the impact, and the zero dynamics alone decide on
+stability. The torque comes from `output_npd.linearising_torque`, as that of any law w for y''.
 """
 
 from __future__ import annotations
@@ -24,7 +27,7 @@ from biped_adrc.types import Array
 
 
 def psi(x1: Array, x2: Array, alpha: float) -> Array:
-    """psi of the module's equation, elementwise."""
+    """psi (p,) of the module's equation for x1, x2 (p,), elementwise; x2 is eps y', so all are [rad]."""
     phi = x1 + _power(x2, 2.0 - alpha) / (2.0 - alpha)
     return -_power(x2, alpha) - _power(phi, alpha / (2.0 - alpha))
 

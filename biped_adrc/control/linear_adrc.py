@@ -4,7 +4,8 @@
     K_p = w_c^2,   K_d = 2 w_c        closed-loop poles s = -w_c, twice
 
 Gao, Scaling and bandwidth-parameterization based controller tuning, American Control Conference 2003, after
-Han, IEEE Trans. Industrial Electronics 56(3), 2009. w_o of 3 to 10 times w_c is usual.
+Han, IEEE Trans. Industrial Electronics 56(3), 2009. w_o of 3 to 10 times w_c is usual. It is (20) with
+m = 1; its transfer function is that of a filtered PID, from which `npid` tells it apart.
 """
 
 from __future__ import annotations
@@ -21,7 +22,10 @@ def linear_adrc(
     observer_bandwidth: float = 500.0,
     controller_bandwidth: float | None = None,
 ) -> ADRCController:
-    """ADRC with w_o and w_c [rad/s]; without w_c the gains are those of Table II. Raises InputError."""
+    """ADRC with w_o and w_c [rad/s]; without w_c the gains are those of Table II.
+
+    Raises InputError for a bandwidth that is not positive.
+    """
     gains = TABLE_II if controller_bandwidth is None else bandwidth_gains(controller_bandwidth)
     return ADRCController(reference, GPIObserver.from_bandwidth(observer_bandwidth), gains)
 

@@ -4,6 +4,10 @@
 
 xi comes from the model, (14) without disturbances. The paper writes estimates x1^, x2^ here, though NPD
 has no observer: the measured state is used.
+
+It is the yardstick of ADRC in the paper: the same gains, and the model's xi in place of an estimated one. With
+a right model and no push both loops have the same error dynamics; an error of the model or a push leaves NPD an
+error of the size xi / K_p.
 """
 
 from __future__ import annotations
@@ -29,7 +33,11 @@ def npd_torque(k: TrackingParameters, r: ReferencePoint, s: Array, m: Measuremen
 
 @dataclass(frozen=True)
 class NPDController(Controller):
-    """(28). solve_theta: solve the loop through Theta'' (default), or drop h' Theta'' as printed."""
+    """(28), a controller without a state.
+
+    reference: what is tracked. gains: K_p [1/s^2], K_d [1/s]. solve_theta: solve the loop through Theta''
+    (default), or drop h' Theta'' as printed.
+    """
 
     reference: Reference
     gains: Gains = TABLE_II

@@ -43,7 +43,10 @@ from biped_adrc.types import Array
 
 
 class PIDParameters(NamedTuple):
-    """Gains, K_i [1/s^3], and M (3, 3), b (3,) of the filter: Z' = M Z + b e, or Z one period later."""
+    """Gains, K_i [1/s^3], and M (3, 3), b (3,) of the filter: Z' = M Z + b e, or Z one period later.
+
+    Z (3, p) has the rows e_f, e_f', s; e (p,) [rad] is the error.
+    """
 
     gains: TrackingParameters
     K_i: float

@@ -5,6 +5,9 @@
 
 r is the point of the reference, x^ what the observer says. A controller of this kind says what its observer
 looks at, y and what it starts from, what its input is, and the torque; observer and reference may be any.
+
+Four functions, a `Sight`, tell the three controllers apart: `adrc` looks at the joints, `output_adrc` at the
+output y = q_b - q_d, `momentum_dob` at the momentum. All else, resets and time bases included, is here once.
 """
 
 from __future__ import annotations
@@ -23,6 +26,7 @@ from biped_adrc.errors import check_count
 from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
 from biped_adrc.observers.base import (
     Estimate,
+    HasOrder,
     Observer,
     ObserverLaws,
     ResetPolicy,
@@ -33,11 +37,11 @@ from biped_adrc.types import Array
 
 
 class ObservingParameters(NamedTuple):
-    """Of the reference's law, the gains with the choice of loop, of the observer, and `ResetPolicy.code`."""
+    """The numbers of the parts: reference, gains with the choice of loop, observer, and `ResetPolicy.code`."""
 
-    h: Any
+    h: object
     tracking: TrackingParameters
-    observer: Any
+    observer: HasOrder
     policy: int
 
 
@@ -63,11 +67,13 @@ class Sight(NamedTuple):
 def observing_laws(
     sight: Sight, point: Callable[..., ReferencePoint], o: ObserverLaws
 ) -> ControllerLaws:
-    """The laws around the laws o of any observer and the law of any reference, all without parameters."""
+    """The laws around the laws o of any observer and the law of any reference, all without parameters.
+
+    Cached, so that controllers which differ in numbers alone share their machine code. The reference's point is
+    asked for where it is used only, since each call of it evaluates the curve. Coordinates behind the p joints,
+    such as the pitch of a momentum observer, keep their place at impact.
+    """
     seen, fed, torque, told, of_reference = sight
-    o_flow: Any = o.flow
-    o_correct: Any = o.correct
-    o_predict: Any = o.predict
 
     def at(k: ObservingParameters, m: Measurement) -> Any:
         return point(k.h, m.t, m.q, m.v) if of_reference else None
@@ -90,24 +96,31 @@ def observing_laws(
     def flow(k: ObservingParameters, s: Array, m: Measurement, u: Array) -> Array:
         r = at(k, m)
         Z = rows(k.observer, s)
-        return o_flow(k.observer, Z, seen(r, m).position, fed(r, m, u)).ravel()
+        assert o.flow is not None
+        return o.flow(k.observer, Z, seen(r, m).position, fed(r, m, u)).ravel()
 
     def correct(k: ObservingParameters, s: Array, m: Measurement) -> Array:
-        return o_correct(k.observer, rows(k.observer, s), seen(at(k, m), m).position).ravel()
+        assert o.correct is not None
+        return o.correct(k.observer, rows(k.observer, s), seen(at(k, m), m).position).ravel()
 
     def predict(k: ObservingParameters, s: Array, m: Measurement, u: Array) -> Array:
-        return o_predict(k.observer, rows(k.observer, s), fed(at(k, m), m, u)).ravel()
+        assert o.predict is not None
+        return o.predict(k.observer, rows(k.observer, s), fed(at(k, m), m, u)).ravel()
 
     laws = ControllerLaws(None, output, initial_state, jump=jump, estimate=estimate)
-    if o_flow is not None:
+    if o.flow is not None:
         laws = laws._replace(flow=flow)
-    if o_correct is not None and o_predict is not None:
+    if o.correct is not None and o.predict is not None:
         laws = laws._replace(correct=correct, predict=predict)
     return laws
 
 
 class ObservingController(Controller):
-    """Base of the controllers whose state is an observer's; `sight` says what they make of it."""
+    """Base of the controllers whose state is an observer's; `sight` says what they make of it.
+
+    reference: what is tracked. gains: K_p [1/s^2], K_d [1/s] on the estimates. reset: the observer's,
+    at impact.
+    """
 
     reference: Reference
     observer: Observer

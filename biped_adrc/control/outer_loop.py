@@ -4,6 +4,11 @@
 
 w is the loop's own state; it changes at impact, and between impacts only as `own_flow` says. The inner
 controller, whichever it is, tracks the sum. Outer loops go around outer loops: their corrections add up.
+
+An inner loop drives q_b - h(Theta) to zero, and cannot change what the zero dynamics do with a push; an outer
+loop does so by changing h. The inner controller is never told: at each call a copy of it tracks the corrected
+constraint. The core, inside all loops, starts and jumps last, when all corrections are known, since an observer
+of outputs starts from the error of what is in force. Outer loops are written as methods and run in Python.
 """
 
 from __future__ import annotations
@@ -39,30 +44,33 @@ class OuterLoop(Controller):
 
     @abstractmethod
     def own_start(self, h: Constraint, m: Measurement) -> Array:
-        """w at the start of a run; h is what the inner controller tracks."""
+        """w (own_size,) at the start of a run; h is what the inner controller tracks."""
 
     @abstractmethod
     def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
-        """w after impact."""
+        """w (own_size,) after impact, from w before it; h is what the inner controller tracks then."""
 
     @abstractmethod
     def correction(self, w: Array) -> Correction:
-        """c(Theta; w)."""
+        """c(Theta; w): a function of Theta [rad] that gives c, dc/dTheta, d2c/dTheta2, each (p,), for this w
+        (own_size,).
+        """
 
     def own_flow(self, w: Array) -> Array:
-        """w' in continuous time."""
+        """w' (own_size,) in continuous time; zero unless a leaf says otherwise."""
         return np.zeros(self.own_size)
 
     def own_correct(self, w: Array, m: Measurement) -> Array:
-        """w at a tick, in sampled time."""
+        """w (own_size,) at a sample instant, unchanged unless a leaf says otherwise."""
         return w
 
     def parts(self, s: Array) -> tuple[Array, Array]:
-        """s_inner and w."""
+        """s_inner, and w (own_size,), which is the end of s."""
         end = len(s) - self.own_size
         return s[:end], s[end:]
 
     def _acting(self, w: Array) -> Controller:
+        """The inner controller with its constraint corrected as w (own_size,) says."""
         return with_correction(self.inner, self.correction(w))
 
     @property
@@ -132,7 +140,10 @@ def tracked_constraint(controller: Controller) -> VirtualConstraint:
 
 
 def reference_in_force(controller: Controller, s: Array) -> Constraint:
-    """What a controller with state s tracks, all corrections included. Raises as `tracked_constraint`."""
+    """What a controller with state s (size,) tracks, all corrections included.
+
+    Raises InputError as `tracked_constraint`.
+    """
     if isinstance(controller, OuterLoop):
         z, w = controller.parts(s)
         return CorrectedConstraint(
@@ -142,7 +153,7 @@ def reference_in_force(controller: Controller, s: Array) -> Constraint:
 
 
 def core_size(controller: Controller, s: Array) -> int:
-    """Numbers of s that are the state of the controller inside all outer loops."""
+    """How many numbers of s (size,), its first ones, are the state of the controller inside all outer loops."""
     size = len(s)
     while isinstance(controller, OuterLoop):
         size, controller = size - controller.own_size, controller.inner
@@ -150,7 +161,7 @@ def core_size(controller: Controller, s: Array) -> int:
 
 
 def innermost(loop: OuterLoop, s: Array) -> Controller:
-    """The controller inside all outer loops, tracking what is in force in the state s.
+    """The controller inside all outer loops, tracking what is in force in the state s (size,).
 
     An observer of outputs starts from the error of that, not of h alone.
     """
@@ -164,7 +175,10 @@ def innermost(loop: OuterLoop, s: Array) -> Controller:
 
 
 def with_correction(controller: Controller, correction: Correction) -> Controller:
-    """The controller with its constraint corrected, whatever outer loops it is in."""
+    """A copy of the controller with its constraint corrected, whatever outer loops it is in.
+
+    The innermost one is changed: loops between pass the correction on.
+    """
     if isinstance(controller, OuterLoop):
         return replace(controller, inner=with_correction(controller.inner, correction))
     h = getattr(controller, "reference", None) or tracked_constraint(controller)

@@ -10,6 +10,9 @@ q_b'' = a = kappa u + xi and q_N'' = A_N a + a_N, the same u is
 
 since J D^-1 B = (J_b + J_N A_N) kappa. For y = q_b - h(Theta) this is NPD (28) with its loop through Theta''
 solved.
+
+Outputs are any object of `gait.outputs`: linear ones, those of a virtual constraint, positions of a foot. They
+may be Python of the user's own, so this controller is written as a method and runs in Python.
 """
 
 from __future__ import annotations

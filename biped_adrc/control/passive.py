@@ -1,4 +1,8 @@
-"""No torque at all: u = 0, for passive walkers and for seeing what a robot does by itself."""
+"""No torque at all: u = 0, for passive walkers and for seeing what a robot does by itself.
+
+The compass gait down a slope needs nothing more (McGeer, Int. J. Robotics Research 9(2), 1990). Tests take it
+where the loop has to do nothing, such as for the conservation of energy between impacts.
+"""
 
 from __future__ import annotations
 

@@ -38,7 +38,10 @@ def pd_gravity_torque(k: TrackingParameters, r: ReferencePoint, s: Array, m: Mea
 
 @dataclass(frozen=True)
 class PDGravityController(Controller):
-    """The module's equation; `gains` are torques per angle and rate."""
+    """The module's equation, a controller without a state; `gains` are torques per angle and rate.
+
+    It needs the weight of the nominal model, `Measurement.body`, and no other part of it.
+    """
 
     needs_body: ClassVar[bool] = True
 

@@ -34,14 +34,14 @@ LEAST_REACH = 0.2
 
 
 class ResetRange(NamedTuple):
-    """Theta_e [rad] and dx/dTheta = -1 / (Theta_e - Theta+) [1/rad]."""
+    """end: Theta_e [rad]. rate: dx/dTheta = -1 / (Theta_e - Theta+) [1/rad], where x is 1 at Theta+."""
 
     end: float
     rate: float
 
 
 class ResetParameters(NamedTuple):
-    """Where the correction ends, and the row c_q (n,) of the phase."""
+    """range: where the correction ends. phase: the row c_q (n,) of Theta = c_q q."""
 
     range: ResetRange
     phase: Array
@@ -66,7 +66,10 @@ def reset_start(k: ResetParameters, r: ReferencePoint, m: Measurement) -> Array:
 
 
 def reset_polynomial(k: ResetRange, a: Array, theta: float) -> tuple[Array, Array, Array]:
-    """c, dc/dTheta, d2c/dTheta2 at theta, each (p,); a (2, p)."""
+    """c, dc/dTheta, d2c/dTheta2 at theta [rad], each (p,), for the rows a_0, a_1 of a (2, p).
+
+    All are zero past Theta_e, where x would be negative.
+    """
     x = max(k.rate * (theta - k.end), 0.0)
     return (
         x**3 * (a[0] + a[1] * x),

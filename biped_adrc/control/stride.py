@@ -40,7 +40,7 @@ beta in the middle of the step. A lean forwards and back slows the walk: its gai
 
 
 def bump(s: float) -> tuple[float, float, float]:
-    """b, db/ds, d2b/ds2 at s; b = 1 in the middle of the step."""
+    """b, db/ds, d2b/ds2 at s, all zero outside of [0, 1]; b = 1 in the middle of the step."""
     w, dw = max(s * (1.0 - s), 0.0), 1.0 - 2.0 * s
     return 64.0 * w**3, 192.0 * w**2 * dw, 384.0 * w * (dw**2 - w)
 
@@ -68,7 +68,10 @@ def stride_correction(k: StrideParameters, w: Array, theta: float) -> tuple[Arra
 
 
 def stride_jump(k: StrideParameters, w: Array) -> Array:
-    """w after impact; one at tau = 0, as when a run starts with it, has timed no step and changes nothing."""
+    """w = (tau, I, beta) (3,) after impact: the PI of the module's equation, with both bounds.
+
+    One at tau = 0, as when a run starts with it, has timed no step and changes nothing.
+    """
     if not w[0] > 0.0:
         return w.copy()
     e = k.speed - k.step_length / w[0]
@@ -79,7 +82,11 @@ def stride_jump(k: StrideParameters, w: Array) -> Array:
 
 @dataclass(frozen=True)
 class StrideGains:
-    """K_P [rad s/m], K_I [rad s/m], and the bound on |beta| [rad]."""
+    """K_P [rad s/m], K_I [rad s/m], and `limit`, the bound on |beta| [rad].
+
+    `analysis.stride_gain` finds them from how the speed answers to beta. Raises InputError for gains that are
+    not finite and a bound that is not positive.
+    """
 
     K_P: float
     K_I: float
@@ -97,7 +104,8 @@ class StrideGains:
 class StridePI(OuterLoop):
     """The PI above around `inner`; its state is (tau, I, beta). Make it with `on_gait`.
 
-    speed: v* [m/s]. step_length: L [m]. direction: d (p,). Raises InputError.
+    speed: v* [m/s]. step_length: L [m]. direction: d (p,). Raises InputError for a speed or length that is not
+    positive, and for a direction that has not p finite numbers.
     """
 
     speed: float

@@ -35,7 +35,11 @@ from biped_adrc.types import Array
 
 
 class SuperTwistingParameters(NamedTuple):
-    """lambda [1/s], k_1 [rad^(1/2) / s^(3/2)], k_2 [rad/s^3], delta [rad/s], and the period [s], 1 without."""
+    """The law's numbers.
+
+    slope: lambda [1/s]; k_1 [rad^(1/2) / s^(3/2)]; k_2 [rad/s^3]; layer: delta [rad/s]; period [s], 1 in
+    continuous time, where it is not used.
+    """
 
     slope: float
     k_1: float
@@ -61,14 +65,14 @@ def twisting_torque(
 
 
 def twisting_start(k: SuperTwistingParameters, r: ReferencePoint, m: Measurement) -> Array:
-    """z = 0 (p,)."""
+    """z = 0 (p,) [rad/s^2] at the start: the model is taken to be right."""
     return np.zeros(len(r.q_d))
 
 
 def twisting_flow(
     k: SuperTwistingParameters, r: ReferencePoint, s: Array, m: Measurement, u: Array
 ) -> Array:
-    """z' (p,) [rad/s^3]."""
+    """z' (p,) [rad/s^3], of any torque u: z does not know of a limit, and winds up while one is reached."""
     sigma, _ = sliding(k, r, m)
     return -k.k_2 * sigma / (np.abs(sigma) + k.layer)
 
@@ -83,7 +87,7 @@ def twisting_predict(
 def twisting_jump(
     k: SuperTwistingParameters, r: ReferencePoint, s: Array, after: Measurement, swap: Array
 ) -> Array:
-    """z after impact: what is wrong with the model belongs to a leg, and is relabelled."""
+    """z (p,) after impact: what is wrong with the model belongs to a leg, and is relabelled by swap (p,)."""
     return s[swap]
 
 

@@ -10,6 +10,9 @@ q_N'' = A_N q_b'' + a_N of (12) and q_b'' = a,
     (I - H_b - H_N A_N) a = drift + f + H_N a_N
 
 is solved for a. As printed, (20) and (28) drop H q''.
+
+`tracked_laws` puts any reference under the laws of a controller that needs its point alone; `control.observing`
+does so for those with an observer.
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -31,6 +34,8 @@ from biped_adrc.parts import numbers
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
+_T = TypeVar("_T")
+
 
 class TrackingParameters(NamedTuple):
     """K_p [1/s^2] and K_d [1/s], (p,), or (1,) for one number; loop: 1 solves for Theta'', 0 drops it."""
@@ -42,7 +47,10 @@ class TrackingParameters(NamedTuple):
 
 @dataclass(frozen=True)
 class Gains(Shown):
-    """K_p [1/s^2] and K_d [1/s] of Table II, one number for all joints or one per joint."""
+    """K_p [1/s^2] and K_d [1/s] of Table II, one number for all joints or one per joint (p,).
+
+    Raises InputError for numbers that are not positive.
+    """
 
     K_p: Array | float = 5000.0
     K_d: Array | float = 50.0
@@ -69,7 +77,7 @@ class Gains(Shown):
         return np.atleast_1d(self.K_p).copy(), np.atleast_1d(self.K_d).copy()
 
     def parameters(self, solve_theta: bool) -> TrackingParameters:
-        """What the law `tracking_torque` needs."""
+        """What the law `tracking_torque` takes; solve_theta: whether the loop through Theta'' is solved."""
         return TrackingParameters(*self._rows, int(solve_theta))
 
 
@@ -92,7 +100,7 @@ def feedback(k: TrackingParameters | Gains, r: ReferencePoint, x1: Array, x2: Ar
 
 
 def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
-    """a (p,) of the module's equation. Raises SingularError when its matrix is exactly singular.
+    """a (p,) [rad/s^2] of the module's equation. Raises SingularError when its matrix is exactly singular.
 
     That is where a pivot of it is 0.0; near that a grows without bound and without an error.
     """
@@ -106,22 +114,25 @@ def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
 
 
 def printed_acceleration(r: ReferencePoint, f: Array) -> Array:
-    """a (p,) as (20) and (28) print it, with h' Theta'' dropped."""
+    """a (p,) [rad/s^2] as (20) and (28) print it, with h' Theta'' dropped.
+
+    It saves the solution of a linear system; the error it leaves is a disturbance for the loop.
+    """
     return r.drift + f
 
 
 class TrackedParameters(NamedTuple):
-    """Of the reference's law, and of the controller's own laws."""
+    """h: parameters of the reference's law. own: those of the controller's own laws."""
 
-    h: Any
-    own: Any
+    h: object
+    own: object
 
 
 def tracked_laws(reference: Reference, own: ControllerLaws) -> ControllerLaws:
     """The laws of a controller that tracks any reference.
 
     own: its laws with the point r of the reference put before the state, such as output(k, r, s, m), and
-    initial_state(k, r, m).
+    initial_state(k, r, m). A reference without laws makes the controller run in Python, by its obstacle.
     """
     r = reference_laws(reference)
     laws = _tracked(r.point, own.functions)
@@ -132,22 +143,22 @@ def tracked_laws(reference: Reference, own: ControllerLaws) -> ControllerLaws:
 
 @lru_cache(maxsize=64)
 def _tracked(point: Callable[..., ReferencePoint], own: ControllerLaws) -> ControllerLaws:
-    start: Any = own.initial_state
+    """The laws without parameters, cached so that the same functions have the same machine code."""
 
-    def about_the_point(law: Callable[..., Any]) -> Callable[..., Any]:
-        def tracked(k: TrackedParameters, s: Array, m: Measurement, *rest: Any) -> Any:
+    def about_the_point(law: Callable[..., _T]) -> Callable[..., _T]:
+        def tracked(k: TrackedParameters, s: Array, m: Measurement, *rest: object) -> _T:
             return law(k.own, point(k.h, m.t, m.q, m.v), s, m, *rest)
 
         return tracked
 
     def initial_state(k: TrackedParameters, m: Measurement) -> Array:
-        state: Array = start(k.own, point(k.h, m.t, m.q, m.v), m)
-        return state
+        assert own.initial_state is not None
+        return own.initial_state(k.own, point(k.h, m.t, m.q, m.v), m)
 
     given = {name: law for name, law in own._asdict().items() if callable(law)}
     tracked: dict[str, Any] = {name: about_the_point(law) for name, law in given.items()}
     laws = own._replace(**tracked)
-    return laws if start is None else laws._replace(initial_state=initial_state)
+    return laws if own.initial_state is None else laws._replace(initial_state=initial_state)
 
 
 def body_of(m: Measurement) -> BodyTerms:

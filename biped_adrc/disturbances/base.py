@@ -1,4 +1,17 @@
-"""What a disturbance is: the generalised force zeta(t) of (1), and the times at which it switches."""
+"""What a disturbance is: the generalised force zeta of (1), and the times at which it is not smooth.
+
+    D(q) q'' + Omega(q, q') = B u + zeta(t, step, t_start, q, q')
+
+zeta (n,) [N m] acts on all coordinates q1..qN, the unactuated pitch among them. The controller does not know
+it. Where it comes from a force in the world, the ground has to carry that force too: `resultant` (2,) [N].
+
+A disturbance is a pure function, so a run may be repeated and a step of integration taken again. Most leaves
+give `laws`, functions of numbers and arrays, which the engine turns into machine code; one that writes the
+method `torque` alone runs in Python. Integrators end their steps at `switching_times`, since a method of high
+order loses its accuracy across a jump.
+
+It stands below `closed_loop.walker`, which evaluates it, and `scenario.disturbances`, which makes it by name.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +21,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
@@ -23,16 +36,22 @@ GAUSS = 0.5773502691896257
 
 
 class DisturbanceLaw(NamedTuple):
-    """The pure function behind a disturbance: zeta = torque(parameters, t, step, t_start, q, v)."""
+    """The pure function behind a disturbance: zeta = torque(parameters, t, step, t_start, q, v).
 
-    parameters: Any
+    The numbers are kept apart from the functions, so that disturbances which differ in numbers alone share one
+    machine code.
+    """
+
+    parameters: object
     """k, a NamedTuple of numbers and float64 arrays."""
     torque: Callable[..., Array]
+    """zeta (n,) [N m]."""
     switches: tuple[tuple[int, float], ...] = ()
     """(step, s): not smooth s [s] after that single support began, or for step 0 at the time s of the run."""
     resultant: Callable[..., Array] | None = None
-    """`Disturbance.resultant` as resultant(parameters, t, step, t_start, q, v), of time alone; None is zero."""
-    active: Callable[..., Any] | None = None
+    """`Disturbance.resultant` (2,) [N] as resultant(parameters, t, step, t_start, q, v), of time alone; None is
+    zero."""
+    active: Callable[..., float] | None = None
     """active(parameters, t, step, t_start): above 0 where torque and resultant act, elsewhere they are zero and
     not asked for. None: they always act."""
     obstacle: str = ""
@@ -47,7 +66,11 @@ class DisturbanceLaw(NamedTuple):
 
 
 class Disturbance(Composed):
-    """A pure function of time, step and state: give `laws`, or write `torque`. `a + b` adds two of them up."""
+    """A pure function of time, step and state: give `laws`, or write `torque`. `a + b` adds two of them up.
+
+    A class that writes `torque` may name the times where it jumps in `switches`, and write `resultant` when it
+    is a force from outside.
+    """
 
     _kind: ClassVar[str] = "disturbance"
     _methods: ClassVar[frozenset[str]] = frozenset(("torque", "resultant"))
@@ -58,7 +81,11 @@ class Disturbance(Composed):
         return None
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        """zeta (n,) [N m] at time t [s] in single support `step` (from 1), which began at t_start."""
+        """zeta (n,) [N m] at time t [s] in single support `step` (from 1), which began at t_start [s].
+
+        q (n,) [rad], v (n,) [rad/s]: the state of the plant. Raises InputError where there is neither a law nor
+        a method, and for a law that gives another shape.
+        """
         if self._laws is None:
             raise InputError(
                 f"{type(self).__name__} has neither laws nor a method torque(t, step, t_start, q, v); write "
@@ -77,8 +104,10 @@ class Disturbance(Composed):
         return total
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:
-        """Force (F_x, F_z) [N] from outside on the robot as a whole, zero for torques; what the ground does not
-        carry."""
+        """Force (F_x, F_z) (2,) [N] from outside on the robot as a whole, zero for torques between links.
+
+        The ground carries m (p_com'' - g) less this force.
+        """
         total, still = np.zeros(2), np.zeros(0)
         for law in self._laws or ():
             if law.resultant is not None and law.acts(t, step, t_start):
@@ -86,11 +115,15 @@ class Disturbance(Composed):
         return total
 
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
-        """Times [s] at which the torque is not smooth in this step."""
+        """Times [s] of the run at which the torque is not smooth in this step, which began at t_start [s]."""
         return tuple(s if at == 0 else t_start + s for at, s in self.switches if at in (0, step))
 
     def impulse(self, t0: float, t1: float, step: int, t_start: float) -> Array:
-        """The integral of `resultant` from t0 to t1 (2,) [N s], by two points of Gauss in each smooth piece."""
+        """The integral of `resultant` from t0 to t1 (2,) [N s], by two points of Gauss in each smooth piece.
+
+        Exact for a resultant that is a polynomial of degree 3 in each piece, as all packaged ones but the sine
+        and noise are.
+        """
         inside = sorted(s for s in self.switching_times(step, t_start) if t0 < s < t1)
         total = np.zeros(2)
         for a, b in pairwise([t0, *inside, t1]):
@@ -101,12 +134,13 @@ class Disturbance(Composed):
 
     @property
     def pulls(self) -> bool:
-        """Whether it has a resultant at all."""
+        """Whether it has a resultant at all; without one, `impulse` need not be asked for."""
         written = type(self).resultant is not Disturbance.resultant
         return written or any(law.resultant is not None for law in self._laws or ())
 
     @property
     def _obstacle(self) -> str:
+        """As `Composed._obstacle`; a resultant written as a method keeps it in Python as well."""
         written = type(self).resultant is not Disturbance.resultant
         if written and all(law.resultant is None for law in self._laws or ()):
             return (
@@ -125,7 +159,10 @@ class Disturbance(Composed):
 
 
 def disturbance_laws(disturbance: Disturbance) -> tuple[DisturbanceLaw, ...]:
-    """The laws of a disturbance, or its methods as a law, which runs in Python only and says so."""
+    """The laws of a disturbance, or its methods as a law, which runs in Python only and says so.
+
+    The closed loop thus has one way to evaluate a disturbance, whether it was written as laws or as methods.
+    """
     if not disturbance._obstacle:
         return disturbance.laws or ()
     made = DisturbanceLaw(
@@ -140,12 +177,13 @@ def disturbance_laws(disturbance: Disturbance) -> tuple[DisturbanceLaw, ...]:
 
 @dataclass(frozen=True)
 class Sum(Disturbance):
-    """The sum of several disturbances; of none, zero."""
+    """The sum of several disturbances; of none, zero. Its laws are those of all parts, one after the other."""
 
     parts: tuple[Disturbance, ...] = ()
 
     @property
     def laws(self) -> tuple[DisturbanceLaw, ...]:
+        """Those of all parts; a part without laws stands for itself, and keeps the others compiled."""
         return tuple(law for part in self.parts for law in disturbance_laws(part))
 
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
@@ -158,28 +196,43 @@ def terms(disturbance: Disturbance) -> tuple[Disturbance, ...]:
 
 
 class WindowParameters(NamedTuple):
-    """amplitude (n,) [N m]; step, 0 when the window counts from the start of the run; start, stop [s]."""
+    """A window in time, as numbers for a law.
+
+    amplitude (n,) [N m]; step, 0 when the window counts from the start of the run; start, stop [s].
+    """
 
     amplitude: Array
     step: float
     start: float
     stop: float
+    """Infinite for a window that stays open."""
 
 
-def onset(k: WindowParameters, t_start: float) -> Any:
-    """When the window opens [s]."""
+def onset(k: WindowParameters, t_start: float) -> float:
+    """Time of the run at which the window opens [s], for a single support that began at t_start [s]."""
     return 1.0 * (k.step > 0) * t_start + k.start
 
 
-def within(k: WindowParameters, t: float, step: int, t_start: float) -> Any:
-    """Above 0 in the window."""
+def within(k: WindowParameters, t: float, step: int, t_start: float) -> float:
+    """Above 0 in the window, start <= t < stop, and 0 outside.
+
+    A product of comparisons in place of `if`, so that the same function runs on numbers and as machine code.
+    """
     counted = 1.0 * (k.step > 0)  # from the start of its step; else from that of the run
     here = 1.0 - counted + counted * (step == k.step)
     return here * (t >= onset(k, t_start)) * (t < counted * t_start + k.stop)
 
 
-def window_acts(k: Any, t: float, step: int, t_start: float) -> Any:
-    """Above 0 in the window of parameters that have one."""
+class WithWindow(Protocol):
+    """Parameters of a law that acts in a window alone."""
+
+    @property
+    def window(self) -> WindowParameters:
+        """When it acts."""
+
+
+def window_acts(k: WithWindow, t: float, step: int, t_start: float) -> float:
+    """Above 0 in the window of parameters that have one; what such a law gives as `active`."""
     return within(k.window, t, step, t_start)
 
 
@@ -188,13 +241,20 @@ class Windowed(Disturbance):
     """A torque between `start` and `stop` [s].
 
     amplitude (n,) [N m] acts on q1..qN, actuated or not. With `step` the window counts from the start of
-    that single support and closes at its end at the latest; without, from the start of the run.
+    that single support and closes at its end at the latest; without, from the start of the run. The base of
+    pulse, step, sine and noise: a leaf gives `windowed`, the law of its shape in time.
+
+    Raises InputError for an amplitude that is not one row of finite numbers, a window that is empty or begins
+    before 0, and a step below 1.
     """
 
     amplitude: Array
     step: int | None = None
+    """Single support, counted from 1."""
     start: float = 0.0
+    """[s] from the start of that step, or of the run."""
     stop: float = math.inf
+    """[s], counted as `start`; the torque is zero from then on."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -215,31 +275,38 @@ class Windowed(Disturbance):
 
     @cached_property
     def window(self) -> WindowParameters:
-        """What `onset` and `within` need."""
+        """The window as the numbers that `onset` and `within` take."""
         return WindowParameters(
             self.amplitude, float(self.step or 0), float(self.start), float(self.stop)
         )
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
-        """As `DisturbanceLaw.switches`."""
+        """As `DisturbanceLaw.switches`: both ends of the window, where the torque jumps."""
         ends = (self.start, self.stop)
         return tuple((self.step or 0, float(s)) for s in ends if math.isfinite(s))
 
     @property
     def laws(self) -> tuple[DisturbanceLaw, ...] | None:
+        """The one law `windowed`, with the times at which this window switches."""
         law = self.windowed
         return None if law is None else (law._replace(switches=self.switches),)
 
     @property
     def windowed(self) -> DisturbanceLaw | None:
-        """The law of the torque in the window; None for one written as a method."""
+        """The law of the torque in the window; None for one written as a method.
+
+        `laws` puts `switches` into it.
+        """
         return None
 
 
 @dataclass(frozen=True)
 class WindowedTorque(Windowed):
-    """amplitude * profile(time since onset) in its window."""
+    """amplitude * profile(time since onset) in its window: the shortest way to write a torque of one's own.
+
+    It is written as a method, so a walk with it runs in Python; give `windowed` where it has to be fast.
+    """
 
     @abstractmethod
     def profile(self, s: float) -> float:

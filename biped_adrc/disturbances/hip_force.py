@@ -1,8 +1,11 @@
 """A constant force on the hip: zeta = J(q)' F with J = dp_hip/dq.
 
 It enters the unactuated row too, so no tracking loop rejects it (Westervelt, Grizzle, Canudas de Wit, IEEE
-CDC 2003). It is constant in the world; F_x < 0 pulls backwards. The force of the
-ground is m (p_com'' - g) - F.
+CDC 2003): the speed of walking changes, and an outer loop such as `control.stride` has to bring it back. It is
+constant in the world; F_x < 0 pulls backwards. The force of the ground is m (p_com'' - g) - F.
+
+`HipForce` holds what a user gives, `HipForceParameters` the numbers of its laws. J is that of the plant: a
+plant with model errors has other geometry than the nominal robot, and the push acts on what walks.
 """
 
 from __future__ import annotations
@@ -22,7 +25,10 @@ from biped_adrc.types import Array
 
 
 class HipForceParameters(NamedTuple):
-    """F (2,) [N], the first and the last single support in which it acts, and the hip in closed form."""
+    """The force and when it acts, as numbers for the laws.
+
+    force: F (2,) [N]. first, last: single supports, infinite for no last one. hip: J in closed form.
+    """
 
     force: Array
     first: float
@@ -33,19 +39,19 @@ class HipForceParameters(NamedTuple):
 def hip_torque(
     k: HipForceParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
-    """zeta (n,) [N m]."""
+    """zeta = J(q)' F (n,) [N m], at the angles q (n,) [rad]; no moment acts."""
     return wrench_torque(k.hip, q, np.array([k.force[0], k.force[1], 0.0]))
 
 
 def hip_resultant(
     k: HipForceParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
-    """F (2,) [N]."""
+    """F (2,) [N], what the robot as a whole is pushed with."""
     return 1.0 * k.force
 
 
 def hip_acts(k: HipForceParameters, t: float, step: int, t_start: float) -> float:
-    """Above 0 from the first to the last single support."""
+    """1 from the first to the last single support, else 0, whatever the time in them."""
     return 1.0 * (step >= k.first) * (step <= k.last)
 
 
@@ -53,7 +59,8 @@ def hip_acts(k: HipForceParameters, t: float, step: int, t_start: float) -> floa
 class HipForce(Disturbance):
     """F = force (F_x, F_z) [N] on the hip of `biped`, the plant.
 
-    steps: the first and the last single support (from 1) in which it acts; all of them without.
+    steps: the first and the last single support (from 1) in which it acts; all of them without. It switches at
+    impacts alone, so integrators have no times to stop at.
     Raises InputError for a force that is not two finite numbers, or steps that do not count up from 1.
     """
 
@@ -75,7 +82,7 @@ class HipForce(Disturbance):
 
     @cached_property
     def parameters(self) -> HipForceParameters:
-        """What the laws need."""
+        """What the laws `hip_torque`, `hip_resultant` and `hip_acts` take."""
         first, last = self.steps or (0, math.inf)
         force = np.array(self.force, dtype=float)
         return HipForceParameters(force, float(first), float(last), hip_point(self.biped))

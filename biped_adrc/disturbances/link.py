@@ -3,6 +3,10 @@
 `wave` says how (F_x, F_z, M) goes with time: a pulse, a step, a sine, noise, or any other `Windowed` of
 amplitude (3,). The force has the world's axes, not the link's. It enters the unactuated row too, and the ground
 carries m (p_com'' - g) - F.
+
+The wave is a function of time that knows nothing of links: its law gives three numbers in place of n torques,
+and `link_law` multiplies them by J(q)'. So every wave of the package, and one of the user's own, pushes a link
+without code here, in both engines.
 """
 
 from __future__ import annotations
@@ -10,7 +14,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,10 +26,10 @@ from biped_adrc.types import Array
 
 
 class LinkParameters(NamedTuple):
-    """The point, and the wave's own parameters."""
+    """point: p(q) of the link and its J in closed form. wave: the parameters of the wave's own law."""
 
     point: LinkPoint
-    wave: Any
+    wave: object
 
 
 AT_REST = np.zeros(3), np.zeros(3)
@@ -34,7 +38,11 @@ AT_REST = np.zeros(3), np.zeros(3)
 
 @lru_cache(maxsize=64)
 def link_law(wave: DisturbanceLaw) -> DisturbanceLaw:
-    """The law of a force and a moment that go as a wave does, both without their parameters."""
+    """The law of a force and a moment that go as a wave does, both without their parameters.
+
+    Cached by the wave's functions: pushes that differ in numbers alone have the same law, hence one machine
+    code.
+    """
     torque, active = wave.torque, wave.active
 
     def on_coordinates(
@@ -45,7 +53,7 @@ def link_law(wave: DisturbanceLaw) -> DisturbanceLaw:
     def force(k: LinkParameters, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         return torque(k.wave, t, step, t_start, *AT_REST)[:2]
 
-    def acts(k: LinkParameters, t: float, step: int, t_start: float) -> Any:
+    def acts(k: LinkParameters, t: float, step: int, t_start: float) -> float:
         return 1.0 if active is None else active(k.wave, t, step, t_start)
 
     return DisturbanceLaw(None, on_coordinates, resultant=force, active=acts)
@@ -57,7 +65,7 @@ class OnLink(Disturbance):
 
     at: the point (x, z) [m] in the link's frame, as its URDF has it; its origin without. M is counter-clockwise
     with x to the right and z up. A link of the leg that the URDF draws as the stance leg is the
-    stance leg's in every single support.
+    stance leg's in every single support: the push changes legs at each impact, since coordinates do.
     Raises InputError for a wave that has not three amplitudes, ModelError for a link that the robot has not.
     """
 
@@ -86,14 +94,16 @@ class OnLink(Disturbance):
 
     @cached_property
     def point(self) -> LinkPoint:
-        """Where it acts, in closed form."""
+        """Where it acts, in closed form: p(q) (2,) [m] and its Jacobian."""
         return link_point(self.biped, self.link, self.at)
 
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
+        """Those of the wave [s]."""
         return self.wave.switching_times(step, t_start)
 
     @property
     def laws(self) -> tuple[DisturbanceLaw, ...]:
+        """A law for each of the wave's, which says itself why it does not compile where it does not."""
         return tuple(
             link_law(law._replace(parameters=None, switches=(), obstacle=""))._replace(
                 parameters=LinkParameters(self.point, law.parameters),

@@ -2,7 +2,9 @@
 
     zeta = amplitude (r(t - start) - r(t - stop)),   r(s) = s / rise between 0 and 1
 
-Its integral is amplitude (stop - start) whatever the rise; without a rise r is the unit step.
+Its integral is amplitude (stop - start) whatever the rise; without a rise r is the unit step. The pushes of the
+paper have vertical edges. An observer of a disturbance that changes slowly is judged more fairly by edges that
+take some milliseconds, as a push of a hand does.
 """
 
 from __future__ import annotations
@@ -26,7 +28,7 @@ from biped_adrc.types import Array
 
 
 class PulseParameters(NamedTuple):
-    """The window in which the torque is not zero, the rise and the time from edge to edge, both [s]."""
+    """window: when the torque is not zero, rise included. rise [s] of an edge, width [s] from edge to edge."""
 
     window: WindowParameters
     rise: float
@@ -36,7 +38,10 @@ class PulseParameters(NamedTuple):
 def pulse_torque(
     k: PulseParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
-    """zeta (n,) [N m] in the window."""
+    """zeta (n,) [N m] at t [s], asked for in the window alone.
+
+    Both forms, with edges and with a rise, are computed and one is taken: machine code has no branch here.
+    """
     s = t - onset(k.window, t_start)
     sloping = k.rise > 0.0
     rise = np.where(sloping, k.rise, 1.0)
@@ -61,13 +66,16 @@ class TorquePulse(Windowed):
 
     @cached_property
     def parameters(self) -> PulseParameters:
-        """What the law `pulse_torque` needs."""
+        """What the law `pulse_torque` takes; its window ends when the falling edge has come to zero."""
         rise, width = float(self.rise), float(self.stop) - float(self.start)
         return PulseParameters(self.window._replace(stop=float(self.stop) + rise), rise, width)
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
-        """As `DisturbanceLaw.switches`: the four corners, two where the edges are vertical."""
+        """As `DisturbanceLaw.switches`: the four corners, two where the edges are vertical.
+
+        With a rise the torque has corners and no jumps; integrators stop there too, since rises are short.
+        """
         step = self.step or 0
         rises = (0.0, float(self.rise)) if self.rise > 0 else (0.0,)
         corners = (end + rise for end in (float(self.start), float(self.stop)) for rise in rises)

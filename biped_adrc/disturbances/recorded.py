@@ -4,6 +4,9 @@
 
 A corner at a row is no switching time: a step of integration may go across it, since zeta does not jump there.
 Where it does jump, at the first row and at the last, none does.
+
+A recording may have thousands of rows, while machine code has arrays of a fixed length. So it is cut into parts
+of `PIECES` straight pieces, one law each, of which one acts at a time; all parts share one machine code.
 """
 
 from __future__ import annotations
@@ -34,8 +37,11 @@ PIECES = 16
 
 
 class RecordedParameters(NamedTuple):
-    """The window, with the torque where it opens (n,), and of the pieces [s], (PIECES,): where they begin, and
-    how long they are; slopes (n, PIECES) [N m/s]."""
+    """One part of the recording.
+
+    window: its time, and as amplitude (n,) [N m] the torque where it opens. begin, width (PIECES,) [s]: of its
+    pieces, counted from where it opens; slopes (n, PIECES) [N m/s]. Pieces that it has not are of width 0.
+    """
 
     window: WindowParameters
     begin: Array
@@ -46,7 +52,7 @@ class RecordedParameters(NamedTuple):
 def recorded_torque(
     k: RecordedParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
-    """zeta (n,) [N m] in the window."""
+    """zeta (n,) [N m] in the window: the torque where it opens, and what each piece passed has added."""
     s = t - onset(k.window, t_start)
     return k.window.amplitude + k.slopes @ np.clip(s - k.begin, 0.0, k.width)
 
@@ -56,13 +62,18 @@ class RecordedTorque(Disturbance):
     """times (K,) [s] that increase, torques (K, n) [N m]. Read a file with `read`.
 
     start [s]: where time 0 of the recording is, after the start of single support `step`, with which it then
-    ends at the latest; without `step`, after the start of the run. Raises InputError.
+    ends at the latest; without `step`, after the start of the run. Raises InputError for numbers that are not
+    finite, times that do not increase, and a recording that begins before 0.
     """
 
     times: Array
+    """(K,) [s], of the recording's own clock."""
     torques: Array
+    """(K, n) [N m]."""
     step: int | None = None
+    """Single support, counted from 1."""
     start: float = 0.0
+    """[s] from the start of that step, or of the run."""
 
     def __post_init__(self) -> None:
         times, torques = read_only(self.times), read_only(self.torques)
@@ -94,7 +105,8 @@ class RecordedTorque(Disturbance):
     ) -> RecordedTorque:
         """The recording in a CSV file: a column `t` [s], and one [N m] for each joint that is named.
 
-        Joints are those of the robot, or q1..qN; the others have no torque. Raises InputError.
+        Joints are those of the robot, or q1..qN; the others have no torque. Raises InputError for a file that
+        cannot be read, columns other than these, and a line that is not of as many numbers, with its number.
         """
         with reading("recording", file, InputError):
             with Path(file).open(newline="", encoding="utf-8-sig") as text:
@@ -118,6 +130,7 @@ class RecordedTorque(Disturbance):
 
     @property
     def laws(self) -> tuple[DisturbanceLaw, ...]:
+        """One for each part of `PIECES` pieces; the first one knows where the whole begins and ends."""
         ends = [*range(0, len(self.times) - 1, PIECES), len(self.times) - 1]
         laws = [DisturbanceLaw(self._part(*part), recorded_torque) for part in pairwise(ends)]
         first, *rest = (law._replace(active=window_acts) for law in laws)
@@ -136,7 +149,7 @@ class RecordedTorque(Disturbance):
 
 
 def _numbers(row: list[str], line: int, columns: int) -> list[float]:
-    """A row of the file. Raises InputError with the line."""
+    """A row of the file as numbers. Raises InputError with the line, counted from 1, the head being line 1."""
     try:
         numbers = [float(x) for x in row]
     except ValueError as error:

@@ -1,4 +1,9 @@
-"""A sinusoidal torque over a window: zeta = amplitude sin(2 pi f (t - start))."""
+"""A sinusoidal torque over a window: zeta = amplitude sin(2 pi f (t - start)).
+
+It shows how fast a disturbance an observer follows: the estimate of one with a bandwidth w_o lags behind by a
+phase that grows with 2 pi f / w_o. It begins at zero without a jump and ends with one, unless the window
+holds a whole number of half periods.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +25,7 @@ from biped_adrc.types import Array
 
 
 class SineParameters(NamedTuple):
-    """The window, and f [Hz]."""
+    """window: when it acts, and its amplitude (n,) [N m]. frequency: f [Hz]."""
 
     window: WindowParameters
     frequency: float
@@ -29,14 +34,17 @@ class SineParameters(NamedTuple):
 def sine_torque(
     k: SineParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
-    """zeta (n,) [N m] in the window."""
+    """zeta (n,) [N m] of the module's equation at t [s], asked for in the window alone."""
     s = t - onset(k.window, t_start)
     return k.window.amplitude * np.sin(2.0 * math.pi * k.frequency * s)
 
 
 @dataclass(frozen=True)
 class TorqueSine(Windowed):
-    """amplitude (n,) [N m], frequency f [Hz]."""
+    """The module's equation: amplitude (n,) [N m], frequency f [Hz], the window as in `Windowed`.
+
+    Raises InputError for a frequency that is not positive.
+    """
 
     frequency: float = 1.0
 
@@ -46,7 +54,7 @@ class TorqueSine(Windowed):
 
     @property
     def parameters(self) -> SineParameters:
-        """What the law `sine_torque` needs."""
+        """What the law `sine_torque` takes."""
         return SineParameters(self.window, float(self.frequency))
 
     @property

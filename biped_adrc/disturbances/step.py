@@ -1,4 +1,9 @@
-"""A torque that sets in and stays, through all later steps: zeta = amplitude from onset on."""
+"""A torque that sets in and stays, through all later steps: zeta = amplitude from onset on.
+
+A load that is picked up, or a friction that nobody modelled. An observer with one extended state (m = 1) finds
+it without a steady error, a PD controller leaves an error that falls with its gains. Joints swap names at
+impact, so a torque on one leg's joints stays with the leg that stands, not with the metal.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +17,7 @@ from biped_adrc.types import Array
 def step_torque(
     k: WindowParameters, t: float, step: int, t_start: float, q: Array, v: Array
 ) -> Array:
-    """zeta (n,) [N m] from onset on."""
+    """zeta (n,) [N m]: the amplitude, asked for from onset on alone."""
     return 1.0 * k.amplitude
 
 
@@ -24,7 +29,10 @@ def step_acts(k: WindowParameters, t: float, step: int, t_start: float) -> float
 
 @dataclass(frozen=True)
 class TorqueStep(Windowed):
-    """amplitude (n,) [N m] from `start` [s] of single support `step` (or of the run) for good."""
+    """amplitude (n,) [N m] from `start` [s] of single support `step` (or of the run) for good.
+
+    Raises InputError for a stop that is not infinite.
+    """
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -60,7 +60,7 @@ class WalkerNumbers(NamedTuple):
     """Numbers of the robot that moves."""
     model: PlantArrays | None
     """Numbers of the controller's model, None where it is the plant."""
-    k: tuple[object, ...]
+    k: object
     """Parameters of the controller's laws."""
     torque_limit: float
     """[N m], infinite without one."""

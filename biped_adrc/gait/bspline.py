@@ -9,6 +9,8 @@ By de Boor's recursion, on the polynomials of each piece:
 
 with N_k,0 one on [t_k, t_k+1) and zero elsewhere, and 0 for what is divided by 0. The third derivative jumps at
 the knots. de Boor, A Practical Guide to Splines, Springer, 1978.
+
+`scipy.interpolate.BSpline` has the same values; here they are needed as polynomials by pieces, of symbols too.
 """
 
 from __future__ import annotations
@@ -47,7 +49,10 @@ class BSpline(ControlledCurve):
 
     @classmethod
     def like(cls, curve: Curve, degree: int = 8) -> BSpline:
-        """Least squares from another curve, with its ends and their slopes."""
+        """Least squares from another curve, with its ends and their slopes, as a B-spline of this degree M.
+
+        Both ends stay where they are, so that a gait keeps its impact.
+        """
         (h, dh, _), (end, last, _) = curve(0.0), curve(1.0)
         alpha, s = cls.between(h, dh, last, end, degree), np.linspace(0.0, 1.0, 20 * degree)
         alpha[:, 2:-2] = 0.0
@@ -58,14 +63,17 @@ class BSpline(ControlledCurve):
 
 
 def knots(degree: int) -> Array:
-    """t (M + 5,)."""
+    """t (M + 5,), in [0, 1], the ends four times: so the curve begins and ends in its outer coefficients."""
     inner = np.linspace(0.0, 1.0, degree - CUBIC + 2)
     return np.concatenate((np.zeros(CUBIC), inner, np.ones(CUBIC)))
 
 
 @lru_cache(maxsize=32)
 def basis(degree: int) -> Array:
-    """(J, M + 1, 4): of the N_k on each piece, the coefficients in powers of s."""
+    """(J, M + 1, 4): of the N_k on each piece, the coefficients in powers of s, by de Boor's recursion.
+
+    Cached by the degree, since the knots depend on nothing else.
+    """
     t = knots(degree)
     made = np.zeros((degree - CUBIC + 1, degree + 1, CUBIC + 1))
     for j in range(len(made)):
@@ -79,7 +87,7 @@ def basis(degree: int) -> Array:
 
 
 def _raised(t: Array, N: Array, k: int, d: int) -> Array:
-    """N_k,d (4,) from those of degree d - 1."""
+    """N_k,d (4,), in powers of s, from those of degree d - 1, N (., 4); t are the knots."""
     found = np.zeros(CUBIC + 1)
     for i, sign, at in ((k, 1.0, t[k]), (k + 1, -1.0, t[k + d + 1])):
         width = t[i + d] - t[i]

@@ -3,7 +3,12 @@
     h(s) = sum_k a_k s^k                                  Polynomial
     h(s) = sum_k alpha_k C(M, k) s^k (1 - s)^(M - k)      Bezier
 
-Outside [0, 1] the curve goes on as the polynomial it is.
+Outside [0, 1] the curve goes on as the polynomial it is, its first or last piece: after a push a step may end
+late, and the reference must not stop there.
+
+Every curve says itself as polynomials by pieces, and all that needs its values, Python, machine code, the zero
+dynamics and the optimisation of gaits, works with these. A curve of another basis is a class with `pieces` and
+what shifts, reverses and draws a line with its coefficients (`bspline` is one), and a line of the registry.
 """
 
 from __future__ import annotations
@@ -28,6 +33,7 @@ class CurveParameters(NamedTuple):
     """Power coefficients of h, h', h'' stacked, (3 p, K), of the first piece, and the exponents (K,).
 
     breaks (J - 1,): where the further pieces begin, rising; more (J - 1, 3 p, K): the same of these.
+    One product with the powers of s gives the curve and both derivatives.
     """
 
     stacked: Array
@@ -37,7 +43,7 @@ class CurveParameters(NamedTuple):
 
 
 def piece(c: CurveParameters, s: float) -> Array:
-    """The stacked coefficients (3 p, K) that hold at s."""
+    """The stacked coefficients (3 p, K) that hold at s; at a break those of the later piece."""
     found = c.stacked
     for j in range(len(c.breaks)):
         found = np.where(s >= c.breaks[j], c.more[j], found)
@@ -45,7 +51,7 @@ def piece(c: CurveParameters, s: float) -> Array:
 
 
 def curve(c: CurveParameters, s: float) -> tuple[Array, Array, Array]:
-    """h, dh/ds, d2h/ds2 at s, each (p,)."""
+    """h, dh/ds, d2h/ds2 at s, each (p,); by Theta where the parameters are those of `parameters_over`."""
     p = c.stacked.shape[0] // 3
     values = piece(c, s).dot(s**c.powers)
     return values[:p], values[p : 2 * p], values[2 * p :]
@@ -53,7 +59,10 @@ def curve(c: CurveParameters, s: float) -> tuple[Array, Array, Array]:
 
 @dataclass(frozen=True)
 class Curve(Shown, ABC):
-    """Coefficients (p, M + 1), one row per joint [rad]. Raises GaitError when not finite or not 2-D."""
+    """Base of all curves: coefficients (p, M + 1), one row per joint [rad], linear in h.
+
+    Raises GaitError when they are not finite or not 2-D.
+    """
 
     coefficients: Array
 
@@ -74,20 +83,23 @@ class Curve(Shown, ABC):
     @property
     @abstractmethod
     def pieces(self) -> tuple[Array, Array]:
-        """Where pieces join inside of (0, 1), (J - 1,), rising, and a (J, p, K) of h(s) = sum_k a_jk s^k."""
+        """Where pieces join inside of (0, 1), (J - 1,), rising, and a (J, p, K) of h(s) = sum_k a_jk s^k.
+
+        All that is computed of a curve comes from this: a new kind of curve need not say its derivatives.
+        """
 
     @abstractmethod
     def shifted(self, b: Array) -> Array:
-        """Coefficients of h(s) + b, for b (p,) [rad]."""
+        """Coefficients (p, M + 1) of h(s) + b, for b (p,) [rad]."""
 
     @abstractmethod
     def reversed(self) -> Self:
-        """h(1 - s)."""
+        """h(1 - s), the step backwards, for gaits whose phase falls."""
 
     @classmethod
     @abstractmethod
     def ramp(cls, degree: int, start: float, end: float) -> Array:
-        """Coefficients (M + 1,) of start + s (end - start)."""
+        """Coefficients (M + 1,) of the straight line start + s (end - start)."""
 
     @property
     def power_coefficients(self) -> Array:
@@ -102,12 +114,14 @@ class Curve(Shown, ABC):
 
     @cached_property
     def parameters(self) -> CurveParameters:
-        """The numbers that the law `curve` takes."""
+        """The numbers that the law `curve` takes, for derivatives by s; made once for each object."""
         return self.parameters_over(1.0)
 
     def parameters_over(self, rate: float) -> CurveParameters:
         """The same for derivatives by Theta: h' and h'' are multiplied by ds/dTheta = rate [1/rad], and its
         square.
+
+        Done here once, and not at each evaluation, of which a walk has some hundred thousand.
         """
         breaks, a = self.pieces
         k = np.arange(a.shape[2])
@@ -124,7 +138,10 @@ class Curve(Shown, ABC):
 
 @dataclass(frozen=True)
 class Polynomial(Curve):
-    """h(s) = sum_k a_k s^k."""
+    """h(s) = sum_k a_k s^k, a (p, M + 1): for curves from elsewhere, as the paper's gait (b).
+
+    Gaits are designed of `ControlledCurve`.
+    """
 
     @property
     def pieces(self) -> tuple[Array, Array]:
@@ -151,7 +168,11 @@ class Polynomial(Curve):
 
 @dataclass(frozen=True)
 class ControlledCurve(Curve):
-    """From its first to its last coefficient, by a basis that adds up to one and is the same from behind."""
+    """From its first to its last coefficient, by a basis that adds up to one and is the same from behind.
+
+    Such a curve is designed from its ends: the impact gives both ends and their slopes, and the optimisation
+    moves what lies between. A polynomial in powers has no coefficient that is its end.
+    """
 
     @classmethod
     @abstractmethod
@@ -172,7 +193,8 @@ class ControlledCurve(Curve):
     def between(cls, begin: Array, first: Array, last: Array, end: Array, degree: int) -> Array:
         """Coefficients (p, M + 1) from `begin` to `end` with these first and last slopes dh/ds, each (p,).
 
-        Those between lie on a straight line.
+        Those between lie on a straight line. It is what the search for a gait starts from: ends and slopes are
+        those that make the constraint invariant under the impact.
         """
         inner = np.linspace(0.0, 1.0, degree - 1)
         reach = cls.abscissae(degree)[1]
@@ -196,7 +218,10 @@ class Bezier(ControlledCurve):
 
 
 def bernstein_to_power(degree: int) -> Array:
-    """T (M + 1, M + 1) with sum_k alpha_k B_k(s) = sum_j (alpha T)_j s^j."""
+    """T (M + 1, M + 1) with sum_k alpha_k B_k(s) = sum_j (alpha T)_j s^j.
+
+    Its numbers grow with the degree, up to 2^M and more: in powers a curve of degree 20 has lost some digits.
+    """
     T = np.zeros((degree + 1, degree + 1))
     for k in range(degree + 1):
         for j in range(k, degree + 1):

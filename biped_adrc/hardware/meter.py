@@ -15,13 +15,21 @@ whatever q' does. By Newton's law the mean force of the ground over W ticks is
 whatever it does between them. The last window of a single support ends at its impact; it begins within a
 period, in which P is taken as linear. A single support that is shorter than W T is averaged as a whole. A peak
 is that of the joint where it is largest. Forces at a tick are those just after it.
+
+Why means beside the force at a tick: a stiff sampled controller makes the force jump from tick to tick, and a
+foot slides by what acts over some milliseconds. `Limits.window` says how long. The mean is exact, since it
+comes from momentum, and needs nothing between the ticks.
+
+A campaign runs thousands of walks, whose trajectories nobody keeps; their readings are all there is. So the
+meter is a part of the state, and its law `metered` runs in both engines. `closed_loop.walker` calls it behind
+the controller at each tick, `hardware.sample_hold` keeps g, and `scenario.outcome` reads it at the end.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
@@ -33,6 +41,9 @@ from biped_adrc.model.reduction import Reduction, disturbance_parts
 from biped_adrc.robots.robot_toml import ROUND_OFF, Limits
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, Indices
+
+Number: TypeAlias = float | Array
+"""One number: a float, or an array of shape () as NumPy gives."""
 
 READINGS = 18
 """Numbers in a `Reading`."""
@@ -49,21 +60,27 @@ SUPPORT = 7
 
 
 class MeterParameters(NamedTuple):
-    """h, and the ground: unit vectors along it and out of it, mg [N], mu, the torque limit [N m]."""
+    """What the law `metered` takes.
+
+    h: the constraint that errors are measured from. along, across (2,): unit vectors along the ground and out
+    of it. weight: m g [N]. friction: mu. torque: the limit on a joint [N m].
+    """
 
     h: ConstraintParameters
     along: Array
     across: Array
     weight: float
     friction: float
+    """Largest |F_T| / F_N at which a foot does not slide."""
     torque: float
     tan_slope: float
+    """Of the ground, which falls or rises in the direction of walking."""
     period: float
     """[s]"""
     rate: float
     """1 / (W T) [1/s]."""
     lifting: float
-    """[s]"""
+    """How long after an impact the swing foot may be in the ground [s]."""
     window: int
     """W, in ticks."""
 
@@ -77,16 +94,19 @@ class Reading(NamedTuple):
     """g, one number each."""
 
     ticks: float
+    """Sample instants counted."""
     peak_error: float
     """[rad]"""
     square_error: float
+    """Sum of |e|^2 over the ticks [rad^2]; over ticks it is the mean square."""
     peak_torque: float
     """[N m]"""
     square_torque: float
+    """Sum of |u|^2 over the ticks [N^2 m^2]."""
     work: float
     """sum |u|'|dq_b| [J]: what motors that cannot take energy back would need at least."""
     net_work: float
-    """[J]"""
+    """sum u' dq_b [J], which motors give and take back."""
     peak_matched: float
     """Of what the nominal model does not know, from outside or of its own error [rad/s^2]."""
     peak_unmatched: float
@@ -135,6 +155,22 @@ class Outside(NamedTuple):
     """How far this single support ends below its stance foot [m]."""
 
 
+class LoadedPlant(Protocol):
+    """What is asked of a plant for its loads, with forces and points as (x, z).
+
+    `closed_loop.semantics.WalkingPlant` has it.
+    """
+
+    def momentum(self, q: Array, v: Array) -> Array:
+        """m v_com (2,) [N s]."""
+
+    def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
+        """Force of the ground on the stance foot (2,) [N], without forces from outside."""
+
+    def swing_foot(self, q: Array) -> Array:
+        """From the stance foot (2,) [m]."""
+
+
 class Loads(NamedTuple):
     """Of the plant at a tick, forces as (x, z)."""
 
@@ -147,8 +183,11 @@ class Loads(NamedTuple):
     outside: Outside
 
 
-def loads(plant: Any, given: Outside, q: Array, v: Array, a: Array) -> Loads:
-    """What the plant, a `closed_loop.semantics.WalkingPlant`, asks of the ground at (q, v, q'')."""
+def loads(plant: LoadedPlant, given: Outside, q: Array, v: Array, a: Array) -> Loads:
+    """What the plant asks of the ground at q (n,) [rad], v (n,) [rad/s] and q'' = a (n,) [rad/s^2].
+
+    A force from outside is carried in part by what accelerates: the ground carries the rest.
+    """
     force = plant.ground_reaction(q, v, a) - given.force
     return Loads(plant.momentum(q, v), force, plant.swing_foot(q), given)
 
@@ -167,10 +206,10 @@ def metered(
     since: float,
     loads: Loads,
 ) -> Array:
-    """g after a tick at t [s] in (q, v); u acts now, and `mean` in the mean until the next tick.
+    """g after a tick at t [s] in q (n,), v (n,); u (p,) acts now, `mean` (p,) in the mean until the next tick.
 
     terms: of the nominal model there. unknown (n,) [N m]: the generalised force that it does not know.
-    since [s]: the impact that began single support `step`.
+    since [s]: of this single support, `step`, from the impact that began it. loads: of the plant.
     """
     p = len(u)
     e = q[:p] - virtual_constraint(k.h, q, v).q_d
@@ -202,7 +241,10 @@ def metered(
 
 
 def carried(k: MeterParameters, g: Array, loads: Loads, t: float) -> Array:
-    """What is kept of this single support after a tick at t [s]; at its first one all P_k are the same."""
+    """What is kept of this single support after a tick at t [s], (SUPPORT + 2 (W + 1),), from g of that shape.
+
+    At its first tick all P_k are the same, so a window that reaches behind it begins there.
+    """
     first = g[0] < 1.0
     J = g[3:5] + np.minimum(g[0], 1.0) * loads.outside.impulse
     P = loads.momentum - J
@@ -222,10 +264,11 @@ def weight(k: MeterParameters) -> Array:
     return k.weight * np.array([0.0, 1.0])
 
 
-def last_mean(k: MeterParameters, g: Array, hit: Hit) -> tuple[Array, Any]:
+def last_mean(k: MeterParameters, g: Array, hit: Hit) -> tuple[Array, Number]:
     """Mean force of the ground (2,) [N] up to an impact, and 1, or 0 where there is no time to judge.
 
-    g: what is kept of the single support.
+    g: what is kept of the single support. The window has W periods as all others, and ends between two ticks:
+    P where it begins is interpolated between the P_k.
     """
     since, periods = hit.t - g[1], g[0] - 1.0
     P = hit.momentum - g[3:5] - since * g[5:7]
@@ -236,8 +279,11 @@ def last_mean(k: MeterParameters, g: Array, hit: Hit) -> tuple[Array, Any]:
     return (P - base) / greater(length, SHORTEST) + weight(k), judged
 
 
-def judge(k: MeterParameters, out: Array, g: Array, judged: Any, means: Array) -> None:
-    """Write a mean force into the readings `out`, whose earlier ones are g, where `judged` is 1."""
+def judge(k: MeterParameters, out: Array, g: Array, judged: Number, means: Array) -> None:
+    """Write a mean force `means` (2,) [N] into the readings `out` (READINGS,) where `judged` is 1.
+
+    g: the readings before.
+    """
     N = k.across @ means
     least = np.where(g[12] > 0.0, -greater(-g[13], -N), N)
     out[12] = g[12] + judged
@@ -245,19 +291,19 @@ def judge(k: MeterParameters, out: Array, g: Array, judged: Any, means: Array) -
     out[14] = greater(g[14], judged * ratio(k.along @ means, N))
 
 
-def ratio(F_T: Any, F_N: Any) -> Any:
-    """|F_T| / F_N, 0 where the ground does not push."""
+def ratio(F_T: Number, F_N: Number) -> Number:
+    """|F_T| / F_N of forces [N] or impulses [N s], 0 where the ground does not push; at most LARGEST_RATIO."""
     found = np.minimum(np.abs(F_T) / greater(F_N, LEAST_FORCE), LARGEST_RATIO)
     return np.where(F_N > 0.0, found, 0.0)
 
 
-def outside(k: MeterParameters, F_T: Any, F_N: Any) -> Any:
+def outside(k: MeterParameters, F_T: Number, F_N: Number) -> Number:
     """1 outside the friction cone, where the ground would have to pull too, 0 inside."""
     edge = k.friction * (1.0 + ROUND_OFF)
     return np.where(F_N > 0.0, np.where(np.abs(F_T) > edge * F_N, 1.0, 0.0), 1.0)
 
 
-def height(k: MeterParameters, loads: Loads) -> Any:
+def height(k: MeterParameters, loads: Loads) -> Number:
     """Of the swing foot above the lower of the footholds, measured along the vertical [m]."""
     return loads.foot[1] + k.tan_slope * loads.foot[0] + greater(loads.outside.drop, 0.0)
 
@@ -270,7 +316,10 @@ def metered_impact(
     swap: Indices,
     hit: Hit,
 ) -> Array:
-    """g after an impact between the joints' angles q_minus and q_plus (p,), which `swap` relabels."""
+    """g after an impact between the joints' angles q_minus and q_plus (p,) [rad], which `swap` (p,) relabels.
+
+    The last window of the single support is judged here, and what is kept of it is emptied for the next one.
+    """
     p = len(q_minus)
     out = worked(g, q_minus)
     means, judged = last_mean(k, g[READINGS + 2 * p :], hit)
@@ -284,7 +333,7 @@ def metered_impact(
 
 
 def worked(g: Array, q_b: Array) -> Array:
-    """The readings with the work since the last tick."""
+    """The readings (READINGS,) with the work [J] since the last tick, for the joints' angles q_b (p,) [rad]."""
     p = len(q_b)
     moved = np.minimum(g[0], 1.0) * (q_b - g[READINGS : READINGS + p])
     work = g[READINGS + p : READINGS + 2 * p] * moved
@@ -296,15 +345,15 @@ def worked(g: Array, q_b: Array) -> Array:
     return out
 
 
-def largest(x: Array) -> Any:
-    """max |x|."""
+def largest(x: Array) -> Number:
+    """max |x| of x (p,), in the unit of x; the loop is unrolled in machine code."""
     found = 0.0 * x[0]
     for i in range(len(x)):
         found = greater(found, np.abs(x[i]))
     return found
 
 
-def greater(a: Any, b: Any) -> Any:
+def greater(a: Number, b: Number) -> Number:
     """The greater of two numbers; in machine code half of what `np.maximum` costs. NaN where one is NaN."""
     return np.where(a <= b, b, np.where(b <= a, a, a + b))
 
@@ -313,6 +362,7 @@ def greater(a: Any, b: Any) -> Any:
 class Meter(Shown):
     """Measures the error from this constraint, and forces against `limits` on the plant's own ground.
 
+    limits: of friction, torque and the window [s] of the mean force; what it leaves open is the robot's.
     lifting [s]: how long after an impact the swing foot may still be in the ground, 3 % of a step of 0.4 s. A
     certificate excuses 3 % of each step at both of its ends: at a tick nobody knows when the step will end, so
     that here nothing is excused before the impact.
@@ -353,5 +403,5 @@ class Meter(Shown):
 
 
 def reading(g: Array) -> Reading:
-    """What g says."""
+    """What the state g of the meter, (size,) with `size(p, window)`, says: its first numbers, by name."""
     return Reading(*(float(x) for x in g[:READINGS]))

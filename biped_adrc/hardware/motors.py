@@ -7,6 +7,10 @@
 What waits to act is held: j torques in a queue, and one more until t_k + f T where f > 0. At impact all of them
 are relabelled with the joints. Where the clock restarts there, a tick comes early: it may change the torque by
 as much as any other, the queue moves up, and what is waiting for a fraction of a period is replaced.
+
+The delay is the clock's, `SampledTime(period, delay)`; rate limit and lag are `Motors`. A saturation,
+`Walker.torque_limit`, comes before all of this. An observer is told the torque after the rate limit, and that
+which acts where the delay is known: `acting`, the mean over the period.
 """
 
 from __future__ import annotations
@@ -26,7 +30,11 @@ WHOLE = 1e-9
 
 
 class MotorParameters(NamedTuple):
-    """Largest change of torque in a period [N m], infinite without limit; 1 / tau [1/s]; f."""
+    """What the laws take.
+
+    change: the largest of torque in a period [N m], infinite without limit. speed: 1 / tau [1/s], 0 without
+    lag. fraction: f, the part of a period by which the delay is longer than whole ones.
+    """
 
     change: float
     speed: float
@@ -47,7 +55,10 @@ class Line(NamedTuple):
 
 
 def limited(k: MotorParameters, line: Line, u: Array) -> Array:
-    """u within the rate limit, after the torque before it: what waited has acted by now, or never will."""
+    """u (p,) [N m] within the rate limit, after the torque that was sent before it.
+
+    That is the last of the queue, or what was asked of the motor now: what waited has acted, or never will.
+    """
     p = len(line.u)
     last = line.u
     if len(line.queue) > 0:
@@ -56,7 +67,7 @@ def limited(k: MotorParameters, line: Line, u: Array) -> Array:
 
 
 def sent(k: MotorParameters, line: Line, u: Array) -> Line:
-    """The line after a tick that sends u."""
+    """The line after a tick that sends u (p,) [N m]: it goes to the end of the queue, the first one acts."""
     queue, next_one = line.queue, u
     if len(queue) > 0:
         p = len(u)
@@ -68,14 +79,17 @@ def sent(k: MotorParameters, line: Line, u: Array) -> Line:
 
 
 def acting(k: MotorParameters, line: Line) -> Array:
-    """Mean of the torque asked of the motors until the next tick, for a controller that knows the delay."""
+    """Mean (p,) [N m] of the torque asked of the motors until the next tick.
+
+    It is what the observer of a controller that knows the delay is fed with.
+    """
     if len(line.waiting) > 0:
         return k.fraction * line.u + (1.0 - k.fraction) * line.waiting
     return line.u
 
 
 def mean_torque(k: MotorParameters, line: Line) -> Array:
-    """Of the motors until the next tick (p,), with lag by what they give now."""
+    """Of the motors until the next tick (p,) [N m], with lag by what they give now; for the meter."""
     return line.u_m if len(line.u_m) > 0 else acting(k, line)
 
 
@@ -87,7 +101,10 @@ def relabelled(line: Line, swap: Indices) -> Line:
 
 @dataclass(frozen=True)
 class Motors(Shown):
-    """rate_limit [N m/s], None for none; lag: time constant tau [s], 0 for none. Raises InputError."""
+    """rate_limit [N m/s], None for none; lag: time constant tau [s] of the torque, 0 for none.
+
+    The same for all motors. Raises InputError for a limit that is not positive and a lag below zero.
+    """
 
     rate_limit: float | None = None
     lag: float = 0.0
@@ -100,7 +117,7 @@ class Motors(Shown):
             raise InputError(f"the motors' lag is {self.lag} s, expected zero or a positive number")
 
     def parameters(self, period: float, fraction: float) -> MotorParameters:
-        """What the laws need, for ticks every `period` [s] and the delay's part f of a period."""
+        """What the laws take, for ticks every `period` [s] and the delay's part f of a period."""
         change = math.inf if self.rate_limit is None else self.rate_limit * period
         return MotorParameters(change, 0.0 if self.lag == 0.0 else 1.0 / self.lag, fraction)
 
@@ -110,7 +127,7 @@ IDEAL = Motors()
 
 
 def whole_and_part(delay: float, period: float) -> tuple[int, float]:
-    """j and f of a delay [s]."""
+    """j and f of a delay [s] = (j + f) period [s], f = 0 where it is whole but for round-off."""
     periods = delay / period
     j = math.floor(periods + WHOLE)
     f = periods - j

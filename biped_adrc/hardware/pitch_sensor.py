@@ -6,14 +6,17 @@ d [rad/s] is the bias of the gyroscope, by which the integrated angle drifts, b 
 is put behind encoders, `Sensors(...) + PitchSensor(...)`, whose joints it leaves alone.
 
 The state w is (q_N^, v_N^, b + k d T, r), r of the noise. After an impact the rate is read anew, the angle is
-that of the last tick.
+that of the last tick: an impact bends no angle, and its rate jumps.
+
+No encoder of a joint measures the pitch, and Theta, by which the gait is timed, contains it. So a bias
+shifts the whole step in phase, and a drift of the angle goes on doing so from step to step.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,7 +27,7 @@ from biped_adrc.types import Array
 
 
 class PitchParameters(NamedTuple):
-    """d T [rad] of a tick, d [rad/s], b [rad], the noise [rad], and 1 with noise."""
+    """tick: d T [rad]; rate: d [rad/s]; bias: b [rad]; noise: standard deviation [rad]; noisy: 1 with noise."""
 
     tick: float
     rate: float
@@ -34,19 +37,19 @@ class PitchParameters(NamedTuple):
 
 
 def pitch_sense(k: PitchParameters, w: Array, q: Array, v: Array) -> Array:
-    """w at a tick at (q, v)."""
+    """w (3,) or (9,) with noise, at a tick at q (n,) [rad], v (n,) [rad/s]: the offset grows by d T."""
     r, g = normals(w[3:], 1) if k.noisy > 0 else (w[3:], np.zeros(1))
     off = np.array([w[2] + k.tick])
     return np.concatenate((q[-1:] + w[2] + k.noise * g, v[-1:] + k.rate, off, r))
 
 
 def pitch_impact(k: PitchParameters, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-    """w after an impact to (q, v): the rate jumps, the angle as last seen stays."""
+    """w (3,) or (9,) after an impact to q, v (n,): the rate jumps, the angle as last seen stays."""
     return np.concatenate((w[:1], v[-1:] + k.rate, w[2:]))
 
 
 def pitch_seen(k: PitchParameters, w: Array, q: Array, v: Array) -> Sight:
-    """q^ and v^ (n,): the pitch of w, all else as it comes."""
+    """q^ [rad] and v^ [rad/s], each (n,): the pitch and its rate of w, all else as it comes."""
     return np.concatenate((q[:-1], w[:1])), np.concatenate((v[:-1], w[1:2]))
 
 
@@ -58,9 +61,13 @@ class PitchSensor(Sensor):
     """
 
     bias: float = 0.0
+    """[rad]"""
     drift: float = 0.0
+    """[rad/s]"""
     noise: float = 0.0
+    """[rad]"""
     seed: int = 0
+    """A whole number from 0."""
 
     def __post_init__(self) -> None:
         for name, unit in (("bias", "rad"), ("drift", "rad/s"), ("noise", "rad")):
@@ -82,6 +89,6 @@ class PitchSensor(Sensor):
         size = 3 + (SIZE if self.noisy else 0)
         return SensorLaws(k, size, pitch_sense, pitch_impact, pitch_seen)
 
-    def start(self, k: Any, q: Array, v: Array) -> Array:
+    def start(self, k: PitchParameters, q: Array, v: Array) -> Array:
         r = seeded(self.seed) if self.noisy else np.zeros(0)
         return np.concatenate(([q[-1] + k.bias, v[-1] + k.rate, k.bias], r))

@@ -4,6 +4,10 @@
 
 own is what a plant that moves by itself keeps, w the sensors' state, g the meter's, the rest the line of
 torques on their way to the motors; each is empty where the walker has no such part. u_m alone flows.
+
+The walker's state is one vector, since integrators, stored runs and machine code know vectors alone. Here its
+tail is taken apart (`read`) and put together (`written`), and what happens to all parts at the start, between
+ticks and at an impact is said once; `closed_loop.walker` does so for a tick, where the controller comes in.
 """
 
 from __future__ import annotations
@@ -16,7 +20,14 @@ import numpy as np
 from biped_adrc.errors import InputError
 from biped_adrc.hardware import meter
 from biped_adrc.hardware.meter import Hit, Meter, MeterParameters, metered_impact
-from biped_adrc.hardware.motors import IDEAL, Line, Motors, relabelled, whole_and_part
+from biped_adrc.hardware.motors import (
+    IDEAL,
+    Line,
+    MotorParameters,
+    Motors,
+    relabelled,
+    whole_and_part,
+)
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array, Indices
@@ -28,10 +39,15 @@ class HeldSizes(NamedTuple):
     n: int
     p: int
     sensors: int = 0
+    """Numbers in w."""
     meter: int = 0
+    """Numbers in g."""
     queue: int = 0
+    """Torques that wait for whole periods, j of `hardware.motors`."""
     lag: int = 0
+    """1 with a lag of the motors."""
     waiting: int = 0
+    """1 with a delay that is not of whole periods."""
     rate: int = 0
     """1 with a rate limit."""
     known: int = 0
@@ -47,21 +63,27 @@ class HeldSizes(NamedTuple):
 
 
 class HeldParameters(NamedTuple):
-    """Of sensors their laws, of motors and meter parameters, () for none; and the sizes."""
+    """What the laws of all parts take; an empty tuple stands for a part that the walker has not."""
 
     sensors: Any
-    motors: Any
+    """`SensorLaws`."""
+    motors: MotorParameters
     meter: Any
+    """`MeterParameters`."""
     sizes: HeldSizes
 
 
 class Held(NamedTuple):
-    """What is held at one instant."""
+    """What is held at one instant, in parts."""
 
     w: Array
+    """Of the sensors."""
     g: Array
+    """Of the meter."""
     line: Line
+    """Torques on their way to the motors [N m]."""
     own: Array
+    """Of a plant that moves by itself."""
 
 
 def check_parts(
@@ -96,7 +118,11 @@ def held_parameters(
     metered: MeterParameters | None = None,
     own: int = 0,
 ) -> HeldParameters:
-    """For n coordinates, p motors and the ticks of `timing`; own: numbers that the plant keeps for itself."""
+    """What a walker's tail is laid out by, and the numbers of its parts.
+
+    For n coordinates, p motors and the ticks of `timing`, whose delay makes the queue; own: how many numbers
+    the plant keeps for itself.
+    """
     motors, period = IDEAL if motors is None else motors, timing.period
     sensing = None if sensors is None else sensors.laws(n, p, period)
     queue, fraction = whole_and_part(timing.delay, period)
@@ -121,7 +147,7 @@ def held_parameters(
 
 
 def read(k: HeldSizes, tail: Array) -> Held:
-    """The parts of what follows the controller's state."""
+    """The parts of what follows the controller's state: tail (total,), as views."""
     at, parts = 0, []
     of_line = (k.queue * k.p, k.lag * k.p, k.waiting * k.p, k.p)
     for size in (k.own, k.sensors, k.meter, *of_line):
@@ -132,17 +158,17 @@ def read(k: HeldSizes, tail: Array) -> Held:
 
 
 def written(held: Held) -> Array:
-    """The parts in one vector."""
+    """The parts in one vector (total,), the inverse of `read`."""
     return np.concatenate((held.own, held.w, held.g, *held.line))
 
 
 def motor_torque(line: Line) -> Array:
-    """The torque on the joints (p,) [N m]."""
+    """The torque on the joints now (p,) [N m]: of motors with lag their own, else what is asked of them."""
     return line.u_m if len(line.u_m) > 0 else line.u
 
 
 def lagged(k: HeldParameters, tail: Array) -> Array:
-    """The slope of the tail: tau u_m' = u - u_m, and zero for all else."""
+    """The slope of the tail (total,): tau u_m' = u - u_m [N m], and zero for all else."""
     line, rate = read(k.sizes, tail).line, np.zeros(len(tail))
     if k.sizes.lag > 0:
         at = len(tail) - k.sizes.p * (k.sizes.waiting + 2)
@@ -151,7 +177,7 @@ def lagged(k: HeldParameters, tail: Array) -> Array:
 
 
 def at_start(k: HeldParameters, q: Array, v: Array, sensors: Sensor | None) -> Array:
-    """What is held at the start of a run in (q, v): no torque, and a first look."""
+    """What is held (total,) at the start of a run in q (n,), v (n,): no torque, a first look of the sensors."""
     sizes = k.sizes
     w = np.zeros(0) if sensors is None else sensors.start(k.sensors.parameters, q, v)
     rest = np.zeros(sizes.total - sizes.own - sizes.sensors)
@@ -168,9 +194,10 @@ def after_impact(
     v_model: Array,
     hit: Hit | None,
 ) -> Held:
-    """What is held after an impact from q_minus to (q, v); v_model is the rate that the controller expects.
+    """What is held after an impact from q_minus to (q, v), each (n,); swap (p,) relabels the joints.
 
-    hit: for the meter; None without one.
+    v_model (n,) [rad/s]: the rate that the controller expects by its nominal model. hit: for the meter; None
+    without one.
     """
     w, g, p = held.w, held.g, k.sizes.p
     if k.sizes.sensors > 0:

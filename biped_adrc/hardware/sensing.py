@@ -5,6 +5,10 @@
     (q^, v^) = seen(k, w, q, v)                 (q, v) as the sensors before it see them
 
 `a + b` puts b behind a: both sense the true (q, v), and b changes what a lets through.
+
+Sensors work in sampled time: between ticks the controller sees what was read at the last one. A leaf gives
+`laws` for a robot and a period, pure functions that run in both engines, and `start`; randomness is a part of
+w, so that a walk is repeated by its seed. `closed_loop.walker` calls them through `hardware.sample_hold`.
 """
 
 from __future__ import annotations
@@ -24,9 +28,9 @@ Sight = tuple[Array, Array]
 
 
 class SensorLaws(NamedTuple):
-    """The pure functions of a sensor for one robot and period, and how many numbers w has."""
+    """The pure functions of a sensor for one robot and period, and how many numbers w (size,) has."""
 
-    parameters: Any
+    parameters: object
     """k, a NamedTuple of numbers and float64 arrays."""
     size: int
     sense: Callable[..., Array]
@@ -36,8 +40,8 @@ class SensorLaws(NamedTuple):
     seen: Callable[..., Sight]
     """seen(k, w, q, v) -> q^, v^."""
 
-    def traced(self, trace: Callable[[Any], Any]) -> SensorLaws:
-        """With other functions in place of these."""
+    def traced(self, trace: Callable[[Callable[..., Any]], Callable[..., Any]]) -> SensorLaws:
+        """With other functions in place of these: those that the engine traces into machine code."""
         return SensorLaws(*self[:2], *map(trace, self[2:]))
 
 
@@ -50,11 +54,11 @@ class Sensor(ABC):
 
     @abstractmethod
     def start(self, k: Any, q: Array, v: Array) -> Array:
-        """w at the start of a run in (q, v), for the parameters k of its laws."""
+        """w (size,) at the start of a run in q (n,) [rad], v (n,) [rad/s], for the parameters k of its laws."""
 
     @property
     def noisy(self) -> bool:
-        """Whether anything is random."""
+        """Whether anything is random: a walk with it has no orbit, and so no return map."""
         return False
 
     def __add__(self, other: Sensor) -> Sensor:
@@ -62,6 +66,7 @@ class Sensor(ABC):
 
 
 def _parts(sensor: Sensor) -> tuple[Sensor, ...]:
+    """Those of several sensors, or the sensor itself, so that a + b + c is one row of three."""
     return sensor.parts if isinstance(sensor, Sensing) else (sensor,)
 
 
@@ -72,11 +77,12 @@ class Sensing(Sensor):
     parts: tuple[Sensor, ...]
 
     def laws(self, n: int, p: int, period: float) -> SensorLaws:
+        """Those of all parts in one, for n coordinates, p joints and `period` [s]."""
         laws = tuple(part.laws(n, p, period) for part in self.parts)
         functions = _chained(tuple(law._replace(parameters=None) for law in laws))
         return functions._replace(parameters=tuple(law.parameters for law in laws))
 
-    def start(self, k: Any, q: Array, v: Array) -> Array:
+    def start(self, k: tuple[object, ...], q: Array, v: Array) -> Array:
         each = zip(self.parts, k, strict=True)
         return np.concatenate([part.start(own, q, v) for part, own in each])
 
@@ -87,7 +93,10 @@ class Sensing(Sensor):
 
 @lru_cache(maxsize=64)
 def _chained(laws: tuple[SensorLaws, ...]) -> SensorLaws:
-    """The laws of sensors one behind the other, without parameters."""
+    """The laws of sensors one behind the other, without parameters; theirs are a tuple k of all parameters.
+
+    Cached, so that two walks with the same kinds of sensors have the same functions and one machine code.
+    """
     ends = [sum(law.size for law in laws[: i + 1]) for i in range(len(laws))]
     places = [(end - law.size, end) for end, law in zip(ends, laws, strict=True)]
     sensed = [law.sense for law in laws]
@@ -96,18 +105,19 @@ def _chained(laws: tuple[SensorLaws, ...]) -> SensorLaws:
     count = range(len(laws))
 
     def each(w: Array) -> Iterator[Array]:
+        """The state of each sensor, as a part of w."""
         for first, end in places:
             yield w[first:end]
 
-    def sense(k: Any, w: Array, q: Array, v: Array) -> Array:
+    def sense(k: tuple[object, ...], w: Array, q: Array, v: Array) -> Array:
         own = list(each(w))
         return np.concatenate([sensed[i](k[i], own[i], q, v) for i in count])
 
-    def impact(k: Any, w: Array, q: Array, v: Array, v_model: Array) -> Array:
+    def impact(k: tuple[object, ...], w: Array, q: Array, v: Array, v_model: Array) -> Array:
         own = list(each(w))
         return np.concatenate([jumped[i](k[i], own[i], q, v, v_model) for i in count])
 
-    def seen(k: Any, w: Array, q: Array, v: Array) -> Sight:
+    def seen(k: tuple[object, ...], w: Array, q: Array, v: Array) -> Sight:
         own = list(each(w))
         for i in count:
             q, v = sights[i](k[i], own[i], q, v)

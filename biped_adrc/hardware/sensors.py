@@ -24,14 +24,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.sensing import Sensor, SensorLaws
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 
 class SensorParameters(NamedTuple):
@@ -46,24 +46,24 @@ class SensorParameters(NamedTuple):
     rate_noise: Array
     share: float
     period: float
-    differences: Any
-    rounds: Any
+    differences: Indices
+    rounds: Indices
     noisy: int
 
 
 def sensor_state(k: SensorParameters, q: Array, v: Array, r: Array) -> Array:
-    """w at the start of a run and after an impact: nothing to take a difference from."""
+    """w at the start of a run and after an impact, in q, v (n,): there no difference can be taken."""
     fresh = np.ones(1)
     return np.concatenate((rounded(k, q), v, fresh, r))
 
 
 def rounded(k: SensorParameters, y: Array) -> Array:
-    """The nearest count; y itself where angles are exact."""
+    """The nearest count to y (n,) [rad], as an angle (n,) [rad]; y itself where angles are exact."""
     return np.where(k.rounds > 0, k.resolution * np.floor(y / k.resolution + 0.5), y)
 
 
 def sense(k: SensorParameters, w: Array, q: Array, v: Array) -> Array:
-    """w at a tick at (q, v)."""
+    """w at a tick at q (n,) [rad], v (n,) [rad/s]: the module's equations."""
     n = len(q)
     before, rate, fresh, r = w[:n], w[n : 2 * n], w[2 * n], w[2 * n + 1 :]
     y, dy = q, v
@@ -78,13 +78,13 @@ def sense(k: SensorParameters, w: Array, q: Array, v: Array) -> Array:
 
 
 def seen(k: SensorParameters, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
-    """q^ and v^ of w, each (n,); all of (q, v) is measured."""
+    """q^ [rad] and v^ [rad/s] of w, each (n,); none of the true (q, v) gets by."""
     n = len(q)
     return w[:n], w[n : 2 * n]
 
 
 def sensed_impact(k: SensorParameters, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-    """w after an impact to (q, v); v_model (n,) is v^ taken through the nominal model's impact."""
+    """w after an impact to (q, v), each (n,); v_model (n,) is v^ taken through the nominal model's impact."""
     n = len(q)
     return sensor_state(k, q, np.where(k.differences > 0, v_model, v), w[2 * n + 1 :])
 
@@ -101,13 +101,21 @@ class Sensors(Shown, Sensor):
     """
 
     counts: float | None = None
+    """Per revolution."""
     pitch_resolution: float | None = None
+    """[rad]"""
     noise: float = 0.0
+    """[rad]"""
     pitch_noise: float = 0.0
+    """[rad]"""
     rate_noise: float = 0.0
+    """[rad/s], of rates that are measured."""
     velocity: str = "differences"
+    """One of `VELOCITIES`."""
     filter_time: float = 0.0
+    """[s]"""
     seed: int = 0
+    """A whole number from 0."""
 
     def __post_init__(self) -> None:
         if self.counts is not None and not (math.isfinite(self.counts) and self.counts >= 1):
@@ -147,7 +155,7 @@ class Sensors(Shown, Sensor):
         return SensorLaws(self.parameters(n, p, period), self.size(n), sense, sensed_impact, seen)
 
     def size(self, n: int) -> int:
-        """Numbers in w."""
+        """Numbers in w, for n coordinates."""
         return 2 * n + 1 + (SIZE if self.noisy else 0)
 
     def parameters(self, n: int, p: int, period: float) -> SensorParameters:
@@ -171,6 +179,7 @@ class Sensors(Shown, Sensor):
 
 
 VELOCITIES = ("differences", "measured", "gyro")
+"""How rates are had, see `Sensors.velocity`."""
 
 
 M_1, M_2 = 4294967087.0, 4294944443.0
@@ -186,7 +195,7 @@ def seeded(seed: int) -> Array:
 
 
 def modulo(a: float, m: float) -> float:
-    """a mod m for whole numbers |a| < 2^53; the quotient may be off by one in the last bit."""
+    """a mod m for whole numbers |a| < 2^53; a quotient off by one in its last bit is put right afterwards."""
     b = a - np.floor(a / m) * m
     b = np.where(b < 0.0, b + m, b)
     return np.where(b >= m, b - m, b)
@@ -209,7 +218,7 @@ def uniforms(r: Array, count: int) -> tuple[Array, Array]:
 
 
 def normals(r: Array, count: int) -> tuple[Array, Array]:
-    """The state after, and `count` independent standard normal numbers."""
+    """The state (6,) after, and `count` independent standard normal numbers (count,), by Box and Muller."""
     pairs = (count + 1) // 2
     r, u = uniforms(r, 2 * pairs)
     g = np.zeros(2 * pairs)

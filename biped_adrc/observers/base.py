@@ -1,15 +1,24 @@
 """What an observer is: a state z, its flow or its discrete step, and the estimates read from it.
 
-    z' = flow(z, y, input),  input = kappa u [rad/s^2],  y = q_b [rad]
+    z' = flow(z, y, input)                               in continuous time
+    z <- correct(z, y),  z <- predict(z, input)          at a sample instant, and over the period after it
 
-States are vectors passed in and handed back; an observer holds only parameters.
+    input = kappa u (p,) [rad/s^2],  y = q_b (p,) [rad]
+
+for the observers under ADRC; those under DOB see the momentum and the known force of all n coordinates.
+States are vectors passed in and handed back; an observer holds only parameters. So one observer object may
+serve many walks at once, and an integrator may evaluate a step twice.
+
+`Observer` has the methods that controllers call, `ObserverLaws` the pure functions behind them, which the
+engine turns into machine code. `control.observing` puts an observer under a controller, `observer_design`
+chooses its poles and judges it alone.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from enum import Enum
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
@@ -34,7 +43,10 @@ class Estimate(NamedTuple):
 
 
 class ResetPolicy(Enum):
-    """What happens to the observer at impact, where the legs swap and velocities jump."""
+    """What happens to the observer at impact, where the legs swap and velocities jump.
+
+    An observer that is left alone there takes the jump for a disturbance, and its estimate peaks.
+    """
 
     NONE = "none"
     """Nothing."""
@@ -61,7 +73,10 @@ class ResetPolicy(Enum):
 
 
 class Feedback(NamedTuple):
-    """What a controller makes of the estimates: kappa u = q_d'' - K_d (x2^ - q_d') - K_p (x1^ - q_d) - xi^."""
+    """What a controller makes of the estimates: kappa u = q_d'' - K_d (x2^ - q_d') - K_p (x1^ - q_d) - xi^.
+
+    The exponential method has to know it, since it integrates observer and controller as one linear system.
+    """
 
     K_p: Array | float
     """[1/s^2], one number or (p,)."""
@@ -79,19 +94,30 @@ class ErrorSystem(NamedTuple):
     """
 
     A: Array
+    """(k, k) [1/s]."""
     velocity_scale: float
+    """[s]."""
     feedback: Feedback | None = None
     """Of the controller around the observer; None for an observer alone."""
+
+
+class HasOrder(Protocol):
+    """Parameters of an observer's laws: by `order` the flat state is cut into rows."""
+
+    @property
+    def order(self) -> int:
+        """States per joint."""
 
 
 class ObserverLaws(NamedTuple):
     """The pure functions behind an observer, its state as rows Z (order, p); None for what it has not.
 
-    x is an Estimate taken from the measurement and the model.
+    x is an Estimate taken from the measurement and the model. An observer has `flow`, or `correct` and
+    `predict`: that says in which time base it works.
     """
 
     parameters: Any
-    """k, a NamedTuple."""
+    """k, a NamedTuple of numbers and float64 arrays, one of them `order`."""
     state: Callable[..., Array]
     """state(k, x) -> Z that agrees with x."""
     estimate: Callable[..., Estimate]
@@ -116,7 +142,7 @@ class ObserverLaws(NamedTuple):
         return one_line(self)
 
 
-def rows(k: Any, z: Array) -> Array:
+def rows(k: HasOrder, z: Array) -> Array:
     """Z (order, p), the flat state z by rows, for parameters k with `order`; no copy."""
     return z.reshape(k.order, -1)
 
@@ -143,36 +169,45 @@ class Observer(Composed):
         return int(self._given.parameters.order)
 
     def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
-        """z that agrees with position y, velocity dy and disturbance xi, each (p,); z is flat."""
+        """z that agrees with position y, velocity dy and disturbance xi, each (p,); z (order p,) is flat."""
         k = self._given
         return k.state(k.parameters, Estimate(y, dy, xi)).ravel()
 
     def estimate(self, z: Array) -> Estimate:
-        """The estimates in z."""
+        """The estimates in z (order p,), each (p,) [rad], [rad/s], [rad/s^2]."""
         k = self._given
         return k.estimate(k.parameters, rows(k.parameters, z))
 
     def reset(
         self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
     ) -> Array:
-        """z after impact; `swap` (p,) is the relabelling of joints, y, dy, xi are taken after it."""
+        """z (order p,) after impact, from z before it.
+
+        `swap` (p,) is the relabelling of joints; y, dy, xi, each (p,), are taken after it.
+        """
         k, x = self._given, Estimate(y, dy, xi)
         return k.reset(k.parameters, policy.code, rows(k.parameters, z), swap, x).ravel()
 
     def flow(self, z: Array, y: Array, input: Array) -> Array:
-        """z' in continuous time."""
+        """z' (order p,) in continuous time, for the measurement y (p,) and the input (p,).
+
+        Raises InputError for an observer that was made for sampled time.
+        """
         return self._next("flow", "sampled time only; give a SampledTime", z, y, input)
 
     def correct(self, z: Array, y: Array) -> Array:
-        """Sampled: z at a tick with the measurement y taken in."""
+        """Sampled: z (order p,) at a sample instant with the measurement y (p,) taken in.
+
+        Raises InputError for an observer in continuous time, as `predict` does.
+        """
         return self._next("correct", "continuous time; call sampled(period)", z, y)
 
     def predict(self, z: Array, input: Array) -> Array:
-        """Sampled: z one period later under a constant input."""
+        """Sampled: z (order p,) one period later under a constant input (p,)."""
         return self._next("predict", "continuous time; call sampled(period)", z, input)
 
     def sampled(self, period: float) -> Observer:
-        """The discrete form for ticks every `period` [s]."""
+        """The discrete form for ticks every `period` [s]. Raises InputError where there is none."""
         raise InputError(f"{type(self).__name__} has no discrete form; use ContinuousTime()")
 
     def error_system(self) -> ErrorSystem | None:
@@ -181,6 +216,7 @@ class Observer(Composed):
 
     @property
     def _given(self) -> ObserverLaws:
+        """The laws. Raises InputError where neither they nor all methods are written."""
         laws: ObserverLaws | None = self._laws
         if laws is None:
             raise InputError(
@@ -190,7 +226,7 @@ class Observer(Composed):
         return laws
 
     def _next(self, name: str, works_in: str, z: Array, *given: Array) -> Array:
-        """z by the law of this name."""
+        """z by the law of this name; without that law, the error that says where the observer works."""
         law = self._law(name)
         if law is None:
             raise InputError(f"{type(self).__name__} works in {works_in}")

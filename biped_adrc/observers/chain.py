@@ -2,13 +2,17 @@
 
 x_k = z_k scale^(k-1), k = 1..m+2, with x1 position, x2 velocity, x3 disturbance and its derivatives. In x
 itself the observer matrix of Table I has condition number 3e29; scaled it has 5e6.
+
+Here are start, estimates and reset, which do not depend on how the gains were chosen; a leaf (`gpi`,
+`high_gain`, `kalman`) adds its flow, or correct and predict. The checks of poles are shared with the momentum
+observer.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -47,7 +51,10 @@ def chain_estimate(k: Chain, Z: Array) -> Estimate:
 
 
 def chain_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) -> Array:
-    """Z after impact under the policy of this code; swap (p,) relabels the joints, x is taken after it."""
+    """Z (m + 2, p) after impact under the policy of this code.
+
+    swap (p,) relabels the joints, x is taken after it. MEASURED keeps xi^ and its derivatives, relabelled.
+    """
     if policy == NONE:
         return Z
     if policy == MODEL:
@@ -59,12 +66,15 @@ def chain_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) -> Ar
 
 
 def chain_laws(
-    k: Any,
+    k: Chain,
     flow: Callable[..., Array] | None = None,
     correct: Callable[..., Array] | None = None,
     predict: Callable[..., Array] | None = None,
 ) -> ObserverLaws:
-    """The laws of an observer whose state is a chain; its flow, or correct and predict, are its own."""
+    """The laws of an observer whose state is a chain; its flow, or correct and predict, are its own.
+
+    They take and give Z (m + 2, p), as `ObserverLaws` says.
+    """
     return ObserverLaws(k, chain_state, chain_estimate, chain_reset, flow, correct, predict)
 
 
@@ -72,7 +82,8 @@ def chain_laws(
 def stable_poles(poles: Sequence[complex], what: str, because: str) -> tuple[complex, ...]:
     """Two poles [rad/s] or more with negative real parts, complex ones in conjugate pairs.
 
-    `what` has them, `because` says why two. Raises InputError, with the pole that is wrong.
+    Without pairs the gains would not be real. `what` has them, `because` says why two. Raises InputError, with
+    the pole that is wrong.
     """
     try:
         numbers = tuple(complex(pole) for pole in poles)
@@ -113,7 +124,7 @@ def _show(pole: complex) -> str:
 
 
 class ChainParameters(NamedTuple):
-    """m + 2, and w [rad/s] by which states are scaled."""
+    """order: m + 2, states per joint. scale: w [rad/s], by which states are scaled."""
 
     order: int
     scale: float
@@ -121,7 +132,10 @@ class ChainParameters(NamedTuple):
 
 @dataclass(frozen=True)
 class ChainObserver(Observer):
-    """m extended states; z is (m + 2, p) flattened. Leaves add their own flow, as a law or a method."""
+    """m extended states; z is (m + 2, p) flattened. Leaves add their own flow, as a law or a method.
+
+    scale [rad/s] is near the bandwidth, so that the scaled states have numbers of one size.
+    """
 
     m: int
     scale: float

@@ -18,6 +18,10 @@ In discrete time it has its *current* (filtered) form,
 Phi is the Taylor matrix of a chain of integrators in states z_k = x_k T^(k-1), Phi_ij = 1/(j - i)!, and
 Gamma = (1/2, 1, 0, ...). L places the eigenvalues of (I - L C) Phi at exp(s T) by Ackermann's formula.
 The held-measurement observer with the same poles is unstable at 1 kHz; this form is stable there.
+
+m = 0 estimates position and velocity alone, m = 1 is the linear extended state observer, and m extended states
+follow a disturbance that is a polynomial of degree m - 1 in time without a steady error. `high_gain` and
+`kalman` are the same observer with gains from other considerations, and run by the laws of this module.
 """
 
 from __future__ import annotations
@@ -41,7 +45,7 @@ TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
 
 
 class GPIParameters(NamedTuple):
-    """Scaled gains (m + 2,), w [rad/s] by which states are scaled, and m + 2."""
+    """gains (m + 2,), dimensionless: l_(m+1)/w, l_m/w^2, ...; scale: w [rad/s]; order: m + 2."""
 
     gains: Array
     scale: float
@@ -59,7 +63,7 @@ def gpi_flow(k: GPIParameters, Z: Array, y: Array, input: Array) -> Array:
 
 @dataclass(frozen=True)
 class InjectedChain(ChainObserver):
-    """(17) with any gains: what its leaves share."""
+    """(17) with any gains: what its leaves share, whose `poles` and `parameters` say how they were chosen."""
 
     @property
     @abstractmethod
@@ -73,7 +77,7 @@ class InjectedChain(ChainObserver):
 
     @property
     def gains(self) -> Array:
-        """l_(m+1), l_m, ..., l_0 of (17) in physical units."""
+        """l_(m+1), l_m, ..., l_0 of (17) in physical units (m + 2,): [1/s], [1/s^2], ..., [1/s^(m+2)]."""
         return self.parameters.gains * self.scale ** np.arange(1, self.order + 1)
 
     def sampled(self, period: float) -> ChainObserver:
@@ -115,7 +119,7 @@ class GPIObserver(InjectedChain):
 
     @cached_property
     def parameters(self) -> GPIParameters:
-        """What the laws `gpi_flow` and `chain_...` need."""
+        """What the laws `gpi_flow` and `chain_...` need: the polynomial of the poles over w has these gains."""
         gains = np.real(np.poly(np.array(self.poles) / self.scale))[1:]
         return GPIParameters(np.ascontiguousarray(gains), float(self.scale), self.order)
 
@@ -125,7 +129,10 @@ class GPIObserver(InjectedChain):
 
 
 class SampledGPIParameters(NamedTuple):
-    """Phi (k, k), Gamma T^2 (k,) and L (k,), 1/T [1/s] by which states are scaled, and k = m + 2."""
+    """Of the discrete form: Phi (k, k), Gamma T^2 (k,), L (k,); scale: 1/T [1/s]; order: k = m + 2.
+
+    Also those of the sampled Kalman and momentum observers, whose Phi is the same.
+    """
 
     Phi: Array
     Gamma: Array
@@ -135,12 +142,12 @@ class SampledGPIParameters(NamedTuple):
 
 
 def gpi_correct(k: SampledGPIParameters, Z: Array, y: Array) -> Array:
-    """Z at the tick with y (p,) taken in."""
+    """Z (k, p) at the sample instant with y (p,) [rad] taken in."""
     return Z + np.outer(k.L, y - Z[0])
 
 
 def gpi_predict(k: SampledGPIParameters, Z: Array, input: Array) -> Array:
-    """Z one period later under constant input kappa u (p,)."""
+    """Z (k, p) one period later under constant input kappa u (p,) [rad/s^2]."""
     return k.Phi @ Z + np.outer(k.Gamma, input)
 
 
@@ -156,7 +163,7 @@ def held_chain(order: int, period: float) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class SampledGPIObserver(ChainObserver):
-    """The discrete observer for one period; `scale` is 1/T."""
+    """The discrete observer for one period T [s]; `scale` is 1/T, so that Phi has no T in it."""
 
     period: float = 0.0
     poles: tuple[complex, ...] = ()

@@ -37,7 +37,11 @@ class HighGainObserver(InjectedChain):
     def from_epsilon(
         cls, epsilon: float, alpha: Sequence[float] | None = None, m: int = 1
     ) -> HighGainObserver:
-        """epsilon [s]; alpha_1 .. alpha_(m+2), dimensionless, (s + 1)^(m+2) without. Raises InputError."""
+        """epsilon [s]; alpha_1 .. alpha_(m+2), dimensionless, (s + 1)^(m+2) without.
+
+        Raises InputError for an epsilon that is not positive, m below 1, and alphas that are not those of a
+        stable polynomial of degree m + 2.
+        """
         if not (np.isfinite(epsilon) and epsilon > 0):
             raise InputError(f"epsilon is {epsilon} s, expected a small positive number as 0.002")
         m = whole(m, 1, "m", "order of an observer with a state for the disturbance")
@@ -47,7 +51,7 @@ class HighGainObserver(InjectedChain):
 
     @property
     def epsilon(self) -> float:
-        """[s]."""
+        """The one number to choose [s]: all poles are of the order of 1 / epsilon."""
         return 1.0 / self.scale
 
     @cached_property

@@ -62,7 +62,7 @@ class KalmanObserver(InjectedChain):
 
     @property
     def intensity(self) -> float:
-        """W [rad^2/s^(2 m + 3)]."""
+        """W [rad^2/s^(2 m + 3)], from the bandwidth and R by the module's equation."""
         return self.measurement * self.scale ** (2 * self.order)
 
     @cached_property
@@ -90,14 +90,18 @@ class KalmanObserver(InjectedChain):
 
 @dataclass(frozen=True)
 class SampledKalmanObserver(ChainObserver):
-    """The discrete filter for one period; `scale` is 1/T."""
+    """The discrete filter for one period T [s]; `scale` is 1/T. Made by `KalmanObserver.sampled`."""
 
     period: float
     continuous: KalmanObserver
 
     @cached_property
     def parameters(self) -> SampledGPIParameters:
-        """What the laws `gpi_correct`, `gpi_predict` and `chain_...` need."""
+        """What the laws `gpi_correct`, `gpi_predict` and `chain_...` need.
+
+        The Riccati equation is solved with Q / R in scaled states: in physical ones its numbers cover so many
+        decades that the solver fails.
+        """
         k, T = self.order, self.period
         Phi, Gamma = held_chain(k, T)
         R = self.continuous.measurement / T

@@ -13,7 +13,7 @@ With chi the polynomial of the poles
 
     zeta - r = s^(k-1) (s + l_1) / chi(s) zeta
 
-States are scaled as in the GPI observer.
+States are scaled as in the GPI observer: z_1 = pi^, z_k = r^(k-2) / w^(k-1) for k from 2 on.
 
 The rows are of all n coordinates, q_N among them, so r has a part that no motor can cancel.
 """
@@ -24,7 +24,7 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -49,7 +49,7 @@ from biped_adrc.types import Array
 
 
 class MomentumParameters(NamedTuple):
-    """Scaled gains (k,), w [rad/s] by which states are scaled, and the number k of poles."""
+    """gains (k,), dimensionless; scale: w [rad/s] by which states are scaled; order: the number k of poles."""
 
     gains: Array
     scale: float
@@ -95,14 +95,17 @@ def momentum_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) ->
 
 @dataclass(frozen=True)
 class MomentumChain(Observer):
-    """What the observer and its discrete form share; z is (k, n) flattened, poles in rad/s."""
+    """What the observer and its discrete form share; z is (k, n) flattened, poles and `scale` in [rad/s].
+
+    A controller around it has to feed it with momentum and force of all n coordinates: `control.momentum_dob`.
+    """
 
     poles: tuple[complex, ...]
     scale: float
 
     @property
     @abstractmethod
-    def parameters(self) -> Any:
+    def parameters(self) -> Chain:
         """What the laws need, a NamedTuple."""
 
     @property
