@@ -1,6 +1,7 @@
 """What is asked of every leaf: what it promises in both time bases and in both engines.
 
-`conforms(thing)` runs it over one thing, of the package (rows of test_conformance.py) or of one's own.
+`conforms(thing)` runs it over one thing, of the package (rows of test_conformance.py) or of one's own: a
+controller, an observer, a reference, outputs, a disturbance, a sensor, motors, a curve or a method.
 """
 
 import atexit
@@ -18,7 +19,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.base import controller_laws
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.disturbances.base import disturbance_laws
+from biped_adrc.disturbances.base import Windowed, disturbance_laws
 from biped_adrc.engine.compiled_walker import disturbance_code
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.fingerprint import hash_of
@@ -27,7 +28,13 @@ from biped_adrc.engine.machine import ModuleText, load_or_compile
 from biped_adrc.engine.program import Program
 from biped_adrc.engine.symbols import Tracer, Vector, column, floats, run
 from biped_adrc.gait.curves import Curve
+from biped_adrc.gait.outputs import Outputs
+from biped_adrc.gait.reference import check_point, reference_laws
+from biped_adrc.hardware import motors as torque_line
+from biped_adrc.hardware.meter import Meter
+from biped_adrc.hardware.motors import Line, Motors, whole_and_part
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.observers.base import Estimate, observer_laws
 from biped_adrc.observers.momentum import MomentumChain
 
@@ -61,7 +68,7 @@ def outputs(h):
 # -- what is asked of a thing --------------------------------------------------------------------
 @singledispatch
 def conforms(thing):
-    """Run the suite over one thing: a controller, an observer, a disturbance or a curve."""
+    """Run the suite over one thing; raises TypeError for what is no leaf."""
     raise TypeError(f"{thing!r} is no leaf")
 
 
@@ -111,6 +118,9 @@ def _(disturbance: ba.Disturbance):
             assert np.array_equal(kept, (q, v))
             assert disturbance.resultant(*at[:3]).shape == (2,)
             torque_compiles(disturbance, at)
+    if isinstance(disturbance, Windowed) and len(disturbance.amplitude) > 3:
+        wave = replace(disturbance, amplitude=disturbance.amplitude[:3])
+        conforms(ba.OnLink(robot(), "right_shin", wave, (0.1, 0.2)))
     assert np.any(seen), "it never does anything in the first three single supports"
 
 
@@ -157,11 +167,71 @@ def _(curve: Curve):
     c = gait().constraint
     h = ba.VirtualConstraint(curve, c.phase, c.theta_plus, c.theta_minus)
     for constraint in (h, ba.continued(h)):
-        laws = constraint.laws
-        for m, _ in measurements(4):
-            found = agree(laws.point, laws.parameters, m.t, m.q, m.v)
-            for one, other in zip(found, constraint(m.t, m.q, m.v), strict=True):
-                assert np.array_equal(one, other)
+        point_is_consistent(constraint)
+
+
+@conforms.register
+def _(reference: ba.Reference):
+    """Its rates are those of its angles, as laws too, and a controller without a state tracks it."""
+    point_is_consistent(reference)
+    conforms(ba.NPDController(reference))
+
+
+@conforms.register
+def _(outputs: Outputs):
+    """y' and y'' are the rates of y and y'; a controller of outputs drives them."""
+    for m, random in measurements(5):
+        a, d = random.normal(size=5), 1e-5
+        o = pure(outputs, m.t, m.q, m.v)
+        assert [np.shape(x) for x in o] == [(4,), (4,), (4, 5), (4,)]
+        ahead, behind = (moved(outputs, m, a, s) for s in (d, -d))
+        slopes = [(one - other) / (2.0 * d) for one, other in zip(ahead, behind, strict=True)]
+        assert np.max(np.abs(slopes[0] - o.dy)) <= 1e-6 * (1.0 + np.max(np.abs(o.dy)))
+        ddy = o.J @ a + o.drift
+        assert np.max(np.abs(slopes[1] - ddy)) <= 1e-5 * (1.0 + np.max(np.abs(ddy)))
+    conforms(ba.OutputNPDController(outputs))
+
+
+@conforms.register
+def _(method: OneStepMethod):
+    """The same walk in both engines and both time bases, node by node where no step is chosen."""
+    linear = isinstance(method, ba.Exponential)
+    observing = ba.ADRCController(gait().constraint, ba.GPIObserver.from_bandwidth(300.0))
+    table = ba.ADRCController(gait().constraint)
+    for controller in (table,) if linear else (ba.NPDController(gait().constraint), observing):
+        for timing in (ba.ContinuousTime(), ba.SampledTime(2 * PERIOD)):
+            walker = ba.Walker(robot(), controller, timing=timing)
+            if not (walker.sampled and linear):
+                walked_alike(walker, method)
+    assert pickle.loads(pickle.dumps(method)) == method
+    assert method.label
+
+
+@conforms.register
+def _(motors: Motors):
+    """The line of torques as laws, with every delay, and in the loop behind a controller."""
+    random = np.random.default_rng(7)
+    for delay in (0.0, 0.4 * PERIOD, 2.0 * PERIOD, 1.3 * PERIOD):
+        j, f = whole_and_part(delay, PERIOD)
+        k = motors.parameters(PERIOD, f)
+        sizes = (4 * j, 4 * (motors.lag > 0.0), 4 * (f > 0.0), 4)
+        for _ in range(3):
+            line, u = Line(*(20.0 * random.normal(size=n) for n in sizes)), random.normal(size=4)
+            kept = [x.copy() for x in line]
+            sent = agree(torque_line.sent, k, line, agree(torque_line.limited, k, line, u))
+            after = agree(torque_line.relabelled, sent, SWAP)
+            assert [len(x) for x in sent] == [len(x) for x in after] == list(sizes)
+            for law in (torque_line.acting, torque_line.mean_torque):
+                assert agree(law, k, sent).shape == (4,)
+            assert all(np.array_equal(a, b) for a, b in zip(kept, line, strict=True))
+    for delay, known in ((2.0 * PERIOD, False), (1.3 * PERIOD, True)):
+        timing = ba.SampledTime(PERIOD, delay=delay, delay_known=known)
+        controller = ba.ADRCController(gait().constraint, SLOW)
+        meter = Meter(gait().constraint) if known else None
+        walker = ba.Walker(heavy(), controller, timing=timing, motors=motors, meter=meter)
+        assert walker.held.sizes.queue == int(delay / PERIOD)
+        loop_compiles(replace(walker, model=robot()), 20, ticks=4)
+    assert pickle.loads(pickle.dumps(motors)) == motors
 
 
 def unless(words, call):
@@ -178,6 +248,39 @@ def unless(words, call):
 @cache
 def heavy():
     return robot().with_errors(mass={"torso": 1.2})
+
+
+def pure(function, *given):
+    """What a function gives, twice the same, with its arrays left alone."""
+    kept = [np.copy(x) for x in given]
+    found = function(*given)
+    for one, other in zip(found, function(*given), strict=True):
+        assert np.array_equal(one, other)
+        assert np.all(np.isfinite(one))
+    assert all(np.array_equal(a, b) for a, b in zip(kept, given, strict=True))
+    return found
+
+
+def moved(function, m, a, s):
+    """The first two of what it gives s seconds on, under the acceleration a."""
+    return function(m.t + s, m.q + s * m.v + 0.5 * s * s * a, m.v + s * a)[:2]
+
+
+def point_is_consistent(reference):
+    """q_d' and drift + H q'' are the rates of q_d and q_d'; its law has the numbers of its method."""
+    laws, d = reference_laws(reference), 1e-5
+    for m, random in measurements(5):
+        a = random.normal(size=5)
+        r = pure(reference, m.t, m.q, m.v)
+        check_point(reference, r, 4, 5)
+        ahead, behind = (moved(reference, m, a, s) for s in (d, -d))
+        slopes = [(one - other) / (2.0 * d) for one, other in zip(ahead, behind, strict=True)]
+        rates = r.dq_d, r.drift + r.H @ a
+        for slope, rate in zip(slopes, rates, strict=True):
+            assert np.max(np.abs(slope - rate)) <= 1e-3 * (1.0 + np.max(np.abs(rate)))
+        if not laws.obstacle:
+            found = agree(laws.point, laws.parameters, m.t, m.q, m.v)
+            assert all(np.array_equal(x, y) for x, y in zip(found, r, strict=True))
 
 
 def measurements(count):
@@ -212,7 +315,7 @@ def laws_compile(law):
     """Each law of a controller alone: machine code, Python and the methods have the same numbers."""
     laws = controller_laws(law)
     k = laws.parameters
-    for m, random in measurements(3):
+    for m, random in measurements(5):
         s = law.initial_state(m)
         s, u = s * (1.0 + 0.01 * random.normal(size=len(s))), 20.0 * random.normal(size=4)
         given = {"output": (s, m), "flow": (s, m, u), "correct": (s, m), "predict": (s, m, u)}
@@ -224,14 +327,19 @@ def laws_compile(law):
             agree(laws.estimate, k, s, m)
 
 
-def loop_compiles(walker):
-    """The closed loop of a wrong model, pushed and limited: flow, tick and strike in machine code."""
+def loop_compiles(walker, states=60, ticks=0):
+    """The closed loop of a wrong model, pushed and limited: flow, tick, strike and watch in machine code.
+
+    ticks: taken before each state is compared, so that a line of torques has something in it.
+    """
     random, n, mode = np.random.default_rng(11), walker.plant.n, ba.Mode(3, 0.05)
     q, v = gait().start(robot())
     program = struck = None
-    for i in range(40):
+    for _ in range(states):
         x = walker.initial_state(*(a + 0.3 * random.normal(size=n) for a in (q, v)))
         x[2 * n :] *= 1.0 + 0.1 * random.normal(size=len(x) - 2 * n)
+        for _ in range(ticks):
+            x = walker.tick(0.1, x, mode)
         if program is None:
             program = Program.of(walker, walker.controller_size(x))
         zeta = 30.0 * random.normal(size=n)
@@ -240,7 +348,10 @@ def loop_compiles(walker):
         if walker.sampled:
             outside = np.zeros(5)
             close(program, "tick", (0.1, 3.0, 0.05, x, zeta, outside), pushed.tick(0.1, x, mode))
-        after = walker.strike(0.1, x, ba.Mode(2, 0.0)) if i < 20 or struck is None else None
+        seen = [guard.witness(0.1, x) for guard in walker.guards(mode)]
+        seen.append(walker.plant.swing_foot(x[:n])[0])
+        close(program, "watch", (0.1, 0.05, walker.drop(3), x[:n]), np.array(seen))
+        after = walker.strike(0.1, x, ba.Mode(2, 0.0))
         if after is not None:
             struck = after
             close(program, "strike", (0.1, 3.0, x), after[0])
@@ -285,11 +396,35 @@ def estimator(observer, steps):
     for policy in ba.ResetPolicy:
         law = around(gait().constraint, observer, reset=policy)
         assert not law.laws.obstacle
-        for m, random in measurements(1):
+        for m, random in measurements(3):
             contract(law, m, random, "predict" in steps)
             s = random.normal(size=len(law.initial_state(m)))
             expected = agree(law.laws.jump, law.laws.parameters, s, m, SWAP)
             assert np.array_equal(expected, law.jump(s, m, SWAP))
+
+
+def walked_alike(walker, method):
+    """One step and its impact in both engines; times, states and slopes on the way, unless chosen by error."""
+    by_nodes = walker.sampled or hasattr(method, "h")
+    landing = isinstance(method, ba.Exponential) or not by_nodes
+    tolerance = 1e-6 if landing else 1e-10 if walker.sampled else 1e-11
+    python, code = (
+        ba.walk(walker, gait(), 1, method, engine=engine).trajectory
+        for engine in ("pinocchio", "compiled")
+    )
+    assert python.status is code.status is ba.Status.COMPLETED
+    assert code.settings["engine"] in ("compiled", "compiled plant")
+    assert code.settings["method"] == python.settings["method"]
+    (one,), (other,) = python.arcs, code.arcs
+    assert one.event.guard == other.event.guard
+    assert abs(one.event.t - other.event.t) <= tolerance
+    pairs = [(getattr(x.event, side) for x in (one, other)) for side in ("x_minus", "x_plus")]
+    if by_nodes:
+        assert one.t.shape == other.t.shape
+        pairs += [(getattr(x, name) for x in (one, other)) for name in ("t", "x", "dx")]
+    for expected, found in pairs:
+        scale = np.maximum(1.0, np.max(np.abs(expected), axis=0, initial=0.0))
+        assert np.all(np.abs(found - expected) <= tolerance * scale)
 
 
 def torque_compiles(disturbance, at):
@@ -305,7 +440,7 @@ def torque_compiles(disturbance, at):
         if law.resultant is not None:
             force += call(code, "resultant", K, inp, 2)
     assert np.max(np.abs(zeta - disturbance.torque(*at))) <= 1e-13
-    assert np.max(np.abs(force - disturbance.resultant(*at[:3]))) <= 1e-13
+    assert np.max(np.abs(force - disturbance.resultant(*at[:3]))) <= 1e-14
     assert {switch for law in laws for switch in law.switches} == set(disturbance.switches)
 
 

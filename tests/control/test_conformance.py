@@ -6,22 +6,31 @@ A row says how a thing of the registry is made; a thing without a row, or a clas
 import importlib
 import inspect
 import pkgutil
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN
+from biped_adrc.gait.bspline import BSpline
+from biped_adrc.gait.constraint import CorrectedConstraint
 from biped_adrc.gait.curves import Curve
+from biped_adrc.gait.outputs import FunctionOutputs, Outputs
+from biped_adrc.hardware.motors import IDEAL, Motors
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.observers.base import Estimate
+from biped_adrc.observers.high_gain import HighGainObserver
+from biped_adrc.observers.momentum import MomentumObserver
 from biped_adrc.scenario.registry import find, names
 
-from .conforms import PERIOD, SLOW, conforms, gait, outputs, robot, written
+from .conforms import PERIOD, SLOW, conforms, gait, heavy, loop_compiles, outputs, robot, written
 
 A = [30.0, -20.0, 5.0, 0.0, 1.0]
+THREE = (-90.0, -60 + 20j, -60 - 20j)
 
 # -- rows: how a thing of the registry is made --------------------------------------------------
 ROWS = {
@@ -30,10 +39,18 @@ ROWS = {
         "NPD": lambda make, h: [make(h), make(h, solve_theta=False)],
         "NPID": lambda make, h: [make(h), make.like_adrc(h)],
         "super twisting": lambda make, h: [make(h)],
-        "ADRC": lambda make, h: [make(h)],
+        "ADRC": lambda make, h: [
+            make(h),
+            make(h, ba.GPIObserver.from_bandwidth(500.0), reset=ba.ResetPolicy.MEASURED),
+            make(h, ba.GPIObserver.from_bandwidth(300.0, 0), ba.Gains([4e3, 5e3, 6e3, 7e3], 50.0)),
+            make(h, HighGainObserver.from_epsilon(0.002)),
+        ],
         "ADRC output": lambda make, h: [make(h, SLOW, reset=ba.ResetPolicy.MEASURED)],
         "LESO": lambda make, h: [make(h, ba.GPIObserver.from_bandwidth(500.0))],
-        "DOB": lambda make, h: [make(h), make(h, solve_theta=False)],
+        "DOB": lambda make, h: [
+            make(h),
+            make(h, MomentumObserver.from_poles(THREE), solve_theta=False),
+        ],
         "CLF-QP": lambda make, h: [make(h)],
         "output NPD": lambda make, h: [make(outputs(h))],
         "finite time": lambda make, h: [make(outputs(h), 0.9, 0.02)],
@@ -50,7 +67,7 @@ ROWS = {
         "Kalman": lambda make: [make.from_noise(100.0, 1e-5), make.from_noise(1e3, 1e-4, m=2)],
         "momentum": lambda make: [
             make.from_bandwidth(9.0, 3),
-            make.from_poles((-90.0, -60 + 20j, -60 - 20j)),
+            make.from_poles(THREE),
         ],
     },
     "sensor": {
@@ -85,15 +102,61 @@ ROWS = {
         "polynomial": lambda make: [make(np.random.default_rng(1).normal(size=(4, 6)))],
     },
 }
+UNNAMED = {
+    "virtual constraint": lambda h: [h, ba.continued(h), with_curve(h, BSpline.like(h.curve, 9))],
+    "corrected constraint": lambda h: [
+        CorrectedConstraint(h, leaning),
+        CorrectedConstraint(CorrectedConstraint(ba.continued(h), leaning), leaning),
+    ],
+    "time": lambda h: [ba.TimeReference(swung)],
+    "linear outputs": lambda h: [outputs(h), ba.LinearOutputs(ABSOLUTE, h)],
+    "outputs of a function": lambda h: [
+        FunctionOutputs(bent),
+        FunctionOutputs(bent, lambda q: np.eye(4, 5) * np.cos(q)),
+    ],
+    "RK4": lambda h: [ba.RK4(2e-3)],
+    "adaptive": lambda h: [ba.Adaptive(1e-9, 1e-9)],
+    "stiff": lambda h: [ba.Stiff(1e-8, 1e-8)],
+    "exponential": lambda h: [ba.Exponential(1e-3), ba.Exponential(1e-3, True)],
+    "motors": lambda h: [Motors(), Motors(2e4), Motors(lag=1e-3), Motors(2e4, 1e-3)],
+}
+"""Rows of what no scenario names."""
+ABSOLUTE = np.array([[1, 0, 0, 0, 1], [0, 1, 0, 0, 1], [1, 0, 1, 0, 1], [0, 1, 0, 1, 1.0]])
+IN_PYTHON = {"CLF-QP", "output NPD", "finite time", "stride PI", "reference reset"}
+"""Controllers that are methods; all other things of the registry compile."""
 EACH = [(kind, name) for kind, rows in ROWS.items() for name in rows]
 BASES = {
     ba.Controller: ("control", {"OuterLoop", "ObservingController"}),
     ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
     ba.Disturbance: ("disturbances", {"Windowed", "WindowedTorque"}),
+    ba.Reference: ("gait", set()),
+    Outputs: ("gait", set()),
+    OneStepMethod: ("hybrid", {"_SciPy"}),
     Sensor: ("hardware", set()),
     Curve: ("gait", {"ControlledCurve"}),
 }
 """Where leaves are, and what is only a part of them."""
+
+
+def with_curve(h, curve):
+    return ba.VirtualConstraint(curve, h.phase, h.theta_plus, h.theta_minus)
+
+
+def leaning(theta):
+    """A correction and its two derivatives."""
+    d = np.array([0.1, 0.1, 0.0, -0.05])
+    return d * np.sin(3.0 * theta), 3.0 * d * np.cos(3.0 * theta), -9.0 * d * np.sin(3.0 * theta)
+
+
+def swung(t):
+    """Angles about those of the gait, as a function of time."""
+    d, q = np.array([0.3, -0.2, 0.1, 0.05]), gait().start(robot())[0][:4]
+    return q + d * np.sin(5.0 * t), 5.0 * d * np.cos(5.0 * t), -25.0 * d * np.sin(5.0 * t)
+
+
+def bent(q):
+    """Outputs that are not linear."""
+    return np.sin(q[:4])
 
 
 def made(kind, name):
@@ -105,7 +168,28 @@ def made(kind, name):
 @pytest.mark.parametrize(("kind", "name"), EACH)
 def test_every_leaf(kind, name):
     for thing in made(kind, name):
+        if kind in ("controller", "observer", "disturbance"):
+            assert bool(thing._obstacle) == (name in IN_PYTHON)
         conforms(thing)
+
+
+@pytest.mark.parametrize("name", UNNAMED)
+def test_every_leaf_without_a_name(name):
+    for thing in UNNAMED[name](gait().constraint):
+        conforms(thing)
+
+
+def test_adrc_of_outputs_with_table_one_in_machine_code():
+    """Its gains turn the last bit of an angle into 1e-9 of a rate: the loop is compared, not each law."""
+    law = OutputADRCController(gait().constraint)
+    for timing in (ba.ContinuousTime(), ba.SampledTime(PERIOD)):
+        walker = ba.Walker(heavy(), law, timing=timing, model=robot(), torque_limit=150.0)
+        loop_compiles(walker)
+
+
+def acting(motors):
+    """Names of the fields that are not those of ideal motors."""
+    return [x.name for x in fields(Motors) if getattr(motors, x.name) != getattr(IDEAL, x.name)]
 
 
 def below(cls):
@@ -121,6 +205,9 @@ def test_every_leaf_has_a_row_and_a_name():
         assert set(rows) == set(names(kind))
         assert all(find(kind, name).words for name in rows)
     things = [thing for each in EACH for thing in made(*each)]
+    things += [thing for row in UNNAMED.values() for thing in row(gait().constraint)]
+    acted = [name for x in things if isinstance(x, Motors) for name in acting(x)]
+    assert set(acted) == {x.name for x in fields(Motors)}
     listed = {type(thing) for thing in things}
     listed |= {type(x.sampled(PERIOD)) for x in things if isinstance(x, ba.Observer)}
     for base, (room, parts) in BASES.items():

@@ -97,15 +97,9 @@ def test_terms_and_impact_at_ten_thousand_states(robot):
 
 CONTROLLERS = {
     "NPD": lambda c: ba.NPDController(c),
-    "NPD as printed": lambda c: ba.NPDController(c, solve_theta=False),
     "ADRC": lambda c: ba.ADRCController(c),
-    "ADRC, m = 1, reset measured": lambda c: ba.ADRCController(
-        c, ba.GPIObserver.from_bandwidth(500.0), reset=ba.ResetPolicy.MEASURED
-    ),
-    "ADRC, m = 0, gains per joint": lambda c: ba.ADRCController(
-        c, ba.GPIObserver.from_bandwidth(300.0, 0), ba.Gains([4e3, 5e3, 6e3, 7e3], 50.0)
-    ),
 }
+"""The others are rows of tests/control/test_conformance.py."""
 
 
 @pytest.mark.parametrize("name", CONTROLLERS)
@@ -116,7 +110,7 @@ def test_the_closed_loop_is_the_python_engine_s(biped, gait, name, sampled):
     check_walker(walker, gait, 2000 if name == "ADRC" else 200)
 
 
-@pytest.mark.parametrize("name", ["NPD", "ADRC"])
+@pytest.mark.parametrize("name", CONTROLLERS)
 def test_a_plant_that_is_not_the_model(gait, name):
     biped = ba.Biped.load("rabbit", friction=True)
     heavy = biped.with_errors(mass={"torso": 1.2}, inertia={"thigh": 1.15})

@@ -103,31 +103,11 @@ def same(python, compiled, tolerance, engine="compiled"):
         near(found.dx, expected.dx, tolerance)
 
 
-# -- methods and time bases ------------------------------------------------------------------------
-@pytest.mark.parametrize("controller", CONTROLLERS)
-def test_classical_steps(biped, gait, controller):
-    walker = ba.Walker(biped, CONTROLLERS[controller](gait))
-    same(*runs(walker, gait, ba.RK4(2e-3)), SHARP)
-
-
-@pytest.mark.parametrize("feedback", [False, True])
-def test_exponential_steps_with_table_one(biped, gait, feedback):
-    """They land on an impact by halving here and by one shorter step there."""
-    walker = ba.Walker(biped, ba.ADRCController(gait.constraint))
-    same(*runs(walker, gait, ba.Exponential(1e-3, feedback), impacts=1), LANDED)
-
-
+# -- methods and time bases beyond what tests/control/conforms.py asks of every method ---------------
 def test_exponential_steps_past_a_switch_and_a_limit(biped, gait):
     push = ba.TorquePulse(PULSE, 1, 0.1003, 0.1607)
     walker = ba.Walker(biped, adrc(gait), push, torque_limit=60.0)
     same(*runs(walker, gait, ba.Exponential(1e-3), impacts=1), LANDED)
-
-
-@pytest.mark.parametrize("controller", CONTROLLERS)
-def test_adaptive_steps(biped, gait, controller):
-    """Round-off decides the last steps, so nodes are not compared."""
-    walker = ba.Walker(biped, CONTROLLERS[controller](gait))
-    same_events(*runs(walker, gait, ba.Adaptive(1e-9, 1e-9), impacts=1), LANDED)
 
 
 @pytest.mark.parametrize("restart", [True, False])
@@ -147,11 +127,6 @@ def test_ticks_with_table_one_and_steps_longer_than_the_period(biped, gait):
     time = ba.SampledTime(1e-3)
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint), timing=time)
     same(*runs(walker, gait, ba.RK4(5e-3)), 1e-7)
-
-
-def test_adaptive_steps_between_ticks(biped, gait):
-    walker = ba.Walker(biped, adrc(gait), timing=ba.SampledTime(2e-3))
-    same(*runs(walker, gait, ba.Adaptive(1e-9, 1e-9), impacts=1), TICKS)
 
 
 def test_a_run_that_begins_within_a_single_support(biped, gait):
