@@ -71,7 +71,14 @@ def push(s: Scenario, biped: Biped, gait: Gait, plant: Biped) -> Disturbance | N
     values = {**s.own, **window(s, gait), "force": tuple((s.force * along)[:2].tolist())}
     on_link, accepted = kind == "link", takes(find("disturbance", s.push).load())
     forced = on_link or "force" in accepted
-    idle = {"direction": not forced, "frequency": not {"frequency", "bandwidth"} & set(accepted)}
+    shaped = on_link or "amplitude" in accepted
+    idle = {
+        "direction": not forced,
+        "amplitude": not (forced or shaped),
+        "on": not (forced or shaped),
+        "duration": "stop" not in accepted,
+        "frequency": not {"frequency", "bandwidth"} & set(accepted),
+    }
     if given := [name for name in idle if idle[name] and getattr(s, name) != DEFAULTS[name]]:
         raise InputError(
             f"the push '{s.push}' on '{s.on}' takes no {given[0]}: this would do nothing, leave it out"

@@ -5,6 +5,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.disturbances.recorded import PIECES, RecordedTorque
+from biped_adrc.errors import InputError
 
 from .conforms import written
 
@@ -56,6 +57,9 @@ def test_by_name_and_without_its_file(biped):
     named = {"push": "recorded", "pushed_step": 1, "onset": 0.05, "impacts": 1}
     walk = ba.walk_scenario(ba.Scenario("NPD", own={"file": file}, **named))
     assert walk.walker.disturbance.switches == ((0, 0.05), (0, 0.35))
+    for idle in ({"amplitude": 30.0}, {"duration": 0.1}, {"on": "q1"}, {"direction": 0.5}):
+        with pytest.raises(InputError, match=f"'recorded' on .* takes no {next(iter(idle))}"):
+            ba.walk_scenario(ba.Scenario("NPD", own={"file": file}, **named, **idle))
     with pytest.raises(ba.BipedError, match="needs file"):
         ba.walk_scenario(ba.Scenario("NPD", **named))
     with pytest.raises(ba.BipedError, match=r"gone\.csv' not found"):
