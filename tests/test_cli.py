@@ -11,9 +11,13 @@ from pathlib import Path
 import psutil
 import pytest
 
+import biped_adrc as ba
 from biped_adrc.cli import app
-from biped_adrc.errors import InputError
+from biped_adrc.errors import GaitError, InputError
+from biped_adrc.gait.bspline import BSpline
+from biped_adrc.gait.curves import ControlledCurve, curve_kind
 from biped_adrc.scenario.push import Push, parse_push
+from biped_adrc.scenario.registry import names
 
 
 @pytest.fixture
@@ -196,6 +200,22 @@ def test_simulate_says_what_ground_and_motors_had_to_give():
         ("--force-window", "-1"),
     ):
         assert isinstance(inside(*common, option, value).exception, InputError)
+
+
+def test_a_gait_is_designed_of_the_curve_that_is_named(tmp_path):
+    """Again by the command that it has in its provenance, which was no command before."""
+    common, out = ("gait", "design", "--speed", "0.7", "--nodes", "12"), tmp_path / "local.json"
+    done = inside(*common, "--curve", "bspline", "-o", str(out))
+    assert done.exit_code == 0
+    gait = ba.load_gait(out, ba.Biped.load("rabbit"))
+    assert isinstance(gait.constraint.curve, BSpline)
+    assert "--curve bspline" in gait.provenance["command"]
+    between = [x for x in names("curve") if issubclass(curve_kind(x), ControlledCurve)]
+    wrong = inside(*common, "--curve", "polynomial").exception
+    assert isinstance(wrong, GaitError)
+    assert f"choose one of {between}" in str(wrong)
+    shown = " ".join(inside("gait", "design", "--help").output.replace("│", " ").split())
+    assert f"of the registry: {' or '.join(between)}." in shown
 
 
 def test_poincare_says_what_the_nominal_step_needs():

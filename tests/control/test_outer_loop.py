@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -16,7 +18,8 @@ from biped_adrc.control.reference_reset import (
 )
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI, bump
 from biped_adrc.disturbances.hip_force import HipForce
-from biped_adrc.errors import InputError
+from biped_adrc.errors import GaitError, InputError
+from biped_adrc.gait.bspline import BSpline
 
 RK4 = ba.RK4(2e-3)
 LAWS = {"NPD": ba.NPDController, "ADRC": ba.ADRCController}
@@ -268,6 +271,13 @@ def test_what_cannot_be_corrected_is_refused(published):
         StrideGains(-1.0, -0.4, 0.0)
     with pytest.raises(InputError, match="K_I = nan"):
         StrideGains(-1.0, np.nan)
+
+
+def test_the_response_of_a_curve_of_several_pieces_is_refused(bare, published):
+    h = published.constraint
+    local = replace(h, curve=BSpline.like(h.curve))
+    with pytest.raises(GaitError, match="BSpline has 6 pieces, expected one polynomial"):
+        stride_response(replace(published, constraint=local), bare)
 
 
 def test_a_pole_outside_is_refused(bare, published):

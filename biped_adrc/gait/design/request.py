@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 
 from biped_adrc.errors import GaitError, check_positive
-from biped_adrc.gait.curves import ControlledCurve, curve_kind
+from biped_adrc.gait.curves import CURVES, ControlledCurve, curve_kind
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_fields
 from biped_adrc.shown import Shown
@@ -163,7 +163,10 @@ class GaitRequest(Shown):
         if not abs(self.slope) < 0.5:
             raise GaitError(f"the slope is {self.slope} rad, expected less than 0.5 rad either way")
         if not issubclass(curve_kind(self.curve), ControlledCurve):
-            raise GaitError(f"gaits are not designed of a {self.curve} curve; take bezier")
+            between = [x for x in CURVES if issubclass(curve_kind(x), ControlledCurve)]
+            raise GaitError(
+                f"gaits are not designed of a {self.curve} curve; choose one of {between}"
+            )
         if not 4 <= self.degree <= 12:
             raise GaitError(f"the degree is {self.degree}, expected 4 to 12")
         if not 8 <= self.nodes <= 2 * MOST_NODES:
