@@ -89,4 +89,5 @@ class HipForce(Disturbance):
 
     @property
     def laws(self) -> tuple[DisturbanceLaw, ...]:
+        """One law, that of J' F, with its resultant."""
         return (DisturbanceLaw(self.parameters, hip_torque, (), hip_resultant, hip_acts),)

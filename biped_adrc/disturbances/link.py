@@ -33,7 +33,7 @@ class LinkParameters(NamedTuple):
 
 
 AT_REST = np.zeros(3), np.zeros(3)
-"""What a wave is given for q and q': it is a function of time."""
+"""What a wave is given for q and q', each (3,): it is a function of time."""
 
 
 @lru_cache(maxsize=64)
@@ -48,6 +48,7 @@ def link_law(wave: DisturbanceLaw) -> DisturbanceLaw:
     def on_coordinates(
         k: LinkParameters, t: float, step: int, t_start: float, q: Array, v: Array
     ) -> Array:
+        """J(q)' (F_x, F_z, M) (n,) [N m]."""
         return wrench_torque(k.point, q, torque(k.wave, t, step, t_start, *AT_REST))
 
     def force(k: LinkParameters, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:

@@ -22,7 +22,7 @@ def step_torque(
 
 
 def step_acts(k: WindowParameters, t: float, step: int, t_start: float) -> float:
-    """Above 0 from onset on, in all later steps too."""
+    """Above 0 from onset on, in all later steps too, whose windows `within` does not know."""
     later: float = 1.0 * (k.step > 0) * (step > k.step)
     return later + within(k, t, step, t_start)
 
@@ -41,4 +41,5 @@ class TorqueStep(Windowed):
 
     @property
     def windowed(self) -> DisturbanceLaw:
+        """The law, whose own `active` goes on past the end of the step."""
         return DisturbanceLaw(self.window, step_torque, active=step_acts)

@@ -25,11 +25,15 @@ from biped_adrc.gait.curves import ControlledCurve, Curve
 from biped_adrc.types import Array
 
 CUBIC = 3
+"""Degree of each piece: the least one with two continuous derivatives."""
 
 
 @dataclass(frozen=True)
 class BSpline(ControlledCurve):
-    """The module's equation; alpha (p, M + 1) [rad], M >= 3. Raises GaitError."""
+    """The module's equation; alpha (p, M + 1) [rad], M >= 3, where M counts coefficients and is no degree.
+
+    Raises GaitError for fewer than 4 coefficients per joint.
+    """
 
     def __post_init__(self) -> None:
         super().__post_init__()

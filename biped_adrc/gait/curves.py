@@ -77,7 +77,7 @@ class Curve(Shown, ABC):
 
     @property
     def degree(self) -> int:
-        """M."""
+        """M, one less than the coefficients of a joint; for `Bezier` and `Polynomial` the degree itself."""
         return int(self.coefficients.shape[1]) - 1
 
     @property
@@ -103,7 +103,10 @@ class Curve(Shown, ABC):
 
     @property
     def power_coefficients(self) -> Array:
-        """a (p, K) of h(s) = sum_k a_k s^k. Raises GaitError for a curve of several pieces."""
+        """a (p, K) of h(s) = sum_k a_k s^k, for what works with one polynomial: the response of the stride.
+
+        Raises GaitError for a curve of several pieces.
+        """
         breaks, a = self.pieces
         if len(breaks):
             raise GaitError(
@@ -132,7 +135,7 @@ class Curve(Shown, ABC):
         return CurveParameters(stacked[0].copy(), k, breaks, stacked[1:].copy())
 
     def __call__(self, s: float) -> tuple[Array, Array, Array]:
-        """h, dh/ds, d2h/ds2 at s, each (p,)."""
+        """h, dh/ds, d2h/ds2 at s, each (p,); s may lie outside of [0, 1]."""
         return curve(self.parameters, s)
 
 
@@ -205,8 +208,11 @@ class ControlledCurve(Curve):
 
 @dataclass(frozen=True)
 class Bezier(ControlledCurve):
-    """h(s) = sum_k alpha_k C(M, k) s^k (1 - s)^(M - k); h(0) = alpha_0, h(1) = alpha_M,
-    h'(0) = M (alpha_1 - alpha_0), h'(1) = M (alpha_M - alpha_(M-1))."""
+    """h(s) = sum_k alpha_k C(M, k) s^k (1 - s)^(M - k), alpha (p, M + 1) [rad]; the paper's gait (a) is one.
+
+    h(0) = alpha_0, h(1) = alpha_M, h'(0) = M (alpha_1 - alpha_0), h'(1) = M (alpha_M - alpha_(M-1)). It stays
+    within the hull of its coefficients, so bounds on these are bounds on the angles.
+    """
 
     @property
     def pieces(self) -> tuple[Array, Array]:
@@ -237,7 +243,10 @@ CURVES: dict[str, Any] = {
 
 
 def curve_kind(name: str) -> type[Curve]:
-    """The class of a curve by its name. Raises GaitError with the names there are."""
+    """The class of a curve by its name in the registry, imported now.
+
+    Raises GaitError with the names there are.
+    """
     if name not in CURVES:
         raise GaitError(f"curve is '{name}', expected one of {sorted(CURVES)}")
     found = CURVES[name]
