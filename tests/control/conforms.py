@@ -218,7 +218,10 @@ def _(motors: Motors):
         for _ in range(3):
             line, u = Line(*(20.0 * random.normal(size=n) for n in sizes)), random.normal(size=4)
             kept = [x.copy() for x in line]
-            sent = agree(torque_line.sent, k, line, agree(torque_line.limited, k, line, u))
+            last = line.queue[-4:] if j else line.u
+            limited = agree(torque_line.limited, k, line, u)
+            assert np.array_equal(limited, np.clip(u, last - k.change, last + k.change))
+            sent = agree(torque_line.sent, k, line, limited)
             after = agree(torque_line.relabelled, sent, SWAP)
             assert [len(x) for x in sent] == [len(x) for x in after] == list(sizes)
             for law in (torque_line.acting, torque_line.mean_torque):
