@@ -1,15 +1,20 @@
-"""The multipliers of one walking cycle by every method side by side, and which of them to trust.
+"""Whether a walking cycle is stable: its multipliers by every method side by side, and which to trust.
+
+P is the return map from just before one impact to just before the next, s (k,) [rad, rad/s] its point. The
+multipliers of a cycle, P(s) = s, are the eigenvalues lambda of dP/ds; it is stable if all |lambda| < 1.
 
     variational             eigenvalues of dP/ds by the variational equation, no differences
     central differences     eigenvalues of dP/ds by differences of the return map at two widths d and d / 2,
                             extrapolated: (4 J(d/2) - J(d)) / 3 is dP/ds up to d^4 and round-off / d
-    delta^2                 (sigma+ / sigma-)^2 of the zero dynamics: one of the multipliers, in closed form,
-                            where the constraint is hybrid invariant and tracked exactly
+    delta^2                 (sigma+ / sigma-)^2, sigma the angular momentum about the stance foot just before
+                            (-) and after (+) impact: one of the multipliers, in closed form, where the
+                            constraint is hybrid invariant (the impact keeps to it) and tracked exactly
     regression              (26), (27) of the paper, on samples of a walk
 
-The methods find dP/ds in independent ways, so their agreement is evidence. A method that doubts its
-own result says why (`MethodRow.doubt`). Two sets of multipliers are compared one to one, in the
-pairing that makes the sum of their distances, in units of the tolerance, least.
+The methods find dP/ds in independent ways, so their agreement is evidence. A method that doubts its own result
+says why (`MethodRow.doubt`). Two sets of multipliers are compared in pairs, one from each set. Of all ways to
+make pairs that one is taken whose sum of distances is least; distances are divided by the tolerance.
+`studies.cycle_stability` makes the table.
 """
 
 from __future__ import annotations
@@ -63,8 +68,10 @@ class Tolerances(Shown):
             check_positive(value, f"tolerance '{name}' is {value}")
 
     def distance(self, one: ComplexArray, other: ComplexArray, noise: Array | None = None) -> Array:
-        """|one_i - other_j| (k, l) in units of what is allowed, for k and l multipliers; at most 1
-        where they agree. noise (l,): what errors of computing may do to each of `other`, allowed too.
+        """Distance of every multiplier of one set to every one of the other; at most 1 where they agree.
+
+        one (k,), other (l,) -> (k, l): |one_i - other_j| divided by the largest of the absolute tolerance, the
+        relative one, and noise (l,), what errors of computing may do to each of `other`.
         """
         a, b = one[:, np.newaxis], other[np.newaxis]
         allowed = np.maximum(self.absolute, self.relative * np.maximum(np.abs(a), np.abs(b)))
@@ -82,12 +89,12 @@ class MethodRow(Shown):
     multipliers: ComplexArray
     """(k,), the largest magnitude first."""
     uncertainty: float = 0.0
-    """How far the method itself says that each may be off (central differences: what the extrapolation
-    changes); 0 where it says nothing.
+    """Error of each multiplier by the method's own estimate; 0 where it has none. Of central differences:
+    the largest change by the extrapolation.
     """
     noise: Array | None = None
-    """(k,) of central differences: what the root finder's error in the time of the impact and the step of the
-    method may do to each multiplier at most, see `noise_of_differences`.
+    """Bound (k,) of the numerical error, for each multiplier of the variational equation in their order; of
+    central differences only, see `noise_of_differences`.
     """
     doubt: str = ""
     """Why the method is not to be trusted; empty when it is."""
@@ -154,8 +161,8 @@ class StabilityTable(Shown):
     def gap(self, row: MethodRow) -> float:
         """Largest distance of a row to the trusted one in units of the tolerance; at most 1 when they agree.
 
-        delta^2 is compared with the multiplier next to it. Infinite for a row of another number of
-        multipliers.
+        delta^2 is one multiplier only and is compared with the nearest one. Infinite for any other row that has
+        not as many multipliers as the trusted one.
         """
         ratio = self._ratio(row, row.noise)
         if row.method is StabilityMethod.ZERO_DYNAMICS:
@@ -165,14 +172,17 @@ class StabilityTable(Shown):
         return _farthest(ratio)
 
     def _ratio(self, row: MethodRow, noise: Array | None) -> Array:
-        """Distances (k, l) of a row to the trusted one; noise counts where it is of as many multipliers."""
+        """Distances (k, l) of a row's k multipliers to the l trusted ones, see `Tolerances.distance`.
+
+        noise (l,) is left out where it has another length.
+        """
         trusted = self.trusted.multipliers
         known = noise is not None and len(noise) == len(trusted)
         return self.tolerances.distance(row.multipliers, trusted, noise if known else None)
 
     @property
     def verdict(self) -> str:
-        """One sentence per row besides the trusted one, then what to trust. Raises InputError as trusted."""
+        """One sentence for each other row, then which row to trust. Raises InputError as `trusted` does."""
         trusted = self.trusted
         said = [self._sentence(row) for row in self.rows if row is not trusted]
         name, end = trusted.method.value, "stable" if self.stable else "not stable"
@@ -204,7 +214,7 @@ class StabilityTable(Shown):
         return f"{name}: disagrees, {gap:.3g} times the tolerance of {within}{why}."
 
     def _limit(self, row: MethodRow) -> str:
-        """What a disagreement comes from, as far as the rows say."""
+        """Why a row disagrees with the trusted one, as the end of a sentence; empty where nothing is known."""
         if row.method is StabilityMethod.ZERO_DYNAMICS:
             return "; the closed loop does not keep to the zero dynamics, or the step is too long"
         if row.method is not StabilityMethod.CENTRAL or row.uncertainty == 0.0:
@@ -230,7 +240,7 @@ class StabilityTable(Shown):
 
 
 def _farthest(cost: Array) -> float:
-    """The largest entry of `cost` (k, k) in the pairing of least total cost."""
+    """The largest cost of a pair when rows and columns of `cost` (k, k) are paired at least total cost."""
     return float(np.max(cost[linear_sum_assignment(cost)]))
 
 
@@ -238,7 +248,7 @@ def _farthest(cost: Array) -> float:
 def variational_row(step: StepDerivative, tolerances: Tolerances) -> MethodRow:
     """The row of the variational equation.
 
-    Doubted when Phi does not carry the flow along, see `StepDerivative.flow_residual`.
+    Doubted when Phi f(0) is not f-, the flow before the next impact, see `StepDerivative.flow_residual`.
     """
     doubt = ""
     if not step.flow_residual <= tolerances.flow:
@@ -250,13 +260,13 @@ def variational_row(step: StepDerivative, tolerances: Tolerances) -> MethodRow:
 
 
 def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
-    """How far apart differences and variational equation may leave each multiplier lambda_i (k,), at most.
+    """Bound (k,) of |delta lambda_i|, by which differences and variational equation may differ numerically.
 
-    The root finder leaves the impact at most tau from its time, which moves each image by f- tau at most. In
-    (4 J(d/2) - J(d)) / 3 an entry of column j is then wrong by f- eta_j, |eta_j| <= 3 tau / d. The curve of the
-    method passes the impact with a velocity that is f- up to the relative error r of its step,
-    `StepDerivative.flow_residual`, and differences see that velocity in the part f- dt/ds of dP/ds. To first
-    order, with left and right eigenvectors y_i, x_i,
+    Two errors, with f- = d(q, q')/dt just before impact, in the coordinates of s. The root finder may be wrong
+    by tau [s] in the time t of the impact, so an image P(s) by f- tau; column j of (4 J(d/2) - J(d)) / 3 is
+    then wrong by f- eta_j, |eta_j| <= 3 tau / d. And dP/ds has the part f- dt/ds, in which differences see f-
+    with the relative error r = `StepDerivative.flow_residual` of the integration method. To first order, with
+    left and right eigenvectors y_i, x_i, |.| entry by entry for vectors, and |.|_1 the sum of absolute values,
 
         |y_i x_i| |delta lambda_i| <= |y_i f-| (3 tau / d |x_i|_1 + r |dt/ds| |x_i|)
     """
@@ -269,10 +279,10 @@ def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
 
 
 def central_row(P: ReturnMap, s: Array, step: StepDerivative | None = None) -> MethodRow:
-    """Central differences at s (k,) [rad, rad/s] with P.difference and half of it, extrapolated.
+    """The row of central differences at s (k,) [rad, rad/s], extrapolated from d = P.difference and d / 2.
 
-    The uncertainty is the distance to the half's own multipliers, which shows the error d^2 as well
-    as round-off. step: the derivative at s, from which the noise is found.
+    Its uncertainty is the distance to the multipliers of J(d/2) alone: it shows the error d^2 and round-off.
+    step: the derivative at s; without it there is no noise.
     """
     wide, narrow = P.jacobian(s), replace(P, difference=0.5 * P.difference).jacobian(s)
     best, half = sorted_eigenvalues((4.0 * narrow - wide) / 3.0), sorted_eigenvalues(narrow)
@@ -290,9 +300,9 @@ def regression_row(regression: Regression) -> MethodRow:
 def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> MethodRow | None:
     """The row delta^2, or None where it is no multiplier of this closed loop.
 
-    It is one under NPD with the loop through Theta'' solved, in continuous time on even ground,
-    without torque limit, friction, disturbance or model error, on a constraint that ends on the
-    ground and that the impact does not leave.
+    It is one under NPD with `solve_theta`, in continuous time on even ground, without torque limit, friction,
+    disturbance or model error, for a constraint at whose end the swing foot is on the ground and which is
+    hybrid invariant (`invariance_gap`).
     """
     law, h = walker.controller, getattr(walker.controller, "reference", None)
     if type(law) is not NPDController or type(h) is not VirtualConstraint or not law.solve_theta:
@@ -313,10 +323,10 @@ def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> MethodRow | Non
 
 
 def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
-    """How far the impact at the end of the constraint leaves it; zero for a hybrid invariant one.
+    """How far the state after impact is from the constraint q_b = h(Theta); zero for a hybrid invariant one.
 
-    The larger of max |q_b+ - h(Theta+)| [rad] and max |q_b'+ - h' Theta'+| [rad/s] at |Theta'-| = 1
-    rad/s.
+    The larger of max |q_b+ - h(Theta+)| [rad] and max |q_b'+ - h' Theta'+| [rad/s], after an impact at the end
+    of the constraint with |Theta'-| = 1 rad/s.
     """
     zero = ZeroDynamics.of(biped, constraint)
     q, v = zero.end_state(1.0)
@@ -337,7 +347,7 @@ def stability_table(
 ) -> StabilityTable:
     """The table at the fixed point of `step`, as `variational.periodic_orbit` finds it.
 
-    differences: also take central differences of P, which cost 4 returns per coordinate. Raises
+    differences: also take central differences of P, which cost 4 steps of walking per coordinate. Raises
     InputError when |P(s) - s| of the step is above `tolerances.cycle`: its eigenvalues are then no
     multipliers.
     """

@@ -281,7 +281,7 @@ class StepDerivative(Shown):
     end_flow: Array
     """f- in section coordinates (2 n - 1,): how the image moves per second that the event is found late."""
     earlier: Array
-    """-dt/ds (2 n - 1,) [s/rad, s^2/rad] of the time t of the impact: dP/ds has the part f- times this."""
+    """-dt/ds (2 n - 1,) [s/rad, s^2/rad] of the time t of impact: dP/ds has the part minus f- times this."""
 
     @property
     def multipliers(self) -> ComplexArray:

@@ -1,11 +1,13 @@
 """One cell of the comparison's table: the walks of one controller under one condition, and their statistics.
 
-Every walk is in one of three classes: it fell or ended otherwise, it made all steps, or it made all steps
-legally, that is within dry friction, torque limits and without scuffing. Only the last class counts as
-success, since the model's foot is pinned to the ground and would walk where no real ground holds it.
+A walk makes all its steps, or it does not (it fell, or ended otherwise). If it does, every step may be legal:
+the ground only pushes, within dry friction, torques are within their limits, and the swing foot does not scuff.
+Only legal walks count as success, since the model's foot is pinned and walks where no real ground holds it.
 
-Shares are over the walks for which the answer is known, with Wilson's interval; medians have bootstrap
-intervals (`analysis.statistics`). Made by `bench.comparison`, read by `bench.findings` and the page.
+A share is (value, low, high) with Wilson's interval, dimensionless: `survived` and `legal` of all walks,
+`reasons` and `impulse` of those walks that made all steps and have a value in the column. Medians have
+bootstrap intervals (`analysis.statistics`). Made by `bench.comparison`, read by `bench.findings` and the
+comparison's page.
 """
 
 from __future__ import annotations
@@ -20,8 +22,9 @@ from biped_adrc.errors import InputError
 from biped_adrc.viz.comparison_text import MEASURES, NEEDS, REASONS
 
 IMPULSE = "bad_impulse"
-"""Column of the impulse at impact. It is reported apart and does not make a walk illegal: the gait itself
-breaks the limit undisturbed in some presets.
+"""Column: 1 where |F_T| / F_N of the impulse at some impact is above the coefficient of friction, else 0.
+
+It is reported apart and makes no walk illegal: in some presets the gait itself does so without a disturbance.
 """
 
 
@@ -33,7 +36,8 @@ def is_made(row: Row) -> bool:
 def is_legal(row: Row) -> bool:
     """Whether the walk made all steps, each of them legally.
 
-    Raises InputError where the row does not say so, as rows of older versions.
+    Raises InputError for a walk that made all steps without a value in the column `legal`, as older versions
+    wrote.
     """
     if is_made(row) and row.get("legal") is None:
         raise InputError(
@@ -60,39 +64,44 @@ class Cell:
     walks: tuple[Row, ...]
     """Rows with the columns of `bench.run.COLUMNS`, in the order of the seeds."""
     bandwidth: float | None = None
-    """Of all observer poles [rad/s]; None for the controller's own settings."""
+    """All poles of the observer are at minus this [rad/s]; None for the controller's own settings."""
 
     @property
     def survived(self) -> Interval:
-        """Share of the walks that make all steps, with its interval."""
+        """Share of all walks that make all steps, with its interval."""
         return share(sum(is_made(w) for w in self.walks), len(self.walks))
 
     @property
     def legal(self) -> Interval:
-        """Share of the walks that make all steps legally, with its interval."""
+        """Share of all walks that make all steps and each of them legally, with its interval."""
         return share(sum(is_legal(w) for w in self.walks), len(self.walks))
 
     @property
     def falls(self) -> dict[str, int]:
-        """How the walks that do not make all steps ended: number by status."""
+        """How the other walks ended, which do not make all steps: number of walks by name of status."""
         ended = [str(w["status"]) for w in self.walks if not is_made(w)]
         return {status: ended.count(status) for status in sorted(set(ended))}
 
     @property
     def reasons(self) -> dict[str, Interval]:
-        """By limit: share of the walks that make all steps and break it. One walk may break several."""
+        """Which limits were broken: for each column of `REASONS` the share among the walks that make all steps.
+
+        One walk may break several.
+        """
         return self._shares(REASONS)
 
     @property
     def impulse(self) -> Interval | None:
-        """Share of the walks that make all steps in which an impact needs more friction than there is; None if
-        unknown.
+        """How often an impact needs more friction than there is: the share among the walks that make all steps.
+
+        None where no such walk has a value in the column `IMPULSE`.
         """
         return self._shares({IMPULSE: ""}).get(IMPULSE)
 
     def _shares(self, names: Mapping[str, str]) -> dict[str, Interval]:
-        """For each 0/1 column the share of ones among the walks that make all steps; columns without values are
-        left out.
+        """For each 0/1 column the share of ones, among the walks that make all steps and have a value there.
+
+        names: columns, with headings that are not used. Columns without values are left out.
         """
         rows = [w for w in self.walks if is_made(w)]
         told = {name: [w[name] for w in rows if w.get(name) is not None] for name in names}
@@ -101,7 +110,7 @@ class Cell:
     def medians(
         self, names: Mapping[str, str], which: Callable[[Row], bool] = is_legal
     ) -> dict[str, Interval | None]:
-        """Medians of these columns over the walks of the class `which`; None where no walk has a number."""
+        """Medians of these columns over the walks for which `which` is true; None where none has a number."""
         rows = [w for w in self.walks if which(w)]
         return {name: median([number(w, name) for w in rows]) for name in names}
 

@@ -1,14 +1,16 @@
-"""Published orbits: the fixed point x* with gait (a) through it, and cycles of robots without motors.
+"""Published orbits: the paper's fixed point x* with gait (a) through it, and cycles of robots without motors.
 
-As printed, x* puts the swing foot 0.13 mm under the ground. q1..q4 are moved onto the section by less than
-half a unit of their last printed digit; q5, printed with four decimals, and the rates are kept.
+x* is the state just before impact of the paper's periodic walk (its section VI), gait (a) the virtual
+constraint made here so that its orbit passes through x* (`through_state`). As printed, x* puts the swing foot
+0.13 mm under the ground. So q1..q4 are moved until the foot is on the ground, by less than half a unit of their
+last printed digit; q5, printed with four decimals, and the rates are kept.
 
 A cycle of a robot without motors is a slope, and the state just after an impact on it. It is stored as a small
-readable TOML file `gaits/<robot>/<preset>.toml` with its source. The numbers are as they were published, a
-start for Newton on the return map and nothing more (`scenario.run.known_cycle`).
+readable TOML file `gaits/<robot>/<preset>.toml` with its source. The numbers are as they were published; they
+only start Newton's method on the return map, which finds the cycle itself (`scenario.run.known_cycle`).
 
 `design_published_gait` is run once, by `biped-adrc gait published`, to make the stored gait file; walks load
-that.
+that file.
 """
 
 from __future__ import annotations
@@ -37,17 +39,17 @@ class PassiveCycle:
     source: str
     """Publication that the numbers are from."""
     slope: float
-    """Of the ground [rad], positive downhill."""
+    """Slope of the ground [rad], positive downhill."""
     max_step_time: float
-    """[s]: a longer single support is no step of this robot."""
+    """Longest single support [s]; a longer one ends the walk."""
     q_plus: Array
-    """(n,) just after impact [rad]."""
+    """Coordinates (n,) just after impact [rad]."""
     v_plus: Array
-    """(n,) [rad/s]."""
+    """Rates (n,) just after impact [rad/s]."""
 
 
 def passive_cycle(biped: Biped) -> PassiveCycle:
-    """The stored cycle of this robot and preset: <preset>.toml beside its record, or of the package.
+    """Load the cycle of this robot and preset: <preset>.toml beside the robot's URDF, else the package's.
 
     Raises GaitError that names the file, what was found and what was expected.
     """
@@ -74,14 +76,14 @@ def passive_cycle(biped: Biped) -> PassiveCycle:
 
 
 X_STAR = read_only([3.247, 3.672, -0.622, -0.644, -0.0104, -0.298, 0.340, -1.578, 1.370, -0.170])
-"""x* of section VI, (q, q') just before impact [rad, rad/s]."""
+"""x* (10,) as printed in the paper's section VI, (q, q') just before impact [rad, rad/s]."""
 
 PUBLISHED_MULTIPLIERS = (0.640, 0.640, 0.844, 0.844, 0.237, 0.237, 0.138, 0.354, 0.354, 0.6609)
-"""|lambda(Phi)| of section VI, from the regression (27) on a disturbed walk."""
+"""|lambda| (10,) as printed in the paper's section VI, from its regression (27) on a disturbed walk."""
 
 
 def design_published_gait(biped: Biped, degree: int = 6, limits: GaitLimits | None = None) -> Gait:
-    """Gait (a): least torque among the Bezier constraints whose periodic orbit passes through x*.
+    """Gait (a): of the Bezier constraints whose periodic orbit passes through x*, the one of least int u'u dt.
 
     degree: of the curves. limits: of friction, torque, clearance and knees. Raises GaitError when there is
     none.

@@ -101,7 +101,7 @@ class RunOptions:
     stop_after: tuple[str, int] | None = None
     """(guard, count): end after that many events of that guard; then reaching t_end first is a TIME_OUT."""
     max_events: int = 100_000
-    """A run with more events ends as EVENT_LIMIT: events that accumulate (Zeno) would never end."""
+    """A run with so many events ends as EVENT_LIMIT: events that accumulate (Zeno) would never end."""
     store_every: int = 1
     """Keep each k-th step for dense output."""
     progress: Progress | None = None

@@ -1,29 +1,33 @@
-"""The planar tree in absolute angles: closed forms for any planar robot, read off its Pinocchio model.
+"""The dynamics of a planar robot as formulas, with numbers read off its Pinocchio model.
+
+    D_s(q) q'' + Omega(q, q') = B_s u + zeta,   Omega = C q' + G_s
 
 Pinocchio computes numbers only. Gait design (CasADi) and the compiled engine (code generated from
 expressions) need the dynamics as formulas, which this module gives for any planar robot.
 
-With a = A q the absolute angles of the links, every point c fixed to the robot is a sum of turned
-vectors, written as complex numbers x + i z from the stance foot:
+a = A q (n,) are the absolute angles of the links, counter-clockwise with x to the right and z up, zero for a
+link that points up. The place x + i z of every point fixed to the robot, as a complex number [m] from the
+stance foot, is a sum of turned vectors with constant complex numbers d (n,) [m], one number per link:
 
-    c = sum_i d_i exp(i a_i)
+    x + i z = sum_i d_i exp(i a_i)
 
-so that, with d_k the COM of link k, m_k its mass, J_k its inertia about the COM, W = sum_k m_k d_k*
-d_k', and w = sum_k m_k d_k, and with c = cos a, s = sin a,
+Let d_k (n,) be those of the COM of link k, m_k its mass, J_k its inertia about the COM, and o the product entry
+by entry. Then in absolute angles, with c = cos a and s = sin a,
 
+    W_ij = sum_k m_k conj(d_ki) d_kj,   w_i = sum_k m_k d_ki
     C_ij = cos(a_j - a_i) = c_i c_j + s_i s_j,   S_ij = sin(a_j - a_i) = c_i s_j - s_i c_j
 
-    D = Re W o C - Im W o S + diag J,   Omega = -(Re W o S + Im W o C) a'^2 + g Re(w exp(i a))
+    D_a = Re W o C - Im W o S + diag J,   Omega_a = -(Re W o S + Im W o C) (da/dt)^2 + g Re(w o exp(i a))
 
-taken to the coordinates by A, with the rotors added. The vectors d are fitted to Pinocchio's own
-positions, where the fit is exact, and the terms are compared to Pinocchio's before anything uses
-them. The functions take numbers and object arrays of symbols alike: NumPy asks each symbol for its
-`cos` and `sin`.
+and in the coordinates D_s = A^T D_a A + diag rotor, Omega = A^T Omega_a. (C_ij here are cosines, not the
+Coriolis matrix C above.) The vectors d are fitted to Pinocchio's own positions, where the fit is exact, and D_s
+and Omega are compared to Pinocchio's before anything uses them. The functions take numbers and object arrays of
+symbols alike: NumPy asks each symbol for its `cos` and `sin`.
 
 `wrench_torque` is the generalised force of a force and a moment at a point fixed to a link, for
-disturbances: with J(q) the Jacobian of the point, and the link's own absolute angle b q,
+disturbances: with J(q) (2, n) the Jacobian of the point, and b (n,) that of the link's own absolute angle,
 
-    zeta = J' (F_x, F_z) + b' M
+    zeta = J^T (F_x, F_z) + b^T M
 """
 
 from __future__ import annotations
@@ -42,15 +46,16 @@ from biped_adrc.model.pinned import frame_index
 from biped_adrc.types import Array, ComplexArray
 
 Numbers = TypeVar("Numbers", Array, NDArray[np.object_])
-"""Arrays of numbers, or of symbols that stand for numbers; functions of both return the same kind."""
+"""Arrays of numbers, or of symbols; a function that is given one kind returns the same kind."""
 EXACT = 1e-11
 """Largest difference to Pinocchio's D_s, Omega, swing foot and hip, relative to their largest entry."""
 
 
 class PlantArrays(NamedTuple):
-    """The numbers of n links, float64. The engine passes them at run time, so that one compilation
-    serves all robots of the same structure. Vectors d are complex, stored as real and imaginary
-    part.
+    """The numbers of the module's formulas for n links, float64: masses, lengths and inertias.
+
+    The engine passes them at run time, so that one compilation serves all robots of the same structure. Complex
+    vectors are stored as real and imaginary part.
     """
 
     W_re: Array
@@ -58,9 +63,9 @@ class PlantArrays(NamedTuple):
     W_im: Array
     """Im W (n, n) [kg m^2]."""
     inertia: Array
-    """Re W_ii + J_i (n,) [kg m^2]."""
+    """Re W_ii + J_i (n,) [kg m^2], the diagonal of D_a."""
     rotor: Array
-    """Reflected inertia of the coordinates (n,) [kg m^2]."""
+    """Inertia of the motors' rotors, reflected to the coordinates (n,) [kg m^2]; 0 without a motor."""
     w_re: Array
     """Re w (n,) [kg m]."""
     w_im: Array
@@ -76,7 +81,7 @@ class PlantArrays(NamedTuple):
     mass: float
     """Total mass of the robot [kg]."""
     gravity: float
-    """[m/s^2]."""
+    """Gravity g [m/s^2]."""
 
 
 class Joined(Protocol):
@@ -89,16 +94,16 @@ class Joined(Protocol):
 
 @dataclass(frozen=True)
 class PlanarTree:
-    """A planar robot of n links: how they are joined (A), and their numbers (K)."""
+    """A planar robot of n links: which coordinates turn which link (A), and the numbers of the formulas (K)."""
 
     A: NDArray[np.int_]
-    """a = A q (n, n), integers."""
+    """Matrix (n, n) of integers, a = A q: row i has the coordinates whose sum is the angle of link i."""
     K: PlantArrays
     """Masses, lengths and inertias."""
 
     @classmethod
     def of(cls, biped: Biped) -> PlanarTree:
-        """Read the closed form off the model of a robot, and check it.
+        """The tree of a robot: A and K from its Pinocchio model, checked against it.
 
         Raises ModelError when the robot is not a planar tree of rigid links.
         """
@@ -114,9 +119,9 @@ class PlanarTree:
         return cls(A.astype(int), K).check(biped)
 
     def check(self, biped: Biped, samples: int = 20) -> PlanarTree:
-        """The tree itself, once D_s, Omega and the swing foot agree with Pinocchio's at random states to EXACT.
+        """Compare D_s, Omega and the swing foot with Pinocchio's at random states, and return this tree.
 
-        Raises ModelError otherwise.
+        Raises ModelError where one differs by more than EXACT, relatively.
         """
         random, K = np.random.default_rng(2), self.K
         names = ("D_s", "Omega", "the swing foot")
@@ -137,17 +142,17 @@ class PlanarTree:
 
     @property
     def foot(self) -> ComplexArray:
-        """Vectors d of the swing foot (n,) [m]: p_2 = sum_i d_i exp(i a_i)."""
+        """Vectors d of the swing foot (n,) [m], whose place is x + i z = sum_i d_i exp(i a_i)."""
         return self.K.foot_re + 1j * self.K.foot_im
 
     @property
     def hip(self) -> ComplexArray:
-        """Vectors d of the hip (n,) [m]."""
+        """Vectors d of the hip (n,) [m], as those of the foot."""
         return self.K.hip_re + 1j * self.K.hip_im
 
     @property
     def leg(self) -> float:
-        """Length of the stretched stance leg [m]."""
+        """Length of the stretched stance leg [m]: sum_i |d_i| of the hip."""
         return float(np.sum(np.abs(self.hip)))
 
 
@@ -159,11 +164,11 @@ def _parts(z: ComplexArray) -> tuple[Array, Array]:
 def fitted(
     A: Array, places: Callable[[Array], Array], exact: float
 ) -> tuple[ComplexArray, float, float]:
-    """Vectors d (points, n) [m] of points fixed to links, from their places (points, 2) [m] at angles q.
+    """Find the vectors d (points, n) [m] of points fixed to links, by least squares over random angles.
 
-    A is the matrix of the absolute angles (n, n); `places` maps q (n,) [rad] to the places. Also
-    returns the largest gap of the fit and the farthest place [m]; parts below `exact` of that, or
-    of 1 m where nothing is so far, are round-off and set to 0.
+    A is the matrix of the absolute angles (n, n); `places` maps q (n,) [rad] to the places (points, 2) [m].
+    Also returns the largest error of the fit [m] and the largest distance of a place from the origin [m]. Parts
+    of d below `exact` times that distance, or times 1 m where it is smaller, are round-off and set to 0.
     """
     n = len(A)
     q = np.random.default_rng(1).uniform(-np.pi, np.pi, (3 * n + 3, n))
@@ -194,7 +199,7 @@ def turned(robot: Joined, q: Numbers) -> Turned[Numbers]:
 def inertia_and_bias(
     robot: Joined, K: PlantArrays, q: Numbers, v: Numbers
 ) -> tuple[Numbers, Numbers]:
-    """D_s (n, n) [kg m^2] and Omega (n,) [N m] at q (n,) [rad], v (n,) [rad/s], by the module's formulas."""
+    """D_s (n, n) [kg m^2] and Omega (n,) [N m] at q (n,) [rad], q' = v (n,) [rad/s], by the formulas above."""
     t, A = turned(robot, q), robot.A
     C, S = _differences(t)
     D = K.W_re * C - K.W_im * S
@@ -209,7 +214,10 @@ def inertia_and_bias(
 def gravity_and_turning(
     robot: Joined, K: PlantArrays, t: Turned[Numbers], v: Numbers
 ) -> tuple[Numbers, Numbers]:
-    """G_s (n,) [N m], and C' q' = dT/dq (n,) [N m], at the angles t and rates v (n,) [rad/s]."""
+    """Gravity G_s = dV/dq (n,) [N m], and dT/dq = C^T q' (n,) [N m], of potential and kinetic energy V, T.
+
+    t: cosines and sines of the absolute angles. v = q' (n,) [rad/s]. C is the Coriolis matrix.
+    """
     A, rate = robot.A, robot.A @ v
     C, S = _differences(t)
     turning = rate * ((K.W_re * S + K.W_im * C) @ rate)
@@ -217,14 +225,18 @@ def gravity_and_turning(
 
 
 def _differences(t: Turned[Numbers]) -> tuple[Numbers, Numbers]:
-    """cos and sin of a_j - a_i off the diagonal (n, n), 0 on it: there they are 1 and 0 exactly."""
+    """cos and sin of a_j - a_i (n, n), with 0 on both diagonals.
+
+    On the diagonal the cosine is 1: this adds a constant to D_a, which `PlantArrays.inertia` has, and nothing
+    to Omega_a, since Im W_ii = 0.
+    """
     off = 1.0 - np.eye(len(t.c))
     C = (np.outer(t.c, t.c) + np.outer(t.s, t.s)) * off
     return C, (np.outer(t.c, t.s) - np.outer(t.s, t.c)) * off
 
 
 def _weight(K: PlantArrays, t: Turned[Numbers]) -> Numbers:
-    """dV/da (n,) [N m], gravity in absolute angles."""
+    """dV/da = g Re(w o exp(i a)) (n,) [N m], gravity in absolute angles."""
     return K.gravity * (K.w_re * t.c - K.w_im * t.s)
 
 
@@ -239,7 +251,10 @@ def jacobian(robot: Joined, t: Turned[Numbers], re: Array, im: Array) -> Numbers
 
 
 def ground_reaction(robot: Joined, K: PlantArrays, q: Numbers, v: Numbers, a: Numbers) -> Numbers:
-    """Force (F_T, F_N) (2,) [N] of the ground on the stance foot, for q'' = a (n,): m (p_com'' - g)."""
+    """Force (F_T, F_N) (2,) [N] of the ground on the stance foot, along x and z: m (p_com'' - gravity).
+
+    q (n,) [rad], v = q' (n,) [rad/s]; a = q'' (n,) [rad/s^2], not the absolute angles.
+    """
     t, rate2 = turned(robot, q), (robot.A @ v) ** 2
     F_x, F_z = jacobian(robot, t, K.w_re, K.w_im) @ a
     x, z = point(Turned(t.c * rate2, t.s * rate2), K.w_re, K.w_im)
@@ -247,7 +262,7 @@ def ground_reaction(robot: Joined, K: PlantArrays, q: Numbers, v: Numbers, a: Nu
 
 
 POINT_EXACT = 1e-10
-"""Largest gap of the fit of a `LinkPoint`, relative to the farthest place of the point."""
+"""Largest error of the fit of a `LinkPoint`, relative to the point's largest distance from the stance foot."""
 
 
 class LinkPoint(NamedTuple):
@@ -260,7 +275,7 @@ class LinkPoint(NamedTuple):
     im: Array
     """Im d (n,) [m]."""
     turn: Array
-    """b (n,): rate of the link's absolute angle per rate of the coordinates, dimensionless."""
+    """b (n,), dimensionless: the derivative of the link's absolute angle with respect to q."""
 
 
 def wrench_torque(k: LinkPoint, q: Array, f: Array) -> Array:
@@ -307,14 +322,14 @@ def hip_point(biped: Biped) -> LinkPoint:
 
 
 def _moves(biped: Biped, link: str) -> bool:
-    """Whether a link hangs on the trunk, and so moves with the coordinates."""
+    """Whether a link is the trunk or hangs below it in the URDF, and so moves with the coordinates."""
     return biped.tree.path_below(link, biped.description.trunk) is not None
 
 
 def _fitted(biped: Biped, place: Callable[[Array], Array], turn: Array, name: str) -> LinkPoint:
-    """The `LinkPoint` of a point whose place (x, z) [m] is a function of q (n,) [rad].
+    """The `LinkPoint` of a point, fitted to its place (x, z) [m] as a function of q (n,) [rad].
 
-    Raises ModelError where the fit is not exact.
+    turn: b (n,) of the link. name: of the point, for messages. Raises ModelError where the fit is not exact.
     """
     _, _, A = biped.pinned.bodies()
     (d,), gap, size = fitted(A, place, POINT_EXACT)

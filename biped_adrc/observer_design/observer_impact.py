@@ -2,14 +2,17 @@
 
     e' = A^ e   (19),   e(0+) = what is true after impact - what the reset makes of the estimates before it
 
-At an impact velocities and xi jump; each `ResetPolicy` guesses the new states differently. Before
-impact the estimates are taken as right, along the gait's periodic orbit: q_b, q_b', xi and its
-first derivatives. The torque that the error costs is the deviation
+The true states are q_b, q_b', the total disturbance xi (p,) [rad/s^2] of q_b'' = kappa u + xi (13), and
+derivatives of xi in time. e_1, e_2, e_3 (p,) are the errors of the first three, and A^ is the observer's
+matrix.
+
+At an impact velocities and xi jump; each `ResetPolicy` sets the estimates in another way. The gait walks its
+periodic orbit, and just before impact the estimates have no error. The torque that the error costs is
 
     u - u* = kappa^-1 (K_p e_1 + K_d e_2 + e_3)
 
-from the torque of right estimates, with kappa as it is just after impact. The model is linear, so
-it knows neither the torque limit nor a fall. `observer_tables` shows one row per reset policy.
+its deviation from the torque u* of exact estimates. kappa is constant, its value just after impact. The model
+is linear, so it knows neither the torque limit nor a fall. `observer_tables` shows one row per reset policy.
 """
 
 from __future__ import annotations
@@ -32,9 +35,13 @@ from biped_adrc.types import Array
 DEGREE = 20
 """Degree of the polynomial in time that approximates xi along the orbit."""
 DERIVATIVES = 3
-"""How many derivatives of xi are taken from it; higher ones count as known, since the fit is too rough."""
+"""How many derivatives of xi are taken from it. Higher ones, for which the fit is too rough, are set to zero
+before and after impact, and so give no error.
+"""
 INSTANTS, LONG = 400, 8.0
-"""Of the response, and its length in time constants of the slowest pole."""
+"""Number of instants after t = 0 at which the response is computed; its length in time constants of the slowest
+pole.
+"""
 
 
 class ImpactPeak(NamedTuple):
@@ -60,14 +67,15 @@ class ImpactStates(NamedTuple):
     after: Array
     """True states just after impact, in the coordinates of the next step (order, p)."""
     swap: NDArray[np.int_]
-    """Permutation of the joints at impact (p,), ints."""
+    """Permutation (p,), ints: the legs swap at impact, so joint i after it was joint swap[i] before."""
     inertia: Array
     """kappa^-1 (p, p) just after impact [kg m^2]."""
 
 
 def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
-    """The impact of the gait's periodic orbit, for an observer with `order` = m + 2 states per joint.
+    """True states just before and after the impact of the gait's periodic orbit.
 
+    order: states per joint of the observer, m + 2: q_b, q_b', and m for xi and its derivatives.
     Raises GaitError where the gait has no periodic orbit.
     """
     orbit = ZeroDynamics.of(biped, gait.constraint).cycle
@@ -89,9 +97,9 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
 
 
 def _times(theta: Array, rate: Array, start: float) -> Array:
-    """Time at the nodes (K,) [s]: the integral of 1 / Theta' from the start of the step.
+    """Time since the start of the step at the nodes (K,) [s]: the integral of dTheta / Theta'.
 
-    theta (K,) [rad] and rate Theta' (K,) [rad/s] along the orbit; start: Theta+ [rad].
+    theta (K,) [rad] and rate Theta' (K,) [rad/s] at the nodes; start: Theta+ [rad], Theta as the step begins.
     """
     slowness = Chebyshev.fit(theta, 1.0 / rate, DEGREE)
     whole = slowness.integ()
@@ -99,7 +107,10 @@ def _times(theta: Array, rate: Array, start: float) -> Array:
 
 
 def reset_error(impact: ImpactStates, policy: ResetPolicy) -> Array:
-    """e(0+) (order, p) in physical units, [rad], [rad/s], [rad/s^2], ..., that a reset policy leaves."""
+    """The error e(0+) just after impact under a reset policy: true states minus estimates.
+
+    (order, p) in physical units: rows [rad], [rad/s], [rad/s^2], ....
+    """
     estimate = impact.before if policy is ResetPolicy.NONE else impact.before[:, impact.swap]
     estimate = estimate.copy()
     if policy in (ResetPolicy.MEASURED, ResetPolicy.MODEL):
@@ -113,9 +124,10 @@ def reset_error(impact: ImpactStates, policy: ResetPolicy) -> Array:
 def impact_peak(
     observer: GPIObserver, impact: ImpactStates, policy: ResetPolicy, gains: Gains = TABLE_II
 ) -> ImpactPeak:
-    """Peaks of the response to e(0+), over LONG time constants; e_3 = 0 for m = 0, which has no xi^.
+    """Largest errors and torque deviation after an impact: peaks of the response to e(0+).
 
-    The response is computed in scaled states, by matrix exponentials at each time.
+    Over LONG time constants of the slowest pole, in scaled states, by a matrix exponential at each instant.
+    For m = 0 the observer has no estimate of xi, and e_3 counts as 0.
     """
     w, k = observer.scale, observer.order
     E = reset_error(impact, policy) / w ** np.arange(k)[:, np.newaxis]

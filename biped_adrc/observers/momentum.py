@@ -1,21 +1,28 @@
-"""Momentum observer: the generalised force zeta that the model does not know, from the momentum alone.
+"""Momentum observer: from the momentum alone, an estimate r of the force zeta that the model does not know.
 
-    pi = D q',   pi' = beta + zeta,   beta = C' q' - G + B u
-    pi^' = beta + r   + l_1 (pi - pi^)
-    r'   =        r'^ + l_2 (pi - pi^)
+zeta (n,) [N m] is generalised, in the coordinates q (n,) [rad]; ^ is an estimate.
+
+    pi = D q' [kg m^2/s],   dpi/dt = beta + zeta,   beta = C^T q' - G + B u [N m]
+
+    dpi^/dt = beta + r      + l_1 (pi - pi^)
+    dr_0/dt =        r_1    + l_2 (pi - pi^),   r = r_0
      ...
+    dr_(k-2)/dt =             l_k (pi - pi^)
 
-No acceleration and no inverse of D is needed. With one pole, r = l_1 (pi - pi^) is the residual of De Luca,
-Albu-Schaeffer, Haddadin, Hirzinger, IROS 2006; with two, r is a state of its own as in the disturbance observer
-of Chen, Ballance, Gawthrop, O'Reilly, IEEE Trans. Industrial Electronics 47(4), 2000, and a constant zeta is
-found without error while pi - pi^ goes to zero too; with k poles a polynomial of degree k - 2 is.
-With chi the polynomial of the poles
+r_1, r_2, ... are estimates of the derivatives of zeta. Only the momentum pi is measured: no acceleration and no
+inverse of D is needed. With one pole there would be no r_0, and r = l_1 (pi - pi^) is the residual of De Luca,
+Albu-Schaeffer, Haddadin, Hirzinger, IROS 2006. Here there are two poles or more. With two, r is a state of its
+own as in the disturbance observer of Chen, Ballance, Gawthrop, O'Reilly, IEEE Trans. Industrial Electronics
+47(4), 2000: for constant zeta the errors zeta - r and pi - pi^ go to zero. With k poles they do so for a zeta
+that is a polynomial in time of degree k - 2. With chi(s) = s^k + l_1 s^(k-1) + ... + l_k the polynomial of the
+poles
 
     zeta - r = s^(k-1) (s + l_1) / chi(s) zeta
 
-States are scaled as in the GPI observer: z_1 = pi^, z_k = r^(k-2) / w^(k-1) for k from 2 on.
+The states Z (k, n) have one column per coordinate; row i, counted from 0, is the module's state divided by
+scale^i, with scale the geometric mean of the poles [rad/s] (1/T in the discrete form), as in the GPI observer.
 
-The rows are of all n coordinates, q_N among them, so r has a part that no motor can cancel.
+The rows of zeta are all n coordinates, the unactuated q_N among them, so r has a part that no motor can cancel.
 """
 
 from __future__ import annotations
@@ -49,7 +56,7 @@ from biped_adrc.types import Array
 
 
 class MomentumParameters(NamedTuple):
-    """gains (k,), dimensionless; scale: w [rad/s] by which states are scaled; order: the number k of poles."""
+    """Gains l_i / scale^i (k,), dimensionless, the scale [rad/s] of the states, and the number k of poles."""
 
     gains: Array
     scale: float
@@ -57,7 +64,10 @@ class MomentumParameters(NamedTuple):
 
 
 def momentum_flow(k: MomentumParameters, Z: Array, y: Array, input: Array) -> Array:
-    """Z' (k, n) for scaled states Z, momentum y (n,) and the known force beta (n,)."""
+    """dZ/dt (k, n) by the module's equations, in scaled states Z (k, n).
+
+    y = pi (n,) is the momentum [kg m^2/s], input = beta (n,) the known force [N m].
+    """
     w = k.scale
     dZ = w * np.outer(k.gains, y - Z[0])
     dZ[:-1] += w * Z[1:]
@@ -66,22 +76,22 @@ def momentum_flow(k: MomentumParameters, Z: Array, y: Array, input: Array) -> Ar
 
 
 def momentum_state(k: Chain, x: Estimate) -> Array:
-    """Z (k, n) that agrees with x, derivatives of r zero."""
+    """Z (k, n) with pi^ = x.position and r = x.disturbance, each (n,); the derivatives of r are zero."""
     Z = np.zeros((k.order, len(x.position)))
     Z[0], Z[1] = x.position, x.disturbance / k.scale
     return Z
 
 
 def momentum_estimate(k: Chain, Z: Array) -> Estimate:
-    """pi^, 0 and r in Z (k, n)."""
+    """The estimate in Z (k, n): position pi^ [kg m^2/s], disturbance r [N m], each (n,); velocity 0, unused."""
     return Estimate(Z[0], np.zeros(Z.shape[1]), Z[1] * k.scale)
 
 
 def momentum_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) -> Array:
-    """Z after impact; swap (n,) relabels the coordinates, x.position is the momentum after it.
+    """Z (k, n) after impact; the impact does not end the force that r estimates, so every policy keeps r.
 
-    r is the force of something outside the model, which the impact does not end and the model does not know:
-    all policies keep it, relabelled but for NONE. MODEL makes its derivatives zero.
+    NONE changes nothing. The others relabel the coordinates by swap (n,), as the legs swap; MEASURED and MODEL
+    also set pi^ to x.position, the momentum after impact, and MODEL sets the derivatives of r to zero.
     """
     if policy == NONE:
         return Z
@@ -95,9 +105,10 @@ def momentum_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) ->
 
 @dataclass(frozen=True)
 class MomentumChain(Observer):
-    """What the observer and its discrete form share; z is (k, n) flattened, poles and `scale` in [rad/s].
+    """What both forms of the observer share: poles (k,) [rad/s] of the continuous form, scale [rad/s].
 
-    A controller around it has to feed it with momentum and force of all n coordinates: `control.momentum_dob`.
+    The state z is Z (k, n) row by row. A controller around it has to feed it with momentum and force of all n
+    coordinates: `control.momentum_dob`.
     """
 
     poles: tuple[complex, ...]
@@ -115,23 +126,26 @@ class MomentumChain(Observer):
 
 @dataclass(frozen=True)
 class MomentumObserver(MomentumChain):
-    """The module's equations. Make it with `from_poles` or `from_bandwidth`."""
+    """The observer in continuous time. Make it with `from_poles` or `from_bandwidth`."""
 
     @classmethod
     def from_poles(cls, poles: Sequence[complex]) -> MomentumObserver:
-        """Two stable poles [rad/s] or more; complex ones in conjugate pairs. Raises InputError."""
+        """The observer with these poles [rad/s]: two or more, with negative real parts, complex ones in pairs.
+
+        Raises InputError for others.
+        """
         checked = GPIObserver.from_poles(_stable(poles))
         return cls(checked.poles, checked.scale)
 
     @classmethod
     def from_bandwidth(cls, bandwidth: float, order: int = 2) -> MomentumObserver:
-        """All poles at -bandwidth [rad/s]. Raises InputError."""
+        """The observer with k = order poles, two or more, all at -bandwidth [rad/s]. Raises InputError."""
         number = whole(order, 2, "k", "the number of poles of a momentum observer")
         return cls.from_poles(equal_poles(bandwidth, number))
 
     @cached_property
     def parameters(self) -> MomentumParameters:
-        """What the laws `momentum_...` need."""
+        """What the functions `momentum_...` of this module need."""
         gains = np.real(np.poly(np.array(self.poles) / self.scale))[1:]
         return MomentumParameters(np.ascontiguousarray(gains), float(self.scale), self.order)
 
@@ -142,29 +156,32 @@ class MomentumObserver(MomentumChain):
         )
 
     def sampled(self, period: float) -> SampledMomentumObserver:
-        """The current (filtered) discrete observer with poles exp(s T)."""
+        """The discrete observer with period T [s] and poles exp(s T), in its current form.
+
+        "Current" means that an estimate at a tick uses the measurement of that same tick.
+        """
         return SampledMomentumObserver.from_poles(self.poles, period)
 
 
 @dataclass(frozen=True)
 class SampledMomentumObserver(MomentumChain):
-    """The discrete observer for one period: that of a chain of integrators, beta entering at its first row.
+    """The discrete observer for one sampling period [s]: a chain of integrators with beta in its first row.
 
-    Exact for a beta that stays as it was at the tick; what it changes by until the next one is seen as a part
-    of zeta, T beta' / 2.
+    beta is held between ticks. Where it changes within a period T this looks like a part of zeta, so that r has
+    an error of about (T / 2) dbeta/dt; for a constant beta it has none.
     """
 
     period: float
 
     @classmethod
     def from_poles(cls, poles: Sequence[complex], period: float) -> SampledMomentumObserver:
-        """Poles s [rad/s] of the continuous observer and the period T [s]. Raises InputError."""
+        """Of the poles s [rad/s] of the continuous observer and the period T [s]. Raises InputError."""
         chain = SampledGPIObserver.from_poles(_stable(poles), period)
         return cls(chain.poles, chain.scale, period)
 
     @cached_property
     def parameters(self) -> SampledGPIParameters:
-        """What the laws `gpi_correct`, `gpi_predict` and `momentum_...` need."""
+        """What the functions `gpi_correct`, `gpi_predict` and `momentum_...` need."""
         chain = SampledGPIObserver.from_poles(self.poles, self.period).parameters
         Gamma = np.zeros(self.order)
         Gamma[0] = self.period

@@ -1,4 +1,6 @@
-"""The controller of a scenario: its class is looked up, and called with what its constructor takes by name.
+"""Make the controller that a scenario names: find its class, and give its constructor the arguments it takes.
+
+Where each argument comes from, by its name:
 
     reference, gait, biped, outputs (y = q_b - h)   from gait and robot
     gains                                           from K_p and K_d
@@ -6,9 +8,11 @@
     reset, solve_theta, torque_limit                the scenario's values of these names
     everything else                                 from `Scenario.own`
 
-A class that takes `inner` goes around another controller, named by the own value `inner`, and has its other
-values from `own` alone. The maker notes which values were taken: one that nothing takes is an error, since the
-user expected an effect from it. `build.build` calls `controller`.
+"Own values" are those in `Scenario.own`: what a controller or observer takes beside the scenario's fields. An
+outer loop is a controller whose constructor takes `inner`, another controller. The own value `inner` names
+that, and the outer loop has gait and robot, and all its other arguments from own values. The maker notes which
+values were taken: one that nothing takes is an error, since the user expected an effect from it. `build.build`
+calls `controller`.
 """
 
 from __future__ import annotations
@@ -35,11 +39,13 @@ GAINS = ("K_p", "K_d")
 OF_OBSERVER = ("observer", "poles", "bandwidth", "order")
 """Fields of a scenario from which `observer` is made."""
 OF_CONTROLLER = (*GAINS, *OF_OBSERVER, "reset", "solve_theta")
-"""Fields of a scenario that either the controller takes, or that have no effect."""
+"""Fields of a scenario that are for the controller alone; a value that it does not take is an error."""
 CONTEXT = ("reference", "gait", "biped", "outputs")
-"""Arguments that gait and robot give."""
+"""Names of the arguments that are made of gait and robot."""
 BY_ITSELF = (*CONTEXT, *OF_CONTROLLER, "gains", "torque_limit")
-"""Arguments that come from the scenario's fields, never from own values; an outer loop has `CONTEXT` alone."""
+"""Arguments that never come from own values, but from the scenario's fields or from gait and robot. For an
+outer loop these are only `CONTEXT`, and `inner`, which is named by an own value.
+"""
 SOURCES = {name: name for name in FIELDS} | {
     "reference": "gait",
     "outputs": "gait",
@@ -52,7 +58,7 @@ SOURCES = {name: name for name in FIELDS} | {
 }
 """For an argument of a constructor, the field of the scenario that it comes from, for messages."""
 MAKER = "from_"
-"""How the names of the class methods begin that make an observer, besides its constructor."""
+"""An observer is made by its constructor, or by a class method whose name begins with this."""
 
 
 @dataclass
@@ -64,14 +70,14 @@ class ControllerMaker:
     biped: Biped
     """The model that the controller has of the robot."""
     used: set[str] = field(default_factory=set)
-    """Fields of the scenario that something took."""
+    """Names of the scenario's fields that some constructor took."""
     mine: set[str] = field(default_factory=set)
-    """Own values that something took."""
+    """Names of own values that some constructor took."""
     known: set[str] = field(default_factory=set)
-    """All arguments that the constructors have."""
+    """Names of all arguments of the constructors called so far, for messages."""
 
     def made(self, name: str) -> Controller:
-        """The controller of this name. Raises InputError for what is missing or does not fit."""
+        """Make the controller of this name. Raises InputError for what is missing or does not fit."""
         entry, what = find("controller", name), f"controller '{name}'"
         make = entry.load()
         outer = "inner" in takes(make)
@@ -84,13 +90,13 @@ class ControllerMaker:
         return made
 
     def _own(self, given: Container[str]) -> dict[str, object]:
-        """Own values of the scenario, without the names in `given`."""
+        """Own values by name, without those whose names are in `given`."""
         return {name: x for name, x in self.s.own.items() if name not in given}
 
     def _seen(
         self, make: Callable[..., object], offered: Iterable[str], mine: Iterable[str]
     ) -> None:
-        """Note which of the offered fields and own values a constructor takes."""
+        """Note which of these fields (`offered`) and own values (`mine`) the constructor `make` takes."""
         accepted = set(takes(make))
         self.known |= accepted
         self.used |= set(offered) & accepted
@@ -103,7 +109,11 @@ class ControllerMaker:
         return {"biped": self.biped, "gait": self.gait, "reference": h, "outputs": outputs}
 
     def _inner(self, what: str, name: str) -> Controller:
-        """The controller inside of `name`: own value `inner`, by default the default controller."""
+        """Make the inner controller of the outer loop `name`: own value `inner`, or the scenario's default.
+
+        what: the outer loop in words, for messages. Raises InputError where `inner` is no name, or `name`
+        itself.
+        """
         inner = self.s.own.get("inner", Scenario.controller)
         if not isinstance(inner, str) or spelled("controller", inner) == name:
             raise InputError(
@@ -114,12 +124,11 @@ class ControllerMaker:
     def _taken(
         self, what: str, make: Callable[..., object], defaults: Mapping[str, object]
     ) -> dict[str, object]:
-        """The scenario's values for a constructor, gains and observer made of theirs.
+        """Arguments by name for the constructor `make`: the scenario's values, gains and observer made of them.
 
-        Gains that are given replace those of the constructor's default, one by one. Poles stand in place of a
-        bandwidth and an order, so the entry's defaults of these are then left out.
-
-        defaults: those of the registry's entry, which hold where the scenario has none.
+        A gain that is given, K_p or K_d, replaces that one of the constructor's default gains. defaults: values
+        of the registry's entry, taken where the scenario has none; but not with poles, which already say what
+        bandwidth and order would. what: the controller in words, for messages.
         """
         given = {name: getattr(self.s, name) for name in OF_CONTROLLER}
         if self.s.poles is None:  # which stand in place of a bandwidth and its order
@@ -144,12 +153,11 @@ class ControllerMaker:
     def _observer(
         self, what: str, make: Callable[..., object], told: Mapping[str, object]
     ) -> Observer | None:
-        """The observer, made by the constructor or the class method of `MAKERS` that takes most of what is
-        given.
+        """Make the observer for the controller `make`; None where nothing is given and its own default holds.
 
-        told: values of the scenario that are given, such as poles, or a bandwidth and an order. Among the ways
-        that lack nothing the one that takes most is called, so that no value is dropped that another way would
-        take. None where nothing is given and the controller's own default holds.
+        told: values that are given, such as poles, or a bandwidth and an order. Ways to make it are the
+        constructor and the class methods `from_...` of its class. Of those ways for which no argument is
+        missing, the one that takes the most values is called. what: the controller in words, for messages.
         """
         usual = _default(make)
         kind = type(usual) if self.s.observer is None else find("observer", self.s.observer).load()
@@ -168,7 +176,7 @@ class ControllerMaker:
 
 
 def _ways(kind: object) -> list[str]:
-    """Names of the methods `from_...` of a class and those above it, in the order they are written."""
+    """Names of the methods `from_...` of a class and its base classes, in the order they are written."""
     classes = getattr(kind, "__mro__", ())
     return list(dict.fromkeys(x for cls in classes for x in vars(cls) if x.startswith(MAKER)))
 
@@ -182,8 +190,9 @@ def _default(make: Callable[..., object]) -> Observer:
 
 
 def controller(s: Scenario, gait: Gait, biped: Biped, others: set[str] | None = None) -> Controller:
-    """The controller of a scenario on this gait, for the model `biped`. others: own values that the push takes.
+    """Make the controller of a scenario on this gait, which knows the robot as the model `biped`.
 
+    others: names of own values that the scenario's push or sensor takes, and so the controller need not.
     Raises InputError for a class that is not there or lacks something, an own value that nothing takes, and a
     value of the scenario that would have no effect.
     """

@@ -35,6 +35,8 @@ from distributed import LocalCluster
 if __name__ == "__main__":
     with LocalCluster(n_workers=int(sys.argv[2]), threads_per_worker=1, processes=True,
                       dashboard_address=None, silence_logs=50) as cluster:
+        # a nanny gives up a worker that is killed while it starts: others are started, as on real clusters
+        cluster.adapt(minimum=int(sys.argv[2]), maximum=int(sys.argv[2]), interval="500ms")
         print(cluster.scheduler_address, flush=True)
         sys.stdin.read()
 """

@@ -1,4 +1,8 @@
-"""An arc from Python: the kernel `arc` with work rows and room for nodes made for it."""
+"""One arc of a walk, the flow between two impacts or a part of it, by the compiled kernel `arc`.
+
+`arc` makes the memory that the kernel needs, work rows and room for nodes. `engine.simulate` calls it for whole
+arcs, `engine.ticks` for the stretches between sample instants.
+"""
 
 from __future__ import annotations
 
@@ -16,22 +20,23 @@ class ArcRun(NamedTuple):
     """Nodes of one arc and how it ended."""
 
     code: int
-    """One of `run_plan.STATUS`, or `layout.STRUCK` for an impact; x is then x-."""
+    """Place in `run_plan.STATUS`, or `layout.STRUCK` for an impact; the state in s is then x-."""
     s: Array
-    """The run vector at the end (HEAD + nx,)."""
+    """The run vector at the end (HEAD + nx,): the head, whose places `layout` names, then the state x."""
     t: Array
     """Node times (m,) [s]."""
     x: Array
-    """States (m, nx)."""
+    """States (m, nx), in their own units."""
     dx: Array
-    """Slopes (m, nx)."""
+    """Their time derivatives (m, nx)."""
 
 
 def arc(made: RunPlan, K: Array, s: Array, every: int = 1, room: int = 1024) -> ArcRun:
-    """One arc from the run vector s (HEAD + nx,) to its first event or END, every k-th step kept.
+    """Integrate one arc from the run vector s (HEAD + nx,) to its first event, or to the time s[END] [s].
 
-    s stays as it was. Where the nodes do not fit into `room` rows, the arc is made again with twice
-    as many.
+    K: parameters of the walker's functions, a vector, see `CompiledWalker.K`. every: each so many-th step is
+    kept as a node. room: rows for nodes; where they do not suffice, the arc is computed again with twice as
+    many. s itself is not changed.
     """
     nx, W = made.nx, made.work()
     while True:

@@ -4,6 +4,10 @@
 method) with names; `plan` checks that they fit together and flattens them into the vectors of
 integers P and floats F, whose places `layout` names. A plan is read only and serves any number of
 runs, in any thread; what changes during a run is in the run vector s and in the work rows W.
+
+In all records t is the time [s], `step` the number of the single support, t_start [s] when that began, x (nx,)
+the state (q, q', and the states of the other parts), and zeta (n,) [N m] the disturbance. An arc is the flow
+between two impacts, a tick a sample instant.
 """
 
 from __future__ import annotations
@@ -36,33 +40,37 @@ STATUS = (
     Status.STEP_FAILED,
     Status.EVENT_LIMIT,
 )
-"""By the code of a kernel; `layout.STRUCK` and `layout.FULL` are no statuses."""
+"""The status for each code that a kernel returns; the codes `layout.STRUCK` and `layout.FULL` have none."""
 
 
 class LawAddresses(NamedTuple):
     """Addresses of the walker's functions `void f(double* K, double* inp, double* out)`, 0 for none.
 
-    zeta is (n,) [N m]. pivot is the least of the matrices inverted, infinite without one; where it
-    is exactly 0 a state that is not finite ends as SINGULAR.
+    K are the parameters, inp and out the values named below. pivot is the smallest |pivot| of the matrices that
+    the controller inverts, infinite without one; 0 means a singular matrix, and the run ends as SINGULAR. The
+    last four are for the exponential method, ETD-RK4, in its coordinates y = (w, E):
+
+        w' = N_w,   E' = A E + N_E
     """
 
     flow: int
-    """(t, step, t_start, x, zeta) -> (dx, pivot); in sampled time only q, v and lagging motors move."""
+    """(t, step, t_start, x, zeta) -> (dx/dt, pivot); in sampled time only q, q' and lagging motors flow."""
     tick: int
     """(t, step, t_start, x, zeta, outside) -> (x after the tick, pivot, q''), in sampled time. outside (5,):
     force from outside (2) [N], its impulse since the last tick (2) [N s], drop of the ground [m]."""
     strike: int
     """(t, step, x) -> (x+, pivot); step is that of the new single support."""
     watch: int
-    """(t, t_start, drop, q) -> witnesses of the guards, in `layout`'s order, and x of the swing foot [m]."""
+    """(t, t_start, drop, q) -> the event functions: clearance of the swing foot [m], height of the hip over its
+    limit [m], time left for the step [s]; then x of the swing foot [m]. An event is where one falls to zero."""
     to: int = 0
-    """x -> y = (w, E), E (k, p) row by row; the coordinates of the exponential method."""
+    """x -> y = (w, E): the slow states w (nw,), and the stiff ones E (k, p) row by row."""
     back: int = 0
     """y -> x."""
     remainder: int = 0
-    """(t, step, t_start, y, zeta) -> (N_w, N_E, pivot), N_E (r, p) in the forced rows only."""
+    """(t, step, t_start, y, zeta) -> (N_w, N_E, pivot), N_E (r, p) only in the r rows `MethodTable.rows`."""
     turn: int = 0
-    """For a matrix M (k, k) in place of K: E -> M E."""
+    """E -> M E, with a matrix M (k, k) given in the argument K."""
 
 
 class StateSizes(NamedTuple):
@@ -75,11 +83,11 @@ class StateSizes(NamedTuple):
     p: int
     """Actuated joints."""
     nw: int = 0
-    """Numbers in w, for the exponential method."""
+    """Numbers in w, read by the exponential method only."""
     k: int = 0
-    """Rows of E (k, p)."""
+    """Rows of E (k, p); 0 without the exponential method."""
     moving: int = 0
-    """How many of the first states flow, all for 0; the others are held between sample instants."""
+    """How many states flow, the first in x; the rest is held between sample instants. 0 means all flow."""
 
 
 class GroundTable(NamedTuple):
@@ -88,7 +96,7 @@ class GroundTable(NamedTuple):
     least_step: float
     """Minimum step length [m]; shorter ground contacts are ignored."""
     drops: Array
-    """(m, 2): rows (single support, height [m] by which the ground is lower where it ends)."""
+    """(m, 2): rows (number of a single support, how much lower [m] the ground is at its end)."""
 
 
 class DisturbanceTable(NamedTuple):
@@ -101,8 +109,8 @@ class DisturbanceTable(NamedTuple):
     offsets: Ints = np.zeros(1, dtype=np.int64)
     """Part i has the parameters K[offsets[i]:offsets[i + 1]]."""
     switches: Array = np.zeros((0, 2))
-    """(m, 2): rows (step, s); the torque is not smooth s [s] after that single support began, or
-    for step 0 at the time s.
+    """Times at which zeta is not smooth, where a step of integration has to end: (m, 2), rows (step, s), s [s]
+    after single support `step` began, or for step 0 the time s itself.
     """
     resultants: tuple[int, ...] = ()
     """Addresses of (t, step, t_start, q, v) -> force (2,) [N] on the robot as a whole, 0 for none."""
@@ -112,13 +120,13 @@ class ClockTable(NamedTuple):
     """When the controller acts."""
 
     period: float = 0.0
-    """[s]; 0 for continuous time."""
+    """Sampling period [s]; 0 for continuous time."""
     restart: int = 1
     """1 where sample instants are counted from the start of each arc, 0 where from t_first."""
     t_first: float = 0.0
     """Start of the run [s]."""
     part: float = 0.0
-    """[s] after each tick at which the waiting torque acts, 0 for none."""
+    """Time [s] from each tick until the torque that waits for a part of a period acts; 0 for none."""
 
 
 class MethodTable(NamedTuple):
@@ -127,28 +135,28 @@ class MethodTable(NamedTuple):
     kind: int
     """layout.RK4, DOP853 or ETD."""
     h: float = 1.0
-    """Fixed step [s]."""
+    """Fixed step [s] of RK4 and ETD."""
     rtol: float = 1.0
     """Relative tolerance of DOP853 [1]."""
     atol: float = 1.0
-    """Absolute tolerance of DOP853."""
+    """Absolute tolerance of DOP853, one number for all states in their own units."""
     max_step: float = 1.0
     """Longest step of DOP853 [s]."""
     phi: Array = np.zeros((0, layout.MATRICES, 0, 0))
-    """Matrices of ETD-RK4 for h and its halvings (levels, 6, k, k)."""
+    """The six matrices of ETD-RK4, in the order of `PhiTable`, for h and its halvings (levels, 6, k, k)."""
     rows: Ints = np.zeros(0, dtype=np.int64)
-    """Rows of E that the remainder enters."""
+    """The rows of E where the remainder N_E is not zero ("forced rows"), ints."""
 
 
 TABLEAU = np.concatenate([getattr(DOP853, name).ravel() for name in ("A", "B", "C", "E3", "E5")])
-"""Coefficients of `scipy.integrate.DOP853` (TABLEAU,), in the order of `layout`."""
+"""Coefficients of `scipy.integrate.DOP853` in one vector of `layout.TABLEAU` numbers, in `layout`'s order."""
 LEAST_PERIOD = 1e-9
-"""Shortest sampling period [s]; what is shorter cannot be counted in floats."""
+"""Shortest sampling period [s]; with shorter ones ticks could not be counted exactly in floats."""
 
 
 @dataclass(frozen=True)
 class RunPlan:
-    """P and F, read only, and the sizes of what a run needs beside them."""
+    """What kernels read of a run: the vectors P and F, and the sizes of the state and of the work memory."""
 
     P: Ints
     """Integers: addresses, sizes, places in F."""
@@ -160,13 +168,13 @@ class RunPlan:
     """Numbers in a work row."""
 
     def work(self) -> Array:
-        """Work rows (ROWS, width), zero; each run that goes on at the same time needs its own."""
+        """New work memory (ROWS, width) of zeros for one run; runs at the same time must not share it."""
         return np.zeros((layout.ROWS, self.width))
 
     def start(self, x: Array, t: float, step: int, t_start: float, end: float) -> Array:
-        """The run vector s (HEAD + nx,) of a run from x (nx,) at t [s] to `end` [s] at the latest,
-        in the single support `step` that began at t_start [s].
+        """The run vector s (HEAD + nx,) with which a run begins: its head, then the state x (nx,).
 
+        From t [s] to `end` [s] at the latest, in the single support `step` that began at t_start [s].
         Raises InputError for a state that is not finite or has another shape.
         """
         x = np.asarray(x, dtype=float)
@@ -187,7 +195,7 @@ def plan(
     clock: ClockTable,
     method: MethodTable,
 ) -> RunPlan:
-    """The plan of these parts. Raises InputError for parts that do not fit together."""
+    """Check these parts and put them into the vectors P and F. Raises InputError where they do not fit."""
     _check(code, sizes, push, clock, method)
     P = np.zeros(layout.P_HEAD, dtype=np.int64)
     P[: len(code)] = code
