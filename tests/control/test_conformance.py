@@ -126,7 +126,7 @@ IN_PYTHON = {"CLF-QP", "output NPD", "finite time", "stride PI", "reference rese
 """Controllers that are methods; all other things of the registry compile."""
 EACH = [(kind, name) for kind, rows in ROWS.items() for name in rows]
 BASES = {
-    ba.Controller: ("control", {"OuterLoop", "ObservingController"}),
+    ba.Controller: ("control", {"OuterLoop", "ObservingController", "AbsentController"}),
     ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
     ba.Disturbance: ("disturbances", {"Windowed", "WindowedTorque"}),
     ba.Reference: ("gait", set()),
@@ -135,7 +135,7 @@ BASES = {
     Sensor: ("hardware", set()),
     Curve: ("gait", {"ControlledCurve"}),
 }
-"""Where leaves are, and what is only a part of them."""
+"""Where leaves are, and what is only a part of them or stands for one that is not there."""
 
 
 def with_curve(h, curve):
