@@ -122,7 +122,7 @@ def third_derivative(h: VirtualConstraint, theta: float) -> Array:
     s = k.rate * (theta - k.theta_plus)
     second = piece(k.curve, s)[-(k.curve.stacked.shape[0] // 3) :, 1:]
     power = k.curve.powers[1:]
-    return k.rate * (second * power) @ s ** (power - 1.0)
+    return k.rate**3 * (second * power) @ s ** (power - 1.0)
 
 
 def differenced_torque(walker: Walker, i: Instant, difference: float = DIFFERENCE) -> Array:

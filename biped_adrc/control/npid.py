@@ -99,6 +99,7 @@ class NPIDController(Controller):
     period: float | None = None
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         check_positive(self.K_i, f"the integral gain K_i is {self.K_i} 1/s^3")
         check_positive(self.filter_bandwidth, f"the PID's filter is {self.filter_bandwidth} rad/s")
         check_positive(self.damping, f"the damping of the PID's filter is {self.damping}")

@@ -155,6 +155,7 @@ class Disturbance(Composed):
         return tuple(edge for law in self._laws or () for edge in law.switches)
 
     def __add__(self, other: Disturbance) -> Disturbance:
+        check_part(other, f"what is added to a {type(self).__name__}", Disturbance)
         return Sum((*terms(self), *terms(other)))
 
 

@@ -50,11 +50,21 @@ def piece(c: CurveParameters, s: float) -> Array:
     return found
 
 
-def curve(c: CurveParameters, s: float) -> tuple[Array, Array, Array]:
-    """h, dh/ds, d2h/ds2 at s, each (p,); by Theta where the parameters are those of `parameters_over`."""
-    p = c.stacked.shape[0] // 3
-    values = piece(c, s).dot(s**c.powers)
+def stacked(c: CurveParameters, s: float) -> Array:
+    """h, dh/ds and d2h/ds2 at s, one behind the other, (3 p,)."""
+    values: Array = piece(c, s).dot(s**c.powers)
+    return values
+
+
+def thirds(values: Array) -> tuple[Array, Array, Array]:
+    """The three parts, each (p,), of values (3 p,)."""
+    p = values.shape[0] // 3
     return values[:p], values[p : 2 * p], values[2 * p :]
+
+
+def curve(c: CurveParameters, s: float) -> tuple[Array, Array, Array]:
+    """h [rad], dh/ds, d2h/ds2 at s, each (p,)."""
+    return thirds(stacked(c, s))
 
 
 @dataclass(frozen=True)
@@ -117,21 +127,13 @@ class Curve(Shown, ABC):
 
     @cached_property
     def parameters(self) -> CurveParameters:
-        """The numbers that the law `curve` takes, for derivatives by s; made once for each object."""
-        return self.parameters_over(1.0)
-
-    def parameters_over(self, rate: float) -> CurveParameters:
-        """The same for derivatives by Theta: h' and h'' are multiplied by ds/dTheta = rate [1/rad], and its
-        square.
-
-        Done here once, and not at each evaluation, of which a walk has some hundred thousand.
-        """
+        """The numbers that the law `curve` takes; made once for each object."""
         breaks, a = self.pieces
         k = np.arange(a.shape[2])
         first, second = np.zeros_like(a), np.zeros_like(a)
         first[..., :-1] = a[..., 1:] * k[1:]
         second[..., :-2] = a[..., 2:] * k[2:] * (k[2:] - 1.0)
-        stacked = np.concatenate((a, rate * first, rate * rate * second), axis=1)
+        stacked = np.concatenate((a, first, second), axis=1)
         return CurveParameters(stacked[0].copy(), k, breaks, stacked[1:].copy())
 
     def __call__(self, s: float) -> tuple[Array, Array, Array]:

@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from biped_adrc.parts import check_part
 from biped_adrc.types import Array
 
 Sight = tuple[Array, Array]
@@ -62,6 +63,7 @@ class Sensor(ABC):
         return False
 
     def __add__(self, other: Sensor) -> Sensor:
+        check_part(other, f"what is added to {type(self).__name__}", Sensor)
         return Sensing((*_parts(self), *_parts(other)))
 
 

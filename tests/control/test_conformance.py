@@ -6,7 +6,7 @@ A row says how a thing of the registry is made; a thing without a row, or a clas
 import importlib
 import inspect
 import pkgutil
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 import pytest
@@ -15,6 +15,7 @@ import biped_adrc as ba
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN
+from biped_adrc.errors import InputError
 from biped_adrc.gait.bspline import BSpline
 from biped_adrc.gait.constraint import CorrectedConstraint
 from biped_adrc.gait.curves import Curve
@@ -169,8 +170,28 @@ def made(kind, name):
 def test_every_leaf(kind, name):
     for thing in made(kind, name):
         if kind in ("controller", "observer", "disturbance"):
-            assert bool(thing._obstacle) == (name in IN_PYTHON)
+            said = (
+                thing._obstacle or "it has laws: give it a row of laws alone, and none of IN_PYTHON"
+            )
+            assert bool(thing._obstacle) == (name in IN_PYTHON), f"{kind} '{name}': {said}"
         conforms(thing)
+
+
+@pytest.mark.parametrize("name", ROWS["controller"])
+def test_a_controller_refuses_what_is_no_reference(name):
+    """A `__post_init__` of its own has to call that of the base, which looks at all fields."""
+    for thing in made("controller", name):
+        if is_dataclass(thing) and "reference" in {x.name for x in fields(thing)}:
+            for wrong in (gait(), ba.VirtualConstraint, ba.TABLE_II):
+                with pytest.raises(InputError, match="expected a Reference"):
+                    replace(thing, reference=wrong)
+
+
+@pytest.mark.parametrize("thing", [ba.TorqueStep([1.0] * 5), ba.Sensors(counts=1000)])
+def test_only_things_of_one_kind_are_added_up(thing):
+    for wrong in (1, type(thing), gait()):
+        with pytest.raises(InputError, match="what is added to"):
+            thing + wrong
 
 
 @pytest.mark.parametrize("name", UNNAMED)
