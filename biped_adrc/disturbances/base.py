@@ -27,7 +27,7 @@ import numpy as np
 
 from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError, check_count
-from biped_adrc.parts import numbers
+from biped_adrc.parts import check_part, numbers
 from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 

@@ -6,7 +6,7 @@ A row says how a thing of the registry is made; a thing without a row, or a clas
 import importlib
 import inspect
 import pkgutil
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 
 import numpy as np
 import pytest
