@@ -11,7 +11,7 @@ A table of medians invites conclusions that noise explains. Each sentence has to
 Controllers are compared with NPD, which has the same gains and no observer; observers are compared with each
 other. Errors, torques and costs are compared where both walks of a pair are legal.
 
-Takes a `Comparison`, gives `Question`s and sentences; `bench.compare_study` writes them.
+Takes a `Comparison`, gives a `Question` each and sentences; `bench.compare_study` writes them.
 """
 
 from __future__ import annotations

@@ -228,7 +228,7 @@ def solve_positive(A: Array, B: Array, what: str) -> Array:
     return columns.reshape(B.shape)
 
 
-Row = list[Number]
+SymbolRow = list[Number]
 """One row of a matrix beside its right sides, during elimination."""
 
 
@@ -279,12 +279,12 @@ class Solver:
         return least
 
 
-def _pairs(one: Row, other: Row) -> Iterator[tuple[int, tuple[Number, Number]]]:
+def _pairs(one: SymbolRow, other: SymbolRow) -> Iterator[tuple[int, tuple[Number, Number]]]:
     """Column number, and the entries of both rows in that column."""
     return enumerate(zip(one, other, strict=True))
 
 
-def _larger_first(one: Row, other: Row, j: int) -> tuple[Row, Row]:
+def _larger_first(one: SymbolRow, other: SymbolRow, j: int) -> tuple[SymbolRow, SymbolRow]:
     """The two rows, that with the larger entry in column j first; entries left of column j are zero.
 
     The exchange is a choice for each entry, since the rows are known at run time only.

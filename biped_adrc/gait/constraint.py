@@ -35,7 +35,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.curves import Curve, CurveParameters, curve, stacked, thirds
+from biped_adrc.gait.curves import Curve, CurveParameters, curve
 from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint
 from biped_adrc.parts import check_part
 from biped_adrc.types import Array, read_only
@@ -46,7 +46,6 @@ class ConstraintParameters(NamedTuple):
 
     curve: of h over s. c (n,): phase row, Theta = c q. theta_plus: Theta+ [rad]. rate: 1 / (Theta- - Theta+)
     [1/rad]. fade: length l of the continuation as a share of the range (1,), or (0,) where there is none.
-    scale (3 p,): 1, rate and rate^2, for the p rows of h, h' and h''.
     """
 
     curve: CurveParameters
@@ -54,21 +53,19 @@ class ConstraintParameters(NamedTuple):
     theta_plus: float
     rate: float
     fade: Array
-    scale: Array
 
 
 def path(k: ConstraintParameters, theta: float) -> tuple[Array, Array, Array]:
     """h [rad], dh/dTheta and d2h/dTheta2 at the phase theta [rad], each (p,), continued past its ends."""
     s = k.rate * (theta - k.theta_plus)
-    if len(k.fade) == 0:
-        return thirds(k.scale * stacked(k.curve, s))
-    inside = np.minimum(np.maximum(s, 0.0), 1.0)
+    inside = s if len(k.fade) == 0 else np.minimum(np.maximum(s, 0.0), 1.0)
     h, dh, ddh = curve(k.curve, inside)
-    y, l = s - inside, k.fade[0]  # noqa: E741
-    left = np.exp(-abs(y) / l)
-    h = h + y * dh + (l * abs(y) - l * l * (1.0 - left)) * ddh
-    dh = dh + np.sign(y) * l * (1.0 - left) * ddh
-    ddh = left * ddh
+    if len(k.fade) > 0:
+        y, l = s - inside, k.fade[0]  # noqa: E741
+        left = np.exp(-abs(y) / l)
+        h = h + y * dh + (l * abs(y) - l * l * (1.0 - left)) * ddh
+        dh = dh + np.sign(y) * l * (1.0 - left) * ddh
+        ddh = left * ddh
     return h, k.rate * dh, k.rate * k.rate * ddh
 
 
@@ -129,14 +126,12 @@ class VirtualConstraint(Reference):
                 "None for a curve that goes on as it is"
             )
         fade = read_only([] if self.fade is None else [self.fade])
-        rate = float(1.0 / span)
-        scale = read_only(np.repeat([1.0, rate, rate * rate], len(self.curve.coefficients)))
         object.__setattr__(self, "phase", c)
         object.__setattr__(
             self,
             "_parameters",
             ConstraintParameters(
-                self.curve.parameters, c, float(self.theta_plus), rate, fade, scale
+                self.curve.parameters, c, float(self.theta_plus), float(1.0 / span), fade
             ),
         )
 

@@ -50,21 +50,11 @@ def piece(c: CurveParameters, s: float) -> Array:
     return found
 
 
-def stacked(c: CurveParameters, s: float) -> Array:
-    """h, dh/ds and d2h/ds2 at s, one behind the other, (3 p,)."""
-    values: Array = piece(c, s).dot(s**c.powers)
-    return values
-
-
-def thirds(values: Array) -> tuple[Array, Array, Array]:
-    """The three parts, each (p,), of values (3 p,)."""
-    p = values.shape[0] // 3
-    return values[:p], values[p : 2 * p], values[2 * p :]
-
-
 def curve(c: CurveParameters, s: float) -> tuple[Array, Array, Array]:
     """h [rad], dh/ds, d2h/ds2 at s, each (p,)."""
-    return thirds(stacked(c, s))
+    p = c.stacked.shape[0] // 3
+    values = piece(c, s).dot(s**c.powers)
+    return values[:p], values[p : 2 * p], values[2 * p :]
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,9 @@ step, three steps h, h/2, h/4 show
 
     k = log2 (|y(h) - y(h/2)| / |y(h/2) - y(h/4)|)
 
-Takes `scenario.outcome.Outcome`s that hold the run at half the step in `half`. Called by `paper.verdicts`
-(checks), by `paper.reproduction` (table of all quantities) and by the command `walk`, which prints the error.
+Takes outcomes (`scenario.outcome.Outcome`) that hold the run at half the step in `half`. Called by
+`paper.verdicts` (checks), by `paper.reproduction` (table of all quantities) and by the command `walk`,
+which prints the error.
 
 For legality the two runs have to agree as well: a walk that is legal at one step and not at the other has no
 verdict.

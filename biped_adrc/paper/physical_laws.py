@@ -8,7 +8,7 @@ None of them was used to derive the model or to choose the methods, so that each
     gait       on a periodic gait, joint work of a step = energy lost at its impact
     numerics   the error (23) on one held joint; order of sampled against continuous control; order of ETD-RK4
 
-Functions return `checks.Check`s; they are tasks of `paper.plan`, judged in `paper.reproduction`.
+Functions return checks (`checks.Check`); they are tasks of `paper.plan`, judged in `paper.reproduction`.
 """
 
 from __future__ import annotations

@@ -121,9 +121,10 @@ def test_a_cluster_that_has_lost_all_its_workers_ends_a_study(tmp_path, address)
         with pytest.raises(SimulationError, match="has had no worker for 7 s"):
             crew.check(executor, 7.0)
     process.communicate("")
-    executor = crew.start()
-    crew.check(executor, 1e9)  # a long run on workers that are there
-    crew.stop(executor, True)
+    there = Cluster(address, timeout=60.0)
+    executor = there.start()
+    there.check(executor, 1e9)  # a long run on workers that are there
+    there.stop(executor, True)
 
 
 def test_a_study_says_for_how_long_nothing_has_ended(tmp_path, monkeypatch):

@@ -129,7 +129,7 @@ EACH = [(kind, name) for kind, rows in ROWS.items() for name in rows]
 BASES = {
     ba.Controller: ("control", {"OuterLoop", "ObservingController", "AbsentController"}),
     ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
-    ba.Disturbance: ("disturbances", {"Windowed", "WindowedTorque"}),
+    ba.Disturbance: ("disturbances", {"Windowed", "WindowedTorque", "AbsentDisturbance"}),
     ba.Reference: ("gait", set()),
     Outputs: ("gait", set()),
     OneStepMethod: ("hybrid", {"_SciPy"}),

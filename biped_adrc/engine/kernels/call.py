@@ -4,8 +4,8 @@ The loops work on pointers, written and read as arrays are; a vector is a pointe
 number. Generated laws are called by an address that is data of the run, so the loops are compiled
 once for all walkers.
 
-There are three decorators. `inner` functions are compiled into each of their callers, `unit`s once
-each and called by their symbol, which keeps the compile time down; `kernel`s are what Python calls.
+There are three decorators. `inner` functions are compiled into each of their callers, those of `unit` once
+each and called by their symbol, which keeps the compile time down; those of `kernel` are what Python calls.
 The annotations of units and kernels are read as their signatures (int, float, Ints, Array, Rows),
 so nothing is compiled for types seen at run time.
 """
