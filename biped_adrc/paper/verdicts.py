@@ -2,8 +2,8 @@
 
 Each function takes the `Results` of all runs and returns checks (`checks.Check`) of one kind: physical law,
 consistency with what the gait was designed for, or a result of the paper that could have failed to reproduce.
-Values are computed from the runs, none is typed in. Where NaN may occur NumPy's max and min are used, since Python's pass
-over it and a check would hold without a number.
+Values are computed from the runs, none is typed in. Where NaN may occur NumPy's max and min are used, since
+Python's pass over it and a check would hold without a number.
 
 Called by `paper.reproduction`, which writes the checks to the summary and sets the exit code.
 
