@@ -1,5 +1,8 @@
 # make reproduce   the paper: figures, tables, report.html and a verdict in out/
 # make test        the tests
+# each of the many processes would compile all that it imports
+unexport PYTHONDONTWRITEBYTECODE
+
 PYTHON ?= python3
 OUT ?= out
 ARGS ?=

@@ -60,8 +60,8 @@ class BSpline(ControlledCurve):
         (h, dh, _), (end, last, _) = curve(0.0), curve(1.0)
         alpha, s = cls.between(h, dh, last, end, degree), np.linspace(0.0, 1.0, 20 * degree)
         alpha[:, 2:-2] = 0.0
-        N = np.array([cls(np.eye(degree + 1))(x)[0] for x in s])
-        left = np.array([curve(x)[0] for x in s]) - N @ alpha.T
+        N = cls(np.eye(degree + 1)).over(s)
+        left = curve.over(s) - N @ alpha.T
         alpha[:, 2:-2] = np.linalg.lstsq(N[:, 2:-2], left, rcond=None)[0].T
         return cls(alpha)
 

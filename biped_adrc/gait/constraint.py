@@ -149,6 +149,12 @@ class VirtualConstraint(Reference):
         """h [rad], dh/dTheta and d2h/dTheta2 at theta [rad], each (p,)."""
         return path(self.parameters, theta)
 
+    def over(self, theta: Array) -> Array:
+        """h [rad] at many theta (K,) [rad] at once, (K, p); where it is continued, one by one."""
+        if self.fade is not None:
+            return np.array([self.h(float(x))[0] for x in theta])
+        return self.curve.over(self.parameters.rate * (theta - self.theta_plus))
+
 
 def continued(h: VirtualConstraint) -> VirtualConstraint:
     """The same constraint, continued smoothly past Theta+ and Theta-.

@@ -130,6 +130,15 @@ class Curve(Shown, ABC):
         """h, dh/ds, d2h/ds2 at s, each (p,); s may lie outside of [0, 1]."""
         return curve(self.parameters, s)
 
+    def over(self, s: Array) -> Array:
+        """h [rad] at many s (K,) at once, (K, p)."""
+        breaks, a = self.pieces
+        at, powers = np.searchsorted(breaks, s, side="right"), np.arange(a.shape[2])
+        h = np.empty((len(s), a.shape[1]))
+        for j in range(len(a)):
+            h[at == j] = s[at == j, np.newaxis] ** powers @ a[j].T
+        return h
+
 
 @dataclass(frozen=True)
 class Polynomial(Curve):

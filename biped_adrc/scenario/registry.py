@@ -232,7 +232,7 @@ def construct(
     what: what is made, for messages, such as "controller 'NPD'". Raises InputError for values that are missing,
     an error inside of make, and a result of another class.
     """
-    missing = lacking(make, values)
+    names, missing = takes(make), lacking(make, values)
     if missing and isinstance(make, type) and not issubclass(make, kind):
         raise InputError(f"{what} is no {kind.__name__}; expected a class below it")
     if missing:
@@ -243,7 +243,7 @@ def construct(
             f"themselves are {sorted(values)}"
         )
     try:
-        made = make(**{name: x for name, x in values.items() if name in takes(make)})
+        made = make(**{name: x for name, x in values.items() if name in names})
     except BipedError:
         raise
     except (Exception, SystemExit) as error:  # whatever a class of the user's may raise

@@ -222,12 +222,8 @@ def check_encoders(
 def step_errors(gait: Gait, trajectory: Trajectory) -> Array:
     """max |q_b - h(Theta)| of each single support (M,) [rad], over the stored nodes of a trajectory."""
     h, n = gait.constraint, len(gait.constraint.phase)
-    p = n - 1
-
-    def error(x: Array) -> float:
-        return float(np.max(np.abs(x[:p] - h.h(float(h.phase @ x[:n]))[0])))
-
-    return np.array([max(error(x) for x in arc.x) for arc in trajectory.arcs])
+    angles = (arc.x[:, :n] for arc in trajectory.arcs)
+    return np.array([np.max(np.abs(q[:, : n - 1] - h.over(q @ h.phase))) for q in angles])
 
 
 def _step(observer: GPIObserver, controller: Delayed) -> float:

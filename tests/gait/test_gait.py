@@ -8,6 +8,8 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.errors import GaitError, OutputError
+from biped_adrc.gait.bspline import BSpline
+from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.curves import Bezier, Polynomial
 from biped_adrc.gait.published import X_STAR, design_published_gait
 from biped_adrc.gait.through_state import GaitLimits, constraint_through, onto_section
@@ -29,6 +31,20 @@ def test_curves_by_definition_and_difference(kind):
         d = 1e-5
         assert dh == pytest.approx((curve(s + d)[0] - curve(s - d)[0]) / (2 * d), abs=1e-6)
         assert ddh == pytest.approx((curve(s + d)[1] - curve(s - d)[1]) / (2 * d), abs=1e-5)
+
+
+@pytest.mark.parametrize("kind", [Bezier, Polynomial, BSpline])
+def test_a_curve_at_many_phases_at_once(kind):
+    """Past both ends and on the knots too."""
+    curve = kind(np.random.default_rng(1).normal(size=(3, 8)))
+    s = np.concatenate((np.linspace(-0.2, 1.2, 29), curve.pieces[0]))
+    np.testing.assert_allclose(curve.over(s), [curve(x)[0] for x in s], rtol=0, atol=1e-12)
+
+
+def test_a_constraint_at_many_phases_at_once(gait):
+    for h in (gait.constraint, continued(gait.constraint)):
+        theta = np.linspace(h.theta_plus + 0.1, h.theta_minus - 0.1, 12)
+        np.testing.assert_allclose(h.over(theta), [h.h(x)[0] for x in theta], rtol=0, atol=1e-12)
 
 
 def test_curves_that_are_no_curves():

@@ -192,8 +192,7 @@ def _check_slopes(first: Array, slopes: Array | None, biped: Biped) -> None:
 
 def _missed(h: VirtualConstraint, s: Samples, biped: Biped) -> tuple[int, float, float]:
     """Joint and time [s] of the sample that is farthest from the curve, and how far [rad]."""
-    theta = s.q @ h.phase
-    gaps = np.abs(np.array([h.h(float(x))[0] for x in theta]) - s.q[:, : biped.p])
+    gaps = np.abs(h.over(s.q @ h.phase) - s.q[:, : biped.p])
     k, joint = np.unravel_index(int(np.argmax(gaps)), gaps.shape)
     return int(joint), float(s.t[k]), float(gaps[k, joint])
 
