@@ -20,7 +20,7 @@ reproduce: .venv/.core
 # as many processes as cores: threads of linear algebra would only wait for each other
 test: export OPENBLAS_NUM_THREADS ?= 1
 test: .venv/.test
-	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadgroup
+	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadgroup --no-loadscope-reorder
 
 # the pages, in docs/_build/html
 docs: .venv/.dev

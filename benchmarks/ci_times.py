@@ -105,7 +105,10 @@ def main() -> int:
     arguments, options = parser.parse_known_args()
     table = Table()
     sys.path.insert(0, str(Path(__file__).parent))  # where workers find the plugin, too
-    code = pytest.main(["-p", "ci_times", "--dist", "loadgroup", *options], plugins=[table])
+    code = pytest.main(
+        ["-p", "ci_times", "--dist", "loadgroup", "--no-loadscope-reorder", *options],
+        plugins=[table],
+    )
     files = by_file(table.tests)
     before = json.loads(arguments.before.read_text())["files"] if arguments.before else {}
     print("\n".join(lines(files, before)))

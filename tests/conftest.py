@@ -46,10 +46,20 @@ def preloaded():
         process.close()
 
 
+WAIT = ("viz", "bench")
+"""Folders whose tests wait, for browsers and for processes: first, as other work goes on beside the suite then."""
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """A file is run by one worker, which makes its fixtures once; documents and examples by any."""
+    """A file is run by one worker, which makes its fixtures once; documents and examples by any.
+
+    What waits comes first and documents, which are long, second: no worker is left alone with one of them.
+    """
     alone = ("test_every_block_runs", "test_every_example_runs")
     for item in items:
         group = item.nodeid if item.name.startswith(alone) else str(item.path)
         item.add_marker(pytest.mark.xdist_group(group))
+    items.sort(
+        key=lambda item: (item.path.parent.name not in WAIT, not item.name.startswith(alone))
+    )
