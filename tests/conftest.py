@@ -47,7 +47,7 @@ def preloaded():
 
 
 WAIT = ("viz", "bench")
-"""Folders whose tests wait, for browsers and for processes: first, as other work goes on beside the suite then."""
+"""Folders whose tests wait, for browsers and for processes: first, while other work goes on beside the suite."""
 
 
 @pytest.hookimpl(tryfirst=True)
