@@ -32,7 +32,7 @@ from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate
 from biped_adrc.parts import numbers
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, frozen
 
 _T = TypeVar("_T")
 
@@ -62,7 +62,7 @@ class Gains(Shown):
                 raise InputError(
                     f"gain {name} is {value}, expected positive numbers, one per joint"
                 )
-            object.__setattr__(self, name, float(value) if value.ndim == 0 else value)
+            object.__setattr__(self, name, float(value) if value.ndim == 0 else frozen(value))
 
     def check(self, p: int) -> None:
         """Raise InputError for gains per joint of another number of joints than p."""
