@@ -35,8 +35,9 @@ SUCH_AS = {
     "Outputs": "LinearOutputs(H0, gait.constraint)",
     "Reference": "gait.constraint",
     "SampledTime": "SampledTime(1e-3)",
+    "Scenario": "Scenario('NPD'); a Walker walks with walk(walker, gait)",
     "VirtualConstraint": "gait.constraint",
-    "Walker": "Walker(biped, controller)",
+    "Walker": "Walker(biped, controller); a Scenario walks with walk_scenario",
 }
 """An example of each, for the sentence only."""
 

@@ -37,6 +37,10 @@ from biped_adrc.types import Array, frozen
 _T = TypeVar("_T")
 
 
+HIGHEST = 1e15
+"""Of a gain [1/s^2], [1/s]: beyond it products of gains and poles have no place among the floats."""
+
+
 class TrackingParameters(NamedTuple):
     """K_p [1/s^2] and K_d [1/s], (p,), or (1,) for one number; loop: 1 solves for Theta'', 0 drops it."""
 
@@ -62,6 +66,8 @@ class Gains(Shown):
                 raise InputError(
                     f"gain {name} is {value}, expected positive numbers, one per joint"
                 )
+            if np.any(value > HIGHEST):
+                raise InputError(f"gain {name} is {value}, expected at most {HIGHEST:g}")
             object.__setattr__(self, name, float(value) if value.ndim == 0 else frozen(value))
 
     def check(self, p: int) -> None:

@@ -253,7 +253,6 @@ class Windowed(Disturbance):
     """[s], counted as `start`; the torque is zero from then on."""
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         amplitude = numbers(self.amplitude, "torque amplitude")
         if amplitude.ndim != 1 or not np.all(np.isfinite(amplitude)):
             raise InputError(

@@ -249,7 +249,13 @@ def curve_kind(name: str) -> type[Curve]:
     Raises GaitError with the names there are.
     """
     if name not in CURVES:
-        raise GaitError(f"curve is '{name}', expected one of {sorted(CURVES)}")
+        own = (
+            "; a class of one's own gets a name with biped_adrc.register('curve', NAME, CLASS) first, since "
+            "files of gaits name their curve and are read without importing anything"
+        )
+        raise GaitError(
+            f"curve is '{name}', expected one of {sorted(CURVES)}{own if ':' in name else ''}"
+        )
     found = CURVES[name]
     if isinstance(found, str):
         module, _, cls = found.partition(":")
