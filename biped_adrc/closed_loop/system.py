@@ -99,21 +99,25 @@ class ClosedLoop(HybridSystem, Generic[P]):
         """The methods of `law`; the states that they give are checked, as `saturate` checks the torque."""
         law = self.law
 
-        def state(name: str, finite: bool = True) -> Callable[..., Array]:
+        def kept(name: str, finite: bool = True) -> Callable[..., Array]:
             method = getattr(law, name)
 
-            def checked(s: Array, m: Measurement, *more: Array) -> Array:
-                found = method(s, m, *frozen(more))
-                return frozen(returned(found, s.shape, law, name, finite))
+            def after(s: Array, m: Measurement, *more: Array) -> Array:
+                found = method(s, m, *more)
+                return s if found is s else frozen(returned(found, s.shape, law, name, finite))
 
-            return checked
+            return after
+
+        def driven(name: str, finite: bool = True) -> Callable[..., Array]:
+            after = kept(name, finite)
+            return lambda s, m, u: after(s, m, frozen(u))
 
         return ControlLaw(
             law.output,
-            state("flow", finite=False),
-            state("jump"),
-            state("correct"),
-            state("predict"),
+            driven("flow", finite=False),
+            kept("jump"),
+            kept("correct"),
+            driven("predict"),
             law.estimate,
         )
 

@@ -96,9 +96,9 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
         ba.register("controller", "my law", MyController, "PD with my feedforward")
         ba.walk_scenario(ba.Scenario("my law", own={"stiffness": 300.0}))
 
-    kind: "controller", "observer", "disturbance", "curve", "robot" or "gait". words: for a reader. Records of
-    scenarios write it as `module:Class`, so that other processes find it. Raises InputError for an unknown
-    kind, and for a name that is taken or reads as `module:Class`.
+    kind: "controller", "observer", "sensor", "disturbance", "curve", "robot" or "gait". words: for a reader.
+    Records of scenarios write it as `module:Class`, so that other processes find it. Raises InputError for an
+    unknown kind, a thing of another kind, and for a name that is taken or reads as `module:Class`.
     """
     if kind not in REGISTRY:
         raise InputError(f"there is no kind '{kind}' of things; choose one of {list(REGISTRY)}")
