@@ -137,7 +137,7 @@ def spoken(part: object) -> str:
     """The class of a part, with those inside it that it calls: Delayed (ADRCController (MyObserver))."""
     inside = [getattr(part, name, None) for name in ("inner", "observer", "parts")]
     each = [x for given in inside for x in (given if isinstance(given, tuple) else (given,))]
-    names = [spoken(x) for x in each if is_dataclass(x)]
+    names = [spoken(x) for x in each if isinstance(x, Checked)]
     return type(part).__name__ + (f" ({', '.join(names)})" if names else "")
 
 
