@@ -19,8 +19,9 @@ from collections.abc import Callable
 from functools import cached_property, partial
 from typing import Any, ClassVar
 
-from biped_adrc.parts import check_fields
+from biped_adrc.parts import Checked
 from biped_adrc.shown import Shown
+from biped_adrc.types import frozen
 
 
 def written_over(part: object, given: str, methods: frozenset[str]) -> str:
@@ -39,17 +40,13 @@ def written_over(part: object, given: str, methods: frozenset[str]) -> str:
     return ""
 
 
-class Composed(Shown, ABC):
+class Composed(Checked, Shown, ABC):
     """Base class of what has laws. A subclass states its kind, the methods its laws replace, and `laws`."""
 
     _kind: ClassVar[str]
     """What it is, in a word for messages, such as "controller"."""
     _methods: ClassVar[frozenset[str]]
     """Names of the methods that call the laws; one of them written anew by a subclass is an obstacle."""
-
-    def __post_init__(self) -> None:
-        """Raises InputError for a field that is not what its annotation says."""
-        check_fields(self)
 
     @property
     @abstractmethod
@@ -58,8 +55,11 @@ class Composed(Shown, ABC):
 
     @cached_property
     def _laws(self) -> Any:
-        """`laws`, made once for each object: a walk calls them at every stage of every time step."""
-        return self.laws
+        """`laws`, made once for each object: a walk calls them at every stage of every time step.
+
+        Their parameters are read-only, since a law that writes into its numbers would change the next call.
+        """
+        return frozen(self.laws)
 
     def _law(self, name: str) -> Callable[..., Any] | None:
         """The law of this name with its parameters k filled in; None where there is none of that name."""

@@ -78,10 +78,14 @@ def check_whole(value: object, what: str, least: int = 0) -> None:
 def check_positive(
     value: float, what: str, hint: str = "", error: type[BipedError] = InputError
 ) -> None:
-    """Raise `error` unless `value` is finite and above 0, so NaN and infinity are refused too.
+    """Raise `error` unless `value` is a finite number above 0: NaN, infinity and text are refused too.
 
     what: how the message begins, with the value found. hint: how it ends, such as what to use
     instead.
     """
-    if not (math.isfinite(value) and value > 0):
+    try:
+        fits = math.isfinite(value) and value > 0
+    except TypeError:  # no number
+        fits = False
+    if not fits:
         raise error(f"{what}, expected a positive number{hint}")

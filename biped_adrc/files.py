@@ -114,6 +114,19 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
         raise error(f"{where}: {found}") from found
 
 
+def number_in(text: str, line: int, column: str) -> float:
+    """An entry of a table as a finite number. Raises InputError with the line of the file and the column."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise InputError(
+            f"line {line}, column '{column}': found '{text}', expected a finite number"
+        )
+    return number
+
+
 def read_json(path: Path, what: str, error: type[BipedError] = InputError) -> Any:
     """The content of a JSON file, as dict, list, text, number or None.
 

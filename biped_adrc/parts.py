@@ -6,15 +6,20 @@ A dataclass calls `check_fields` and has each field held against its own annotat
 
 from __future__ import annotations
 
-from dataclasses import fields
-from functools import lru_cache
+import math
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import fields, is_dataclass
+from functools import lru_cache, wraps
 from numbers import Real
+from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import BipedError, InputError, NotFiniteError
 from biped_adrc.types import Array
 
 SUCH_AS = {
@@ -30,8 +35,9 @@ SUCH_AS = {
     "Outputs": "LinearOutputs(H0, gait.constraint)",
     "Reference": "gait.constraint",
     "SampledTime": "SampledTime(1e-3)",
+    "Scenario": "Scenario('NPD'); a Walker walks with walk(walker, gait)",
     "VirtualConstraint": "gait.constraint",
-    "Walker": "Walker(biped, controller)",
+    "Walker": "Walker(biped, controller); a Scenario walks with walk_scenario",
 }
 """An example of each, for the sentence only."""
 
@@ -54,6 +60,29 @@ def check_fields(part: Any) -> None:
         check_part(getattr(part, name), f"{name} of {type(part).__name__}", *kinds)
 
 
+class Checked:
+    """Base of dataclasses whose fields are held against their annotations before anything is done with them.
+
+    A subclass need not call the `__post_init__` above its own: the check comes before either.
+    """
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        own = vars(cls).get("__post_init__")
+        if own is not None:
+
+            @wraps(own)
+            def after(self: Any) -> None:
+                check_fields(self)
+                own(self)
+
+            cls.__post_init__ = after  # type: ignore[method-assign]
+
+    def __post_init__(self) -> None:
+        """Raises InputError for a field that is not what its annotation says."""
+        check_fields(self)
+
+
 def numbers(values: object, what: str) -> Array:
     """A copy as floats of any shape. Raises InputError, beginning with `what`, for what is no number."""
     try:
@@ -64,6 +93,69 @@ def numbers(values: object, what: str) -> Array:
         ) from None
 
 
+FLOAT = np.dtype(float)
+
+
+def returned(
+    found: object, shape: tuple[int, ...] | None, part: object, method: str, finite: bool = True
+) -> Array:
+    """What a method of a user's class gave, as an array of floats; shape None: any row.
+
+    It is called at every tick, so what is such an array already costs less than a microsecond. Raises
+    InputError that names the class for None, complex numbers, text, objects and another shape, and, where
+    `finite`, NotFiniteError.
+    """
+    if type(found) is not np.ndarray or found.dtype is not FLOAT or found.shape != shape:
+        found = _numbers_returned(found, shape, part, method)
+    if finite and not math.isfinite(found.dot(found)) and not np.all(np.isfinite(found)):
+        raise NotFiniteError(f"{spoken(part)}.{method} returned {found}")
+    return found
+
+
+def _numbers_returned(
+    found: object, shape: tuple[int, ...] | None, part: object, method: str
+) -> Array:
+    """As `returned`, for what is no array of floats of this shape at first sight."""
+    try:
+        array = np.asarray(found)
+    except ValueError:  # rows of different lengths
+        array = np.empty(0, dtype=object)
+    expected = "a row of real numbers" if shape is None else f"{shape}, real numbers"
+    if array.dtype.kind not in "fiu":
+        forgot = "; is a return statement missing?" if found is None else ""
+        raise InputError(
+            f"{spoken(part)}.{method} returned {_shown(found)}, expected {expected}{forgot}"
+        )
+    if array.ndim != 1 if shape is None else array.shape != shape:
+        raise InputError(
+            f"{spoken(part)}.{method} returned an array of shape {array.shape}, expected {expected}"
+        )
+    return array.astype(float)
+
+
+def spoken(part: object) -> str:
+    """The class of a part, with those inside it that it calls: Delayed (ADRCController (MyObserver))."""
+    inside = [getattr(part, name, None) for name in ("inner", "observer", "parts")]
+    each = [x for given in inside for x in (given if isinstance(given, tuple) else (given,))]
+    names = [spoken(x) for x in each if isinstance(x, Checked)]
+    return type(part).__name__ + (f" ({', '.join(names)})" if names else "")
+
+
+@contextmanager
+def handing_out() -> Iterator[None]:
+    """Raises InputError with the place in a user's code that writes into an array which was handed to it."""
+    try:
+        yield
+    except ValueError as error:
+        if isinstance(error, BipedError) or "read-only" not in str(error):
+            raise
+        at = traceback.extract_tb(error.__traceback__)[-1]
+        raise InputError(
+            f"`{at.line}` ({at.name}, {Path(at.filename).name}:{at.lineno}) writes into an array that it was "
+            "handed and that others read; write into a copy, such as v = m.v_b.copy()"
+        ) from error
+
+
 @lru_cache(maxsize=256)
 def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...]], ...]:
     """Fields and what they may be; without those whose annotation says other things or cannot be read."""
@@ -71,7 +163,7 @@ def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...]], ...]:
         hints = get_type_hints(cls)
     except (NameError, TypeError, AttributeError, SyntaxError):
         return ()
-    found = ((f.name, _members(hints[f.name])) for f in fields(cls))
+    found = ((f.name, _members(hints[f.name])) for f in (fields(cls) if is_dataclass(cls) else ()))
     return tuple((name, kinds) for name, kinds in found if kinds and all(map(_looked_at, kinds)))
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+T = TypeVar("T")
 
 Array = NDArray[np.float64]
 """Real array in float64; shapes are stated in the docstrings."""
@@ -37,3 +39,24 @@ def read_only(values: ArrayLike) -> Array:
     array = np.array(values, dtype=float)
     array.setflags(write=False)
     return array
+
+
+def frozen(value: T) -> T:
+    """An array as a view of it that cannot be written to; a tuple with all arrays in it so; the rest as it is.
+
+    For what is handed to a user's code, or kept: the array itself stays writable for whoever made it.
+    """
+    if isinstance(value, np.ndarray):
+        view = value.view()
+        view.setflags(write=False)
+        return view
+    if isinstance(value, tuple):
+        parts = [frozen(part) for part in value]
+        return value._make(parts) if hasattr(value, "_make") else type(value)(parts)
+    return value
+
+
+def freeze(record: object, *names: str) -> None:
+    """Put `frozen` views in place of the arrays in these fields of a frozen dataclass."""
+    for name in names:
+        object.__setattr__(record, name, frozen(getattr(record, name)))

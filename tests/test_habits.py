@@ -62,6 +62,7 @@ def test_the_version_is_written_once():
 def test_releases_are_dated_and_the_newest_is_this_one():
     text = (ROOT / "CHANGELOG.md").read_text()
     headings = re.findall(r"^## (.*)$", text, re.M)
+    headings = headings[headings[0] == "Unreleased" :]
     found = [re.fullmatch(r"(\d+\.\d+\.\d+) \((\d{4}-\d\d-\d\d)\)", h).groups() for h in headings]
     dates = [datetime.date.fromisoformat(date) for _, date in found]
     assert found[0][0] == ba.__version__

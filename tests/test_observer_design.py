@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -24,9 +26,12 @@ from biped_adrc.observer_design.observer_sampled import (
     largest_period,
     sampled_loop,
 )
+from biped_adrc.observer_design.observer_tables import of_stable
 from biped_adrc.observer_design.to_ss import error_to_ss, loop_to_ss
 from biped_adrc.observers.gpi import gpi_correct, gpi_flow, gpi_predict
 from biped_adrc.observers.high_gain import HighGainObserver
+from biped_adrc.observers.kalman import KalmanObserver
+from biped_adrc.observers.momentum import MomentumObserver
 from biped_adrc.studies.observer_check import DelayCase, check_encoders, step_errors
 from biped_adrc.viz.plots.observer_figure import observer_figure
 
@@ -94,7 +99,48 @@ def test_a_loop_that_is_unstable_without_delay_has_no_margin():
     """A slow observer of high order, on a robot whose kappa is three times the model's."""
     loop = observer_loop(ba.GPIObserver.from_bandwidth(20.0, 7), kappa_ratio=3.0)
     assert np.max(np.linalg.eigvals(delayed_loop(loop.observer, 1e-6, False, g=3.0)).real) > 0.0
-    assert loop.delay_margin().delay == 0.0
+    assert all(map(math.isnan, loop.delay_margin()))
+    assert of_stable(loop.delay_margin().delay, "s") == "unstable"
+
+
+def test_what_an_unstable_loop_has_is_the_word_and_no_number(biped, gait):
+    """Gains too high for 100 Hz: no margin, no ripple; what is stable beside it keeps its numbers."""
+    report = observer_report(TABLE_I, ba.Gains(1e7, 50.0), 1e-2, robot=biped, gait=gait)
+    assert report.spectral_radius > 1.0
+    assert math.isnan(report.ripple)
+    assert all(map(math.isnan, report.sampled_margins))
+    rows = {row[0]: row[1:] for section in report.sections for row in section.rows}
+    assert rows["delay margin, period 1e+04 us"] == ("unstable", "unstable")
+    assert rows["delay margin, continuous"][0].endswith(" us")
+    assert "nan" not in report.text()
+    assert "unstable" in report.verdict
+    known = replace(sampled_loop(TABLE_I, 1e-3), K_p=1e12)
+    assert math.isnan(largest_period(known))
+    assert math.isnan(largest_delay(known))
+    assert math.isnan(known.rms(1e-3))
+
+
+@pytest.mark.parametrize(
+    ("made", "said"),
+    [
+        (
+            lambda: ba.GPIObserver.from_poles([-100.0 - k for k in range(40)]),
+            "40 poles, expected at most 20",
+        ),
+        (lambda: ba.GPIObserver.from_bandwidth(300.0, 10**9), "at most 20"),
+        (
+            lambda: ba.GPIObserver.from_bandwidth(1e300),
+            "1e+300 rad/s, expected 1e-06 to 1e+09 rad/s",
+        ),
+        (lambda: ba.GPIObserver.from_poles([-1e-300, -1.0]), "1e-300 rad/s, expected"),
+        (lambda: KalmanObserver.from_noise(1e300, 1e-9), "expected 1e-06 to 1e+09 rad/s"),
+        (lambda: MomentumObserver.from_bandwidth(1e300), "expected 1e-06 to 1e+09 rad/s"),
+        (lambda: HighGainObserver.from_epsilon(1e-300), "expected 1e-06 to 1e+09 rad/s"),
+    ],
+)
+def test_limits_of_observers_are_said_with_the_number(made, said):
+    with pytest.raises(InputError, match=re.escape(said)):
+        made()
 
 
 def test_transfer_functions_are_those_of_the_state_space(observer):
@@ -513,7 +559,7 @@ def test_report_names_bad_input(biped, gait):
     high = HighGainObserver.from_epsilon(2e-3)
     with pytest.raises(InputError, match="report on a HighGainObserver"):
         observer_report(high, robot=biped, gait=gait)
-    for m in (15, 200):
+    for m in (15, 18):
         with pytest.raises(InputError, match=f"m = {m} was asked for, expected m <= 14"):
             observer_report(ba.GPIObserver.from_bandwidth(50.0, m), robot=biped, gait=gait)
     with pytest.raises(InputError, match="joint 2"):

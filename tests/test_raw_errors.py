@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -9,7 +11,16 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.control.clf_qp import CLFQPController
+from biped_adrc.control.npid import NPIDController
+from biped_adrc.control.super_twisting import SuperTwistingController
+from biped_adrc.disturbances.recorded import RecordedTorque
 from biped_adrc.gait.design.request import GaitRequest
+from biped_adrc.gait.exchange.samples import read_csv
+from biped_adrc.hardware.pitch_sensor import PitchSensor
+from biped_adrc.observers.kalman import KalmanObserver
+from biped_adrc.scenario.build import build
+from biped_adrc.scenario.scenario import idle
+from biped_adrc.studies.cycle_stability import cycle_of
 
 
 @pytest.fixture(scope="module")
@@ -127,7 +138,7 @@ CASES = {
     "a number as the robot": (lambda s: ba.Biped.load(5), "robot is 5 (an int), expected a str"),
     "an output of nothing": (
         lambda s: s.walk(Silent()),
-        "Silent.output returned an array of shape (), expected (4,)",
+        "Silent.output returned None, expected (4,), real numbers",
     ),
     "a speed in words": (
         lambda s: ba.design_gait(s.biped, speed="fast"),
@@ -150,8 +161,113 @@ CASES = {
     "a gait as a cycle": (lambda s: ba.cycle_stability(s.gait), "cycle is a Gait"),
     "a gait that is to go on": (lambda s: ba.continued(s.gait), "is a Gait, expected a Virtual"),
     "a constraint to export": (lambda s: ba.export_gait(s.h, "x.json"), "gait is a VirtualConst"),
+    "a bias in words": (lambda s: PitchSensor("a"), "bias of PitchSensor is 'a' (a str)"),
+    "an encoder in words": (lambda s: ba.Sensors("a"), "counts of Sensors is 'a' (a str)"),
+    "a lag in words": (lambda s: ba.Motors(lag="a"), "lag of Motors is 'a' (a str)"),
+    "a noise in words": (
+        lambda s: KalmanObserver.from_noise("a", 1e-6),
+        "the drift of a Kalman observer is a rad/s^2.5, expected a positive number",
+    ),
+    "a bandwidth in a list": (
+        lambda s: ba.GPIObserver.from_bandwidth([500.0]),
+        "observer bandwidth is [500.0] rad/s, expected a positive number",
+    ),
+    "a slope of a surface in words": (
+        lambda s: SuperTwistingController(s.h, "a"),
+        "slope of SuperTwistingController is 'a' (a str)",
+    ),
+    "integral gains by joint": (
+        lambda s: NPIDController(s.h, ba.Gains(), [1, 2]),
+        "K_i of NPIDController is [1, 2] (a list)",
+    ),
+    "gains by joint as one ADRC's": (
+        lambda s: NPIDController.like_adrc(s.h, ba.Gains([1.0] * 4, 1.0)),
+        "K_p of the ADRC is array([1., 1., 1., 1.]) (a ndarray), expected a number",
+    ),
+    "an integral gain that makes the loop unstable": (
+        lambda s: NPIDController(s.h, ba.Gains(5000.0, 50.0), 5000.0 * 50.0),
+        "unstable even on the exact model with K_p = 5000, K_d = 50, K_i = 250000",
+    ),
+    "a filter that makes the loop unstable": (
+        lambda s: NPIDController(s.h, ba.Gains(5000.0, 50.0), filter_bandwidth=20.0),
+        "and a filter of 20 rad/s",
+    ),
+    "a robot's name at a recording": (
+        lambda s: RecordedTorque.read("x.csv", "rabbit"),
+        "the robot of a recording is 'rabbit' (a str), expected a Biped",
+    ),
+    "a start of a recording in words": (
+        lambda s: RecordedTorque.read("x.csv", s.biped, start="a"),
+        "the start of a recording is 'a' (a str)",
+    ),
+    "a swapped recording": (
+        lambda s: RecordedTorque.read(s.biped, "x.csv"),
+        "is a Biped, expected",
+    ),
+    "a recording of words": (
+        lambda s: RecordedTorque("a", "b"),
+        "the times of the recording is 'a'",
+    ),
+    "a recording of one row": (
+        lambda s: RecordedTorque([0.0], [[1.0] * 5]),
+        "the recording has rows of numbers: 1, expected at least 2",
+    ),
+    "a class as a scenario": (
+        lambda s: ba.walk_scenario(ba.NPDController),
+        "what is to walk is the class NPDController, not made as NPDController(...), expected a Scenario",
+    ),
+    "a scenario as a walker": (
+        lambda s: ba.walk(ba.Scenario("NPD")),
+        "what is to walk is a Scenario, expected a Walker, such as Walker(biped, controller); a Scenario walks",
+    ),
+    "an observer registered as a controller": (
+        lambda s: ba.register("controller", "wrong kind", ba.GPIObserver),
+        "is registered as the class GPIObserver, expected a class below Controller, or a function",
+    ),
+    "a number as a registered name": (
+        lambda s: ba.register("controller", 5, ba.NPDController),
+        "the name of a controller is 5 (an int)",
+    ),
+    "a sensor's own value without the sensor": (
+        lambda s: ba.walk_scenario(ba.Scenario("NPD", own={"bias": 0.1})),
+        "sensor = 'pitch sensor' takes it, and is not chosen here",
+    ),
+    "an observer's own value without the observer": (
+        lambda s: ba.walk_scenario(ba.Scenario("ADRC", own={"epsilon": 0.002})),
+        "observer = 'high gain' takes it, and is not chosen here",
+    ),
+    "a push's own value without the push": (
+        lambda s: ba.walk_scenario(ba.Scenario("NPD", own={"file": "x.csv"})),
+        "push = 'recorded' takes it, and is not chosen here",
+    ),
+    "a curve of one's own by its module": (
+        lambda s: ba.design_gait(s.biped, 0.7, curve="bz:Mine"),
+        "a class of one's own gets a name with biped_adrc.register('curve', NAME, CLASS) first",
+    ),
+    "a controller with a __post_init__ of its own": (
+        lambda s: Forgetful(5),
+        "reference of Forgetful is 5 (an int), expected a Reference",
+    ),
+    "a number of impacts of a return map": (
+        lambda s: cycle_of(ba.Scenario("NPD", impacts=3)),
+        "takes no impacts: this would do nothing",
+    ),
+    "a step of the fixed method of a passive cycle": (
+        lambda s: cycle_of(ba.Scenario("passive", robot="compass", h=1e-3)),
+        "by a fixed method, and takes no h: this would do nothing",
+    ),
     "a gait as a walker": (lambda s: ba.ReturnMap(s.gait, ba.RK4()), "walker of ReturnMap is a Ga"),
 }
+
+
+@dataclass(frozen=True)
+class Forgetful(ba.Controller):
+    """A __post_init__ that does not call the one above."""
+
+    reference: ba.Reference
+
+    def __post_init__(self):
+        object.__setattr__(self, "half", 0.5)
 
 
 class Parts:
@@ -234,3 +350,80 @@ def test_annotations_that_say_more_are_not_looked_at(gait):
     assert ba.SampledTime(np.float64(1e-3)).period == 1e-3
     assert ba.SampledTime(np.array(1e-3)).period == 1e-3
     assert CLFQPController(gait.constraint, torque_limit=None).torque_limit is None
+
+
+LINES = {
+    "t,q1\n0,1\n\n1,x\n": "line 4, column 'q1': found 'x', expected a finite number",
+    "t,q1\n0,1\n\n1,nan\n": "line 4, column 'q1': found 'nan', expected a finite number",
+    "t,q1\n0,1\n1\n": "line 3 has 1 entries, expected 2: ['t', 'q1']",
+}
+
+
+@pytest.mark.parametrize("text", LINES)
+def test_a_table_with_a_mistake_names_line_and_column(text, biped, tmp_path):
+    file = tmp_path / "table.csv"
+    file.write_text(text)
+    for read in (lambda: RecordedTorque.read(file, biped), lambda: read_csv(file)):
+        with pytest.raises(ba.BipedError) as caught:
+            read()
+        assert LINES[text] in str(caught.value)
+        assert str(file) in str(caught.value)
+
+
+def test_tables_that_lack_something(biped, tmp_path):
+    file = tmp_path / "table.csv"
+    for text, said in {
+        "t,q1\n0,1\n\n0,2\n": "line 4 of the recording has t = 0 s",
+        "t,q1\n0,1\n": "the recording has rows of numbers: 1",
+    }.items():
+        file.write_text(text)
+        with pytest.raises(ba.BipedError, match=said):
+            RecordedTorque.read(file, biped)
+    for text, said in {
+        "q1,q2\n0,1\n": "no column 't'",
+        "t,x1\n0,1\n": "no column 'q1'",
+        "t,q1\n": "no row of numbers",
+        "": "no column 't'",
+    }.items():
+        file.write_text(text)
+        with pytest.raises(ba.BipedError, match=said):
+            read_csv(file)
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"seed": 5}, "seed = 5 does nothing: nothing in this walk is random"),
+        ({"pushed_step": 2}, "pushed_step = 2 does nothing: there is neither a push nor a step"),
+        ({"fine": 1e-4}, "fine = 0.0001 does nothing: no push switches"),
+    ],
+)
+def test_values_that_do_nothing_are_said(values, said):
+    assert any(said in remark for remark in idle(ba.Scenario("NPD", **values)))
+    pushed = {"push": "noise", "amplitude": 2.0, "onset": 0.1, "impacts": 3}
+    assert idle(ba.Scenario("NPD", **pushed, **values)) == ()
+    assert idle(ba.Scenario("NPD")) == ()
+
+
+def test_what_does_nothing_is_among_the_remarks_of_the_walk():
+    walk = ba.walk_scenario(ba.Scenario("NPD", impacts=1, seed=5))
+    assert walk.remarks == ("seed = 5 does nothing: nothing in this walk is random",)
+
+
+def test_a_return_map_takes_the_method_and_step_of_the_scenario():
+    def steps(**values):
+        return cycle_of(ba.Scenario("NPD", **values)).P.method
+
+    assert steps() == ba.RK4(5e-4)
+    assert steps(h=2e-4) == ba.RK4(2e-4)
+    assert steps(method="adaptive") == ba.Adaptive(1e-9, 1e-9)
+
+
+def test_the_pitch_sensors_noise_is_named_apart_and_drawn_apart():
+    """Encoders' noise and the sensor's own, each by a stream of its own, so that they are independent."""
+    s = ba.Scenario(
+        "NPD", period=1e-3, noise=1e-4, sensor="pitch sensor", own={"sensor_noise": 2e-3}
+    )
+    encoders, pitch = build(s).sensors.parts
+    assert (encoders.noise, pitch.noise) == (1e-4, 2e-3)
+    assert encoders.seed != pitch.seed

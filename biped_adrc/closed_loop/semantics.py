@@ -40,7 +40,7 @@ from biped_adrc.hardware.sample_hold import (
 from biped_adrc.linear import solve_positive
 from biped_adrc.model.reduction import BodyTerms, Reduction, unknown_force
 from biped_adrc.observers.base import Estimate
-from biped_adrc.types import Array, Indices
+from biped_adrc.types import Array, Indices, frozen
 
 
 class Mode(NamedTuple):
@@ -113,35 +113,24 @@ class WalkingPlant(Plant, Protocol):
         """Position (x, z) of the hip from the stance foot (2,) [m]."""
 
 
-class ControlLaw(Protocol):
-    """The controller in its time base: those methods of `control.base.Controller` that a closed loop calls.
+class ControlLaw(NamedTuple):
+    """The functions of a controller in its time base that a closed loop calls, parameters filled in.
 
-    Declared as properties so that a controller's methods and traced functions in a record both fit.
+    On arrays the methods of `control.base.Controller`, and what they give is checked; on symbols its laws.
     """
 
-    @property
-    def output(self) -> Callable[[Array, Measurement], Array]:
-        """output(s, m) -> torque asked for (p,) [N m], before saturation."""
-
-    @property
-    def flow(self) -> Callable[[Array, Measurement, Array], Array]:
-        """flow(s, m, u) -> s' in continuous time, u (p,) [N m] the torque applied."""
-
-    @property
-    def jump(self) -> Callable[..., Array]:
-        """jump(s, m, swap) -> s after an impact; m is the measurement after it."""
-
-    @property
-    def correct(self) -> Callable[[Array, Measurement], Array]:
-        """correct(s, m) -> s at a sample instant, with the new measurement."""
-
-    @property
-    def predict(self) -> Callable[[Array, Measurement, Array], Array]:
-        """predict(s, m, u) -> s at the next sample instant, u (p,) [N m] the torque that will act."""
-
-    @property
-    def estimate(self) -> Callable[[Array, Measurement], Estimate | None]:
-        """estimate(s, m) -> what an observer inside says, None without one."""
+    output: Callable[[Array, Measurement], Array]
+    """output(s, m) -> torque asked for (p,) [N m], before saturation."""
+    flow: Callable[[Array, Measurement, Array], Array]
+    """flow(s, m, u) -> s' in continuous time, u (p,) [N m] the torque applied."""
+    jump: Callable[..., Array]
+    """jump(s, m, swap) -> s after an impact; m is the measurement after it."""
+    correct: Callable[[Array, Measurement], Array]
+    """correct(s, m) -> s at a sample instant, with the new measurement."""
+    predict: Callable[[Array, Measurement, Array], Array]
+    """predict(s, m, u) -> s at the next sample instant, u (p,) [N m] the torque that will act."""
+    estimate: Callable[[Array, Measurement], Estimate | None]
+    """estimate(s, m) -> what an observer inside says, None without one."""
 
 
 class Loop(Protocol):
@@ -166,8 +155,8 @@ class Loop(Protocol):
         """
 
     @property
-    def law(self) -> ControlLaw:
-        """The controller in its time base."""
+    def calls(self) -> ControlLaw:
+        """The functions of the controller in its time base."""
 
     @property
     def held(self) -> HeldParameters | None:
@@ -215,9 +204,9 @@ class Instant(NamedTuple):
 
 def parts(loop: Loop, x: Array) -> tuple[Array, Array, Array, Array]:
     """q (n,) [rad], v (n,) [rad/s] and s of x, and the tail held between sample instants (empty in
-    continuous time).
+    continuous time); all read-only, since controllers, sensors and disturbances are given them.
     """
-    n, k = loop.plant.n, loop.held
+    n, k, x = loop.plant.n, loop.held, frozen(x)
     end = len(x) if k is None else len(x) - k.sizes.total
     return x[:n], x[n : 2 * n], x[2 * n : end], x[end:]
 
@@ -226,10 +215,16 @@ def measurement(loop: Loop, t: float, q: Array, v: Array, mode: Mode, body: bool
     """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s].
 
     The nominal model's terms are computed here once and passed on; `body` adds gravity and ground
-    force for controllers that ask for them (`Controller.needs_body`).
+    force for controllers that ask for them (`Controller.needs_body`). All of it is
+    read-only: a controller that writes into it would change the motion.
     """
-    terms = loop.nominal.body_terms(q, v) if body else None
-    return Measurement(t, mode.step, t - mode.start, q, v, loop.nominal.reduction(q, v), terms)
+    q, v = frozen(q), frozen(v)
+    terms, of_body = loop.nominal.reduction(q, v), None
+    if body:
+        of_body = frozen(loop.nominal.body_terms(q, v))
+    if terms.D.flags.writeable:
+        terms = frozen(terms)
+    return Measurement(t, mode.step, t - mode.start, q, v, terms, of_body)
 
 
 def applied(u: Array, zeta: Array) -> Array:
@@ -263,7 +258,7 @@ def instant(loop: Loop, t: float, x: Array, mode: Mode) -> Instant:
     """
     q, v, s, tail = parts(loop, x)
     m, k = loop.measure(t, q, v, mode), loop.held
-    u = torque_held(k, tail) if k is not None else loop.saturate(loop.law.output(s, m))
+    u = torque_held(k, tail) if k is not None else loop.saturate(loop.calls.output(s, m))
     zeta = loop.external(t, q, v, mode)
     force = applied(u, zeta)
     return Instant(m, s, u, zeta, force, acceleration(loop, m.terms, q, v, force))
@@ -278,7 +273,7 @@ def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     k = loop.held
     if k is None:
         i = instant(loop, t, x, mode)
-        return np.concatenate((i.measurement.v, i.a, loop.law.flow(i.s, i.measurement, i.u)))
+        return np.concatenate((i.measurement.v, i.a, loop.calls.flow(i.s, i.measurement, i.u)))
     q, v, s, tail = parts(loop, x)
     u = torque_held(k, tail)
     a = loop.plant.acceleration(q, v, applied(u, loop.external(t, q, v, mode)))
@@ -313,8 +308,8 @@ def as_seen(k: HeldParameters, w: Array, q: Array, v: Array) -> tuple[Array, Arr
 
 def asked(loop: Loop, s: Array, m: Measurement) -> tuple[Array, Array]:
     """The controller's state corrected by a measurement, and the torque (p,) [N m] that it asks for."""
-    s = loop.law.correct(s, m)
-    return s, loop.saturate(loop.law.output(s, m))
+    s = loop.calls.correct(s, m)
+    return s, loop.saturate(loop.calls.output(s, m))
 
 
 def decided(
@@ -330,7 +325,7 @@ def decided(
     if k.sizes.rate > 0:
         u = limited(k.motors, line, u)
     line = sent(k.motors, line, u)
-    return loop.law.predict(s, m, acting(k.motors, line) if k.sizes.known > 0 else u), line
+    return loop.calls.predict(s, m, acting(k.motors, line) if k.sizes.known > 0 else u), line
 
 
 def measured_by_meter(
@@ -404,7 +399,7 @@ def landed(
         h = after_impact(k, h, loop.swap, q, q_plus, v_plus, expected, hit)
         seen = as_seen(k, h.w, q_plus, v_plus)
         tail = written(h)
-    s = loop.law.jump(s, loop.measure(t, *seen, after), loop.swap)
+    s = loop.calls.jump(s, loop.measure(t, *seen, after), loop.swap)
     return np.concatenate((q_plus, v_plus, s, tail))
 
 

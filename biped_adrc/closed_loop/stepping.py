@@ -36,6 +36,7 @@ from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import Record, RunOptions
 from biped_adrc.hybrid.system import FoundEvent, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
+from biped_adrc.parts import returned
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, Indices
 
@@ -103,7 +104,8 @@ class SteppingLoop(ClosedLoop[Any]):
         """zeta (n,) [N m] at t [s], q (n,) [rad], v (n,) [rad/s]."""
         if self.disturbance is None:
             return np.zeros(self.plant.n)
-        return self.disturbance.torque(t, mode.step, mode.start, q, v)
+        zeta = self.disturbance.torque(t, mode.step, mode.start, q, v)
+        return returned(zeta, q.shape, self.disturbance, "torque")
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
         """x (nx,) at the start of a single support in q (n,) [rad], v (n,) [rad/s], the plant started there."""
@@ -185,7 +187,7 @@ class SteppingLoop(ClosedLoop[Any]):
             a = np.diff(v, axis=0) / np.diff(t)[:, np.newaxis]
             slopes[:, n : 2 * n] = np.vstack((a, a[-1:]))
         q, s = x[0, :n], parts(self, x[0])[2]
-        estimate = self.law.estimate(s, self.measure(t[0], q, v[0], mode))
+        estimate = self.calls.estimate(s, self.measure(t[0], q, v[0], mode))
         xi = np.full(self.plant.p, np.nan) if estimate is None else estimate.disturbance
         kept = np.unique(np.append(np.arange(0, len(t), record.every), len(t) - 1))
         zeta = np.array([self.external(t[k], x[k, :n], v[k], mode) for k in kept])

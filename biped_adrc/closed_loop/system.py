@@ -20,10 +20,18 @@ from typing import Generic, NamedTuple, TypeVar
 import numpy as np
 
 from biped_adrc.closed_loop import semantics
-from biped_adrc.closed_loop.semantics import Instant, Loop, Mode, Plant, instant, unknown
-from biped_adrc.control.base import Controller, Measurement, check_output, check_state, misshapen
+from biped_adrc.closed_loop.semantics import (
+    ControlLaw,
+    Instant,
+    Loop,
+    Mode,
+    Plant,
+    instant,
+    unknown,
+)
+from biped_adrc.control.base import Controller, Measurement, check_state
 from biped_adrc.control.tracking import Gains
-from biped_adrc.errors import BipedError, InputError, NotFiniteError, SimulationError
+from biped_adrc.errors import BipedError, InputError, NotFiniteError
 from biped_adrc.gait.reference import Reference, ReferencePoint, check_point
 from biped_adrc.hardware import sample_hold as held
 from biped_adrc.hardware.meter import MeterParameters, Outside
@@ -32,9 +40,9 @@ from biped_adrc.hardware.sample_hold import Held, HeldParameters
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.system import Clock, HybridSystem
 from biped_adrc.model.reduction import disturbance_parts
-from biped_adrc.parts import check_fields
+from biped_adrc.parts import check_fields, handing_out, returned
 from biped_adrc.timing import ContinuousTime, SampledTime, check_timing
-from biped_adrc.types import Array, Indices
+from biped_adrc.types import Array, Indices, frozen
 
 P = TypeVar("P", bound=Plant)
 
@@ -86,6 +94,33 @@ class ClosedLoop(HybridSystem, Generic[P]):
             return self.controller.sampled(self.timing.period)
         return self.controller
 
+    @cached_property
+    def calls(self) -> ControlLaw:
+        """The methods of `law`; the states that they give are checked, as `saturate` checks the torque."""
+        law = self.law
+
+        def kept(name: str, finite: bool = True) -> Callable[..., Array]:
+            method = getattr(law, name)
+
+            def after(s: Array, m: Measurement, *more: Array) -> Array:
+                found = method(s, m, *more)
+                return s if found is s else frozen(returned(found, s.shape, law, name, finite))
+
+            return after
+
+        def driven(name: str, finite: bool = True) -> Callable[..., Array]:
+            after = kept(name, finite)
+            return lambda s, m, u: after(s, m, frozen(u))
+
+        return ControlLaw(
+            law.output,
+            driven("flow", finite=False),
+            kept("jump"),
+            kept("correct"),
+            driven("predict"),
+            law.estimate,
+        )
+
     @property
     def sampled(self) -> bool:
         """Whether a torque is held between ticks."""
@@ -104,7 +139,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     def __getstate__(self) -> dict[str, object]:
         """Without what is made again where it is needed."""
-        return {name: value for name, value in vars(self).items() if name != "held"}
+        return {name: value for name, value in vars(self).items() if name not in ("held", "calls")}
 
     @property
     def own(self) -> int:
@@ -170,33 +205,41 @@ class ClosedLoop(HybridSystem, Generic[P]):
         raises InputError for shapes that do not fit, NotFiniteError for a first torque that is NaN.
         """
         mode = Mode() if mode is None else mode
-        m = self.measure(mode.start, np.asarray(q, dtype=float), np.asarray(v, dtype=float), mode)
-        for part in _with_inner(self.law):
-            _check_tracking(part, m, self.plant.p)
-        s, k = self.law.initial_state(m), self.held
-        u = np.asarray(self.law.output(s, m))
-        check_output(self.controller, u, self.plant.p)
-        check_state(self.law, s, m, u)
-        tail = np.zeros(0) if k is None else held.at_start(k, m.q, m.v, self.sensors)
+        with handing_out():
+            m = self.measure(
+                mode.start, np.asarray(q, dtype=float), np.asarray(v, dtype=float), mode
+            )
+            for part in _with_inner(self.law):
+                _check_tracking(part, m, self.plant.p)
+            s = returned(self.law.initial_state(m), None, self.law, "initial_state")
+            u = returned(self.law.output(s, m), self.torques, self.controller, "output")
+            check_state(self.law, s, m, u)
+            k = self.held
+            tail = np.zeros(0) if k is None else held.at_start(k, m.q, m.v, self.sensors)
         return np.concatenate((m.q, m.v, s, tail))
 
     # -- what it does --------------------------------------------------------------------------------
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s]."""
+        """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s].
+
+        Raises InputError for sensors that show something else, NotFiniteError for NaN or infinity.
+        """
+        if self.sensors is not None:
+            shape = (self.plant.n,)
+            q, v = (returned(x, shape, self.sensors, "seen") for x in (q, v))
         return semantics.measurement(self, t, q, v, mode, self.law.needs_body)
 
     def saturate(self, u: Array) -> Array:
         """u (p,) [N m] within the torque limit.
 
-        Raises SimulationError for another number of torques and NotFiniteError for NaN or infinity;
-        one dot product tests all of them, since this is called at every stage of every step.
+        Raises InputError for what is not one real number per motor, NotFiniteError for NaN or infinity.
         """
-        u, limit = np.asarray(u, dtype=float), self.limit
-        if u.shape != self.torques:
-            raise SimulationError(misshapen(self.controller, u, self.plant.p))
+        u, limit = returned(u, self.torques, self.controller, "output", finite=False), self.limit
         if limit is not None:
             u = np.minimum(np.maximum(u, -limit), limit)
-        if not math.isfinite(u.dot(u)):
+        if not math.isfinite(
+            u.dot(u)
+        ):  # one product tests all of them, at every stage of every step
             raise NotFiniteError(f"{type(self.controller).__name__}.output returned {u} N m")
         return u
 
@@ -214,7 +257,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     def tick(self, t: float, x: Array, mode: Mode) -> Array:
         """x (nx,) after a sample instant: sensors, controller, queue of torques, meter."""
-        return semantics.tick(self, t, x, mode)
+        after = semantics.tick(self, t, x, mode)
+        return after if self.sensors is None else returned(after, x.shape, self.sensors, "sense")
 
     def _release(self, t: float, x: Array, mode: Mode) -> Array:
         """x once the torque that waited for a fraction of the period acts."""
@@ -312,7 +356,7 @@ def signals_at(
     """
     i = instant(loop, t, x, mode)
     m, plant, terms, p = i.measurement, loop.plant, i.measurement.terms, loop.plant.p
-    r, estimate = reference(i.s, m), loop.law.estimate(i.s, m)
+    r, estimate = reference(i.s, m), loop.calls.estimate(i.s, m)
     xi_estimate = np.full(p, np.nan) if estimate is None else estimate.disturbance
     matched, unmatched = disturbance_parts(terms, unknown(loop, terms, i.a, i.u, i.zeta))
     return InstantSignals(

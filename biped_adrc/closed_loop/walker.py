@@ -33,8 +33,9 @@ from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Guard, Split
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import returned
 from biped_adrc.timing import ContinuousTime, SampledTime, check_ends
-from biped_adrc.types import Array, Indices
+from biped_adrc.types import Array, Indices, read_only
 
 FOOT_STRIKE = "foot_strike"
 """Name of the event function whose zero is the impact."""
@@ -106,7 +107,7 @@ class Walker(ClosedLoop[Biped]):
     @cached_property
     def gain(self) -> Array:
         """Relative errors of v+ (n,) [1], or empty (0,)."""
-        return np.array(self.impact_gain, dtype=float)
+        return read_only(self.impact_gain)
 
     @cached_property
     def swap(self) -> Indices:
@@ -124,17 +125,12 @@ class Walker(ClosedLoop[Biped]):
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s].
 
-        Raises InputError where a user's disturbance returns another shape.
+        Raises InputError where a user's disturbance returns no row of n numbers, NotFiniteError for NaN.
         """
         if self.disturbance is None:
             return np.zeros(self.plant.n)
-        zeta = np.asarray(self.disturbance.torque(t, mode.step, mode.start, q, v))
-        if zeta.shape != q.shape:
-            raise InputError(
-                f"the torque of {type(self.disturbance).__name__} has shape {zeta.shape}, expected {q.shape}: "
-                "one number [N m] per coordinate"
-            )
-        return zeta
+        zeta = self.disturbance.torque(t, mode.step, mode.start, q, v)
+        return returned(zeta, q.shape, self.disturbance, "torque")
 
     def resultant(self, t: float, mode: Mode) -> Array:
         """Force from outside on the robot as a whole (2,) [N] at t [s]; needed for the ground reaction."""

@@ -21,9 +21,10 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from biped_adrc.composed import Composed
-from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.errors import InputError
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import ErrorSystem, Estimate
+from biped_adrc.parts import returned
 from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
@@ -216,7 +217,7 @@ def controller_laws(controller: Controller) -> ControllerLaws:
     So the closed loop calls laws whatever the controller is, and `obstacle` says why one does not compile.
     """
     if not controller._obstacle:
-        laws: ControllerLaws = controller.laws  # type: ignore[assignment]
+        laws: ControllerLaws = controller._laws
         return laws
     return ControllerLaws(
         (),
@@ -231,14 +232,6 @@ def controller_laws(controller: Controller) -> ControllerLaws:
     )
 
 
-def misshapen(controller: Controller, u: Array, p: int) -> str:
-    """What is said of an output u that is not (p,), one torque for each of p motors."""
-    return (
-        f"{type(controller).__name__}.output returned an array of shape {u.shape}, expected ({p},): one torque "
-        "[N m] per motor"
-    )
-
-
 def check_state(controller: Controller, s: Array, m: Measurement, u: Array) -> None:
     """Raise InputError for a law of the state s (size,) that gives another number of numbers than s has.
 
@@ -247,16 +240,5 @@ def check_state(controller: Controller, s: Array, m: Measurement, u: Array) -> N
     calls = {"flow": (s, m, u), "correct": (s, m), "predict": (s, m, u)}
     for name, given in calls.items():
         law = controller._law(name)
-        if law is not None and (shape := np.shape(law(*given))) != s.shape:
-            raise InputError(
-                f"law {name} of {type(controller).__name__} gives an array of shape {shape}, expected "
-                f"{s.shape} as its state"
-            )
-
-
-def check_output(controller: Controller, u: Array, p: int) -> None:
-    """Raise InputError for a first output u that is not (p,), one torque per motor, NotFiniteError for NaN."""
-    if u.shape != (p,):
-        raise InputError(misshapen(controller, u, p))
-    if not np.all(np.isfinite(u)):
-        raise NotFiniteError(f"{type(controller).__name__}.output returned {u} at the start")
+        if law is not None:
+            returned(law(*given), s.shape, controller, name, finite=False)

@@ -143,7 +143,6 @@ class CLFQPController(Controller):
                     f"{name} of the CLF-QP is {value}, expected a positive number; None is for no "
                     f"limit, of {', '.join(limits)}"
                 )
-        super().__post_init__()
 
     def output(self, s: Array, m: Measurement) -> Array:
         if not (np.isfinite(m.q).all() and np.isfinite(m.v).all()):

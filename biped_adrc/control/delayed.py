@@ -140,7 +140,6 @@ class Delayed(Controller):
     torque_limit: float | None = None
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         check_positive(
             self.delay,
             f"the delay is {self.delay} s",

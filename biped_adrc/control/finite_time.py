@@ -52,7 +52,6 @@ class FiniteTimeController(Controller):
     eps: float
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         if not 0.0 < self.alpha < 1.0:
             raise InputError(
                 f"alpha is {self.alpha}, expected between 0 and 1; for a linear law use "

@@ -37,8 +37,9 @@ from biped_adrc.control.tracking import (
     solved_acceleration,
     tracked_laws,
 )
-from biped_adrc.errors import check_positive
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.parts import check_part
 from biped_adrc.types import Array
 
 
@@ -99,10 +100,25 @@ class NPIDController(Controller):
     period: float | None = None
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         check_positive(self.K_i, f"the integral gain K_i is {self.K_i} 1/s^3")
         check_positive(self.filter_bandwidth, f"the PID's filter is {self.filter_bandwidth} rad/s")
         check_positive(self.damping, f"the damping of the PID's filter is {self.damping}")
+        self._check_stable()
+
+    def _check_stable(self) -> None:
+        """Raise InputError unless all roots of the loop with its filter have negative real parts.
+
+        s^3 (s^2 + 2 zeta w s + w^2) + w^2 (K_d s^2 + K_p s + K_i) = 0
+        """
+        w, zeta = self.filter_bandwidth, self.damping
+        for K_p, K_d in np.broadcast(self.gains.K_p, self.gains.K_d):
+            loop = [1.0, 2.0 * zeta * w, w * w, w * w * K_d, w * w * K_p, w * w * self.K_i]
+            if not np.max(np.roots(loop).real) < 0.0:
+                raise InputError(
+                    f"the loop of NPID is unstable even on the exact model with K_p = {K_p:g}, K_d = {K_d:g}, "
+                    f"K_i = {self.K_i:g} and a filter of {w:g} rad/s; expected K_i well below K_p K_d = "
+                    f"{K_p * K_d:g} 1/s^3, and a filter faster than the loop"
+                )
 
     @classmethod
     def like_adrc(
@@ -113,6 +129,8 @@ class NPIDController(Controller):
         gains: that ADRC's, one number for all joints.
         """
         check_positive(bandwidth, f"observer bandwidth is {bandwidth} rad/s")
+        check_part(gains.K_p, "K_p of the ADRC", float)
+        check_part(gains.K_d, "K_d of the ADRC", float)
         k_p, k_d = float(gains.K_p), float(gains.K_d)
         l_1, l_2, l_3 = 3.0 * bandwidth, 3.0 * bandwidth**2, bandwidth**3
         w2 = l_2 + k_p + k_d * l_1

@@ -83,12 +83,12 @@ def observing_laws(
         return torque(k.tracking, point(k.h, m.t, m.q, m.v), x, m)
 
     def initial_state(k: ObservingParameters, m: Measurement) -> Array:
-        return o.state(k.observer, seen(at(k, m), m)).ravel()
+        return np.ravel(o.state(k.observer, seen(at(k, m), m)))
 
     def jump(k: ObservingParameters, s: Array, after: Measurement, swap: Array) -> Array:
         x = seen(at(k, after), after)
         every = np.concatenate((swap, np.arange(len(swap), len(x.position))))
-        return o.reset(k.observer, k.policy, rows(k.observer, s), every, x).ravel()
+        return np.ravel(o.reset(k.observer, k.policy, rows(k.observer, s), every, x))
 
     def estimate(k: ObservingParameters, s: Array, m: Measurement) -> Estimate:
         return told(at(k, m), o.estimate(k.observer, rows(k.observer, s)), m)
@@ -97,15 +97,15 @@ def observing_laws(
         r = at(k, m)
         Z = rows(k.observer, s)
         assert o.flow is not None
-        return o.flow(k.observer, Z, seen(r, m).position, fed(r, m, u)).ravel()
+        return np.ravel(o.flow(k.observer, Z, seen(r, m).position, fed(r, m, u)))
 
     def correct(k: ObservingParameters, s: Array, m: Measurement) -> Array:
         assert o.correct is not None
-        return o.correct(k.observer, rows(k.observer, s), seen(at(k, m), m).position).ravel()
+        return np.ravel(o.correct(k.observer, rows(k.observer, s), seen(at(k, m), m).position))
 
     def predict(k: ObservingParameters, s: Array, m: Measurement, u: Array) -> Array:
         assert o.predict is not None
-        return o.predict(k.observer, rows(k.observer, s), fed(at(k, m), m, u)).ravel()
+        return np.ravel(o.predict(k.observer, rows(k.observer, s), fed(at(k, m), m, u)))
 
     laws = ControllerLaws(None, output, initial_state, jump=jump, estimate=estimate)
     if o.flow is not None:

@@ -34,7 +34,6 @@ class OuterLoop(Controller):
     inner: Controller
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         tracked_constraint(self.inner)
 
     @property

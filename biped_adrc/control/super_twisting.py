@@ -106,7 +106,6 @@ class SuperTwistingController(Controller):
     period: float | None = None
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         check_positive(self.slope, f"the slope of the sliding surface is {self.slope} 1/s")
         check_positive(self.lipschitz, f"the Lipschitz constant is {self.lipschitz} rad/s^3")
         check_positive(self.layer, f"the layer of the sliding mode is {self.layer} rad/s")

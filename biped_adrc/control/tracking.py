@@ -32,9 +32,13 @@ from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate
 from biped_adrc.parts import numbers
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, frozen
 
 _T = TypeVar("_T")
+
+
+HIGHEST = 1e15
+"""Of a gain [1/s^2], [1/s]: beyond it products of gains and poles have no place among the floats."""
 
 
 class TrackingParameters(NamedTuple):
@@ -62,7 +66,9 @@ class Gains(Shown):
                 raise InputError(
                     f"gain {name} is {value}, expected positive numbers, one per joint"
                 )
-            object.__setattr__(self, name, float(value) if value.ndim == 0 else value)
+            if np.any(value > HIGHEST):
+                raise InputError(f"gain {name} is {value}, expected at most {HIGHEST:g}")
+            object.__setattr__(self, name, float(value) if value.ndim == 0 else frozen(value))
 
     def check(self, p: int) -> None:
         """Raise InputError for gains per joint of another number of joints than p."""

@@ -27,7 +27,7 @@ import numpy as np
 
 from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError, check_count
-from biped_adrc.parts import check_part, numbers
+from biped_adrc.parts import check_part, numbers, returned
 from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
@@ -95,12 +95,7 @@ class Disturbance(Composed):
         for law in self._laws:
             if law.acts(t, step, t_start):
                 zeta = law.torque(law.parameters, t, step, t_start, q, v)
-                if np.shape(zeta) != total.shape:
-                    raise InputError(
-                        f"the law torque of {type(self).__name__} gives an array of shape {np.shape(zeta)}, "
-                        f"expected {total.shape}: one number [N m] per coordinate"
-                    )
-                total += zeta
+                total += returned(zeta, total.shape, self, "torque", finite=False)
         return total
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:
@@ -165,7 +160,7 @@ def disturbance_laws(disturbance: Disturbance) -> tuple[DisturbanceLaw, ...]:
     The closed loop thus has one way to evaluate a disturbance, whether it was written as laws or as methods.
     """
     if not disturbance._obstacle:
-        return disturbance.laws or ()
+        return disturbance._laws or ()
     made = DisturbanceLaw(
         (),
         lambda k, *at: disturbance.torque(*at),
@@ -258,7 +253,6 @@ class Windowed(Disturbance):
     """[s], counted as `start`; the torque is zero from then on."""
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         amplitude = numbers(self.amplitude, "torque amplitude")
         if amplitude.ndim != 1 or not np.all(np.isfinite(amplitude)):
             raise InputError(

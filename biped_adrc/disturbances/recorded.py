@@ -28,8 +28,9 @@ from biped_adrc.disturbances.base import (
     window_acts,
 )
 from biped_adrc.errors import InputError, check_count
-from biped_adrc.files import reading
+from biped_adrc.files import number_in, reading
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_part, numbers
 from biped_adrc.types import Array, read_only
 
 PIECES = 16
@@ -76,20 +77,14 @@ class RecordedTorque(Disturbance):
     """[s] from the start of that step, or of the run."""
 
     def __post_init__(self) -> None:
-        times, torques = read_only(self.times), read_only(self.torques)
-        if times.ndim != 1 or len(times) < 2 or torques.shape[:1] != times.shape:
+        times = read_only(numbers(self.times, "the times of the recording"))
+        torques = read_only(numbers(self.torques, "the torques of the recording"))
+        if times.ndim != 1 or torques.ndim != 2 or len(torques) != len(times):
             raise InputError(
                 f"the recording has times of shape {times.shape} and torques of shape {torques.shape}, "
                 "expected (K,) and (K, n) for K >= 2 rows and n coordinates"
             )
-        finite = np.isfinite(times) & np.all(np.isfinite(torques), axis=1)
-        bad = np.flatnonzero(~finite | (np.diff(times, prepend=-math.inf) <= 0.0))
-        if len(bad):
-            raise InputError(
-                f"row {bad[0] + 1} of the recording has t = {times[bad[0]]:g} s and torques "
-                f"{torques[bad[0]].tolist()} N m, expected finite numbers and a time after that of the row "
-                "before"
-            )
+        check_rows(times, torques, [f"row {i}" for i in range(1, len(times) + 1)])
         if not (math.isfinite(self.start) and self.start + times[0] >= 0.0):
             raise InputError(
                 f"the recording begins at {self.start + times[0]:g} s, expected a time from 0 on"
@@ -108,19 +103,25 @@ class RecordedTorque(Disturbance):
         Joints are those of the robot, or q1..qN; the others have no torque. Raises InputError for a file that
         cannot be read, columns other than these, and a line that is not of as many numbers, with its number.
         """
+        check_part(file, "the file of a recording", str, Path)
+        check_part(biped, "the robot of a recording", Biped)
+        check_part(start, "the start of a recording", float)
         with reading("recording", file, InputError):
             with Path(file).open(newline="", encoding="utf-8-sig") as text:
-                head, *rows = [[x.strip() for x in row] for row in csv.reader(text) if row] or [[]]
+                lines = csv.reader(text)
+                found = [(lines.line_num, [x.strip() for x in row]) for row in lines if row]
+            (_, head), *rows = found or [(1, [])]
             if head.count("t") != 1 or len(set(head)) < max(len(head), 2):
                 raise InputError(
                     f"its columns are {head}, expected one 't' [s] and different joints, as t,q1,q3"
                 )
-            numbers = [_numbers(row, i, len(head)) for i, row in enumerate(rows, 2)]
-            columns = dict(zip(head, np.array(numbers).reshape(-1, len(head)).T, strict=True))
+            table = np.array([_numbers(row, i, head) for i, row in rows]).reshape(-1, len(head))
+            columns = dict(zip(head, table.T, strict=True))
             times = columns.pop("t")
             torques = np.zeros((len(times), biped.n))
             for joint, values in columns.items():
                 torques[:, biped.description.joint_index(joint)] += values
+            check_rows(times, torques, [f"line {i}" for i, _ in rows])
             return cls(times, torques, step, start)
 
     @property
@@ -148,12 +149,27 @@ class RecordedTorque(Disturbance):
         return RecordedParameters(window, begin, width, slopes)
 
 
-def _numbers(row: list[str], line: int, columns: int) -> list[float]:
-    """A row of the file as numbers. Raises InputError with the line, counted from 1, the head being line 1."""
-    try:
-        numbers = [float(x) for x in row]
-    except ValueError as error:
-        raise InputError(f"line {line}: {error}; expected numbers [s], [N m]") from None
-    if len(numbers) != columns:
-        raise InputError(f"line {line} has {len(numbers)} numbers, expected {columns}")
-    return numbers
+def check_rows(times: Array, torques: Array, names: list[str]) -> None:
+    """Raise InputError, with the name of the row, for less than two rows, no numbers and times that fall.
+
+    times (K,) [s], torques (K, n) [N m], names (K,): what each row is called, such as "line 7".
+    """
+    if len(times) < 2:
+        raise InputError(
+            f"the recording has rows of numbers: {len(times)}, expected at least 2, as a torque acts "
+            "from one row to the next"
+        )
+    finite = np.isfinite(times) & np.all(np.isfinite(torques), axis=1)
+    bad = np.flatnonzero(~finite | (np.diff(times, prepend=-math.inf) <= 0.0))
+    if len(bad):
+        raise InputError(
+            f"{names[bad[0]]} of the recording has t = {times[bad[0]]:g} s and torques "
+            f"{torques[bad[0]].tolist()} N m, expected finite numbers and a time after that of the row before"
+        )
+
+
+def _numbers(row: list[str], line: int, head: list[str]) -> list[float]:
+    """A row of the file as numbers. Raises InputError with the line of the file and the column."""
+    if len(row) != len(head):
+        raise InputError(f"line {line} has {len(row)} entries, expected {len(head)}: {head}")
+    return [number_in(text, line, column) for text, column in zip(row, head, strict=True)]

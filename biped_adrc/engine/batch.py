@@ -186,7 +186,12 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
     try:
         compiled = CompiledWalker.of(case.walker, case.method, size, case.mode.start)
     except (NotCompiled, ModelError) as reason:
-        walked = _in_python(case, x, reason)
+        try:
+            walked = _in_python(case, x, reason)
+        except NotFiniteError:
+            raise
+        except InputError as error:  # what a user's code gives later on than at the start
+            return _ended(case, Status.RAISED, str(error))
         return lambda: walked
     return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
 

@@ -80,11 +80,13 @@ class Call:
         self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
 
     def __call__(self, *given: Array) -> Array:
-        """The outputs (outputs,) of what is in `inp`, or of these inputs joined; a copy."""
+        """The outputs (outputs,) of what is in `inp`, or of these inputs joined; a copy, read-only."""
         if given:
             np.concatenate(given, out=self.inp)
         self._function(*self._at)
-        return self.out.copy()
+        out = self.out.copy()
+        out.setflags(write=False)  # once, for all the views that are handed out
+        return out
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike
 
 from biped_adrc.closed_loop import exponential_form, semantics
 from biped_adrc.closed_loop.exponential_form import ErrorParameters, LoopParameters, SplitLaws
-from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.semantics import ControlLaw, Mode
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.mechanics import PlanarRobot, RobotStructure
@@ -113,24 +113,7 @@ class SymbolicFunction(NamedTuple):
     """Expressions of the outputs."""
 
 
-class TracedLaws(NamedTuple):
-    """The laws of a controller on symbols, a `semantics.ControlLaw`: parameters filled in, none missing."""
-
-    output: Callable[..., Array]
-    """(s, m) -> u (p,) [N m]."""
-    flow: Callable[..., Array]
-    """(s, m, u) -> s'."""
-    jump: Callable[..., Array]
-    """(s, m, swap) -> s."""
-    correct: Callable[..., Array]
-    """(s, m) -> s."""
-    predict: Callable[..., Array]
-    """(s, m, u) -> s."""
-    estimate: Callable[..., Estimate | None]
-    """(s, m) -> what an observer says, None without one."""
-
-
-def laws_on(trace: Tracer, laws: ControllerLaws, k: object, p: int, size: int) -> TracedLaws:
+def laws_on(trace: Tracer, laws: ControllerLaws, k: object, p: int, size: int) -> ControlLaw:
     """The laws on symbols with parameters k; a law of the state that is not there leaves it as it is.
 
     Raises InputError for a law that gives another number than p torques or `size` numbers of the
@@ -156,7 +139,7 @@ def laws_on(trace: Tracer, laws: ControllerLaws, k: object, p: int, size: int) -
         return None if laws.estimate is None else run(trace, laws.estimate, k, s, m)
 
     flow, jump, correct, predict = (traced(name, size) for name in STATE_LAWS)
-    return TracedLaws(traced("output", p), flow, jump, correct, predict, estimate)
+    return ControlLaw(traced("output", p), flow, jump, correct, predict, estimate)
 
 
 STATE_LAWS = ("flow", "jump", "correct", "predict")
@@ -177,8 +160,8 @@ class SymbolicLoop(NamedTuple):
     """The controller's model, on symbols; the same ones where it is the plant."""
     exact: bool
     """Whether the controller's model is the plant."""
-    law: TracedLaws
-    """The controller in its time base."""
+    calls: ControlLaw
+    """The controller's laws in its time base."""
     held: HeldParameters | None
     """Parameters of what is held between sample instants, None in continuous time."""
     swap: Indices
@@ -265,7 +248,7 @@ class Equations:
             plant=PlanarRobot.of(make.robot, K.plant, K.friction),
             nominal=PlanarRobot.of(make.robot, model),
             exact=K.model is None and not K.friction,
-            law=laws_on(trace, make.laws, K.k, make.robot.p, make.size),
+            calls=laws_on(trace, make.laws, K.k, make.robot.p, make.size),
             held=traced_sensors(trace, K.held) if K.held else None,
             swap=make.robot.swap,
             gain=K.impact_gain,

@@ -31,7 +31,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from biped_adrc import linear
 from biped_adrc.errors import InputError
-from biped_adrc.types import Array
+from biped_adrc.types import Array, frozen
 
 T = TypeVar("T")
 
@@ -427,14 +427,14 @@ class Vector:
     def take(self, first: int, /, *more: int) -> Array: ...
 
     def take(self, *shape: int) -> Any:
-        """The next symbols as an object array of this shape; a Scalar for no shape."""
+        """The next symbols as a read-only object array of this shape; a Scalar for no shape."""
         if not shape:
             self._taken += 1
             return Scalar(self.symbol[self._taken - 1])
         out = np.empty(shape, dtype=object).view(Symbols)
         for index in np.ndindex(*shape):
             out[index] = self.take()
-        return out
+        return frozen(out)
 
     def like(self, tree: T) -> T:
         """The parameters of a law with their floats as symbols; ints stay what they are."""

@@ -43,7 +43,7 @@ from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
 from biped_adrc.model.reduction import Reduction
 from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array, Indices
+from biped_adrc.types import Array, Indices, frozen
 
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """Names of the event functions that end a run, by status."""
@@ -244,6 +244,7 @@ class TicksWithoutHardware(HybridSystem):
         reference, (step, began) = self.inputs.point or NoReference(), mode
         due = origin + count * period
         hold, at, output, saturate = seen.hold, seen.at, law.output, walker.saturate
+        predict, s = walker.calls.predict, frozen(s)
         for q, v, terms, point, following in seen:
             reference.now = q, v, point
             if t == due:
@@ -256,7 +257,7 @@ class TicksWithoutHardware(HybridSystem):
                 else:
                     s, u = asked(walker, s, m)
                     torque[:] = u
-                    s = law.predict(s, m, u)
+                    s = predict(s, m, u)
                     states.append(s)
                     ends.append(int(run[layout.COUNT]))
             run[END] = t = due if due < until else until

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from biped_adrc.errors import GaitError
 from biped_adrc.resources import packaged
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array, read_only
+from biped_adrc.types import Array, frozen, read_only
 
 
 class CurveParameters(NamedTuple):
@@ -124,7 +124,7 @@ class Curve(Shown, ABC):
         first[..., :-1] = a[..., 1:] * k[1:]
         second[..., :-2] = a[..., 2:] * k[2:] * (k[2:] - 1.0)
         stacked = np.concatenate((a, first, second), axis=1)
-        return CurveParameters(stacked[0].copy(), k, breaks, stacked[1:].copy())
+        return frozen(CurveParameters(stacked[0].copy(), k, breaks, stacked[1:].copy()))
 
     def __call__(self, s: float) -> tuple[Array, Array, Array]:
         """h, dh/ds, d2h/ds2 at s, each (p,); s may lie outside of [0, 1]."""
@@ -249,7 +249,13 @@ def curve_kind(name: str) -> type[Curve]:
     Raises GaitError with the names there are.
     """
     if name not in CURVES:
-        raise GaitError(f"curve is '{name}', expected one of {sorted(CURVES)}")
+        own = (
+            "; a class of one's own gets a name with biped_adrc.register('curve', NAME, CLASS) first, since "
+            "files of gaits name their curve and are read without importing anything"
+        )
+        raise GaitError(
+            f"curve is '{name}', expected one of {sorted(CURVES)}{own if ':' in name else ''}"
+        )
     found = CURVES[name]
     if isinstance(found, str):
         module, _, cls = found.partition(":")

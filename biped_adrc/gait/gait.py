@@ -28,7 +28,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
 from biped_adrc.resources import data_folder
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, freeze
 
 FORMAT = "biped_adrc gait 1"
 """First entry of a gait file; the number changes with the keys."""
@@ -103,6 +103,9 @@ class Gait(Shown):
     """How it was made: method, source, command; free text by name."""
     slope: float = 0.0
     """Of the ground it walks on [rad], positive downhill."""
+
+    def __post_init__(self) -> None:
+        freeze(self, "q_minus", "v_minus")
 
     def __repr__(self) -> str:
         about = f"Gait('{self.name}', robot '{self.robot}', preset '{self.preset}', period {self.period:.4g} s"

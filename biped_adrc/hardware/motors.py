@@ -22,6 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.errors import InputError
+from biped_adrc.parts import Checked
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, Indices
 
@@ -100,7 +101,7 @@ def relabelled(line: Line, swap: Indices) -> Line:
 
 
 @dataclass(frozen=True)
-class Motors(Shown):
+class Motors(Checked, Shown):
     """rate_limit [N m/s], None for none; lag: time constant tau [s] of the torque, 0 for none.
 
     The same for all motors. Raises InputError for a limit that is not positive and a lag below zero.

@@ -29,8 +29,9 @@ from biped_adrc.hardware.motors import (
     whole_and_part,
 )
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.parts import returned
 from biped_adrc.timing import ContinuousTime, SampledTime
-from biped_adrc.types import Array, Indices
+from biped_adrc.types import Array, Indices, frozen
 
 
 class HeldSizes(NamedTuple):
@@ -138,12 +139,13 @@ def held_parameters(
         int(timing.delay_known and timing.delay > 0.0),
         own,
     )
-    return HeldParameters(
+    made = HeldParameters(
         () if sensing is None else sensing,
         motors.parameters(period, fraction),
         () if metered is None else metered,
         sizes,
     )
+    return frozen(made)
 
 
 def read(k: HeldSizes, tail: Array) -> Held:
@@ -179,9 +181,20 @@ def lagged(k: HeldParameters, tail: Array) -> Array:
 def at_start(k: HeldParameters, q: Array, v: Array, sensors: Sensor | None) -> Array:
     """What is held (total,) at the start of a run in q (n,), v (n,): no torque, a first look of the sensors."""
     sizes = k.sizes
-    w = np.zeros(0) if sensors is None else sensors.start(k.sensors.parameters, q, v)
+    w = np.zeros(0) if sensors is None else _tried(k, q, v, sensors)
     rest = np.zeros(sizes.total - sizes.own - sizes.sensors)
     return np.concatenate((np.zeros(sizes.own), w, rest))
+
+
+def _tried(k: HeldParameters, q: Array, v: Array, sensors: Sensor) -> Array:
+    """w (size,) of the sensors at the start; raises InputError where it, or one more sample, is no such row."""
+    law = k.sensors
+    w = returned(sensors.start(law.parameters, q, v), (law.size,), sensors, "start")
+    sensed = law.sense(law.parameters, frozen(w), q, v)
+    returned(sensed, (law.size,), sensors, "sense")
+    for x in law.seen(law.parameters, frozen(w), q, v):
+        returned(x, q.shape, sensors, "seen")
+    return w
 
 
 def after_impact(

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.parts import check_part
+from biped_adrc.parts import Checked, check_part
 from biped_adrc.types import Array
 
 Sight = tuple[Array, Array]
@@ -46,7 +46,7 @@ class SensorLaws(NamedTuple):
         return SensorLaws(*self[:2], *map(trace, self[2:]))
 
 
-class Sensor(ABC):
+class Sensor(Checked, ABC):
     """Base of all sensors: frozen parameters, with laws for a robot and a period."""
 
     @abstractmethod

@@ -26,6 +26,7 @@ from biped_adrc.hybrid.integrators import OneStepMethod, Step, StepFailed
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, FoundEvent, Guard, HybridSystem, Mode, Outcome, Split
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
+from biped_adrc.parts import handing_out
 from biped_adrc.types import Array
 
 Progress = Callable[[float, int], None]
@@ -186,7 +187,8 @@ def run_arcs(
     arcs, events = list[Arc](), Counter[str]()
     fired: str | None = None
     while True:
-        with np.errstate(over="ignore", invalid="ignore"):  # ends as the status NOT_FINITE
+        # what overflows ends as the status NOT_FINITE
+        with handing_out(), np.errstate(over="ignore", invalid="ignore"):
             flown = fly(t, x, mode, fired)
         arcs.append(flown.arc)
         event, status = flown.arc.event, flown.status

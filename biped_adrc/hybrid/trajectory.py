@@ -17,7 +17,7 @@ import numpy as np
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, freeze, frozen
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -51,6 +51,9 @@ class Event(Shown):
     x_plus: Array | None
     """State after (nx,); None where the run ended there."""
 
+    def __post_init__(self) -> None:
+        freeze(self, "x_minus", "x_plus")
+
 
 @dataclass(frozen=True)
 class Arc(Shown):
@@ -70,6 +73,10 @@ class Arc(Shown):
     """What ended it; None at the end of a run without one."""
     read: dict[str, Array] = field(default_factory=dict)
     """What was recorded at the nodes because it cannot be computed again from the states, K rows of each."""
+
+    def __post_init__(self) -> None:
+        freeze(self, "t", "x", "dx")
+        object.__setattr__(self, "read", {name: frozen(x) for name, x in self.read.items()})
 
     @property
     def seen(self) -> Array:

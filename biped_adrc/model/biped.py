@@ -36,7 +36,7 @@ from biped_adrc.robots.robot_toml import RobotDescription, load_description
 from biped_adrc.robots.symmetry import absolute_angles, relabelling
 from biped_adrc.robots.urdf import Inertial, Tree
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, frozen, read_only
 
 STICTION_SPEED = 0.05  # [rad/s], width of the smoothed sign of static friction
 """Width [rad/s] of the smoothed sign tanh(v / STICTION_SPEED) of static friction."""
@@ -118,12 +118,12 @@ class Biped(Shown):
     @cached_property
     def B(self) -> Array:
         """Input matrix B_s = [I; 0] (n, p) of (1), dimensionless."""
-        return np.eye(self.n)[:, : self.p]
+        return read_only(np.eye(self.n)[:, : self.p])
 
     @cached_property
     def phase(self) -> Array:
         """Row c (n,) of the phase variable Theta = c q, dimensionless."""
-        return np.array(self.description.phase)
+        return read_only(self.description.phase)
 
     @cached_property
     def R(self) -> Array:
@@ -131,7 +131,7 @@ class Biped(Shown):
 
         Raises ModelError where no linear map exchanges the legs.
         """
-        return relabelling(self.tree, self.description.joints, self.description.feet)
+        return read_only(relabelling(self.tree, self.description.joints, self.description.feet))
 
     def relabel(self, q: Array) -> Array:
         """R q + r: the configuration q (n,) [rad] in the coordinates of the next single support."""
@@ -140,7 +140,7 @@ class Biped(Shown):
     @cached_property
     def _offset(self) -> Array:
         """r (n,) [rad] of q+ = R q- + r; zero except for robots with spokes."""
-        return np.array(self.description.offset)
+        return read_only(self.description.offset)
 
     @cached_property
     def relabelling(self) -> NDArray[np.int_]:
@@ -155,7 +155,7 @@ class Biped(Shown):
                 f"robot '{self.description.name}': relabelling combines coordinates or adds to them, it is "
                 "no permutation; use Biped.R and Biped.relabel"
             )
-        return np.asarray(columns)
+        return frozen(columns)
 
     def check_motors(self) -> None:
         """Raise ModelError for motors that the impact does not exchange one for one.
@@ -255,8 +255,8 @@ class Biped(Shown):
     def friction_coefficients(self) -> tuple[Array, Array]:
         """Viscous [N m s/rad] and static [N m] friction, each (n,), as in the record."""
         d = self.description
-        viscous = np.array([d.viscous.get(name, 0.0) for name in d.joints])
-        return viscous, np.array([d.static.get(name, 0.0) for name in d.joints])
+        viscous = read_only([d.viscous.get(name, 0.0) for name in d.joints])
+        return viscous, read_only([d.static.get(name, 0.0) for name in d.joints])
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         """q'' (n,) [rad/s^2] under the generalised force B_s u + delta + zeta (n,) [N m].

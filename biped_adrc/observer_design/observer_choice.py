@@ -120,7 +120,7 @@ class OnHardware:
 
     @cached_property
     def ripple(self) -> float:
-        """rms torque [N m] of the error of one encoder count; infinite for an unstable loop."""
+        """rms torque [N m] of the error of one encoder count; NaN for an unstable loop."""
         return self.sampled().rms(count_error(self.hardware.counts)) * self.hardware.inertia
 
     @cached_property

@@ -50,9 +50,9 @@ class DelayMargin(NamedTuple):
     """The smallest delay with a root on the imaginary axis, and that root."""
 
     delay: float
-    """[s], infinite when there is none, 0 for a loop that is unstable without a delay."""
+    """[s], infinite when there is none, NaN for a loop that is unstable without a delay."""
     frequency: float
-    """[rad/s], nan for a loop that is unstable without a delay."""
+    """[rad/s], as the delay infinite or NaN."""
 
 
 class Conditioning(NamedTuple):
@@ -181,7 +181,7 @@ class ObserverLoop:
         known: the observer is fed with a(t - d).
         """
         if not self.stable_without_delay(known):
-            return DelayMargin(0.0, np.nan)
+            return DelayMargin(np.nan, np.nan)
         at = self.crossovers(known)
         if len(at) == 0:
             return DelayMargin(np.inf, np.inf)

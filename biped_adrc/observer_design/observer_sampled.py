@@ -189,10 +189,10 @@ class SampledLoop:
     def rms(self, sigma: float) -> float:
         """Standard deviation of a [rad/s^2] under independent errors sigma [rad] of the measured angles.
 
-        Exact, by the discrete Lyapunov equation; infinite for an unstable loop.
+        Exact, by the discrete Lyapunov equation; NaN for an unstable loop, which has none.
         """
         if not self.stable:
-            return np.inf
+            return np.nan
         _, B, C, D = self._system
         P = covariance(self.matrix, np.outer(B[:, 1], B[:, 1]))
         return float(np.sqrt(C @ P @ C + D[1] ** 2)) * sigma / self.period**2
@@ -234,7 +234,7 @@ def sampled_loop(
 def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
     """The largest T [s] below which the loop is stable at every period, with a delay of that many periods.
 
-    0 when SHORTEST is unstable already, infinite when all up to LONGEST are stable.
+    NaN when SHORTEST is unstable already, infinite when all up to LONGEST are stable.
     """
 
     def stable(T: float) -> bool:
@@ -242,7 +242,7 @@ def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
 
     low = SHORTEST
     if not stable(low):
-        return 0.0
+        return np.nan
     while stable(low * RATIO):
         low *= RATIO
         if low > LONGEST:
@@ -253,14 +253,14 @@ def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
 def largest_delay(loop: SampledLoop) -> float:
     """The largest delay [s] below which the loop is stable with every delay.
 
-    0 when the loop is unstable without one, infinite when all up to MOST_PERIODS are stable.
+    NaN when the loop is unstable without one, infinite when all up to MOST_PERIODS are stable.
     """
 
     def stable(d: float) -> bool:
         return replace(loop, delay=d).stable
 
     if not stable(0.0):
-        return 0.0
+        return np.nan
     step = loop.period / PARTS
     for i in range(1, MOST_PERIODS * PARTS + 1):
         if not stable(i * step):

@@ -60,6 +60,8 @@ def verdict(report: ObserverReport) -> str:
 def _bears(report: ObserverReport) -> str:
     """The largest delay that the sampled loop bears, in words."""
     margin = report.sampled_margins[int(report.hardware.known)]
+    if math.isnan(margin):
+        return "it bears no delay, since with the model's kappa it is unstable"
     if math.isinf(margin):
         return "with the model's kappa no delay was found that it does not bear"
     return f"with the model's kappa it bears {microseconds(margin)} of delay at this period"
@@ -130,7 +132,7 @@ def _stability(report: ObserverReport) -> Section:
     period = microseconds(report.hardware.period)
     rows = [
         ("delay margin, continuous", microseconds(hidden.delay), microseconds(known.delay)),
-        ("  root on the axis at", f"{hidden.frequency:.4g} rad/s", f"{known.frequency:.4g} rad/s"),
+        ("  root on the axis at", *(of_stable(m.frequency, "rad/s") for m in (hidden, known))),
         (f"delay margin, period {period}", *(microseconds(d) for d in sampled)),
         *(
             (f"largest period, {name}", *(microseconds(T) for T in periods))
@@ -211,5 +213,12 @@ def _allowed(report: ObserverReport) -> Section:
 
 
 def microseconds(seconds: float) -> str:
-    """A time [s] in microseconds, or that there is no limit."""
-    return f"{1e6 * seconds:.4g} us" if math.isfinite(seconds) else "no limit found"
+    """A time [s] in microseconds, or that there is no limit; NaN is the margin of an unstable loop."""
+    return of_stable(1e6 * seconds, "us")
+
+
+def of_stable(number: float, unit: str) -> str:
+    """A margin, period or frequency of a stable loop with its unit; "unstable" for NaN."""
+    if math.isnan(number):
+        return "unstable"
+    return f"{number:.4g} {unit}" if math.isfinite(number) else "no limit found"

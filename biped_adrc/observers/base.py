@@ -24,6 +24,7 @@ import numpy as np
 
 from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError
+from biped_adrc.parts import check_part, returned
 from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
@@ -242,22 +243,36 @@ class MethodParameters(NamedTuple):
 def observer_laws(observer: Observer) -> ObserverLaws:
     """The laws of an observer, or its methods as laws, which run in Python only and say so."""
     if not observer._obstacle:
-        laws: ObserverLaws = observer.laws  # type: ignore[assignment]
+        laws: ObserverLaws = observer._laws
         return laws
     policies = list(ResetPolicy)
+
+    def row(name: str, z: Array | None, *given: Any) -> Array:
+        """Z (1, size) that the method of this name gives from the state z, None at the start."""
+        state = () if z is None else (z,)
+        found = getattr(observer, name)(*state, *given)
+        return returned(found, None if z is None else z.shape, observer, name, finite=False)[
+            np.newaxis
+        ]
+
+    def estimate(k: HasOrder, Z: Array) -> Estimate:
+        found = observer.estimate(Z[0])
+        check_part(found, f"what {type(observer).__name__}.estimate returned", Estimate)
+        return found
+
     made = ObserverLaws(
         MethodParameters(),
-        lambda k, x: observer.initial_state(*x)[np.newaxis],
-        lambda k, Z: observer.estimate(Z[0]),
-        lambda k, code, Z, swap, x: observer.reset(Z[0], policies[code], swap, *x)[np.newaxis],
+        lambda k, x: row("initial_state", None, *x),
+        estimate,
+        lambda k, code, Z, swap, x: row("reset", Z[0], policies[code], swap, *x),
         obstacle=observer._obstacle,
     )
     discrete = (
         type(observer).predict is not Observer.predict or observer._law("predict") is not None
     )
     if not discrete:
-        return made._replace(flow=lambda k, Z, y, input: observer.flow(Z[0], y, input)[np.newaxis])
+        return made._replace(flow=lambda k, Z, y, input: row("flow", Z[0], y, input))
     return made._replace(
-        correct=lambda k, Z, y: observer.correct(Z[0], y)[np.newaxis],
-        predict=lambda k, Z, input: observer.predict(Z[0], input)[np.newaxis],
+        correct=lambda k, Z, y: row("correct", Z[0], y),
+        predict=lambda k, Z, input: row("predict", Z[0], input),
     )

@@ -23,6 +23,12 @@ from biped_adrc.types import Array
 NONE, RELABEL, MEASURED, MODEL = (policy.code for policy in ResetPolicy)
 
 
+MOST_POLES = 20
+"""States per joint: with more, round-off places the poles, and machine code of a step takes minutes to make."""
+SLOWEST, FASTEST = 1e-6, 1e9
+"""[rad/s]: beyond these bandwidths products of the gains have no place among the floats."""
+
+
 class Chain(Protocol):
     """What the laws of the chain need; the parameters of every observer of this kind have it."""
 
@@ -91,6 +97,8 @@ def stable_poles(poles: Sequence[complex], what: str, because: str) -> tuple[com
         raise InputError(
             f"the poles of {what} are {poles!r}, expected a sequence of numbers [rad/s] as (-300, -400)"
         ) from None
+    if len(numbers) > MOST_POLES:
+        check_chain(len(numbers), 1.0, what)
     if len(numbers) < 2:
         raise InputError(f"{what} needs at least 2 poles{because}, found {len(numbers)}")
     for pole in numbers:
@@ -100,6 +108,7 @@ def stable_poles(poles: Sequence[complex], what: str, because: str) -> tuple[com
             )
         if numbers.count(pole) != numbers.count(pole.conjugate()):
             raise InputError(f"observer pole {_show(pole)} rad/s has no conjugate beside it")
+        check_chain(2, abs(pole), what)
     return numbers
 
 
@@ -112,15 +121,26 @@ def equal_poles(bandwidth: float, number: int) -> tuple[complex, ...]:
 def whole(number: int, least: int, name: str, what: str) -> int:
     """The number as an int. Raises InputError unless it is whole and at least `least`."""
     is_whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
-    if not (is_whole and number >= least):
+    if not (is_whole and least <= number <= MOST_POLES):
+        most = f", at most {MOST_POLES}" if is_whole and number > least else ""
         raise InputError(
-            f"{what} is {name} = {number!r}, expected a whole number {name} >= {least}"
+            f"{what} is {name} = {number!r}, expected a whole number {name} >= {least}{most}"
         )
     return int(number)
 
 
 def _show(pole: complex) -> str:
     return f"{pole.real:g}" if pole.imag == 0 else f"{pole:g}"
+
+
+def check_chain(order: int, scale: float, what: str) -> None:
+    """Raise InputError for more than MOST_POLES states per joint, or a bandwidth out of reach [rad/s]."""
+    if order > MOST_POLES:
+        raise InputError(f"{what} has {order} poles, expected at most {MOST_POLES}")
+    if not SLOWEST <= scale <= FASTEST:
+        raise InputError(
+            f"{what} has a bandwidth of {scale:g} rad/s, expected {SLOWEST:g} to {FASTEST:g} rad/s"
+        )
 
 
 class ChainParameters(NamedTuple):
@@ -139,6 +159,9 @@ class ChainObserver(Observer):
 
     m: int
     scale: float
+
+    def __post_init__(self) -> None:
+        check_chain(self.order, self.scale, type(self).__name__)
 
     @property
     def laws(self) -> ObserverLaws:

@@ -63,17 +63,22 @@ def gpi_flow(k: GPIParameters, Z: Array, y: Array, input: Array) -> Array:
 
 @dataclass(frozen=True)
 class InjectedChain(ChainObserver):
-    """(17) with any gains: what its leaves share, whose `poles` and `parameters` say how they were chosen."""
+    """(17) with any gains: what its leaves share, whose `poles` say how they were chosen."""
 
     @property
     @abstractmethod
     def poles(self) -> tuple[complex, ...]:
         """(m + 2,) [rad/s]."""
 
-    @property
-    @abstractmethod
+    @cached_property
     def parameters(self) -> GPIParameters:
-        """What the laws `gpi_flow` and `chain_...` need."""
+        """What the laws `gpi_flow` and `chain_...` need: the polynomial of the poles over w has these gains."""
+        gains = np.real(np.poly(np.array(self.poles) / self.scale))[1:]
+        return GPIParameters(np.ascontiguousarray(gains), float(self.scale), self.order)
+
+    @property
+    def laws(self) -> ObserverLaws:
+        return chain_laws(self.parameters, gpi_flow)
 
     @property
     def gains(self) -> Array:
@@ -116,16 +121,6 @@ class GPIObserver(InjectedChain):
         Raises InputError.
         """
         return cls.from_poles(equal_poles(bandwidth, whole(m, 0, "m", "observer order") + 2))
-
-    @cached_property
-    def parameters(self) -> GPIParameters:
-        """What the laws `gpi_flow` and `chain_...` need: the polynomial of the poles over w has these gains."""
-        gains = np.real(np.poly(np.array(self.poles) / self.scale))[1:]
-        return GPIParameters(np.ascontiguousarray(gains), float(self.scale), self.order)
-
-    @property
-    def laws(self) -> ObserverLaws:
-        return chain_laws(self.parameters, gpi_flow)
 
 
 class SampledGPIParameters(NamedTuple):

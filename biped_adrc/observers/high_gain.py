@@ -22,9 +22,8 @@ from math import comb
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.observers.base import ObserverLaws
-from biped_adrc.observers.chain import chain_laws, whole
-from biped_adrc.observers.gpi import GPIParameters, InjectedChain, gpi_flow
+from biped_adrc.observers.chain import whole
+from biped_adrc.observers.gpi import GPIParameters, InjectedChain
 
 
 @dataclass(frozen=True)
@@ -63,10 +62,6 @@ class HighGainObserver(InjectedChain):
     def parameters(self) -> GPIParameters:
         """What the laws `gpi_flow` and `chain_...` need."""
         return GPIParameters(np.array(self.alpha), float(self.scale), self.order)
-
-    @property
-    def laws(self) -> ObserverLaws:
-        return chain_laws(self.parameters, gpi_flow)
 
 
 def _hurwitz(alpha: Sequence[float], m: int) -> tuple[float, ...]:

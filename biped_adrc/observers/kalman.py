@@ -30,11 +30,9 @@ from biped_adrc.errors import check_positive
 from biped_adrc.observers.base import ObserverLaws
 from biped_adrc.observers.chain import ChainObserver, chain_laws, whole
 from biped_adrc.observers.gpi import (
-    GPIParameters,
     InjectedChain,
     SampledGPIParameters,
     gpi_correct,
-    gpi_flow,
     gpi_predict,
     held_chain,
 )
@@ -71,16 +69,6 @@ class KalmanObserver(InjectedChain):
         k = self.order
         angles = np.pi * (0.5 + (np.arange(k) + 0.5) / k)
         return tuple(complex(pole) for pole in self.scale * np.exp(1j * angles))
-
-    @cached_property
-    def parameters(self) -> GPIParameters:
-        """What the laws `gpi_flow` and `chain_...` need."""
-        gains = np.real(np.poly(np.array(self.poles) / self.scale))[1:]
-        return GPIParameters(np.ascontiguousarray(gains), float(self.scale), self.order)
-
-    @property
-    def laws(self) -> ObserverLaws:
-        return chain_laws(self.parameters, gpi_flow)
 
     def sampled(self, period: float) -> SampledKalmanObserver:
         """The steady-state filter for ticks every `period` [s]."""

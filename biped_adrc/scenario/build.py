@@ -36,6 +36,9 @@ from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
 
 WALKED = ("robot", "preset", "controller", "impacts", "slope", "friction_limit", "force_window")
+OF_SENSOR = "sensor_"
+"""Before the name of an own value it says that it is the named sensor's: sensor_noise, where noise is the
+encoders'."""
 WITHOUT_MOTORS = (*WALKED, "method", "h", "tolerance", "engine")
 """Fields of a scenario that have an effect for a robot without motors."""
 
@@ -197,7 +200,8 @@ def sensors(s: Scenario) -> Sensor | None:
     if s.sensor is None:
         return encoders
     entry = find("sensor", s.sensor)
-    given = {**s.own, "seed": drawn(s, "sensors"), **entry.defaults}
+    own = {name.removeprefix(OF_SENSOR): x for name, x in s.own.items()}
+    given = {**own, "seed": drawn(s, "sensor"), **entry.defaults}
     what = f"sensor '{s.sensor}'"
     named = construct(what, entry.load(), given, Sensor)  # type: ignore[type-abstract]
     return named if encoders is None else encoders + named
@@ -217,8 +221,11 @@ def _encoders(s: Scenario) -> Sensors | None:
 
 
 def taken_by_sensor(s: Scenario) -> set[str]:
-    """Names of own values that the sensor takes."""
-    return set() if s.sensor is None else set(takes(find("sensor", s.sensor).load())) - {"seed"}
+    """Names of own values that the sensor takes, with and without `OF_SENSOR` before them."""
+    if s.sensor is None:
+        return set()
+    names = set(takes(find("sensor", s.sensor).load())) - {"seed"}
+    return names | {f"{OF_SENSOR}{name}" for name in names}
 
 
 def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:

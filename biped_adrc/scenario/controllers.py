@@ -30,7 +30,7 @@ from biped_adrc.gait.outputs import LinearOutputs
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.scenario.registry import construct, find, lacking, spelled, takes
+from biped_adrc.scenario.registry import REGISTRY, construct, find, lacking, spelled, takes
 from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, Scenario
 from biped_adrc.scenario.values import unknown
 
@@ -175,6 +175,21 @@ class ControllerMaker:
         return construct(f"the observer of {what}", best, offered, Observer)
 
 
+def _takers(name: str) -> str:
+    """Which things of the registry, not chosen in the scenario, take an own value of this name; "" for none."""
+    found = []
+    for kind, chosen_by in (
+        ("observer", "observer"),
+        ("sensor", "sensor"),
+        ("disturbance", "push"),
+    ):
+        for known, entry in REGISTRY[kind].items():
+            make = entry.load()
+            if any(name in takes(way) for way in (make, *(getattr(make, x) for x in _ways(make)))):
+                found.append(f"{chosen_by} = '{known}'")
+    return f"; {' or '.join(found)} takes it, and is not chosen here" if found else ""
+
+
 def _ways(kind: object) -> list[str]:
     """Names of the methods `from_...` of a class and its base classes, in the order they are written."""
     classes = getattr(kind, "__mro__", ())
@@ -208,7 +223,7 @@ def controller(s: Scenario, gait: Gait, biped: Biped, others: set[str] | None = 
             found = (
                 f"it comes by itself from {SOURCES[name]} of the scenario; give that, not an own value"
                 if name in SOURCES
-                else unknown(name, known, FIELDS)
+                else unknown(name, known, FIELDS) + _takers(name)
             )
             raise InputError(f"own value '{name}' of controller '{s.controller}': {found}")
     idle = [

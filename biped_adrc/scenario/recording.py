@@ -136,6 +136,10 @@ class Walk(Shown):
         cut = until_illegal(self.walker, self.trajectory, self.signals, limits)
         return self if cut is self.trajectory else replace(self, trajectory=cut)
 
+    def saying(self, said: tuple[str, ...]) -> Self:
+        """The same walk with more sentences among its remarks."""
+        return replace(self, said=(*self.said, *said))
+
     @property
     def remarks(self) -> tuple[str, ...]:
         """Sentences to know before using its numbers: a push that an impact cut off, too long a step at an

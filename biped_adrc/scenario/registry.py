@@ -30,6 +30,7 @@ from inspect import Parameter, signature
 from typing import TypeVar
 
 from biped_adrc.errors import BipedError, InputError
+from biped_adrc.parts import check_part
 from biped_adrc.resources import data_folder, packaged
 
 _OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
@@ -59,6 +60,17 @@ class Entry:
         return _imported(self.home) if self.given is None else self.given
 
 
+BASES = {
+    "controller": "biped_adrc.control.base:Controller",
+    "observer": "biped_adrc.observers.base:Observer",
+    "curve": "biped_adrc.gait.curves:Curve",
+    "sensor": "biped_adrc.hardware.sensing:Sensor",
+    "disturbance": "biped_adrc.disturbances.base:Disturbance",
+    "robot": "biped_adrc.model.biped:Biped",
+    "gait": "biped_adrc.gait.gait:Gait",
+}
+"""What a thing of each kind has to be."""
+
 REGISTRY: dict[str, dict[str, Entry]] = {
     kind: {name: Entry(**values) for name, values in entries.items()}
     for kind, entries in packaged("biped_adrc.scenario", "registry.toml").items()
@@ -84,14 +96,22 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
         ba.register("controller", "my law", MyController, "PD with my feedforward")
         ba.walk_scenario(ba.Scenario("my law", own={"stiffness": 300.0}))
 
-    kind: "controller", "observer", "disturbance", "curve", "robot" or "gait". words: for a reader. Records of
-    scenarios write it as `module:Class`, so that other processes find it. Raises InputError for an unknown
-    kind, and for a name that is taken or reads as `module:Class`.
+    kind: "controller", "observer", "sensor", "disturbance", "curve", "robot" or "gait". words: for a reader.
+    Records of scenarios write it as `module:Class`, so that other processes find it. Raises InputError for an
+    unknown kind, a thing of another kind, and for a name that is taken or reads as `module:Class`.
     """
     if kind not in REGISTRY:
         raise InputError(f"there is no kind '{kind}' of things; choose one of {list(REGISTRY)}")
+    check_part(name, f"the name of a {kind}", str)
     if not callable(thing):
         raise InputError(f"'{name}' is registered as {thing!r}, expected a class or a function")
+    base = _imported(BASES[kind])
+    assert isinstance(base, type)
+    if isinstance(thing, type) and not issubclass(thing, base):
+        raise InputError(
+            f"the {kind} '{name}' is registered as the class {thing.__name__}, expected a class below "
+            f"{base.__name__}, or a function that makes one"
+        )
     taken = {_plain(known) for known in names(kind)}
     if _plain(name) in taken or is_own(name) or not name.strip():
         raise InputError(

@@ -26,10 +26,11 @@ from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod, Stiff
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import check_part
 from biped_adrc.scenario.build import RobotAndGait, build, start
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.scenario.scenario import FREE, Scenario
+from biped_adrc.scenario.scenario import FREE, Scenario, idle
 from biped_adrc.scenario.walk import (
     FINE_STEP,
     Part,
@@ -138,6 +139,7 @@ def walk_scenario(
     progress: called as the walk goes on. method: in place of the scenario's. A fall is a status of the
     trajectory, not an error. Raises InputError for values that do not fit together.
     """
+    check_part(s, "what is to walk", Scenario)
     scene = RobotAndGait.of(s)
     walker = build(s, scene)
     return walk_in_parts(
@@ -149,7 +151,7 @@ def walk_scenario(
         progress=progress,
         engine=s.engine,
         scenario=s,
-    )
+    ).saying(idle(s))
 
 
 def passive_walk(

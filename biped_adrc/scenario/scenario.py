@@ -292,12 +292,13 @@ class Scenario(Shown):
         return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
-DRAWN = ("start", "onset", "joints", "noise", "sensors", "model", "impact", "ground")
+DRAWN = ("start", "onset", "joints", "noise", "sensors", "model", "impact", "ground", "sensor")
 """What is random in a walk. The place in this list selects the stream, so new names go to its end.
 
 start: offsets of coordinates and speed. onset: time of the push. joints: factors of a push on random joints.
 noise: the push that is noise. sensors: noise of measurements. model: errors of masses, centres, inertias and
-friction. impact: error of the impact map. ground: heights of uneven ground.
+friction. impact: error of the impact map. ground: heights of uneven ground. sensor: noise of the one that is
+named by `sensor`, apart from that of the encoders.
 """
 
 
@@ -314,6 +315,38 @@ UNITS = {name: units_of("scenario.toml")[name] for name in FIELDS}
 def _told(push: dict[str, float]) -> dict[str, float]:
     """A push without an infinite stop (a step that lasts for good), which JSON cannot hold."""
     return {name: x for name, x in push.items() if not (name == "stop" and math.isinf(x))}
+
+
+RANDOM = (
+    *("noise", "pitch_noise", "rate_noise", "sensor", "mass_error", "com_error", "inertia_error"),
+    *("friction_error", "impact_error", "ground_rms"),
+    *("start_speed_spread", "start_spread", "start_rate_spread"),
+)
+"""Fields that make something random in a walk; a push of noise, on random joints or without onset does too."""
+
+
+def idle(s: Scenario) -> tuple[str, ...]:
+    """Sentences on values that are given and do nothing in this walk.
+
+    They are said and not refused: a study gives every walk a seed, and old files of runs have such values.
+    """
+    pushed = s.push != "none"
+    drawn_push = pushed and (s.onset is None or s.push == "noise" or s.on == "random joints")
+    found = {
+        "seed": not drawn_push and not any(map(s._given, RANDOM)) and "seed" not in s.own,
+        "pushed_step": not pushed and s.ground_step == 0.0,
+        "fine": not pushed and not s.pushes,
+    }
+    because = {
+        "seed": "nothing in this walk is random",
+        "pushed_step": "there is neither a push nor a step of the ground",
+        "fine": "no push switches",
+    }
+    return tuple(
+        f"{name} = {getattr(s, name)} does nothing: {because[name]}"
+        for name, is_so in found.items()
+        if is_so and s._given(name)
+    )
 
 
 def drawn(s: Scenario, what: str) -> int:

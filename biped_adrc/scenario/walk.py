@@ -86,7 +86,7 @@ def refined(
 
 def walk(
     walker: Walker,
-    gait: Gait,
+    gait: Gait = None,  # type: ignore[assignment]  # so that a scenario alone is answered in words
     impacts: int = 25,
     method: OneStepMethod | None = None,
     *,

@@ -60,6 +60,13 @@ BESIDE = 1e-3
 """Relative increase of the rates with which the walk of the regression starts beside the cycle."""
 
 
+NO_MAP = (
+    *("impacts", "first_step", "fine", "pushes", "push", "pushed_step"),
+    *("start", "start_speed", "start_speed_spread", "start_spread", "start_rate_spread"),
+)
+"""Fields of a scenario that have no effect on a return map."""
+
+
 @dataclass(frozen=True)
 class CycleStability(Shown):
     """The fixed point of a return map and its multipliers by every method that applies."""
@@ -73,16 +80,18 @@ class CycleStability(Shown):
 
 
 def gait_cycle(s: Scenario, observer_states: bool = True, slope: float | None = None) -> Cycle:
-    """Return map of a stored gait under the controller of a scenario, without its pushes, by a fixed method.
+    """Return map of a stored gait under the controller of a scenario, without its pushes.
 
     observer_states: whether the controller's states belong to the state of the map. slope: [rad], of another
-    ground than the gait's. RK4 at 0.5 ms is within 2e-7 of delta^2 on the published gaits; ADRC takes the
-    exponential method at 1 ms.
+    ground than the gait's. By the scenario's method and step where it has them, else by a fixed one: RK4 at 0.5
+    ms is within 2e-7 of delta^2 on the published gaits; ADRC takes the exponential method at 1 ms.
     """
     cycle = gait_map(s, observer_states)
     walker = cycle.P.walker if slope is None else replace(cycle.P.walker, slope=slope)
     has_states = walker.split(Mode()) is not None
     method = default_method(walker) if has_states else RK4(5e-4)
+    if s.method is not None or s.h is not None:
+        method = cycle.P.method
     difference = cycle.P.difference if has_states else DIFFERENCE
     return replace(cycle, P=replace(cycle.P, walker=walker, method=method, difference=difference))
 
@@ -123,9 +132,17 @@ def find_cycle(
 def cycle_of(s: Scenario, observer_states: bool = True, slope: float | None = None) -> Cycle:
     """The cycle of a scenario, without its pushes, on its own or another slope [rad].
 
-    Raises as `find_cycle`.
+    Raises as `find_cycle`, and InputError for values that have no effect on a return map.
     """
     scene = RobotAndGait.of(s)
+    without = NO_MAP if scene.gait else (*NO_MAP, "method", "h", "tolerance")
+    idle = [name for name in s.record() if name in without]
+    if idle:
+        raise InputError(
+            "the return map is of one step of the undisturbed cycle"
+            f"{'' if scene.gait else ', by a fixed method,'} and takes no {', '.join(idle)}: this would do "
+            "nothing, leave it out"
+        )
     if scene.gait:
         return gait_cycle(s, observer_states, slope)
     return known_cycle(build(replace(s, gait=Scenario.gait), scene).plant, slope)

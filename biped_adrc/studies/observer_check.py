@@ -37,6 +37,7 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observer_design.observer_report import observer_name
+from biped_adrc.observer_design.observer_tables import of_stable
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.scenario.walk import walk
 from biped_adrc.timing import SampledTime
@@ -162,7 +163,8 @@ def check_delay(case: DelayCase) -> DelayCheck:
     margin = case.margin
     if not (math.isfinite(margin) and margin > 0.0):
         raise InputError(
-            f"the linear loop's delay margin is {margin} s, expected a positive number; nothing to confirm"
+            f"the delay margin of the linear loop is {of_stable(margin, 's')}, expected a positive number; "
+            "nothing to confirm"
         )
     below, finer = (case.walked(BELOW * margin, order) for order in (ORDER, FINER))
     count = min(len(below.errors), len(finer.errors))

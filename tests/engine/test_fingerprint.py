@@ -161,5 +161,7 @@ def test_so_is_one_of_an_observer(biped, gait) -> None:
             return chain_laws(Own(), lambda k, Z, y, u: np.stack((Z[1], Z[2])))
 
     controller = ba.ADRCController(gait.constraint, Short())
-    with pytest.raises(InputError, match=r"law flow of ADRCController .*\(8,\), expected \(12,\)"):
+    with pytest.raises(
+        InputError, match=r"ADRCController .*flow returned .*\(8,\), expected \(12,\)"
+    ):
         ba.walk(ba.Walker(biped, controller), gait, 1, ba.RK4(2e-3))

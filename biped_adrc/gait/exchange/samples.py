@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.errors import GaitError, InputError
+from biped_adrc.files import number_in, reading
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import OWN, Convention
 from biped_adrc.gait.curves import Bezier
@@ -233,22 +234,32 @@ def read_csv(path: Path) -> dict[str, Array]:
     Columns are t, q1 .. qn and v1 .. vn, with or without units behind a space; others are left alone. Raises
     InputError.
     """
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            header, *rows = csv.reader(file)
+    with reading("samples", path, InputError):
+        with open(path, newline="", encoding="utf-8-sig") as file:
+            lines = csv.reader(file)
+            read = [(lines.line_num, row) for row in lines if row]
+        (_, header), *rows = read or [(1, [])]
         names = [name.strip().partition(" ")[0] for name in header]
         wanted = {"t": ["t"]}
         for letter in "qv":
             numbered = [name for name in names if re.fullmatch(letter + "[1-9][0-9]*", name)]
             wanted |= {letter: sorted(numbered, key=lambda name: int(name[1:]))} if numbered else {}
-        places = {key: [names.index(name) for name in of] for key, of in wanted.items()}
+        missing = [name for name in ("t", "q1") if name not in names]
+        if missing or not rows:
+            lacks = f"no column '{missing[0]}'" if missing else "no row of numbers"
+            raise InputError(
+                f"it has {lacks}; its first line is {header}, expected names t, q1, q2, ... and perhaps v1, "
+                "v2, ..., and numbers below"
+            )
+        for line, row in rows:
+            if len(row) != len(names):
+                raise InputError(
+                    f"line {line} has {len(row)} entries, expected {len(names)}: {names}"
+                )
         found = {
-            key: np.array([[float(row[i]) for i in at] for row in rows if row])
-            for key, at in places.items()
+            key: np.array(
+                [[number_in(row[names.index(x)], line, x) for x in of] for line, row in rows]
+            )
+            for key, of in wanted.items()
         }
         return {"t": found.pop("t")[:, 0], "q": found.pop("q"), **found}
-    except (OSError, LookupError, ValueError) as error:
-        raise InputError(
-            f"samples '{path}' cannot be read: {error}; expected a first line of names t, q1, q2, ... and "
-            "perhaps v1, v2, ..., and numbers below"
-        ) from error
