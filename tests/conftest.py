@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
+import signal
+import subprocess
+
 import pytest
 
 import biped_adrc as ba
@@ -9,6 +14,31 @@ import biped_adrc as ba
 from .preloaded import Preloaded
 
 PRESETS = ("identified", "identified-bare", "tac2003")
+
+
+def pytest_configure():
+    """Ctrl-C ends the commands that tests start, also where the suite is a job in the background.
+
+    Such a job is started with SIGINT ignored, and hands that on to its children.
+    """
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.fixture
+def started():
+    """Starts a process in a group of its own, in text mode; the test leaves no such group, however it ends."""
+    processes = []
+
+    def start(*words, **more):
+        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+        processes.append(subprocess.Popen(words, start_new_session=True, **pipes | more))
+        return processes[-1]
+
+    yield start
+    for process in processes:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
 
 
 @pytest.fixture(scope="session", params=PRESETS)

@@ -118,14 +118,8 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_first_run(tmp_pat
     assert time.monotonic() - begin < 60
 
 
-def test_interruption_leaves_no_process_and_no_half_file(tmp_path):
-    process = subprocess.Popen(
-        [sys.executable, "-m", "biped_adrc.cli", "reproduce", "--out", str(tmp_path)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
+def test_interruption_leaves_no_process_and_no_half_file(tmp_path, started):
+    process = started(sys.executable, "-m", "biped_adrc.cli", "reproduce", "--out", str(tmp_path))
     assert at_work(process.pid, within=60.0)
     os.killpg(process.pid, signal.SIGINT)
     _, stderr = process.communicate(timeout=60)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.errors import InputError
@@ -117,3 +119,42 @@ def test_past_its_end_a_constraint_goes_on_smoothly(published):
 def test_bad_steps(step, height):
     with pytest.raises(InputError, match="step down"):
         StepDown(step, height)
+
+
+# -- what ends a step --------------------------------------------------------------------------------
+@pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
+def test_a_walk_is_a_fall_at_the_height_that_was_asked_for(bare, published, engine):
+    leg = float(np.linalg.norm(bare.hip(np.zeros(5))))
+    walker = ba.Walker(bare, ba.NPDController(published.constraint), fall_height=0.93)
+    assert walker.lowest_hip == pytest.approx(0.93 * leg, rel=1e-12)
+    start = bare.hip(published.start(bare)[0])[1]
+    assert start > 0.93 * leg
+    made = ba.walk(walker, published, 1, METHOD, engine=engine)
+    found = made.trajectory
+    end = bare.hip(found.final_state[:5])[1] / leg
+    lowest = min(bare.hip(x[:5])[1] for x in found.arcs[0].x) / leg
+    assert found.status is ba.Status.FELL if lowest < 0.9301 else found.status.ok
+    assert found.status is ba.Status.FELL
+    assert end == pytest.approx(0.93, abs=1e-9)
+
+
+@pytest.mark.parametrize(("ahead", "hits"), [(-2e-3, False), (0.9e-3, False), (1.1e-3, True)])
+def test_a_foot_strikes_when_it_is_a_millimetre_ahead(bare, published, ahead, hits):
+    """Nearer to the stance foot its coming down is no step: RABBIT's legs pass each other."""
+    walker = ba.Walker(bare, ba.NPDController(published.constraint))
+    q = published.q_minus.copy()
+    around = q[1] - 1.0, q[1] + 1.0  # the swing leg is turned about the hip
+    q[1] = brentq(lambda x: bare.swing_foot(np.array([q[0], x, *q[2:]]))[0] - ahead, *around)
+    assert bare.swing_foot(q)[0] == pytest.approx(ahead, abs=1e-12)
+    x = np.concatenate((q, published.v_minus))
+    assert (walker.strike(0.0, x, Mode()) is not None) is hits
+
+
+def test_the_potential_energy_has_the_height_of_the_foothold(bare, down):
+    s = down.signals
+    assert s.foothold_height[-1] == pytest.approx(-HEIGHT, abs=1e-9)
+    for k in (0, len(s.t) // 2, len(s.t) - 1):
+        expected = bare.potential_energy(s.q[k]) + bare.weight * s.foothold_height[k]
+        assert s.potential[k] == pytest.approx(expected, abs=1e-9)
+    after = np.flatnonzero(np.diff(s.step))
+    np.testing.assert_allclose(s.potential[after], s.potential[after + 1], atol=1e-8)

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.errors import GaitError, InputError, OutputError
-from biped_adrc.files import keep_inputs, output_path
+from biped_adrc.files import keep_inputs, output_path, write_text
 from biped_adrc.hybrid.storage import load, save
 from biped_adrc.resources import data_folder
 
@@ -166,3 +166,15 @@ def test_names(tmp_path):
     with pytest.raises(InputError, match="/a' is what it reads"):
         keep_inputs([tmp_path / "c", tmp_path / "b"], [tmp_path / "a"])
     keep_inputs([tmp_path / "c"], [tmp_path / "a"])
+
+
+def test_a_reader_of_the_old_file_is_not_disturbed(tmp_path):
+    """A file is replaced by another one: whoever has it open reads the old one to its end."""
+    path = tmp_path / "a.json"
+    write_text(path, "old" * 1000)
+    with path.open() as reader:
+        assert reader.read(3) == "old"
+        write_text(path, "new")
+        assert reader.read() == "old" * 999
+    assert path.read_text() == "new"
+    assert [p.name for p in tmp_path.iterdir()] == ["a.json"]

@@ -377,3 +377,17 @@ def test_a_claim_with_markup_is_printed_as_it_is(stubbed, tmp_path):
     done = CliRunner().invoke(app, ["reproduce", "--quick", "--out", str(tmp_path)])
     assert done.exit_code == 0, done.output
     assert "[/b]" in done.output
+
+
+@pytest.mark.parametrize("kind", ["masses", "masses and inertias"])
+@pytest.mark.parametrize(("ratio", "count"), [(0.99, 0), (1.0, 1), (1.01, 1), (math.nan, 1)])
+def test_a_heavier_plant_has_to_be_tracked_better(kind, ratio, count):
+    r = results(**{f"heavier, {kind} ADRC": outcome("ADRC", 1e-2 * ratio)})
+    checks = [c for c in verdicts.push_checks(r) if not c.holds]
+    assert [f"heavier plant ({kind})" in c.name for c in checks] == [True] * count
+
+
+@pytest.mark.parametrize(("gap", "count"), [(0.0099, 0), (0.0101, 1)])
+def test_step_times_after_a_push_of_the_torso_differ_by_one_per_cent_at_most(gap, count):
+    late = outcome("ADRC", durations=np.append(np.full(8, 0.4), 0.4 * (1.0 + gap)))
+    assert len(broken(torso_ADRC=late)) == count

@@ -262,24 +262,17 @@ if __name__ == "__main__":
 
 
 @pytest.fixture
-def running(tmp_path):
+def running(tmp_path, started):
     """A study in two processes, some of it done; its file, and all its processes."""
     folder = Path(standin.__file__).parent
-    process = subprocess.Popen(
-        [sys.executable, "-c", SCRIPT, str(folder), str(tmp_path / "r.sqlite")],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
+    process = started(sys.executable, "-c", SCRIPT, str(folder), str(tmp_path / "r.sqlite"))
     while int(process.stdout.readline()) < 40:
         pass
     below = psutil.Process(process.pid).children(recursive=True)
     yield process, tmp_path / "r.sqlite", below
-    for one in (process, *below):
+    for one in below:
         with contextlib.suppress(psutil.NoSuchProcess):
             one.kill()
-    process.communicate()
 
 
 def test_ctrl_c_ends_all_processes_and_keeps_what_was_finished(running):
@@ -313,16 +306,10 @@ def test_ctrl_c_twice_is_as_once(running):
 
 
 @pytest.mark.parametrize("pause", [0.3, 0.6, 0.9, 1.2, 1.6])
-def test_ctrl_c_while_workers_start(tmp_path, pause):
+def test_ctrl_c_while_workers_start(tmp_path, pause, started):
     folder = Path(standin.__file__).parent
     text = SCRIPT.replace("with open_store", "print(0, flush=True); \n    with open_store")
-    process = subprocess.Popen(
-        [sys.executable, "-c", text, str(folder), str(tmp_path / "r.sqlite")],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
+    process = started(sys.executable, "-c", text, str(folder), str(tmp_path / "r.sqlite"))
     process.stdout.readline()
     time.sleep(pause / 2)
     os.killpg(process.pid, signal.SIGINT)

@@ -6,7 +6,6 @@ import math
 import os
 import signal
 import sqlite3
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -337,16 +336,11 @@ period = ["1 ms", "2 ms"]
 """
 
 
-def command(*arguments, **more):
+@pytest.fixture
+def command(started):
+    """The command as its own process."""
     code = "from biped_adrc.cli import main, sweep\nif __name__ == '__main__': main()"
-    return subprocess.Popen(
-        [sys.executable, "-c", code, "sweep", *map(str, arguments)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-        **more,
-    )
+    return lambda *words: started(sys.executable, "-c", code, "sweep", *map(str, words))
 
 
 def test_walks_are_the_same_in_processes_and_threads(tmp_path):
@@ -361,7 +355,7 @@ def test_walks_are_the_same_in_processes_and_threads(tmp_path):
     assert apart.statuses() == {"COMPLETED": 8}
 
 
-def test_the_command_runs_exports_draws_and_goes_on(tmp_path):
+def test_the_command_runs_exports_draws_and_goes_on(tmp_path, command):
     path, out = tmp_path / "walks.toml", tmp_path / "out"
     path.write_text(WALKS)
     dry = CliRunner().invoke(app, ["sweep", str(path), "--out", str(out), "--dry-run"])
@@ -415,7 +409,7 @@ def test_wrong_commands(tmp_path, monkeypatch, arguments, message):
     assert not Path("o").exists()
 
 
-def test_ctrl_c_says_how_to_go_on(tmp_path):
+def test_ctrl_c_says_how_to_go_on(tmp_path, command):
     path, out = tmp_path / "walks.toml", tmp_path / "out"
     path.write_text(WALKS.replace("seeds = 2", "seeds = 2000"))
     process = command(path, "--out", out)

@@ -16,6 +16,11 @@ from biped_adrc.disturbances.noise import TorqueNoise
 from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
 from biped_adrc.robots.robot_toml import robot_names
+from biped_adrc.scenario.build import RobotAndGait, disturbances
+from biped_adrc.scenario.disturbances import window
+from biped_adrc.scenario.push import Push
+from biped_adrc.scenario.registry import find
+from biped_adrc.scenario.scenario import Scenario
 
 F = (12.0, -7.0, 3.0)  # [N, N, N m]
 PULSE = ba.TorquePulse(F, step=1, start=0.1, stop=0.2)
@@ -26,6 +31,12 @@ WAVES = {
     "sine": ba.TorqueSine(F, start=0.05, stop=0.3, frequency=4.0),
     "noise": TorqueNoise(F, bandwidth=8.0, seed=2),
 }
+
+
+def single_push(s):
+    """The disturbance of a scenario's own push."""
+    scene = RobotAndGait.of(s)
+    return disturbances(s, scene.biped, scene.walked, scene.biped)
 
 
 def links(biped):
@@ -317,3 +328,36 @@ def test_bad_ground():
     ):
         with pytest.raises(ba.BipedError, match=message):
             make()
+
+
+def test_a_sine_is_its_amplitude_after_a_quarter_of_its_period(biped):
+    """f = 2 Hz from 0.1 s on: amplitude at 0.225 s, 0 at 0.35 s, minus the amplitude at 0.475 s."""
+    amplitude, rest = np.array([3.0, 0.0, 0.0, 0.0, 0.0]), np.zeros(5)
+    made = (
+        ba.TorqueSine(amplitude, 4, 0.1, 0.9, 2.0),
+        Push({"q1": 3.0}, 4, 0.1, 0.9, "sine", 2.0).disturbance(biped),
+        single_push(
+            Scenario(push="sine", on="q1", amplitude=3.0, frequency=2.0, onset=0.1, pushed_step=1)
+        ),
+    )
+    for one, (step, begin) in zip(made, ((4, 0.0), (4, 0.0), (1, 0.0)), strict=True):
+        for s, share in ((0.1, 0.0), (0.225, 1.0), (0.35 - 1e-12, 0.0), (0.475, -1.0)):
+            zeta = one.torque(begin + s, step, begin, rest, rest)
+            if s <= one.stop:
+                np.testing.assert_allclose(zeta, share * amplitude, atol=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["sine", "noise"])
+def test_a_push_that_goes_on_over_impacts_begins_with_its_single_support(gait, kind):
+    s = Scenario(push=kind, amplitude=3.0, on="q1", onset=0.1, pushed_step=4, first_step=2)
+    when = window(s, gait)
+    begin = 2.0 * gait.period if find("disturbance", kind).over_steps else 0.0
+    assert (when["start"], when["stop"]) == pytest.approx((begin + 0.1, begin + 0.3))
+
+
+def test_uneven_ground_goes_down_where_the_next_foothold_is_lower():
+    heights = np.concatenate(([0.0], np.random.default_rng(7).normal(0.0, 0.01, 6)))
+    drops = {g.step: g.drop for g in uneven_ground(7, 0.01, 6)}
+    assert drops == pytest.approx({k: heights[k - 1] - heights[k] for k in range(1, 7)})
+    down = {g.step for g in uneven_ground(7, 0.01, 6) if isinstance(g, StepDown)}
+    assert down == {k for k in range(1, 7) if heights[k] < heights[k - 1]}

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import sys
+import tomllib
 import types
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +17,10 @@ from biped_adrc.disturbances.base import DisturbanceLaw
 from biped_adrc.engine.fingerprint import law_text, structure_text
 from biped_adrc.engine.symbols import Untraceable
 from biped_adrc.errors import InputError
+from biped_adrc.versions import NEVER_TRACED, source_text
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = ROOT / "biped_adrc"
 
 K = "from typing import NamedTuple\nclass K(NamedTuple):\n  w: float\n  s: object = 0\n"
 
@@ -165,3 +171,29 @@ def test_so_is_one_of_an_observer(biped, gait) -> None:
         InputError, match=r"ADRCController .*flow returned .*\(8,\), expected \(12,\)"
     ):
         ba.walk(ba.Walker(biped, controller), gait, 1, ba.RK4(2e-3))
+
+
+def test_rooms_that_are_left_out_of_the_key_are_those_above_the_engine():
+    """By the import contract nothing that is compiled can reach them."""
+    contract = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"]
+    layers = contract["contracts"][0]["layers"]
+    above = layers[: layers.index("biped_adrc.engine")]
+    names = {name.strip().partition(".")[2] for row in above for name in row.split("|")}
+    assert set(NEVER_TRACED) == (names - {""}) | {"campaign"}
+    below = [
+        p for p in PACKAGE.rglob("*.py") if p.relative_to(PACKAGE).parts[0] not in NEVER_TRACED
+    ]
+    assert [p for p in below if "biped_adrc.campaign" in p.read_text()] == []
+
+
+def test_every_other_file_of_the_package_is_in_the_key(tmp_path):
+    for name in ("linear.py", "model/biped.py", "viz/style.py"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("a = 1\n")
+    before = source_text(tmp_path, NEVER_TRACED)
+    for name, matters in (("linear.py", True), ("model/biped.py", True), ("viz/style.py", False)):
+        (tmp_path / name).write_text("a = 2\n")
+        assert (source_text(tmp_path, NEVER_TRACED) != before) is matters
+        (tmp_path / name).write_text("a = 1\n")
+    (tmp_path / "linear.py").rename(tmp_path / "other.py")
+    assert source_text(tmp_path, NEVER_TRACED) != before

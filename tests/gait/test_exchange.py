@@ -1,6 +1,11 @@
 """Gaits and runs from and to arrays, JSON and MATLAB files, in every angle convention."""
 
+import ast
+import dataclasses
+import inspect
+import itertools
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -8,6 +13,7 @@ import pytest
 from scipy.io import loadmat, savemat
 
 import biped_adrc as ba
+from biped_adrc.analysis.signals import Signals
 from biped_adrc.errors import GaitError, InputError, OutputError
 from biped_adrc.gait.conventions import CONVENTIONS, convention
 from biped_adrc.gait.curves import Bezier, Polynomial
@@ -483,3 +489,14 @@ def test_runs_that_cannot_be_exported(tmp_path):
     write_mat(path, {"t": t}, {"t": "s"})
     with pytest.raises(InputError, match="format 'None', expected"):
         read_run(path)
+
+
+def test_a_run_is_exported_in_the_units_of_its_signals():
+    """The docstring of each field of `Signals` ends with its unit; whole numbers and shares have none."""
+    body = ast.parse(inspect.getsource(Signals)).body[0].body
+    for field, text in itertools.pairwise(body):
+        if not isinstance(field, ast.AnnAssign) or field.target.id not in RUN_UNITS:
+            continue
+        units = re.findall(r"\[([^\]]+)\]", text.value.value)
+        assert set(units) == {RUN_UNITS[field.target.id]} - {"1"}, field.target.id
+    assert set(RUN_UNITS) == {f.name for f in dataclasses.fields(Signals)}

@@ -184,3 +184,57 @@ def test_exponential_method_refuses_a_system_without_a_split(biped, gait):
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     with pytest.raises(ba.BipedError, match="use RK4, Adaptive or Stiff"):
         ba.walk(walker, gait, 1, Exponential())
+
+
+@pytest.mark.parametrize("length", [0.4, 1.05, 1.96, 2.5])
+def test_a_step_of_another_length_has_its_own_phi_functions(length):
+    """On E' = a E + c, p' = 1 the method is exact whatever the step."""
+    h, a, c = 1e-3, -700.0, 3.0
+
+    class Linear(HybridSystem):
+        def flow(self, t, x, mode):
+            return np.array([1.0, a * x[1] + c])
+
+        def split(self, mode):
+            return Split(
+                lambda x: (x[:1], x[1:].reshape(1, 1)),
+                lambda p, E: np.concatenate((p, E.ravel())),
+                np.array([[a]]),
+                lambda t, p, E: (np.ones(1), np.array([[c]])),
+            )
+
+    end = length * h
+    found = simulate(Linear(), np.array([0.0, 2.0]), 0, Exponential(h), t_end=end).final_state
+    exact = 2.0 * math.exp(a * end) + c * math.expm1(a * end) / a
+    np.testing.assert_allclose(found, [end, exact], atol=1e-13)
+
+
+@pytest.mark.parametrize("method", [Adaptive, Stiff])
+def test_the_tolerance_decides_the_error(method):
+    """A pendulum is back after its period, the elliptic integral; without a longest step rtol alone decides."""
+
+    class Free(Pendulum):
+        def guards(self, mode):
+            return ()
+
+    x0, T = np.array([0.5 * math.pi, 0.0]), 4.0 * ellipk(0.5)
+    ends = [
+        simulate(Free(), x0, 0, method(rtol, 1e-12, 10.0), t_end=T).final_state
+        for rtol in (1e-3, 1e-6)
+    ]
+    rough, fine = (np.max(np.abs(x - x0)) for x in ends)
+    assert fine < 1e-4
+    assert fine < 0.03 * rough
+
+
+def test_the_tolerance_decides_the_steps_of_the_compiled_method(biped, gait):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    counts = [
+        len(
+            ba.walk(walker, gait, 1, Adaptive(rtol, 1e-12, 1.0), engine="compiled")
+            .trajectory.arcs[0]
+            .t
+        )
+        for rtol in (1e-4, 1e-11)
+    ]
+    assert counts[0] + 30 < counts[1]

@@ -8,6 +8,7 @@ from biped_adrc.errors import InputError, ModelError
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.robot_import.import_checks import checks
 from biped_adrc.robots.robot_toml import robot_names
+from biped_adrc.robots.urdf import Inertial
 
 ERRORS = ModelErrors(
     mass={"torso": 0.2, "shin": -0.1}, com={"thigh": 0.3}, inertia={"shin": 0.5, "torso": -0.2}
@@ -169,3 +170,19 @@ def test_impact_errors():
     for spread in (-0.1, 1.0, np.nan):
         with pytest.raises(InputError, match="spread of impact errors"):
             impact_error(1, spread, 5)
+
+
+def test_each_kind_of_error_scales_what_it_names():
+    body = Inertial(2.0, (0.1, -0.2, 0.3), (1.0, 0.1, 0.2, 3.0, 0.3, 4.0))
+    assert body.scaled("mass", 1.1) == Inertial(2.0 * 1.1, body.com, body.inertia)
+    assert body.scaled("com", 1.1).com == pytest.approx((0.11, -0.22, 0.33))
+    assert body.scaled("inertia", 0.5).inertia == pytest.approx((0.5, 0.05, 0.1, 1.5, 0.15, 2.0))
+
+
+@pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
+def test_an_impact_error_of_plus_makes_the_rates_larger(bare, published, engine):
+    gain = (0.1, -0.05, 0.0, 0.02, 0.03)
+    walker = ba.Walker(bare, ba.NPDController(published.constraint), impact_gain=gain)
+    event = ba.walk(walker, published, 1, ba.RK4(2e-3), engine=engine).trajectory.arcs[0].event
+    hit = bare.impact(event.x_minus[:5], event.x_minus[5:10])
+    np.testing.assert_allclose(event.x_plus[5:10], (1.0 + np.array(gain)) * hit.v, atol=1e-9)

@@ -1,5 +1,6 @@
 """A robot from one URDF: the same physics in all frames and senses, guesses said, refusals that help."""
 
+import itertools
 import math
 import re
 from dataclasses import replace
@@ -12,7 +13,9 @@ import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError, ModelError, OutputError
 from biped_adrc.gait.conventions import AngleMap
+from biped_adrc.model import physical
 from biped_adrc.resources import data_folder
+from biped_adrc.robot_import import import_checks
 from biped_adrc.robot_import.import_checks import checks
 from biped_adrc.robot_import.import_robot import Hints, biped_from_urdf, derive
 from validation.frost_urdf import (
@@ -403,3 +406,31 @@ def test_one_motor_between_the_legs_is_refused_with_the_reason(tmp_path):
         ba.design_gait(motor, 0.5)
     with pytest.raises(ba.BipedError, match="are not exchanged"):
         ba.Walker(motor, ba.Passive())
+
+
+@pytest.mark.parametrize(("gap", "holds"), [(0.9e-9, True), (1.1e-9, False), (np.nan, False)])
+def test_a_law_of_a_urdf_is_kept_to_a_billionth(monkeypatch, gap, holds):
+    rabbit = ba.Biped.load("rabbit")
+    assert all(check.holds for check in import_checks.checks(rabbit))
+    monkeypatch.setattr(import_checks, "_exchange", lambda *_: iter([("a law", gap)]))
+    (found,) = (check for check in import_checks.checks(rabbit) if check.name == "a law")
+    assert found.holds is holds
+
+
+def test_an_inertia_matrix_that_is_not_definite_is_refused():
+    from types import SimpleNamespace
+
+    rabbit = ba.Biped.load("rabbit")
+    D = np.diag([1.0, 1.0, 1.0, 1.0, -1e-3])
+    odd = SimpleNamespace(floating=SimpleNamespace(projected=lambda q, v: (D, np.ones(5))))
+    wrong = SimpleNamespace(inertia=lambda q: D, bias=lambda q, v: np.ones(5), **vars(odd))
+    laws = import_checks._single_support(wrong, np.zeros(5), np.zeros(5))
+    assert dict(itertools.islice(laws, 3))[import_checks.DEFINITE] == np.inf
+    with pytest.raises(ba.BipedError, match="expected positive ones"):
+        physical._check_definite(D, "here")
+    wrong = SimpleNamespace(
+        n=5, tree=rabbit.tree, description=rabbit.description, impact=rabbit.impact,
+        inertia=lambda q: D, bias=rabbit.bias,
+    )  # fmt: skip
+    with pytest.raises(ba.BipedError, match="expected positive ones"):
+        physical.check_numbers(wrong)

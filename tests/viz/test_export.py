@@ -272,3 +272,9 @@ def test_every_option_of_the_command_reaches_the_picture(
     done = CliRunner().invoke(app, ["animate", "a.npz", "--live", "--slower", "2"])
     assert done.exit_code != 0
     assert "leave them out with --live" in str(done.exception)
+
+
+def test_a_strip_says_how_far_apart_its_poses_are(walks: dict[str, Walk]) -> None:
+    axes = new_figure(8.0, 3.0).subplots()
+    strip(axes, walks["NPD"], 0.1, 0.5, poses=5)
+    assert "a pose every 100 ms" in axes.get_title(loc="left") + axes.get_title()

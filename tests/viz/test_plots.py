@@ -334,3 +334,11 @@ def test_paths_keep_hundredths_and_nothing_else_changes() -> None:
     assert any(a != b for a, b in zip(long, short, strict=True))
     rest = [re.sub(rb'\bd="[^"]*"', b"", svg) for svg in (whole.getvalue(), render(figure, "svg"))]
     assert rest[0] == rest[1]
+
+
+@pytest.mark.parametrize("mu", [0.3, 0.6])
+def test_the_cone_is_filled_between_its_edges(pushed: dict[str, Walk], mu: float) -> None:
+    axes = plots.friction_cone(axes_of_my_own(), pushed["NPD"].signals, mu=mu)
+    corners = axes.patches[0].get_xy()
+    for x, z in corners[1:3]:
+        assert abs(x) / z == pytest.approx(mu)
