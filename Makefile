@@ -12,7 +12,7 @@ BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine
   pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
-.PHONY: reproduce test docs pictures comparison results verification dev lint format types imports bench clean
+.PHONY: reproduce test docs pictures comparison results verification dev lint format types imports bench mutants faults clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -67,6 +67,15 @@ bench: .venv/.core
 	  $(BIN)/python benchmarks/$$script.py $(OUT)/benchmarks $(ARGS); done
 	$(BIN)/python benchmarks/gait_design.py $(OUT)/benchmarks --limit 10
 
+# faults put in one at a time, and which of them the tests notice: hours, resumable; ARGS="--limit 60" for an hour of
+# it, ARGS=--again for the survivors once more, ARGS=--report for the table alone
+mutants: .venv/.mutants
+	nice -n 19 $(BIN)/python benchmarks/mutants.py $(OUT)/mutants $(ARGS)
+
+# the faults that were chosen by hand, each against the test that has to notice it
+faults: .venv/.test
+	nice -n 19 $(BIN)/python benchmarks/mutants.py $(OUT)/mutants --planted $(ARGS)
+
 .venv/.made:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 	  { echo "biped_adrc needs Python >= 3.11; found $$($(PYTHON) --version 2>&1). Try: make PYTHON=python3.12 ..."; exit 1; }
@@ -83,6 +92,10 @@ bench: .venv/.core
 
 .venv/.dev: .venv/.made pyproject.toml constraints.txt
 	$(PIP) --editable '.[dev]'
+	@touch $@ .venv/.test .venv/.core
+
+.venv/.mutants: .venv/.made pyproject.toml constraints.txt
+	$(PIP) --editable '.[mutants]'
 	@touch $@ .venv/.test .venv/.core
 
 clean:

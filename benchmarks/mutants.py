@@ -6,8 +6,8 @@ put into a copy of the repository in OUT/copy, with a code cache of its own that
 without .pyc; the tests stop at the first that fails, which has to pass without the fault.
 
 What has been run is in OUT/results.jsonl and is not run again; OUT/draw.json is the draw of the seed.
-`--again` runs the survivors once more, after tests were added. `--planted` puts in the faults of faults.toml, which
-were chosen by hand, and runs the one test that each of them names. `--report` only prints the tables.
+`--again` runs the survivors once more, after tests were added. `--planted` puts in the faults of faults.toml,
+which were chosen by hand, and runs the one test that each of them names. `--report` only prints the tables.
 """
 
 from __future__ import annotations
@@ -43,6 +43,9 @@ FAILED = "MUTANTS_FAILED"
 COMPILES = "tests/engine/test_program.py"
 """Tests that fill the code cache once, before the first fault."""
 
+RUNS = (ast.expr, ast.Return, ast.Assign, ast.AnnAssign, ast.Break, ast.Continue)
+"""Nodes on whose lines faults are drawn."""
+
 Fault = dict[str, Any]
 
 
@@ -72,7 +75,7 @@ def places(source: str) -> dict[int, list[tuple[str, int]]]:
 
 
 def changed_line(source: str, name: str, k: int) -> tuple[int, str, str] | None:
-    """The one line (from 1) that an operator changes, before and after; None where it changes nothing that runs."""
+    """The one line (from 1) that an operator changes, before and after; None where nothing that runs does."""
     from cosmic_ray.mutating import mutate_code
     from cosmic_ray.plugins import get_operator
 
@@ -161,9 +164,7 @@ def _code_lines(source: str) -> list[int]:
     """Lines (from 1) on which a statement or an expression other than a docstring begins or goes on."""
     lines: set[int] = set()
     for node in ast.walk(ast.parse(source)):
-        if (
-            isinstance(node, ast.expr) and not isinstance(node, ast.Constant | ast.Name)
-        ) or isinstance(node, ast.Return | ast.Assign | ast.AnnAssign | ast.Break | ast.Continue):
+        if isinstance(node, RUNS) and not isinstance(node, ast.Constant | ast.Name):
             lines.add(node.lineno)
     return sorted(lines)
 
@@ -190,24 +191,16 @@ class Copy:
         """Exit code of the tests until one fails, and the name of that one."""
         environment = os.environ | {
             "BIPED_ADRC_CACHE": str(cache), "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1",
-            FAILED: str(self.out / "failed"), "PYTHONPATH": f"{self.root}{os.pathsep}{self.root / 'benchmarks'}",
+            FAILED: str(self.out / "failed"),
+            "PYTHONPATH": f"{self.root}{os.pathsep}{self.root / 'benchmarks'}",
         }  # fmt: skip
-        command = [
-            str(self.root / ".venv/bin/python"),
-            "-m",
-            "pytest",
-            "-x",
-            "-p",
-            "no:cacheprovider",
-            "-p",
-            "mutants",
-        ]
+        options = ["-x", "-p", "no:cacheprovider", "-p", "mutants", "--tb=line"]
         deselected = [word for name in without for word in ("--deselect", name)]
         log, named = self.out / "pytest.log", self.out / "failed"
         named.unlink(missing_ok=True)
         with log.open("w") as text:
             process = subprocess.Popen(
-                [*command, "--tb=line", "--durations=0", *deselected, *names],
+                [self.root / ".venv/bin/python", "-m", "pytest", *options, *deselected, *names],
                 cwd=self.root, env=environment, stdout=text, stderr=subprocess.STDOUT,
                 start_new_session=True,
             )  # fmt: skip
@@ -229,7 +222,8 @@ class Copy:
         changed = put_in(text, fault)
         if changed is None:
             return "gone", ""
-        base, cache, without = self.out / "cache", self.out / "cache_of_the_fault", [n for n, ok in self.passes.items() if not ok]
+        base, cache = self.out / "cache", self.out / "cache_of_the_fault"
+        without = [name for name, passes in self.passes.items() if not passes]
         try:
             while True:
                 shutil.rmtree(cache, ignore_errors=True)

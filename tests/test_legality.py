@@ -145,6 +145,29 @@ def test_scuffing_counts_away_from_the_ends_below_the_lower_foothold(walker):
     assert support(walker, handmade(t, F_N, height=late), KNOWN, finished=False).scuffing > 0.0
 
 
+@pytest.mark.parametrize(
+    ("share", "counts"), [(0.02, False), (0.04, True), (0.5, True), (0.96, True), (0.98, False)]
+)
+def test_scuffing_counts_all_along_the_step_but_for_three_per_cent(walker, share, counts):
+    t = grid()
+    dips = np.where(np.abs(t - 0.4 * share) < 1.5e-3, -2e-3, 0.02)
+    s = support(walker, handmade(t, np.full(len(t), WEIGHT), height=dips), KNOWN)
+    assert s.scuffing == pytest.approx(2e-3 if counts else 0.0)
+
+
+@pytest.mark.parametrize("name", ["F_N", "F_T", "u", "height"])
+def test_what_is_no_number_is_never_legal(walker, name):
+    t = grid()
+    values = {
+        "F_N": np.full(len(t), WEIGHT),
+        "F_T": np.zeros(len(t)),
+        "height": np.full(len(t), 0.05),
+    }
+    values["u"] = np.zeros((len(t), 4))
+    values[name][2000] = np.nan
+    assert support(walker, handmade(t, **values), KNOWN).illegal(), name
+
+
 def test_the_record_has_no_number_that_is_not_finite(walker):
     t = grid()
     carried = support(walker, handmade(t, np.full(len(t), 100.0), np.full(len(t), 50.0)), KNOWN)

@@ -27,7 +27,7 @@ TOP = typer.main.get_command(app)
 
 
 class Reached(BaseException):
-    """Ends a command where the function that is looked at has been called; no `except` of a command takes it."""
+    """Ends a command where the function that is looked at has been called; no command catches it."""
 
 
 class Anything:
@@ -133,6 +133,7 @@ ROBOT_ROWS = {
     "preset": Row("--preset tac2003", same("biped.preset"), "tac2003"),
 }
 HINTS = {
+    "file": Row("", same("path"), Path("own.urdf")),
     "feet": Row("--feet a,b", same("hints.feet"), ("a", "b")),
     "actuated": Row("--actuated c,d", same("hints.actuated"), ("c", "d")),
     "hip": Row("--hip e", same("hints.hip"), "e"),
@@ -217,9 +218,16 @@ LIBRARY = {
     "minimise": Row("--minimise peak", same("objective"), "peak"),
     "out": Row("-o own", lambda a: a.path.parent, Path("own"), SAVE),
 }
+
+
+def poles_of(a: Any) -> list[int]:
+    """Real parts of the observer's poles [rad/s], in order."""
+    return sorted(round(pole.real) for pole in a.observer.poles)
+
+
 OBSERVER = {
-    "poles": Row("--poles=-4,-5,-6", lambda a: sorted(map(round, (p.real for p in a.observer.poles))), [-6, -5, -4]),
-    "bandwidth": Row("--bandwidth 99", lambda a: {round(p.real) for p in a.observer.poles}, {-99}),
+    "poles": Row("--poles=-4,-5,-6", poles_of, [-6, -5, -4]),
+    "bandwidth": Row("--bandwidth 99", poles_of, [-99] * 3),
     "order": Row("--bandwidth 99 --order 3", lambda a: len(a.observer.poles), 5),
     "k_p": Row("--K-p 900", same("gains.K_p"), 900.0),
     "k_d": Row("--K-d 33", same("gains.K_d"), 33.0),
@@ -230,7 +238,10 @@ OBSERVER = {
     "robot": Row("--robot three_link", lambda a: a.biped.description.name, "three_link", "gait.gait:load_gait"),
     "preset": Row("--preset tac2003", same("robot.preset"), "tac2003"),
     "gait": Row("--gait v0.8", same("gait.name"), "v0.8"),
-    "confirm": Row("--confirm --known --delay 0.001 --counts 99 --period 0.002", lambda a: a.clock, (0.002, 99.0, 0.001, True), "cli.observer:_confirm"),
+    "confirm": Row(
+        "--confirm --known --delay 0.001 --counts 99 --period 0.002",
+        same("clock"), (0.002, 99.0, 0.001, True), "cli.observer:_confirm",
+    ),
     "out": Row("-o own.png", same("path"), Path("own.png"), "viz.style:write_figure"),
 }  # fmt: skip
 REPRODUCE = {
@@ -351,6 +362,19 @@ LOAD = "scenario.stored:load_walks"
 FIGURE = "viz.plots.observer_figure:observer_figure"
 ZERO_FIGURE = "viz.plots.zero_dynamics:zero_dynamics_figure"
 REPORT = "observer_design.observer_report:observer_report cli.observer:_print_report"
+BESIDE_SWEEP = (
+    "bench.export:export",
+    "bench.export:write_map",
+    "bench.study:rehearse",
+    "bench.sweep:load_sweep",
+)
+
+
+def saved(words: str, stub: str) -> dict[str, tuple[str, str]]:
+    """The way of a command to the function that saves its gait."""
+    return {"cli.gait:_save": (words, stub)}
+
+
 COMMANDS = {
     "simulate": Command("simulate", "cli.walk:_walk", SIMULATE),
     "poincare": Command(
@@ -363,8 +387,8 @@ COMMANDS = {
     ),
     "gait design": Command("gait design", DESIGNED, DESIGN, others={SAVE: ("gait design", DESIGNED)}),
     "gait library": Command("gait library", DESIGNED, LIBRARY, others={SAVE: ("gait library", DESIGNED)}),
-    "gait published": Command("gait published", PUBLISHED, PAPER, others={"cli.gait:_save": ("gait published", PUBLISHED)}),
-    "gait recipe": Command("gait recipe", RECIPE, PAPER, others={"cli.gait:_save": ("gait recipe", RECIPE)}),
+    "gait published": Command("gait published", PUBLISHED, PAPER, others=saved("gait published", PUBLISHED)),
+    "gait recipe": Command("gait recipe", RECIPE, PAPER, others=saved("gait recipe", RECIPE)),
     "gait show": Command("gait show", "gait.gait:load_gait", SHOW),
     "gait export": Command("gait export v0.8 -o a.mat", "gait.exchange.importing:export_gait", EXPORT),
     "gait import": Command(
@@ -375,8 +399,8 @@ COMMANDS = {
         "gait zero", "analysis.zero_report:zero_report", ZERO,
         others={"viz.style:write_figure": ("gait zero", f"analysis.zero_report:zero_report {ZERO_FIGURE}")},
     ),
-    "robot check": Command("robot check own.urdf", DERIVE, {"file": Row("", same("path"), Path("own.urdf")), **HINTS}),
-    "robot new": Command("robot new own.urdf -o folder", DERIVE, {"file": Row("", same("path"), Path("own.urdf")), **HINTS}),
+    "robot check": Command("robot check own.urdf", DERIVE, HINTS),
+    "robot new": Command("robot new own.urdf -o folder", DERIVE, HINTS),
     "robot show": Command("robot show rabbit", "model.biped:Biped.load", {}),
     "observer": Command(
         "observer", "observer_design.observer_report:observer_report", OBSERVER,
@@ -387,8 +411,9 @@ COMMANDS = {
     ),
     "reproduce": Command("reproduce", "paper.reproduction:reproduce", REPRODUCE),
     "compare": Command("compare", "bench.compare_study:run_comparison", COMPARE),
-    "sweep": Command("sweep own.toml -o folder", "bench.sweep:sweep", SWEEP,
-        others=dict.fromkeys(("bench.export:export", "bench.export:write_map", "bench.study:rehearse", "bench.sweep:load_sweep"), ("sweep own.toml -o folder", "bench.sweep:sweep")),
+    "sweep": Command(
+        "sweep own.toml -o folder", "bench.sweep:sweep", SWEEP,
+        others=dict.fromkeys(BESIDE_SWEEP, ("sweep own.toml -o folder", "bench.sweep:sweep")),
     ),
     "animate": Command(
         "animate run.npz", "viz.export:export", ANIMATE, LOAD,
