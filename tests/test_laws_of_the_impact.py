@@ -71,3 +71,14 @@ def test_a_model_without_numbers_is_noticed(monkeypatch, biped, name, law):
     found = [c.name for c in model_laws("identified", samples=4) if not c.holds]
     assert len(found) == 1
     assert found[0].startswith(law)
+
+
+def test_every_law_of_random_states_has_its_own_number(monkeypatch):
+    """The limit is round-off, and the three momenta are told apart."""
+    monkeypatch.setattr(laws, "impact_momenta", lambda *_: np.array([1e-3, 2e-3, 3e-3]))
+    found = model_laws("identified", 40)
+    assert {check.limit for check in found} == {"<= 1e-12"}
+    changed = [check for check in found if check.name.startswith("impact")]
+    first = changed[0].value
+    assert [check.value / first for check in changed] == pytest.approx([1.0, 2.0, 3.0])
+    assert not any(check.holds for check in changed)

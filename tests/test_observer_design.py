@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -32,6 +33,7 @@ from biped_adrc.observers.gpi import gpi_correct, gpi_flow, gpi_predict
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.observers.kalman import KalmanObserver
 from biped_adrc.observers.momentum import MomentumObserver
+from biped_adrc.studies import observer_check
 from biped_adrc.studies.observer_check import DelayCase, check_encoders, step_errors
 from biped_adrc.viz.plots.observer_figure import observer_figure
 
@@ -611,3 +613,40 @@ def test_errors_of_a_perfect_walk_are_small(bare, published):
         ba.Walker(bare, ba.NPDController(published.constraint)), published, 2, engine="compiled"
     )
     assert np.max(step_errors(published, run.trajectory)) < 1e-7
+
+
+@pytest.mark.parametrize(
+    ("errors", "status", "tracks"),
+    [
+        ([9.0, 1.0, 1.0, 1.01], ba.Status.COMPLETED, True),
+        ([9.0, 1.0, 1.0, 1e3], ba.Status.COMPLETED, False),
+        ([9.0, 1.0, 1e3, 1.0], ba.Status.COMPLETED, False),
+        ([9.0, 1.0, 1.0, 1.0], ba.Status.FELL, False),
+        ([9.0, 1.0], ba.Status.COMPLETED, False),
+    ],
+)
+def test_a_walk_tracks_that_ends_and_whose_errors_do_not_grow(errors, status, tracks):
+    assert observer_check.CheckedWalk("o", "c", status, np.array(errors)).tracks is tracks
+
+
+@pytest.mark.parametrize(
+    ("at", "found"), [(0.97, 0.97), (1.13, 1.13), (0.7, math.nan), (1.3, math.nan)]
+)
+def test_the_margin_of_the_robot_is_found_by_bisection(at, found):
+    margin = 3e-4
+    case = SimpleNamespace(
+        margin=margin, walked=lambda delay: SimpleNamespace(tracks=delay < at * margin)
+    )
+    assert observer_check.robot_margin(case) == pytest.approx(found * margin, rel=2e-3, nan_ok=True)
+
+
+def test_the_step_of_a_delayed_walk_is_that_of_its_fastest_pole():
+    slow = ba.GPIObserver.from_poles([-1.0, -2.0, -3.0])
+    D = pade(4)[1]
+    line = SimpleNamespace(line=SimpleNamespace(denominator=D, rate=1e6))
+    fastest = 1e6 * np.max(np.abs(np.roots(D[::-1])))
+    step = observer_check._step(slow, line)
+    assert step == pytest.approx(observer_check.REACH / fastest, rel=1e-12)
+    assert step < observer_check.LONGEST_STEP
+    line.line.rate = 1e-6
+    assert observer_check._step(slow, line) == observer_check.LONGEST_STEP

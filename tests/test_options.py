@@ -7,6 +7,7 @@ they have to be, and the value. The same place has to hold another value without
 from __future__ import annotations
 
 import importlib
+import math
 from collections.abc import Callable
 from functools import reduce
 from inspect import signature
@@ -14,14 +15,19 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 import typer.main
 
 import biped_adrc as ba
 from biped_adrc.cli import app
-from biped_adrc.cli.observer import _confirm
+from biped_adrc.cli.observer import _confirm, _print_walks
+from biped_adrc.cli.sweep import _print_statuses
 from biped_adrc.control.tracking import TABLE_II
+from biped_adrc.hybrid.status import Status
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
+from biped_adrc.resources import data_folder
+from biped_adrc.studies.observer_check import CheckedWalk, DelayCheck
 
 TOP = typer.main.get_command(app)
 
@@ -508,3 +514,47 @@ def test_walks_that_confirm_have_the_clock_that_was_asked_for(monkeypatch):
     _confirm(biped, gait, GPIObserver.from_poles(TABLE_I), TABLE_II, (0.002, 99.0, 0.001, True))
     shared = {"period": 0.002, "delay": 0.001, "known": True}
     assert called == [{**shared, "counts": None}, {**shared, "counts": 99.0}]
+
+
+def test_a_gait_without_a_name_has_its_own(folder):
+    found = received(["gait", "design"], SAVE, (DESIGNED,))
+    assert found.path == Path("anything.json")
+
+
+def test_a_gait_of_another_preset_is_said_to_be(capsys):
+    for preset, said in (("identified", False), ("tac2003", True), ("identified-bare", True)):
+        path = str(data_folder("gaits") / "rabbit" / "v0.8-identified.json")
+        TOP.main(["gait", "show", path, "--preset", preset], standalone_mode=False)
+        assert ("below with rabbit" in capsys.readouterr().out) is said
+
+
+def test_maps_have_a_panel_for_the_third_name(folder):
+    text = SWEEP_FILE + 'controller = ["ADRC", "ADRC output"]\n'
+    (folder / "own.toml").write_text(text)
+    for words, panel in (("bandwidth,period", None), ("bandwidth,period,controller", "controller")):
+        line = ["sweep", "own.toml", "-o", "folder", "--plot", words]
+        found = received(line, "bench.export:write_map", ("bench.sweep:sweep",))
+        assert (found.maps.x, found.maps.y, found.maps.panel) == ("bandwidth", "period", panel)
+
+
+def test_why_there_was_no_walk_is_printed(folder, capsys):
+    done = SimpleNamespace(
+        path="here", statuses=lambda: {"REFUSED": 2}, no_walks=lambda: {"REFUSED": "no gait"}
+    )
+    _print_statuses(done)
+    assert capsys.readouterr().out.splitlines() == [
+        "here: 2 REFUSED",
+        "one that is REFUSED: no gait",
+    ]
+
+
+def test_margins_are_printed_in_microseconds_and_per_cent(capsys):
+    walked = CheckedWalk("o", "c", Status.COMPLETED, np.ones(4))
+    fell = CheckedWalk("o", "c", Status.FELL, np.ones(4))
+    check = DelayCheck("o", True, 2e-4, walked, fell, 2.1e-4, 3e-9, fell)
+    _print_walks([check], [])
+    told = capsys.readouterr().out
+    assert "delay known: linear margin 200 us, confirmed; the robot's own 210 us (+5 %)" in told
+    _print_walks([check._replace(known=False, above=walked, robot_margin=math.nan)], [])
+    told = capsys.readouterr().out
+    assert "delay hidden: linear margin 200 us, NOT confirmed; the robot's own far from it" in told
