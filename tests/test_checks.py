@@ -1,0 +1,59 @@
+"""Checks at their limits, exit codes of errors, and classes of values that cannot be changed."""
+
+from __future__ import annotations
+
+import ast
+import math
+from pathlib import Path
+
+import pytest
+
+from biped_adrc import errors
+from biped_adrc.checks import at_least, at_most, below, between
+
+PACKAGE = Path(errors.__file__).parent
+
+
+@pytest.mark.parametrize(
+    ("check", "inside", "outside"),
+    [
+        (lambda x: at_most("x", "law", x, 2.0), (1.9, 2.0, -math.inf), (2.1, math.inf, math.nan)),
+        (lambda x: at_least("x", "law", x, 2.0), (2.1, 2.0, math.inf), (1.9, -math.inf, math.nan)),
+        (lambda x: below("x", "law", x, 2.0), (1.9, -math.inf), (2.0, 2.1, math.inf, math.nan)),
+        (lambda x: between("x", "law", x, 1.0, 2.0), (1.0, 1.5, 2.0), (0.9, 2.1, math.nan)),
+    ],
+)
+def test_a_check_holds_up_to_its_limit(check, inside, outside):
+    assert [check(x).holds for x in inside] == [True] * len(inside)
+    assert [check(x).holds for x in outside] == [False] * len(outside)
+
+
+def test_errors_have_the_exit_codes_of_the_help():
+    codes = {"BipedError": 3, "InputError": 3, "GaitError": 3, "ModelError": 3, "OutputError": 5}
+    assert {name: getattr(errors, name).exit_code for name in codes} == codes
+
+
+CHANGING = {
+    "bench/compare_study.py": {"Stored"},
+    "bench/study_file.py": {"_Reader"},
+    "campaign/execute.py": {"_Flight"},
+    "engine/ticks.py": {"NoReference"},
+    "hybrid/simulator.py": {"Record"},
+    "scenario/controllers.py": {"ControllerMaker"},
+    "scenario/walker_record.py": {"Reader", "Writer"},
+    "viz/meshcat/live.py": {"Session"},
+}
+"""Dataclasses that change on purpose, by file: what a run counts, and what is filled while it goes on."""
+
+
+def test_dataclasses_are_frozen_but_for_those_that_count():
+    loose: dict[str, set[str]] = {}
+    for path in PACKAGE.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not isinstance(node, ast.ClassDef):
+                continue
+            made = [ast.unparse(d) for d in node.decorator_list if "dataclass" in ast.unparse(d)]
+            if made and "frozen=True" not in made[0]:
+                name = path.relative_to(PACKAGE).as_posix()
+                loose.setdefault(name, set()).add(node.name)
+    assert loose == CHANGING
