@@ -1,13 +1,23 @@
 """Sensors, motors and meter by closed forms, alone and in walks of both engines."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.closed_loop import semantics
 from biped_adrc.hardware.meter import Meter, reading
-from biped_adrc.hardware.motors import Line, Motors, acting, limited, relabelled, sent
+from biped_adrc.hardware.motors import (
+    Line,
+    MotorParameters,
+    Motors,
+    acting,
+    limited,
+    relabelled,
+    sent,
+)
 from biped_adrc.hardware.sample_hold import motor_torque
 from biped_adrc.hardware.sensors import Sensors, rounded, sense, sensed_impact, sensor_state
 
@@ -312,3 +322,23 @@ def test_a_controller_that_forgets_a_motor_is_named(biped, gait, engine):
     (walked,) = ba.simulate_many([case])
     assert walked.status is ba.Status.RAISED
     assert "shape (3,)" in walked.detail
+
+
+@pytest.mark.parametrize(("known", "share"), [(0, 1.0), (1, 0.7)])
+def test_an_observer_that_knows_the_delay_is_fed_the_mean_of_what_acts(known, share):
+    """A delay of 0.3 T: the torque before acts for 0.3 of the period, the new one for the rest."""
+    old, new = np.array([10.0, -4.0]), np.array([2.0, 6.0])
+    fed = []
+    law = SimpleNamespace(
+        correct=lambda s, m: s,
+        output=lambda s, m: new,
+        predict=lambda s, m, u: fed.append(u) or s,
+    )
+    loop = SimpleNamespace(law=law, saturate=lambda u: u)
+    motors = MotorParameters(np.inf, 0.0, 0.3)
+    k = SimpleNamespace(sizes=SimpleNamespace(rate=0, known=known), motors=motors)
+    none = np.zeros(0)
+    _, line = semantics.decided(loop, k, none, None, Line(none, none, np.zeros(2), old))
+    np.testing.assert_allclose(fed[0], share * new + (1.0 - share) * old)
+    np.testing.assert_array_equal(line.waiting, new)
+    np.testing.assert_array_equal(line.u, old)
