@@ -1,8 +1,9 @@
 """Single-line faults put in one at a time: which of them the tests notice. `python benchmarks/mutants.py OUT`.
 
 The operators are those of cosmic-ray. Its runner is not used: laws are traced once and their machine code is
-kept, so that coverage cannot choose the tests; mutants.toml says which tests see which folder. Each fault is
-put into a copy of the repository in OUT/copy, with a code cache of its own that is thrown away with it and
+kept, so that coverage cannot choose the tests; mutants.toml says which tests see which folder, the nearest
+first, and which survivors were found to be equivalent (why no test can tell) or open (what would). Each fault
+is put into a copy of the repository in OUT/copy, with a code cache of its own that is thrown away with it and
 without .pyc; the tests stop at the first that fails, which has to pass without the fault.
 
 What has been run is in OUT/results.jsonl and is not run again; OUT/draw.json is the draw of the seed.
