@@ -1,5 +1,7 @@
 """Robots are read strictly: what is not physical is refused with one message that names it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ import biped_adrc as ba
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.model.pinned import frame_index, reroot, velocity_index
 from biped_adrc.resources import data_folder
+from biped_adrc.robots import symmetry
 from biped_adrc.robots.robot_toml import load_description, robot_names
 from biped_adrc.robots.urdf import to_xml
 from biped_adrc.robots.urdf_reader import load_tree
@@ -145,3 +148,24 @@ def test_bad_robot_record_is_refused(tmp_path, old, new, message):
     (tmp_path / "robot.toml").write_text(text.replace(old, new, 1))
     with pytest.raises(ModelError, match=message):
         ba.Biped.load(tmp_path / "robot.toml")
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({}, None),
+        ({"axis": "turned"}, "the same type and sense"),
+        ({"type": "fixed"}, "the same type and sense"),
+        ({"origin": (0.0, 0.0, -0.4)}, "make it equal"),
+    ],
+)
+def test_twins_turn_in_the_same_sense(change, message):
+    """A knee that bends the other way about would be relabelled with the wrong sign at impact."""
+    one = next(j for j in ba.Biped.load("rabbit").tree.joints if j.type == "revolute")
+    turned = {"axis": tuple(-x for x in one.axis)} if "axis" in change else change
+    other = replace(one, name="twin", **turned)
+    if message is None:
+        symmetry._check_joints(one, other, "pitch", (one.name, "twin"), "legs")
+        return
+    with pytest.raises(ModelError, match=message):
+        symmetry._check_joints(one, other, "pitch", (one.name, "twin"), "legs")
