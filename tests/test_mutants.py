@@ -1,4 +1,4 @@
-"""The tables of faults: every folder has its tests, every fault of the table is one line that is still there."""
+"""The tables of faults: every folder has its tests, and every fault is of a line that is still there."""
 
 from __future__ import annotations
 

@@ -169,7 +169,7 @@ def test_names(tmp_path):
 
 
 def test_a_reader_of_the_old_file_is_not_disturbed(tmp_path):
-    """A file is replaced by another one: whoever has it open reads the old one to its end (no buffer holds it)."""
+    """A file is replaced by another one: whoever has it open reads the old one to its end."""
     path = tmp_path / "a.json"
     write_text(path, "old" * 100_000)
     with path.open() as reader:
