@@ -168,6 +168,22 @@ def test_what_is_no_number_is_never_legal(walker, name):
     assert support(walker, handmade(t, **values), KNOWN).illegal(), name
 
 
+@pytest.mark.parametrize(
+    ("number", "reason"),
+    [
+        ("mean_friction", "friction"),
+        ("mean_normal_force", "normal_force"),
+        ("peak_torque", "torque"),
+        ("scuffing", "scuffing"),
+    ],
+)
+def test_each_number_that_is_none_is_a_reason_of_its_own(walker, number, reason):
+    t = grid()
+    good = support(walker, handmade(t, np.full(len(t), WEIGHT)), KNOWN)
+    assert good.illegal() == {}
+    assert list(replace(good, **{number: np.nan}).illegal()) == [reason]
+
+
 def test_the_record_has_no_number_that_is_not_finite(walker):
     t = grid()
     carried = support(walker, handmade(t, np.full(len(t), 100.0), np.full(len(t), 50.0)), KNOWN)
