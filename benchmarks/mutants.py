@@ -291,9 +291,10 @@ def report(faults: list[Fault], results: dict[Any, Fault], judged: list[Fault]) 
         left = [r for r in survivors if folder in (r["folder"], "all")]
         same = sum(key(r) in equivalent for r in left)
         noticed = len(some) - len(left)
-        share = 100 * noticed / max(1, len(some) - same)
+        countable = len(some) - same
+        share = f"{100 * noticed / countable:.0f} %" if countable else "none"
         rows.append(
-            f"| {folder} | {len(some)} | {noticed} | {same} | {len(left) - same} | {share:.0f} % |"
+            f"| {folder} | {len(some)} | {noticed} | {same} | {len(left) - same} | {share} |"
         )
     rows.append("")
     for r in sorted(survivors, key=key):

@@ -50,6 +50,8 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
     for name, of in (("rms_error", signals.error), ("rms_torque", signals.u)):
         mean = np.trapezoid(np.mean(of**2, axis=1), signals.t) / np.ptp(signals.t)
         assert row[name] == pytest.approx(np.sqrt(mean), rel=0.05)
+    mean = np.trapezoid(np.mean(signals.error**2, axis=1), signals.t) / np.ptp(signals.t)
+    assert walk.outcome.rms_error == pytest.approx(np.sqrt(mean), rel=0.01)
     lengths = [c.step_length for c in walk.certificates]
     assert row["distance"] == pytest.approx(sum(lengths), rel=1e-6)
     usual = scene.biped.swing_foot(gait.q_minus)[0] / gait.period
