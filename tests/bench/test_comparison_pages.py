@@ -124,6 +124,12 @@ def test_the_page_says_first_that_settings_are_not_alike(summary):
     assert draw(summary | {"pushes": []}).keys() == draw(summary).keys() - {"pushes"}
 
 
+def test_the_command_is_text_on_the_page(summary):
+    html = comparison_html(summary | {"command": "biped-adrc compare -o '<b>&'"}, {})
+    assert "biped-adrc compare -o &#39;&lt;b&gt;&amp;&#39;" in html
+    assert "'<b>&'" not in html
+
+
 def test_the_documentation_is_made_from_the_summary(summary, script):
     text = script.page(summary)
     for line in (line for lines in summary["findings"].values() for line in lines):
