@@ -17,7 +17,7 @@ from biped_adrc.control.delayed import Delayed, line_flow, line_output, line_sta
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.motors import IDEAL, Line, acting, sent, whole_and_part
 from biped_adrc.observer_design.observer_choice import Hardware, OnHardware, count_error, recommend
-from biped_adrc.observer_design.observer_impact import impact_peak, orbit_impact
+from biped_adrc.observer_design.observer_impact import ImpactStates, impact_peak, orbit_impact
 from biped_adrc.observer_design.observer_loop import conditioning, observer_loop
 from biped_adrc.observer_design.observer_report import observer_report
 from biped_adrc.observer_design.observer_sampled import (
@@ -650,3 +650,22 @@ def test_the_step_of_a_delayed_walk_is_that_of_its_fastest_pole():
     assert step < observer_check.LONGEST_STEP
     line.line.rate = 1e-6
     assert observer_check._step(slow, line) == observer_check.LONGEST_STEP
+
+
+@pytest.mark.parametrize(
+    ("row", "gains", "factor"),
+    [
+        (0, ba.Gains(1e9, 1e-3), 1e9),
+        (1, ba.Gains(1e-3, 1e9), 1e9),
+        (2, ba.Gains(1e-3, 1e-3), 1.0),
+    ],
+)
+def test_the_torque_after_an_impact_has_a_part_of_each_error(row, gains, factor):
+    """Of an error in one state alone, at t = 0: kappa^-1 (K_p e_1 + K_d e_2 + e_3)."""
+    after = np.zeros((TABLE_I.order, 1))
+    after[row] = 0.01
+    impact = ImpactStates(np.zeros_like(after), after, np.array([0]), np.array([[2.0]]))
+    peak = impact_peak(TABLE_I, impact, ba.ResetPolicy.NONE, gains)
+    assert peak.torque >= 2.0 * factor * 0.01 * (1.0 - 1e-3)
+    if row < 2:
+        assert peak.torque < 20.0 * factor * 0.01
