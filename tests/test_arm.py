@@ -4,6 +4,7 @@ import math
 import runpy
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pinocchio as pin
@@ -14,7 +15,7 @@ from biped_adrc.closed_loop.arm import ArmSystem
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model import arm as arm_module
-from biped_adrc.model.arm import Arm
+from biped_adrc.model.arm import Arm, _strip
 
 Q = np.array([0.0, -1.2, 1.5, -0.5, 0.8, 0.2])  # [rad]
 SWING, RATE = np.array([0.6, 0.3, -0.4, 0.5, -0.4, 0.8]), 2.0 * math.pi * 0.4
@@ -266,3 +267,15 @@ def test_a_torque_that_is_no_number_ends_the_run(arm):
         assert run.status is ba.Status.NOT_FINITE
         assert "Breaks" in run.detail
         assert np.all(np.isfinite(run.final_state))
+
+
+@pytest.mark.parametrize(
+    ("mass", "moments", "stays"),
+    [(0, 0, False), (0, 1e-3, True), (1.0, 0, True), (0, None, False), (1.0, None, True)],
+)
+def test_a_frame_without_mass_and_moments_loses_its_inertia_alone(mass, moments, stays):
+    said = "" if moments is None else f'<inertia ixx="0" iyy="{moments}" izz="0"/>'
+    text = f'<robot><link name="a"><inertial><mass value="{mass}"/>{said}</inertial></link></robot>'
+    root = ElementTree.fromstring(text)
+    _strip(root, "own.urdf")
+    assert (root.find("link/inertial") is not None) is stays
