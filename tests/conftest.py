@@ -77,7 +77,6 @@ def preloaded():
 
 
 WAIT = ("viz", "bench")
-"""Folders whose tests wait, for browsers and for processes: first, while other work goes on beside the suite."""
 """Folders whose tests wait, for browsers and processes: first, as other work goes on beside the suite then."""
 
 

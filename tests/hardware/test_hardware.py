@@ -334,7 +334,7 @@ def test_an_observer_that_knows_the_delay_is_fed_the_mean_of_what_acts(known, sh
         output=lambda s, m: new,
         predict=lambda s, m, u: fed.append(u) or s,
     )
-    loop = SimpleNamespace(law=law, saturate=lambda u: u)
+    loop = SimpleNamespace(law=law, calls=law, saturate=lambda u: u, bounded=lambda u: u)
     motors = MotorParameters(np.inf, 0.0, 0.3)
     k = SimpleNamespace(sizes=SimpleNamespace(rate=0, known=known), motors=motors)
     none = np.zeros(0)
