@@ -115,6 +115,7 @@ def _frames(scenes: Mapping[str, WalkScene], times: Array, motion: draw.Motion) 
     *ghosts, solid = scenes
     caption = f"{solid} solid, {', '.join(ghosts)} translucent" if ghosts else solid
     text = axes.text(0.02, 0.97, "", transform=axes.transAxes, va="top", fontsize=11, zorder=90)
+    text.set_parse_math(False)
     text.set_bbox({"fc": "white", "ec": "none", "alpha": 0.7, "pad": 2.0})
     out = []
     for k, t in enumerate(times.tolist()):
