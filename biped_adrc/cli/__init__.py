@@ -13,6 +13,7 @@ check` does not hold; 2 the command line is wrong; 3 bad input (robot, gait, pol
 from __future__ import annotations
 
 import sys
+import warnings
 from importlib import import_module
 
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, complain, gait_app
@@ -34,6 +35,7 @@ def main() -> None:
     nowhere. Where it cannot be written for another reason, that is said once all is done.
     """
     printed, _ = lasting("stdout"), lasting("stderr")
+    warnings.showwarning = lambda message, *_: complain(f"warning: {message}")
     code = _run()
     sys.stdout.flush()
     lost = reason_lost(printed)

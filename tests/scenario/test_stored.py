@@ -414,3 +414,17 @@ def test_a_walk_of_python_keeps_the_name_of_its_controller(own: str, gait, biped
     ba.walk(ba.Walker(biped, Mine(gait.constraint, 0.8)), gait, 1).save("named.npz")
     del sys.modules[own]
     assert ba.load_walk("named.npz").controller_name == "Mine"
+
+
+def test_a_file_of_version_0_1_imports_nothing(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("planted.py").write_text("open('ran', 'w').close()\nclass X: pass\n")
+    with np.load(Path(__file__).parents[1] / "data" / "run_0_1.npz") as data:
+        arrays = dict(data)
+    meta = json.loads(str(arrays["meta"]))
+    meta["settings"]["run"]["controller"] = "planted:X"
+    arrays["meta"] = np.array(json.dumps(meta))
+    np.savez("old.npz", **arrays)
+    with pytest.raises(InputError, match="names 'planted:X', and reading a file imports nothing"):
+        ba.load_walk("old.npz")
+    assert not Path("ran").exists()
