@@ -120,6 +120,12 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
         raise error(f"{where}: the key {found} is missing") from found
     except (TypeError, ValueError, AttributeError, IndexError) as found:
         raise error(f"{where}: {found}") from found
+    except RecursionError as found:
+        raise error(f"{where} is nested too deeply") from found
+    except BipedError:
+        raise
+    except Exception as found:  # whatever damaged bytes may raise in a parser
+        raise error(f"{where} cannot be used, {type(found).__name__}: {found}") from found
 
 
 def number_in(text: str, line: int, column: str) -> float:
