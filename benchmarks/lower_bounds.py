@@ -24,9 +24,13 @@ ROOT = Path(__file__).resolve().parents[1]
 EXTRAS = ("robots", "control", "tables")
 BOUND = re.compile(r"([\w-]+)>=([\d.]+)")
 STUDY = """
+[study]
 name = "smoke"
-base = { controller = "NPD", impacts = 1 }
-grid = { slope = ["0 deg", "0.1 deg"] }
+[fixed]
+controller = "NPD"
+impacts = 1
+[grid]
+period = ["1 ms", "2 ms"]
 """
 COMMANDS = (
     "simulate --impacts 2 -o walk.npz",
@@ -35,7 +39,7 @@ COMMANDS = (
     "simulate --robot compass --impacts 1",
     "plot walk.npz -o figure.svg",
     "animate walk.npz -o walk.html",
-    "animate walk.npz --stop 0.1 -o walk.gif",
+    "animate walk.npz --to 0.1 -o walk.gif",
     "gait design --speed 0.6 --degree 6 -o designed.json",
     "gait export published -o gait.mat",
     "gait import gait.mat -o back.json",
