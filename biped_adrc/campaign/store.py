@@ -210,7 +210,11 @@ class Store:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self.close()
+        try:
+            self.close()
+        except KeyboardInterrupt:  # Ctrl-C once more, before it was ignored or after
+            self.close()
+            raise
 
     @contextmanager
     def _writing(self) -> Iterator[sqlite3.Connection]:

@@ -16,6 +16,7 @@ import sys
 import warnings
 from importlib import import_module
 
+from biped_adrc.cli import early
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, complain, gait_app
 from biped_adrc.cli.terminal import lasting, reason_lost
 from biped_adrc.errors import BipedError, OutputError
@@ -26,6 +27,7 @@ COMMANDS = ("compare", "design", "gait", "look", "observer", "reproduce", "robot
 """Modules, each of which adds its commands to the app, in the order of the help."""
 for _module in COMMANDS:
     import_module(f"biped_adrc.cli.{_module}")
+early.ready()
 
 
 def main() -> None:

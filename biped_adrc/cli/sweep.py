@@ -128,8 +128,9 @@ def carried_out(
         try:
             yield progress
         except KeyboardInterrupt:
+            stop = interrupted(results)
             shown.stop()
-            raise interrupted(results) from None
+            raise stop from None
 
 
 def _clock(seconds: float) -> str:
