@@ -98,5 +98,5 @@ def lasting(name: str) -> Lasting | None:
 
 def reason_lost(output: Lasting | None) -> str | None:
     """Why what was printed is not there; None where it is, or where a reader left early, such as `head`."""
-    lost = output and output.lost
+    lost = None if output is None else output.lost
     return None if lost is None or lost.errno == errno.EPIPE else (lost.strerror or str(lost))

@@ -218,7 +218,7 @@ def _check_order(arcs: Sequence[Arc]) -> None:
 def _check_arc(arc: Arc, name: str, whole: bool) -> None:
     """Raise ValueError for times (K,) that go back, rows and states that do not fit, and what is no number."""
     t, x, event = arc.t, arc.x, arc.event
-    parts = {"t": t, "x": x, "x'": arc.dx, **arc.read}
+    parts: dict[str, Stored | None] = {"t": t, "x": x, "x'": arc.dx, **arc.read}
     parts |= {} if event is None else {"x-": event.x_minus, "x+": event.x_plus}
     for key, values in parts.items():
         if values is not None and values.dtype.kind != "f":

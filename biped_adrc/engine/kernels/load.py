@@ -38,7 +38,7 @@ def kernels() -> ModuleType:
 @lru_cache(maxsize=1)
 def _kernels() -> ModuleType:
     """The module, compiled or loaded. Where loading fails, all machine code is forgotten and made again."""
-    if config.DISABLE_JIT:
+    if getattr(config, "DISABLE_JIT", 0):
         raise ModelError("NUMBA_DISABLE_JIT is set, so nothing can be compiled; unset it")
     text = source()
     with _beside_the_source():
