@@ -12,7 +12,7 @@ BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine
   pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
-.PHONY: reproduce test docs pictures comparison results verification dev lint format types imports bench mutants faults clean
+.PHONY: reproduce test fuzz docs pictures comparison results verification dev lint format types imports bench mutants faults clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -21,6 +21,10 @@ reproduce: .venv/.core
 test: export OPENBLAS_NUM_THREADS ?= 1
 test: .venv/.test
 	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadgroup --no-loadscope-reorder
+
+# damaged files and nonsense on the command line, 500 of each kind, and a leak: about 10 minutes
+fuzz: .venv/.test
+	$(BIN)/python -m tests.fuzz
 
 # the pages, in docs/_build/html
 docs: .venv/.dev

@@ -37,18 +37,11 @@ def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False
     """The path of a file to write, checked; it has to end in one of `suffixes`, such as (".png", ".svg").
 
     default: a name that says no kind, such as 'push_0.1', has the first of `suffixes` put behind
-    it. Raises InputError for another kind and for what is no name of a file, and OutputError for a
-    folder or a device.
+    it. Raises InputError for another kind and for what is no name of a file, and OutputError for what
+    `check_place` refuses.
     """
     path = _named(path)
-    try:
-        taken = path.exists() and not path.is_file()
-    except OSError as error:
-        raise OutputError(
-            f"cannot write '{path}': {error.strerror}; choose another name"
-        ) from error
-    if taken:
-        raise OutputError(f"'{path}' is a folder or a device, expected the name of a file to write")
+    check_place(path)
     if path.suffix.lower() in suffixes:
         return path
     if default and not _KIND.fullmatch(path.suffix):
@@ -56,6 +49,21 @@ def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False
     raise InputError(
         f"cannot write '{path}': the name ends in '{path.suffix}', expected {' or '.join(suffixes)}"
     )
+
+
+def check_place(path: Path) -> None:
+    """Raise OutputError where a file would take the place of a folder, a device, a pipe or a link."""
+    try:
+        taken = path.exists() and not path.is_file()
+        link = path.readlink() if path.is_symlink() else None
+    except OSError as error:
+        raise OutputError(
+            f"cannot write '{path}': {error.strerror}; choose another name"
+        ) from error
+    if link is not None:
+        raise OutputError(f"'{path}' is a link to '{link}', expected the name of a file to write")
+    if taken:
+        raise OutputError(f"'{path}' is a folder or a device, expected the name of a file to write")
 
 
 def _named(path: object) -> Path:
@@ -112,6 +120,12 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
         raise error(f"{where}: the key {found} is missing") from found
     except (TypeError, ValueError, AttributeError, IndexError) as found:
         raise error(f"{where}: {found}") from found
+    except RecursionError as found:
+        raise error(f"{where} is nested too deeply") from found
+    except BipedError:
+        raise
+    except Exception as found:  # whatever damaged bytes may raise in a parser
+        raise error(f"{where} cannot be used, {type(found).__name__}: {found}") from found
 
 
 def number_in(text: str, line: int, column: str) -> float:
@@ -177,6 +191,7 @@ def replacing(path: Path) -> Iterator[Path]:
     Raises OutputError; after any error the temporary file is removed and `path` is as it was.
     """
     temporary = None
+    check_place(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")

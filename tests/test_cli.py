@@ -219,3 +219,22 @@ def test_poincare_says_what_the_nominal_step_needs():
     for words in ("at an instant F_N is", "outside the friction cone for", "scuffs by"):
         assert words in done.output
     assert "not legal: the swing foot scuffs" in done.output
+
+
+INTERRUPTED = """
+import os, signal, sys
+class AtImport:
+    def find_spec(self, name, *_):
+        if name == "biped_adrc.cli.walk":
+            os.kill(os.getpid(), signal.SIGINT)
+sys.argv = ["/usr/bin/biped-adrc"]
+sys.meta_path.insert(0, AtImport())
+import biped_adrc.cli
+"""
+
+
+def test_ctrl_c_while_the_command_is_imported():
+    done = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert (done.returncode, done.stderr) == (130, "interrupted; nothing was begun\n")

@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+import io
+import os
+import re
 import shutil
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from rich.table import Table
 from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.cli import app
+from biped_adrc.cli import app, main
+from biped_adrc.cli.terminal import Terminal, printable
 from biped_adrc.errors import GaitError, InputError, OutputError
 from biped_adrc.files import keep_inputs, output_path, write_text
 from biped_adrc.hybrid.storage import load, save
+from biped_adrc.paper.figures import draw
 from biped_adrc.resources import data_folder
+from biped_adrc.scenario.stored import load_walk
+from biped_adrc.viz.export import Clip, export
+from biped_adrc.viz.style import render
 
 RUNS = (".npz", ".mat")
 WALK = ("simulate", "--engine", "compiled", "--controller", "NPD", "--impacts", "1")
@@ -178,3 +188,68 @@ def test_a_reader_of_the_old_file_is_not_disturbed(tmp_path):
         assert reader.read() == "old" * 99_999
     assert path.read_text() == "new"
     assert [p.name for p in tmp_path.iterdir()] == ["a.json"]
+
+
+def test_a_link_a_pipe_and_a_device_stay_what_they_are(folder):
+    os.mkfifo("pipe.npz")
+    Path("dangling.npz").symlink_to("nowhere.npz")
+    Path("full.npz").symlink_to("/dev/full")
+    for name, found in (("link.json", "link"), ("dangling.npz", "link"), ("pipe.npz", "device")):
+        kind = Path(name).lstat().st_mode
+        with pytest.raises(OutputError, match=f"'{name}' is a .*{found}"):
+            write_text(Path(name), "taken")
+        assert Path(name).lstat().st_mode == kind
+    with pytest.raises(OutputError, match=r"'link\.json' is a link to 'keep\.json', expected"):
+        output_path("link.json", (".json",))
+    with pytest.raises(OutputError, match="is a link to '/dev/full'"):
+        command(*WALK, "-o", "full.npz")
+
+
+@pytest.mark.parametrize("broken", ["full", "closed"])
+def test_a_result_is_there_though_nothing_can_be_printed(broken, folder, monkeypatch, capfd):
+    """`> /dev/full`, and `| head -0`."""
+    if broken == "full":
+        output = open("/dev/full", "w")  # noqa: SIM115
+    else:
+        reader, writer = os.pipe()
+        os.close(reader)
+        output = os.fdopen(writer, "w")
+    monkeypatch.setattr("sys.stdout", output)
+    monkeypatch.setattr("sys.argv", ["biped-adrc", *WALK, "-o", "kept.npz"])
+    with pytest.raises(SystemExit) as stop:
+        main()
+    assert stop.value.code == (5 if broken == "full" else 0)
+    assert load("kept.npz").status.ok
+    said = capfd.readouterr().err
+    assert ("No space left on device; files that were to be written are complete" in said) == (
+        broken == "full"
+    )
+    monkeypatch.undo()
+    with suppress(OSError):
+        output.close()
+
+
+def test_text_of_files_is_no_command_to_the_terminal(monkeypatch):
+    """Neither rich's markup and emoji nor escape sequences, in lines, tables and titles."""
+    text = "a[/b] [red]c :bomb: \x1b]0;title\x07 \x9b31m \u202ed \udcff"
+    monkeypatch.setattr("sys.stdout", out := io.StringIO())
+    terminal = Terminal()
+    table = Table(text, title=text)
+    table.add_row(text)
+    for shown in (text, table):
+        terminal.print(shown, width=200)
+    found = out.getvalue()
+    assert found.count("a[/b] [red]c :bomb: ") == 4
+    assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202e\ud800-\udfff]", found)
+    assert "\\x1b]0;title" in found
+    assert printable("a\tb\nc é ≥") == "a\tb\nc é ≥"
+
+
+def test_a_dollar_in_the_name_of_a_file_is_no_formula_in_a_figure(folder):
+    command(*WALK, "-o", "walk.npz")
+    walk = load_walk("walk.npz")
+    walks = {"a$x_{$": walk, r"b$\frac$": walk}
+    for name in ("tracking", "comparison"):
+        render(draw(name, walks), "svg")
+    export(Path("w.gif"), walks, Clip(stop=0.05, fps=20))
+    export(Path("apart.gif"), walks, Clip(stop=0.05, fps=20, apart=True))

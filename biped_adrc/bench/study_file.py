@@ -96,7 +96,10 @@ def load_study(path: Path | str) -> Study:
         raise InputError(
             f"cannot read the study file '{path}': {error.strerror}; expected a TOML file"
         ) from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (
+        ValueError,
+        RecursionError,
+    ) as error:  # TOML's own, of UTF-8, of long integers, of nesting
         raise InputError(f"study file '{path}' is not TOML: {error}") from error
     return read_study(tables, f"study file '{path}'")
 

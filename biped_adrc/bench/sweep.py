@@ -37,6 +37,7 @@ from biped_adrc.campaign.store import About, Result
 from biped_adrc.campaign.store_open import open_store, read_store
 from biped_adrc.campaign.workers import Workers, workers_of
 from biped_adrc.errors import InputError
+from biped_adrc.scenario.registry import read_from_a_file
 from biped_adrc.scenario.values import reason
 from biped_adrc.shown import Shown
 from biped_adrc.versions import numerical_versions
@@ -220,7 +221,8 @@ def load_sweep(out: Path | str) -> Sweep:
     with closing(read_store(path)) as store:
         configuration = store.about.configuration
     try:
-        return Sweep(path, Study.model_validate(configuration))
+        with read_from_a_file():
+            return Sweep(path, Study.model_validate(configuration))
     except ValidationError as error:
         raise InputError(
             f"the results file '{path}' holds no study of this program: {reason(error)}"

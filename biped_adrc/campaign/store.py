@@ -4,6 +4,7 @@
     versions  sets of versions that runs were made with
     runs      the row of results of each record, by the record's hash
     points    place in the study, varied values, and key of the run of each point
+    tally     how many runs and points there are; each row has a checksum (`campaign.store_check`)
 
 Runs and points are separate tables, since two points may share a run. Rows that are handed in together are one
 transaction of SQLite's write-ahead log with synchronous = FULL: all of them are on the disk, or none. A lock
@@ -21,13 +22,14 @@ import sqlite3
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from json import JSONDecodeError, loads
+from json import loads
 from pathlib import Path
 from typing import NamedTuple
 
 from filelock import FileLock
 
 from biped_adrc.campaign.chunk import CRASHED, NO_WALK, text_of
+from biped_adrc.campaign.store_check import COLUMNS, damaged
 from biped_adrc.campaign.workers import undisturbed
 from biped_adrc.errors import InputError, OutputError
 
@@ -95,11 +97,15 @@ class Store:
     """The study; its versions are those of this process when writing, and those of the file when reading."""
     lock: FileLock | None = None
     """Held while the file is open to write; None to read."""
+    identity: tuple[int, int] | None = None
+    """Device and number of the file that is written, so that one that is gone is noticed; None to read."""
 
     def place(self, points: Iterable[Placed]) -> None:
         """Keep where points lie; one that is there already stays as it is. Raises OutputError."""
         with self._writing() as db:
-            db.executemany("INSERT OR IGNORE INTO points VALUES (?, ?, ?)", points)
+            text = "INSERT OR IGNORE INTO points VALUES (?1, ?2, ?3, checksum(?1, ?2, ?3))"
+            new = db.executemany(text, points).rowcount
+            db.execute("UPDATE tally SET points = points + ?", (max(new, 0),))
 
     def add(self, runs: Iterable[Ran]) -> None:
         """Keep finished runs in one transaction, all of them or none. Raises OutputError.
@@ -109,14 +115,21 @@ class Store:
         """
         with self._writing() as db:
             versions = text_of(self.about.versions)
-            db.execute("INSERT OR IGNORE INTO versions (versions) VALUES (?)", (versions,))
-            found = db.execute("SELECT id FROM versions WHERE versions = ?", (versions,))
-            (which,) = found.fetchone()
+            known = "SELECT id FROM versions WHERE versions = ?"
+            found = db.execute(known, (versions,)).fetchone()
+            if found is None:
+                db.execute("INSERT INTO versions (versions) VALUES (?)", (versions,))
+                db.execute("UPDATE versions SET sum = checksum(id, versions) WHERE sum IS NULL")
+                found = db.execute(known, (versions,)).fetchone()
+            rows = [(*run, *found) for run in runs]
+            gone = db.executemany("DELETE FROM runs WHERE key = ?", [row[:1] for row in rows])
+            new = len({row[0] for row in rows}) - max(gone.rowcount, 0)
             db.executemany(
-                "INSERT OR REPLACE INTO runs (key, record, row, status, engine, seed, seconds, versions) "
-                "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-                ((*run, which) for run in runs),
+                f"INSERT OR REPLACE INTO runs ({COLUMNS['runs']}, sum) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, "
+                "checksum(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8))",
+                rows,
             )
+            db.execute("UPDATE tally SET runs = runs + ?", (new,))
 
     def crashed(self, keys: Sequence[str]) -> dict[str, bool]:
         """Those of the keys that have a row; True where it says that the process died."""
@@ -166,7 +179,7 @@ class Store:
             if isinstance(found, dict):
                 return found
             reason = f"found {found!r}"
-        except JSONDecodeError as error:
+        except (ValueError, TypeError, RecursionError) as error:
             reason = str(error)
         raise damaged(self.path, f"the run {key} has no values, {reason}")
 
@@ -197,18 +210,27 @@ class Store:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self.close()
+        try:
+            self.close()
+        except KeyboardInterrupt:  # Ctrl-C once more, before it was ignored or after
+            self.close()
+            raise
 
     @contextmanager
     def _writing(self) -> Iterator[sqlite3.Connection]:
         """A transaction, undone on any error. Raises OutputError, and InputError for an integer
         beyond 64 bits.
         """
+        if self.identity not in (None, identity_of(self.path)):
+            raise OutputError(
+                f"the results file '{self.path}' was removed or replaced while it was written; what was "
+                "finished before is lost with it. Begin anew, in a folder that nobody clears"
+            )
         try:
             with self.connection as db:
                 db.execute("BEGIN IMMEDIATE")
                 yield db
-        except sqlite3.Error as error:
+        except (sqlite3.Error, UnicodeError) as error:
             raise cannot_write(self.path, error) from error
         except OverflowError as error:
             raise InputError(
@@ -221,20 +243,29 @@ class Store:
         """Raises InputError, which calls the file damaged, for an error of SQLite."""
         try:
             yield
-        except sqlite3.DatabaseError as error:
+        except (sqlite3.Error, UnicodeError) as error:
             raise damaged(self.path, error) from error
 
 
-def damaged(path: Path, reason: object) -> InputError:
-    """The error for a results file that cannot be read."""
-    return InputError(
-        f"the results file '{path}' cannot be read: {reason}; it is damaged, take a copy of it or begin anew "
-        "in another folder"
-    )
+def identity_of(path: Path) -> tuple[int, int] | None:
+    """Device and number of a file; None where there is none."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
 
 
 def cannot_write(path: Path, error: Exception) -> OutputError:
     """The error for a results file that cannot be written."""
+    if (getattr(error, "sqlite_errorcode", 0) & 0xFF) in (
+        sqlite3.SQLITE_BUSY,
+        sqlite3.SQLITE_LOCKED,
+    ):
+        return OutputError(
+            f"cannot write the results file '{path}': another program has locked it, such as one that shows or "
+            "copies databases; close it, and the same command goes on"
+        )
     reason = getattr(error, "strerror", None) or error
     return OutputError(
         f"cannot write the results file '{path}': {reason}; what was finished before is kept. Make room, or "

@@ -13,6 +13,7 @@ from __future__ import annotations
 import os
 import sqlite3
 import time
+import warnings
 from contextlib import ExitStack, closing
 from json import loads
 from pathlib import Path
@@ -20,13 +21,15 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from biped_adrc.campaign.chunk import text_of
-from biped_adrc.campaign.store import About, Store, cannot_write, damaged
-from biped_adrc.errors import InputError
+from biped_adrc.campaign.store import About, Store, cannot_write, identity_of
+from biped_adrc.campaign.store_check import add_checks, check_whole, checksum, damaged
+from biped_adrc.errors import InputError, OutputError
+from biped_adrc.files import replacing
 from biped_adrc.versions import differences
 
 APPLICATION = 0x62614452
 """SQLite's application_id, by which a results file is told from other databases."""
-FORMAT = 1
+FORMAT = 2
 """SQLite's user_version: the version of the schema below."""
 SCHEMA = """
 CREATE TABLE study (id INTEGER PRIMARY KEY CHECK (id = 1), name TEXT NOT NULL, hash TEXT NOT NULL,
@@ -50,16 +53,20 @@ def open_store(path: Path, about: About, other_versions: bool = False) -> Store:
         with ExitStack() as undo:
             lock = _locked(path)
             undo.callback(lock.release)
-            connection = undo.enter_context(closing(_connected(path, "rwc")))
-            if _is_new(path, connection):
-                _create(connection, about)
-            else:
-                _check_study(path, _about(path, connection), about, other_versions)
+            if not path.exists():
+                _create(path, about)
+            connection = undo.enter_context(closing(_connected(path, "rw")))
+            found, old = _checked(path, connection)
+            _check_study(path, found, about, other_versions)
+            if old:
+                _bring_along(connection)
             connection.execute("PRAGMA journal_mode = WAL")
             connection.execute("PRAGMA synchronous = FULL")
             undo.pop_all()  # it stays open
-            return Store(path, connection, about, lock)
-    except sqlite3.Error as error:
+            return Store(path, connection, about, lock, identity_of(path))
+    except (sqlite3.Error, UnicodeError, OSError) as error:
+        if isinstance(error, OutputError):
+            raise
         raise cannot_write(path, error) from error
 
 
@@ -75,23 +82,37 @@ def read_store(path: Path) -> Store:
             mode = "rw" if os.access(path, os.W_OK) else "ro"
             connection = undo.enter_context(closing(_connected(path, mode)))
             connection.execute("PRAGMA query_only = ON")
-            if _is_new(path, connection):
-                raise InputError(f"the results file '{path}' is empty; nothing was begun in it")
-            about = _about(path, connection)
+            about, old = _checked(path, connection)
             undo.pop_all()  # it stays open
+            if old:
+                warnings.warn(
+                    f"results file '{path}' is of format 1, without checksums: a changed or missing row is not "
+                    "noticed. Going on with its study adds them to what is there",
+                    RuntimeWarning,
+                    stacklevel=2,
+                )
             return Store(path, connection, about)
-    except sqlite3.Error as error:
+    except (sqlite3.Error, UnicodeError) as error:
         raise InputError(f"the results file '{path}' cannot be read: {error}") from error
 
 
 def _connected(path: Path, mode: str) -> sqlite3.Connection:
-    """A connection without implicit transactions; waits up to 10 s for another process that is writing."""
+    """A connection without implicit transactions; waits up to 5 s for another process that is writing."""
     uri = f"{path.absolute().as_uri()}?mode={mode}"
-    return sqlite3.connect(uri, uri=True, isolation_level=None, timeout=10.0)
+    db = sqlite3.connect(uri, uri=True, isolation_level=None, timeout=5.0)
+    db.create_function("checksum", -1, checksum, deterministic=True)
+    return db
 
 
-def _is_new(path: Path, db: sqlite3.Connection) -> bool:
-    """Whether nothing is in the file yet. Raises InputError where something other than results is in it."""
+def _checked(path: Path, db: sqlite3.Connection) -> tuple[About, bool]:
+    """The study of a file that is whole, and whether it is of format 1. Raises InputError."""
+    old = _format(path, db) < FORMAT
+    check_whole(path, db, not old)
+    return _about(path, db), old
+
+
+def _format(path: Path, db: sqlite3.Connection) -> int:
+    """The format of the file. Raises InputError where nothing, or something other than results, is in it."""
     try:
         application = db.execute("PRAGMA application_id").fetchone()[0]
         tables = db.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
@@ -102,36 +123,58 @@ def _is_new(path: Path, db: sqlite3.Connection) -> bool:
             f"'{path}' is no results file: {error}; it is left as it is, choose another folder"
         ) from error
     if application == 0 and tables == 0:
-        return True
+        raise InputError(
+            f"the results file '{path}' is empty: nothing was begun in it, or it was cut off. Remove it to "
+            "begin anew, or bring back a copy"
+        )
     if application != APPLICATION:
         raise InputError(
             f"'{path}' is a database of another program (application {application:#x}, expected "
             f"{APPLICATION:#x}); it is left as it is, choose another folder"
         )
-    found = db.execute("PRAGMA user_version").fetchone()[0]
-    if found != FORMAT:
+    found: int = db.execute("PRAGMA user_version").fetchone()[0]
+    if not 1 <= found <= FORMAT:
         raise InputError(
-            f"results file '{path}' has the format {found}, expected {FORMAT}; it is left as it is. Use the "
-            "version of biped-adrc that wrote it, or another folder"
+            f"results file '{path}' has the format {found}, expected 1 or {FORMAT}; it is left as it is. "
+            "Use the version of biped-adrc that wrote it, or another folder"
         )
-    return False
+    return found
 
 
-def _create(db: sqlite3.Connection, about: About) -> None:
-    """Make the tables and the row of the study in one transaction: a kill leaves an empty file, or
-    all of it.
+def _create(path: Path, about: About) -> None:
+    """Make the file with its tables and the row of the study: a kill leaves no file, or all of it.
+
+    Raises InputError where the log of a file is there that is not.
     """
+    if path.with_name(f"{path.name}-wal").exists():
+        raise InputError(
+            f"the results file '{path}' was removed, and the log of one, '{path.name}-wal', is still there; "
+            "bring the file back, or remove the log to begin anew"
+        )
     created = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
-    db.execute("PRAGMA journal_mode = WAL")
-    db.execute("BEGIN IMMEDIATE")
-    db.execute(f"PRAGMA application_id = {APPLICATION}")
-    db.execute(f"PRAGMA user_version = {FORMAT}")
-    for statement in SCHEMA.split(";")[:-1]:
-        db.execute(statement)
     texts = text_of(about.configuration), text_of(about.versions)
     told = (about.name, about.hash, *texts, about.points, created)
-    db.execute("INSERT INTO study VALUES (1, ?, ?, ?, ?, ?, ?)", told)
+    with replacing(path) as temporary, closing(_connected(temporary, "rw")) as db:
+        db.execute("BEGIN IMMEDIATE")
+        db.execute(f"PRAGMA application_id = {APPLICATION}")
+        for statement in SCHEMA.split(";")[:-1]:
+            db.execute(statement)
+        db.execute("INSERT INTO study VALUES (1, ?, ?, ?, ?, ?, ?)", told)
+        _add_checks(db)
+        db.execute("COMMIT")
+
+
+def _bring_along(db: sqlite3.Connection) -> None:
+    """Make a file of format 1 one of this format, in one transaction."""
+    db.execute("BEGIN IMMEDIATE")
+    _add_checks(db)
     db.execute("COMMIT")
+
+
+def _add_checks(db: sqlite3.Connection) -> None:
+    """Checksums and tally, and the format that says so."""
+    add_checks(db)
+    db.execute(f"PRAGMA user_version = {FORMAT}")
 
 
 def _about(path: Path, db: sqlite3.Connection) -> About:
@@ -140,7 +183,7 @@ def _about(path: Path, db: sqlite3.Connection) -> About:
     try:
         name, key, configuration, versions, points = db.execute(text).fetchone()
         return About(name, key, loads(configuration), loads(versions), points)
-    except (sqlite3.DatabaseError, TypeError, ValueError) as error:
+    except (sqlite3.Error, TypeError, ValueError, RecursionError) as error:
         raise damaged(path, error) from error
 
 
@@ -183,7 +226,8 @@ def _locked(path: Path) -> FileLock:
         lock.acquire()
         beside.write_text(f"{os.getpid()}\n", encoding="utf-8")
     except Timeout as error:
-        holder = beside.read_text(encoding="utf-8").strip() if beside.is_file() else ""
+        found = beside.read_text(encoding="utf-8", errors="replace") if beside.is_file() else ""
+        holder = found.strip()
         raise InputError(
             f"the results file '{path}' is being written by process {holder or 'of another'}; expected one "
             "study at a time. Wait for it, or choose another folder"

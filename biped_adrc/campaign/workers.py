@@ -45,6 +45,9 @@ GUARD = (
 )
 """The hint for a script without a main guard, whose workers would start the study again."""
 
+SAFE_PATH = "PYTHONSAFEPATH"
+"""Environment variable: the working directory is not put first on the path."""
+
 
 class WorkersError(SimulationError):
     """Workers, or the connection to them, are gone; no walk is to blame (exit code 3)."""
@@ -131,10 +134,11 @@ class Processes(Threads):
         self.prepare()
         context = multiprocessing.get_context("forkserver")
         context.set_forkserver_preload(list(self.preload))
+        with held_back():
+            _start_forkserver()
         executor = ProcessPoolExecutor(self.count(), context, initializer=_begin)
         try:
             with held_back():
-                _start_forkserver()
                 first = executor.submit(os.getpid)
             first.result()
         except BrokenExecutor as error:
@@ -163,14 +167,21 @@ def _start_forkserver() -> None:
     """Start the fork server with Ctrl-C blocked, a state that its children inherit.
 
     The resource tracker, which multiprocessing would otherwise start in between, lets the signal in; it is
-    started before.
+    started before. Both are `python -c`, which would import modules from the working directory.
     """
-    resource_tracker.ensure_running()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    safe = os.environ.get(SAFE_PATH)
+    os.environ[SAFE_PATH] = "1"
+    before = None
     try:
+        resource_tracker.ensure_running()
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         forkserver.ensure_running()
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        if before is not None:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        os.environ.pop(SAFE_PATH)
+        if safe is not None:
+            os.environ[SAFE_PATH] = safe
 
 
 Handler = signal.Handlers | Callable[[int, FrameType | None], object]

@@ -12,14 +12,14 @@ check` does not hold; 2 the command line is wrong; 3 bad input (robot, gait, pol
 
 from __future__ import annotations
 
-import os
 import sys
+import warnings
 from importlib import import_module
 
-from rich.console import Console
-
-from biped_adrc.cli.app import EXIT_INTERRUPTED, app, gait_app
-from biped_adrc.errors import BipedError
+from biped_adrc.cli import early
+from biped_adrc.cli.app import EXIT_INTERRUPTED, app, complain, gait_app
+from biped_adrc.cli.terminal import lasting, reason_lost
+from biped_adrc.errors import BipedError, OutputError
 
 __all__ = ["app", "gait_app", "main"]
 
@@ -27,31 +27,44 @@ COMMANDS = ("compare", "design", "gait", "look", "observer", "reproduce", "robot
 """Modules, each of which adds its commands to the app, in the order of the help."""
 for _module in COMMANDS:
     import_module(f"biped_adrc.cli.{_module}")
-
-
-def _say_interrupted() -> None:
-    """Say after Ctrl-C that no half-written file is left."""
-    Console(stderr=True).print("interrupted; what was already written is complete")
+early.ready()
 
 
 def main() -> None:
     """Entry point: run the command; an error becomes one message and an exit code.
 
     A reader that closes the pipe early, such as `head`, is no error: the rest of the output goes to
-    nowhere.
+    nowhere. Where it cannot be written for another reason, that is said once all is done.
     """
+    printed, _ = lasting("stdout"), lasting("stderr")
+    warnings.showwarning = lambda message, *_: complain(f"warning: {message}")
+    code = _run()
+    sys.stdout.flush()
+    lost = reason_lost(printed)
+    if lost is not None:
+        complain(
+            f"error: what was printed cannot be written: {lost}; files that were to be written are complete"
+        )
+    sys.exit(OutputError.exit_code if lost is not None and code == 0 else code)
+
+
+def _run() -> int:
+    """Run the command; its exit code."""
     try:
         app(standalone_mode=True)
     except BipedError as error:
-        Console(stderr=True).print(f"error: {error}", markup=False, highlight=False, soft_wrap=True)
-        sys.exit(error.exit_code)
+        complain(f"error: {error}")
+        return error.exit_code
     except SystemExit as stop:
         if stop.code == EXIT_INTERRUPTED:
             _say_interrupted()
-        raise
+        return stop.code if isinstance(stop.code, int) else int(stop.code is not None)
     except KeyboardInterrupt:
         _say_interrupted()
-        sys.exit(EXIT_INTERRUPTED)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(0)
+        return EXIT_INTERRUPTED
+    return 0
+
+
+def _say_interrupted() -> None:
+    """Say after Ctrl-C that no half-written file is left."""
+    complain("interrupted; what was already written is complete")

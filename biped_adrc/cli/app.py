@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
@@ -26,6 +25,7 @@ from rich.progress import (
 )
 
 import biped_adrc
+from biped_adrc.cli.terminal import Terminal
 from biped_adrc.files import keep_inputs, output_path
 
 EXIT_CHECK_FAILED, EXIT_FELL, EXIT_INTERRUPTED = 1, 4, 130
@@ -63,8 +63,8 @@ def _of_every_command(
     """Options of the command itself."""
 
 
-console = Console()
-"""Where all commands print; rich fits tables to the terminal."""
+console, errors = Terminal(), Terminal(stderr=True)
+"""Where all commands print, and complain; rich fits tables to the terminal."""
 
 FIGURES, GAITS = (".png", ".svg"), (".json",)
 """Suffixes of figures and of gaits."""
@@ -79,7 +79,7 @@ def bar() -> Progress:
     """A progress bar of this command: what is done, how far, and for how long."""
     return Progress(
         SpinnerColumn(),
-        TextColumn("{task.description:<44.44}"),
+        TextColumn("{task.description:<44.44}", markup=False),
         BarColumn(),
         MofNCompleteColumn(),
         TimeElapsedColumn(),
@@ -120,7 +120,12 @@ def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
 
 def say(text: str) -> None:
     """Print a text as it is, neither wrapped nor coloured, so that it can be searched and copied."""
-    console.print(text, markup=False, highlight=False, soft_wrap=True)
+    console.print(text, highlight=False, soft_wrap=True)
+
+
+def complain(text: str) -> None:
+    """As `say`, to the error stream."""
+    errors.print(text, highlight=False, soft_wrap=True)
 
 
 def say_written(path: Path | None) -> None:

@@ -11,7 +11,6 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.markup import escape
 from rich.table import Table
 
 from biped_adrc.cli.app import FIGURES, app, bar, console, say, say_written
@@ -74,10 +73,9 @@ def _print_report(report: ObserverReport) -> None:
     """Print the verdict, and the sections of the report as tables."""
     say(report.verdict)
     for section in report.sections:
-        header = (escape(name) for name in section.header)
-        table = Table(*header, title=escape(section.title), title_justify="left")
+        table = Table(*section.header, title=section.title, title_justify="left")
         for row in section.rows:
-            table.add_row(*(escape(cell) for cell in row))
+            table.add_row(*row)
         console.print(table)
 
 
@@ -145,7 +143,7 @@ def _confirm(
 
 def _print_walks(checks: list[DelayCheck], walks: list[CheckedWalk]) -> None:
     """Print how each walk ended and whether its errors stay, and the delay margins in [us]."""
-    header = ("walk", "status", "errors stay", escape("error of later steps [rad]"))
+    header = ("walk", "status", "errors stay", "error of later steps [rad]")
     table = Table(*header, title="Confirmed by walking", title_justify="left")
     rows = [walked for check in checks for walked in (check.below, check.above, check.limited)]
     for walked in (*rows, *walks):

@@ -10,7 +10,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import typer
-from rich.markup import escape
 from rich.table import Table
 
 from biped_adrc.cli.app import (
@@ -55,7 +54,7 @@ def reproduce(
         summary = run(plan, out, command(), workers, progress)
     table = Table("claim", "section", "word", "holds in", title="The claims of the paper")
     for row in main_table(summary):
-        table.add_row(*(escape(cell) for cell in row))
+        table.add_row(*row)
     console.print(table)
     if plan.left_out:
         console.print(f"left out of this run: {', '.join(plan.left_out)}")

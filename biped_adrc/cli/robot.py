@@ -11,10 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, console, say
+from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, complain, console, say
 from biped_adrc.cli.options import texts
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.robots.robot_toml import GRAVITY
@@ -55,12 +54,12 @@ def robot_check(
             file, _hints(feet, actuated, hip, torque, friction, armature, gravity, tip)
         )
     except InputError as error:
-        _complain(f"error: {error}")
+        complain(f"error: {error}")
         raise typer.Exit(EXIT_CHECK_FAILED) from error
     _explain(derived)
     if derived.broken:
         for check in derived.broken:
-            _complain(f"error: {check}")
+            complain(f"error: {check}")
         raise typer.Exit(EXIT_CHECK_FAILED)
 
 
@@ -149,11 +148,6 @@ def _names(text: str | None) -> tuple[str, ...] | None:
     if text is None:
         return None
     return tuple(name.strip() for name in text.split(",") if name.strip())
-
-
-def _complain(text: str) -> None:
-    """Print a sentence to the error stream, neither wrapped nor coloured."""
-    Console(stderr=True).print(text, markup=False, highlight=False, soft_wrap=True)
 
 
 def _explain(derived: Derived) -> None:

@@ -123,13 +123,14 @@ def carried_out(
             words = "" if p.left is None else left(p.left)
             shown.update(task, completed=p.done, total=p.total, left=words)
             if p.note:
-                shown.console.print(p.note, markup=False)
+                shown.console.print(p.note)
 
         try:
             yield progress
         except KeyboardInterrupt:
+            stop = interrupted(results)
             shown.stop()
-            raise interrupted(results) from None
+            raise stop from None
 
 
 def _clock(seconds: float) -> str:

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
-from rich.markup import escape
 from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
@@ -111,7 +110,7 @@ def _print_steps(o: Outcome, legality: Legality) -> None:
     from biped_adrc.paper.convergence import error_text
 
     names = ("step", "time [s]", "length [m]", "torque [N m]", "F_N [N]", "friction", "at impact")
-    table = Table(*map(escape, names), escape("scuffs [mm]"), "not legal")
+    table = Table(*names, "scuffs [mm]", "not legal")
     for s in legality.supports:
         c = s if isinstance(s, Certificate) else None
         table.add_row(
@@ -143,7 +142,7 @@ def _print_passive(walk: Walk, limits: Limits) -> None:
     from biped_adrc.closed_loop.walker import FOOT_STRIKE
 
     names = ("step", "time [s]", "length [m]", "drop [m]", "friction", "at impact", "F_N [N]")
-    table = Table(*map(escape, names), escape("lost [J]"))
+    table = Table(*names, "lost [J]")
     n, plant = walk.walker.plant.n, walk.walker.plant
     events = walk.trajectory.events(FOOT_STRIKE)
     for c, event in zip(walk.certified(limits), events, strict=True):

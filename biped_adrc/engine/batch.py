@@ -39,6 +39,8 @@ from biped_adrc.types import Array
 
 AHEAD = 4
 """Cases prepared beforehand for each thread, so that none of them waits for Python."""
+MOST_IMPACTS = 1_000_000
+"""Of one walk, whose states at all impacts are kept in memory."""
 STORE = 1_000_000
 """Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
 
@@ -63,6 +65,8 @@ class Case(Shown):
     def __post_init__(self) -> None:
         """Raises InputError for a part that is none."""
         check_fields(self)
+        if self.impacts > MOST_IMPACTS:
+            raise InputError(f"impacts is {self.impacts}, expected at most {MOST_IMPACTS}")
 
     @property
     def t_end(self) -> float:

@@ -17,13 +17,13 @@ from __future__ import annotations
 
 import atexit
 import hashlib
-import importlib.util
 import os
 import platform
 import shutil
 import sys
 import tempfile
 import threading
+import warnings
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -154,7 +154,8 @@ def stored(key: str) -> bytes | None:
     The checksum covers the key too, so a file under a wrong name is noticed.
     """
     try:
-        data = _path(key).read_bytes()
+        path = _path(key)
+        data = path.read_bytes() if _ours(path) else b""
     except OSError:
         return None
     check, code = data[:CHECK], data[CHECK:]
@@ -177,8 +178,51 @@ MARK = ".sha256"
 
 
 def cache_folder() -> Path:
-    """Where generated modules are kept; an empty variable counts as none."""
-    return Path(os.environ.get(VARIABLE) or user_cache_path("biped_adrc", appauthor=False))
+    """Where generated code is kept; an empty variable counts as none.
+
+    What lies there is executed: a folder that belongs to somebody else, or that others may write,
+    is not used, with a warning, nor one that is relative, which may have come with other files.
+    """
+    named = os.environ.get(VARIABLE, "").strip()
+    try:
+        folder = Path(named or user_cache_path("biped_adrc", appauthor=False))
+    except RuntimeError:  # neither HOME nor an entry in passwd
+        return _temporary()
+    with suppress(OSError):
+        if folder.is_absolute():
+            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    reason = _open_to_others(folder)
+    if reason is None:
+        return folder
+    warnings.warn(
+        f"compiled code is not kept in '{folder}', {reason}: whoever writes there decides what runs. Make it "
+        f"yours alone (remove it, or chmod 700), or name another folder in {VARIABLE}",
+        RuntimeWarning,
+        stacklevel=2,
+    )
+    return _temporary()
+
+
+def _open_to_others(folder: Path) -> str | None:
+    """Why code in a folder may be somebody else's, in words; None for one that is the user's alone."""
+    if not folder.is_absolute():
+        return "which is no absolute path"
+    try:
+        found = folder.stat()
+    except OSError:
+        return None  # nothing can be read there
+    if found.st_uid != os.geteuid():
+        return f"which belongs to user {found.st_uid}"
+    return (
+        f"which others may write (mode {found.st_mode & 0o777:o})"
+        if found.st_mode & 0o022
+        else None
+    )
+
+
+def _ours(path: Path) -> bool:
+    """Whether this user has made the file."""
+    return path.stat().st_uid == os.geteuid()
 
 
 def key_of(source: str) -> str:
@@ -202,12 +246,10 @@ def load_source(source: str) -> ModuleType:
     except (OSError, OutputError):
         path = _written(_temporary() / key / "kernels.py", source)
     _remove_unsealed(path.parent)
-    spec = importlib.util.spec_from_file_location(f"biped_adrc_kernels_{key}", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module  # numba finds the module of its machine code by name
-    spec.loader.exec_module(module)
+    module = ModuleType(f"biped_adrc_kernels_{key}")
+    module.__file__ = str(path)
+    sys.modules[module.__name__] = module  # numba finds the module of its machine code by name
+    exec(compile(source, path, "exec"), vars(module))  # not from a .pyc, which nobody checks
     return module
 
 
@@ -228,7 +270,7 @@ def _remove_unsealed(folder: Path) -> None:
     for path in _machine_code(folder):
         mark = path.with_name(path.name + MARK)
         with suppress(OSError):
-            if not (mark.is_file() and mark.read_text() == _checksum(path)):
+            if not (_ours(path) and mark.is_file() and mark.read_text() == _checksum(path)):
                 path.unlink()
 
 

@@ -13,8 +13,10 @@ from __future__ import annotations
 import io
 import json
 import os
-from collections.abc import Callable, Iterator, Mapping
+import zipfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +33,8 @@ Stored = NDArray[Any]
 
 FORMAT = "biped_adrc run 1"
 """Version of the layout; a file of another one is refused."""
+MOST_BYTES = 2**33
+"""Of a file unpacked; a small one may unpack to more than the memory holds."""
 BESIDE = "beside."
 """Before the names of arrays that are no part of the trajectory."""
 
@@ -123,7 +127,11 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
             meta = json.loads(str(data["meta"]))
             if meta["format"] != FORMAT:
                 raise InputError(f"it has format '{meta['format']}', expected '{FORMAT}'")
-            arcs = tuple(_arc(data, i, event, mode) for i, event in enumerate(meta["events"]))
+            whole = meta["status"] != Status.NOT_FINITE.name
+            arcs = tuple(
+                _arc(data, i, event, mode, whole) for i, event in enumerate(meta["events"])
+            )
+            _check_order(arcs)
             if not arcs or f"t{len(arcs)}" in data:
                 raise ValueError(f"there are events of {len(arcs)} arcs")
         settings = dict(meta["settings"])
@@ -136,6 +144,10 @@ def _zipped(path: Path) -> bytes:
     """The bytes of a .npz. Raises InputError for another kind of file, ValueError for a damaged one."""
     found = path.read_bytes()
     if found.startswith(b"PK"):
+        with zipfile.ZipFile(io.BytesIO(found)) as zipped:
+            size = sum(entry.file_size for entry in zipped.infolist())
+        if size > MOST_BYTES:
+            raise InputError(f"unpacked it has {size} bytes, expected at most {MOST_BYTES}")
         return found
     run = path.with_suffix(".npz")
     if path != run:
@@ -170,10 +182,16 @@ def reading_run(path: Path | str) -> Iterator[None]:
 
 
 def _arc(
-    data: Mapping[str, Stored], i: int, event: Mapping[str, Any] | None, mode: Callable[..., object]
+    data: Mapping[str, Stored],
+    i: int,
+    event: Mapping[str, Any] | None,
+    mode: Callable[..., object],
+    whole: bool,
 ) -> Arc:
     """Arc i of the arrays in a file, with its event as noted in the JSON. Raises ValueError for
     what does not fit.
+
+    whole: every state is finite; older versions kept the last one of a run that was NOT_FINITE.
     """
     found = None
     if event is not None:
@@ -183,13 +201,30 @@ def _arc(
     mark = f"read{i}_"
     read = {name.removeprefix(mark): data[name] for name in data if name.startswith(mark)}
     arc = Arc(mode(*numbers), data[f"t{i}"], data[f"x{i}"], data[f"dx{i}"], found, read)
-    _check_arc(arc, f"arc {i}")
+    _check_arc(arc, f"arc {i}", whole)
     return arc
 
 
-def _check_arc(arc: Arc, name: str) -> None:
-    """Raise ValueError for times (K,) that go back, or rows and states that do not fit one another."""
+def _check_order(arcs: Sequence[Arc]) -> None:
+    """Raise ValueError where an arc begins before the one before it ends, or an event is of another time."""
+    for i, (arc, later) in enumerate(pairwise(arcs)):
+        if later.t[0] < arc.t[-1]:
+            raise ValueError(f"arc {i + 1} begins at {later.t[0]} s, arc {i} ends at {arc.t[-1]} s")
+    for i, arc in enumerate(arcs):
+        if arc.event is not None and arc.event.t != arc.t[-1]:
+            raise ValueError(f"arc {i} ends at {arc.t[-1]} s, its event is at {arc.event.t} s")
+
+
+def _check_arc(arc: Arc, name: str, whole: bool) -> None:
+    """Raise ValueError for times (K,) that go back, rows and states that do not fit, and what is no number."""
     t, x, event = arc.t, arc.x, arc.event
+    parts: dict[str, Stored | None] = {"t": t, "x": x, "x'": arc.dx, **arc.read}
+    parts |= {} if event is None else {"x-": event.x_minus, "x+": event.x_plus}
+    for key, values in parts.items():
+        if values is not None and values.dtype.kind != "f":
+            raise ValueError(f"{name} has {key} of type {values.dtype}, expected floating point")
+        if values is not None and whole and key not in arc.read and not np.isfinite(values).all():
+            raise ValueError(f"{name} has {key} with NaN or infinity")
     if t.ndim != 1 or len(t) == 0 or not np.all(np.isfinite(t)) or np.any(np.diff(t) < 0.0):
         raise ValueError(f"{name} has no times t (K,) that ascend")
     if x.ndim != 2 or x.shape != arc.dx.shape or {len(x), *map(len, arc.read.values())} != {len(t)}:

@@ -28,11 +28,13 @@ def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
     Raises InputError for an unknown name, no walk, or a robot without motors where the figure shows motors.
     """
     from biped_adrc.viz.plots import figures
+    from biped_adrc.viz.style import literal
 
     if name not in NAMES:
         raise InputError(f"there is no figure '{name}'; choose one of {list(NAMES)}")
     if not walks:
         raise InputError("there is no walk to draw; expected at least one")
+    walks = {literal(n): w for n, w in walks.items()}
     title, walk = next(iter(walks.items()))
     signals = {n: w.signals for n, w in walks.items()}
     first, push = signals[title], push_window(signals[title])

@@ -48,6 +48,8 @@ from biped_adrc.types import Array
 
 LARGEST = 1e100
 """Bound on every number in a URDF, in any unit; products of larger ones overflow."""
+DEEPEST, MOST_LINKS = 50, 200
+"""Of elements inside one another, and links of a robot."""
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _ALMOST_ONE = 1e-6  # how far an axis may be from unit length, dimensionless
 _ROUND_OFF = 1e-15  # entries of a turn below this are the round-off of pi, dimensionless
@@ -140,14 +142,33 @@ def parse(path: Path | str) -> ET.Element:
     if not path.is_file():
         raise ModelError(f"URDF '{path}' not found; give the path of an existing .urdf file")
     try:
-        root = ET.fromstring(path.read_bytes())
-    except ET.ParseError as error:
+        root = ET.fromstring(path.read_bytes(), ET.XMLParser(target=_Shallow()))
+    except (ET.ParseError, ValueError, LookupError) as error:  # the last two of an encoding
         raise ModelError(f"URDF '{path}' is not well-formed XML: {error}") from error
     except OSError as error:
         raise ModelError(f"URDF '{path}' cannot be read: {error.strerror}") from error
     if root.tag != "robot":
         raise ModelError(f"URDF '{path}': root element is <{root.tag}>, expected <robot>")
+    count = len(root.findall("link"))
+    if count > MOST_LINKS:
+        raise ModelError(f"URDF '{path}' has {count} links, expected at most {MOST_LINKS}")
     return root
+
+
+class _Shallow(ET.TreeBuilder):
+    """Builds elements down to a depth. Raises ValueError below, where functions that recurse would crash."""
+
+    depth = 0
+
+    def start(self, tag: str, attrs: dict[str, str], /) -> ET.Element:
+        self.depth += 1
+        if self.depth > DEEPEST:
+            raise ValueError(f"elements are nested {self.depth} deep, expected at most {DEEPEST}")
+        return super().start(tag, attrs)
+
+    def end(self, tag: str, /) -> ET.Element:
+        self.depth -= 1
+        return super().end(tag)
 
 
 def _expanded(path: Path) -> ET.Element:

@@ -36,6 +36,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.controllers import OF_OBSERVER
 from biped_adrc.scenario.recording import Walk, watched
+from biped_adrc.scenario.registry import read_from_a_file
 from biped_adrc.scenario.scenario import FREE, Scenario
 from biped_adrc.scenario.walker_record import MissingPart, PartRecord, Reader, Writer, home_of
 from biped_adrc.types import Array
@@ -96,7 +97,7 @@ def load_walk(path: Path | str, controller: object = None) -> Walk:
     """
     trajectory = storage.load(path, lambda step, start: Mode(int(step), start))
     beside = storage.load_beside(path)
-    with storage.reading_run(path):
+    with storage.reading_run(path), read_from_a_file():
         found = (
             _stored(trajectory, beside, controller) if "walker" in beside else _of_0_1(trajectory)
         )

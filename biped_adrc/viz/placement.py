@@ -31,12 +31,15 @@ import numpy as np
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.errors import InputError
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.robots.symmetry import twins
 from biped_adrc.robots.urdf import Joint, Tree
 from biped_adrc.types import Array
 
+MOST_FRAMES = 200_000
+"""Of a page or a moving picture: an hour at 50 in a second."""
 TILE = 0.5
 """[m], along x, of the light and dark tiles."""
 
@@ -301,6 +304,15 @@ def loads(scene: WalkScene, t: float) -> DrawnLoads:
     return DrawnLoads(
         force, scene.biped.R.T @ zeta if exchanged(scene.biped, arc.mode.step) else zeta
     )
+
+
+def check_frames(count: float) -> None:
+    """Raise InputError for more frames than a picture can have."""
+    if not count <= MOST_FRAMES:
+        raise InputError(
+            f"this would be {count:.6g} frames, expected at most {MOST_FRAMES}; show a part of the "
+            "walk, or fewer frames per second"
+        )
 
 
 def ending(trajectory: Trajectory) -> str:

@@ -76,6 +76,11 @@ def label(axes: Axes, x: str, y: str, title: str = "") -> None:
         axes.set_title(title, loc="left")
 
 
+def literal(text: str) -> str:
+    """A text of somebody's file as matplotlib draws it: a dollar begins no formula."""
+    return text.replace("$", r"\$")
+
+
 def named_cells(
     axes: Axes, rows: Sequence[str], columns: Sequence[str], rotation: float = 0.0
 ) -> None:

@@ -16,6 +16,7 @@ import pytest
 import standin
 from standin import about, records, results, rows
 
+import biped_adrc as ba
 from biped_adrc.campaign import execute
 from biped_adrc.campaign import workers as of_workers
 from biped_adrc.campaign.chunk import Point, point
@@ -343,3 +344,27 @@ def test_chunks_are_small_enough_for_all_workers():
     assert execute._chunk_size(2, None) == execute.LARGEST_CHUNK
     assert execute._chunk_size(2, 40) * 2 * 4 <= 40
     assert execute._chunk_size(64, 10) == 1
+
+
+def test_workers_import_nothing_from_the_working_directory(tmp_path):
+    """A file called as one of the standard library, where the study is started."""
+    script = tmp_path / "bin" / "study.py"
+    script.parent.mkdir()
+    script.write_text(
+        "import os\nfrom biped_adrc.campaign.workers import Processes\n"
+        "if __name__ == '__main__':\n"
+        "    p = Processes(1, preload=())\n    e = p.start()\n"
+        "    print(e.submit(os.getpid).result() > 0)\n    p.stop(e, True)\n"
+    )
+    for name in ("selectors", "socket"):
+        (tmp_path / f"{name}.py").write_text("open('ran', 'w').close()\n")
+    done = subprocess.run(
+        [sys.executable, script],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(Path(ba.__file__).parents[1])},
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.stdout.strip() == "True", done.stderr
+    assert not (tmp_path / "ran").exists()

@@ -303,3 +303,11 @@ def test_tables_of_python_are_read_alike():
     ]
     with pytest.raises(InputError, match=r"the study, grid.K_q: unknown parameter"):
         read_study({"study": {"name": "a"}, "grid": {"K_q": [1.0]}})
+
+
+@pytest.mark.parametrize("text", ["a = " + "[" * 3000 + "]" * 3000, "a = " + "9" * 5000])
+def test_what_the_parser_cannot_hold_is_a_sentence(text, tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_text(text)
+    with pytest.raises(InputError, match=r"study file '.*a\.toml' is not TOML"):
+        load_study(path)

@@ -22,6 +22,7 @@ from biped_adrc.bench.study import rehearse
 from biped_adrc.bench.study_file import read_study
 from biped_adrc.bench.sweep import Table, load_sweep, sweep
 from biped_adrc.campaign.dask_cluster import Cluster
+from biped_adrc.campaign.store_check import COLUMNS, checksum
 from biped_adrc.campaign.workers import Processes, Threads
 from biped_adrc.cli import app
 from biped_adrc.cli import sweep as _  # noqa: F401
@@ -284,7 +285,9 @@ def test_the_command_goes_on_with_other_versions(tmp_path):
     arguments = ["sweep", str(path), "--out", str(out), "--threads"]
     assert CliRunner().invoke(app, arguments).exit_code == 0
     with sqlite3.connect(out / "results.sqlite") as db:
+        db.create_function("checksum", -1, checksum)
         db.execute("""UPDATE study SET versions = '{"numpy": "0"}'""")
+        db.execute(f"UPDATE study SET sum = checksum({COLUMNS['study']})")
     db.close()
     with pytest.raises(InputError, match="numpy 0 there"):
         CliRunner().invoke(app, arguments, catch_exceptions=False)

@@ -284,3 +284,9 @@ def test_memory_stays_flat_over_robots_and_gains(biped, gait, plain):
         pass
     gc.collect()
     assert process.memory_info().rss - before < 10e6
+
+
+def test_more_impacts_than_the_memory_holds_are_refused(biped, gait):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    with pytest.raises(InputError, match="impacts is 1000000000, expected at most 1000000"):
+        Case(walker, gait.q_minus, gait.v_minus, ba.RK4(1e-3), impacts=10**9)

@@ -1,13 +1,17 @@
 """Generated files on disk: damaged ones are made again, what cannot be written is kept elsewhere."""
 
+import importlib.util
 import os
+import py_compile
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from numba.core import config
 
+from biped_adrc.engine.kernels.load import _kernels
 from biped_adrc.engine.machine import (
     VARIABLE,
     ModuleText,
@@ -17,6 +21,7 @@ from biped_adrc.engine.machine import (
     load_source,
     stored,
 )
+from biped_adrc.errors import ModelError
 
 TEXT = """
 define void @f(ptr %K, ptr %inp, ptr %out) {
@@ -145,3 +150,77 @@ def test_several_processes_make_the_same_code(cache):
     found = {process.communicate(timeout=120)[0].strip() for process in processes}
     assert len(found) == 1
     assert found != {""}
+
+
+@pytest.mark.parametrize("variable", [VARIABLE, "XDG_CACHE_HOME"])
+def test_an_empty_variable_is_none(variable, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.delenv(VARIABLE)
+    monkeypatch.setenv(variable, "")
+    folder = cache_folder()
+    assert tmp_path / "home" in folder.parents
+    assert folder.stat().st_mode & 0o777 == 0o700
+
+
+def test_a_cache_that_others_could_write_is_not_used(tmp_path, monkeypatch):
+    theirs, relative = tmp_path / "theirs", "cache"
+    theirs.mkdir()
+    theirs.chmod(0o777)
+    monkeypatch.chdir(tmp_path)
+    for named, said in ((str(theirs), r"others may write \(mode 777\)"), (relative, "absolute")):
+        monkeypatch.setenv(VARIABLE, named)
+        with pytest.warns(RuntimeWarning, match=said):
+            assert make(f"open {named}") == (42.0, 1)
+        assert list(tmp_path.rglob("*")) == [theirs]
+    theirs.chmod(0o700)
+    monkeypatch.setenv(VARIABLE, str(theirs))
+    assert make("open") == (42.0, 1)
+    monkeypatch.setattr("biped_adrc.engine.machine.os.geteuid", lambda: 12345)
+    with pytest.warns(RuntimeWarning, match=f"belongs to user {theirs.stat().st_uid}"):
+        assert theirs not in cache_folder().parents
+
+
+def test_a_file_of_another_user_in_it_is_not_read(monkeypatch):
+    make("theirs")
+    monkeypatch.setattr("biped_adrc.engine.machine._ours", lambda _: False)
+    assert stored("theirs") is None
+
+
+def test_neither_a_home_nor_a_user(monkeypatch):
+    def unknown(*_: object, **__: object) -> Path:
+        raise RuntimeError("Could not determine home directory.")
+
+    monkeypatch.delenv(VARIABLE)
+    monkeypatch.setattr("biped_adrc.engine.machine.user_cache_path", unknown)
+    assert make("homeless")[0] == 42.0
+
+
+def test_no_bytecode_of_a_module_is_read(cache):
+    """Planted or damaged, a .pyc is no part of what is checked."""
+    path = Path(str(load_source("answer = 44\n").__file__))
+    planted = Path(importlib.util.cache_from_source(str(path)))
+    planted.parent.mkdir(exist_ok=True)
+    other = cache / "other.py"
+    other.write_text("answer = 45\n")
+    os.utime(other, (path.stat().st_atime, path.stat().st_mtime))
+    py_compile.compile(str(other), str(planted), doraise=True)
+    assert load_source("answer = 44\n").answer == 44
+    planted.write_bytes(planted.read_bytes()[:20])
+    assert load_source("answer = 44\n").answer == 44
+
+
+def test_numba_s_variables_lead_nowhere_else(tmp_path, monkeypatch):
+    """Its own folder of code is neither checked nor sealed, so that nothing is unpickled from there."""
+    monkeypatch.setattr(config, "CACHE_DIR", str(tmp_path))
+    compiled = "import numba\n@numba.njit('f8(f8)', cache=True)\ndef f(x):\n    return x\n"
+    source = f"{compiled}def compile_all(): pass\n"
+    monkeypatch.setattr("biped_adrc.engine.kernels.load.source", lambda: source)
+    module = _kernels.__wrapped__()
+    assert module.f(2.0) == 2.0
+    assert list(Path(str(module.__file__)).parent.glob("__pycache__/*.nbi"))
+    assert list(tmp_path.iterdir()) == []
+    assert str(tmp_path) == config.CACHE_DIR
+    monkeypatch.setattr(config, "DISABLE_JIT", 1)
+    with pytest.raises(ModelError, match="NUMBA_DISABLE_JIT is set"):
+        _kernels.__wrapped__()

@@ -12,7 +12,7 @@ from biped_adrc.resources import data_folder
 from biped_adrc.robots import symmetry
 from biped_adrc.robots.robot_toml import load_description, robot_names
 from biped_adrc.robots.urdf import to_xml
-from biped_adrc.robots.urdf_reader import load_tree
+from biped_adrc.robots.urdf_reader import load_tree, parse
 
 FLOATING = data_folder("urdf") / "rabbit" / "floating.urdf"
 TORSO_MASS = '<mass value="12.0"/>'
@@ -169,3 +169,21 @@ def test_twins_turn_in_the_same_sense(change, message):
         return
     with pytest.raises(ModelError, match=message):
         symmetry._check_joints(one, other, "pitch", (one.name, "twin"), "legs")
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("<robot name='a'>" + "<link>" * 200_000 + "</link>" * 200_000 + "</robot>", "51 deep"),
+        ("<robot name='a'>" + "<link name='l'/>" * 1501 + "</robot>", "1501 links, expected at"),
+        ("<?xml version='1.0' encoding='utf-7'?><robot name='a'/>", "multi-byte encodings"),
+        ("<?xml version='1.0' encoding='zz'?><robot name='a'/>", "unknown encoding: zz"),
+        ("<?xml version='1.0' encoding='idna'?><robot name='a'/>", "'idna' codec"),
+    ],
+    ids=["nested", "links", "utf-7", "zz", "idna"],
+)
+def test_files_that_crashed_a_parser_are_refused(text, said, tmp_path):
+    path = tmp_path / "a.urdf"
+    path.write_text(text)
+    with pytest.raises(ModelError, match=rf"a\.urdf.*{said}"):
+        parse(path)

@@ -23,6 +23,7 @@ from biped_adrc.hybrid.storage import load, load_beside, save
 from biped_adrc.resources import data_folder
 from biped_adrc.scenario import registry
 from biped_adrc.scenario.walker_record import Reader, Writer
+from biped_adrc.viz.export import Clip, export
 
 OLD = Path(__file__).parents[1] / "data"
 FAST = {"engine": "compiled", "impacts": 1}
@@ -414,3 +415,61 @@ def test_a_walk_of_python_keeps_the_name_of_its_controller(own: str, gait, biped
     ba.walk(ba.Walker(biped, Mine(gait.constraint, 0.8)), gait, 1).save("named.npz")
     del sys.modules[own]
     assert ba.load_walk("named.npz").controller_name == "Mine"
+
+
+def test_a_file_of_version_0_1_imports_nothing(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("planted.py").write_text("open('ran', 'w').close()\nclass X: pass\n")
+    with np.load(Path(__file__).parents[1] / "data" / "run_0_1.npz") as data:
+        arrays = dict(data)
+    meta = json.loads(str(arrays["meta"]))
+    meta["settings"]["run"]["controller"] = "planted:X"
+    arrays["meta"] = np.array(json.dumps(meta))
+    np.savez("old.npz", **arrays)
+    with pytest.raises(InputError, match="names 'planted:X', and reading a file imports nothing"):
+        ba.load_walk("old.npz")
+    assert not Path("ran").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "said"),
+    [
+        (
+            "x0",
+            lambda x: np.where(np.arange(x.size).reshape(x.shape) == 7, np.nan, x),
+            "x with NaN",
+        ),
+        ("dx1", lambda x: x * np.inf, "x' with NaN or infinity"),
+        ("x1", lambda x: x.astype(complex), "x of type complex128"),
+        ("t0", lambda t: t.astype(str), "t of type <U32"),
+        ("t0", lambda t: (1e6 * t).astype(int), "t of type int64"),
+        ("x_minus0", lambda x: x * np.nan, "x- with NaN"),
+        ("t1", lambda t: t - 0.2, "arc 1 begins at"),
+        ("t0", lambda t: t[::-1], "no times"),
+        ("t1", lambda t: np.append(t[:-1], 1e12), "its event is at"),
+    ],
+)
+def test_what_is_no_number_and_goes_back_in_time_is_refused(sound, tmp_path, name, change, said):
+    with np.load(sound) as data:
+        arrays = dict(data)
+    arrays[name] = change(arrays[name])
+    np.savez(tmp_path / "a.npz", **arrays)
+    with pytest.raises(InputError, match=re.escape(said)):
+        ba.load_walk(tmp_path / "a.npz")
+
+
+def test_a_small_file_that_unpacks_to_too_much_is_refused(sound, tmp_path, monkeypatch):
+    monkeypatch.setattr("biped_adrc.hybrid.storage.MOST_BYTES", 1000)
+    with pytest.raises(InputError, match=r"unpacked it has \d+ bytes, expected at most 1000"):
+        ba.load_walk(sound)
+
+
+def test_a_picture_of_too_many_frames_is_refused(sound):
+    """Times of 1e12 s asked for 182 TiB."""
+    walk = ba.load_walk(sound)
+    *arcs, last = walk.trajectory.arcs
+    late = replace(last, t=np.append(last.t[:-1], 1e12), event=None)
+    walk = replace(walk, trajectory=replace(walk.trajectory, arcs=(*arcs, late)))
+    for name in ("a.html", "a.gif", "apart.gif"):
+        with pytest.raises(InputError, match=r"\d frames, expected at most 200000"):
+            export(Path(name), {"NPD": walk}, Clip(apart=name == "apart.gif"))

@@ -24,7 +24,7 @@ from biped_adrc.types import Array
 from biped_adrc.viz.from_the_side import moving_parts as draw
 from biped_adrc.viz.from_the_side.side_by_side import LINES, frames_apart
 from biped_adrc.viz.from_the_side.side_view import SideView
-from biped_adrc.viz.placement import Recorded, WalkScene, ending
+from biped_adrc.viz.placement import Recorded, WalkScene, check_frames, ending
 from biped_adrc.viz.style import REACTION, TORQUE, style
 
 GHOST = 0.35
@@ -82,6 +82,7 @@ def _times(
             f"the part from {start:g} to {stop:g} s was asked for; the walks last from {first:g} to {last:g} s"
         )
     rate = motion.fps * motion.slower
+    check_frames((stop - start) * rate)
     times = start + np.arange(max(2, math.ceil((stop - start) * rate))) / rate
     badly = any(ending(walk.trajectory) for walk in walks.values())
     return np.append(times, stop) if badly else times
@@ -115,6 +116,7 @@ def _frames(scenes: Mapping[str, WalkScene], times: Array, motion: draw.Motion) 
     *ghosts, solid = scenes
     caption = f"{solid} solid, {', '.join(ghosts)} translucent" if ghosts else solid
     text = axes.text(0.02, 0.97, "", transform=axes.transAxes, va="top", fontsize=11, zorder=90)
+    text.set_parse_math(False)
     text.set_bbox({"fc": "white", "ec": "none", "alpha": 0.7, "pad": 2.0})
     out = []
     for k, t in enumerate(times.tolist()):

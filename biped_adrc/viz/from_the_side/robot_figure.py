@@ -20,7 +20,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.robots.urdf import Visual
 from biped_adrc.types import Array
 from biped_adrc.viz.placement import joint_values, link_placements
-from biped_adrc.viz.style import GREY, PALETTE, label, new_figure, style
+from biped_adrc.viz.style import GREY, PALETTE, label, literal, new_figure, style
 
 POSE = (3.5, 4.05, -0.5, -0.75, -0.32)
 """q1..q5 [rad] of a posture in which no mark covers another."""
@@ -47,7 +47,12 @@ def robot_figure(biped: Biped, q: Array | None = None) -> Figure:
         _feet(axes, biped, q)
         axes.set_aspect("equal")
         axes.grid(False)
-        label(axes, "x [m]", "z [m]", f"{biped.description.name}: coordinates in single support")
+        label(
+            axes,
+            "x [m]",
+            "z [m]",
+            f"{literal(biped.description.name)}: coordinates in single support",
+        )
         return figure
 
 

@@ -97,7 +97,7 @@ class _Panel:
         self.title = axes.text(0.04, 0.99, self.name, fontsize=15, color=self.colour, weight="bold")
         self.text = axes.text(0.04, 0.915, "", fontsize=11)
         for text in (self.title, self.text):
-            text.set(transform=axes.transAxes, verticalalignment="top", zorder=90)
+            text.set(transform=axes.transAxes, verticalalignment="top", zorder=90, parse_math=False)
 
     def show(self, t: float) -> None:
         """Draw the walk at t [s], and in words its largest error so far, or how it has ended."""

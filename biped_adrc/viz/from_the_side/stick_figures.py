@@ -15,7 +15,16 @@ from matplotlib.collections import LineCollection
 from biped_adrc.errors import InputError
 from biped_adrc.viz.from_the_side.side_view import SideView
 from biped_adrc.viz.placement import Recorded, WalkScene, ending
-from biped_adrc.viz.style import STANCE, SWING, TRUNK, label, new_figure, style, write_figure
+from biped_adrc.viz.style import (
+    STANCE,
+    SWING,
+    TRUNK,
+    label,
+    literal,
+    new_figure,
+    style,
+    write_figure,
+)
 
 LOOKS = {
     "swing": (SWING, 1.4, (0, (4, 1.5)), "swing leg"),
@@ -64,7 +73,7 @@ def strip(
     axes.legend(loc="upper right", bbox_to_anchor=(1.0, 1.1), ncols=4, borderaxespad=0.0)
     over = ending(scene.trajectory) if stop >= scene.trajectory.t_end else ""
     every = f"a pose every {1e3 * (times[1] - times[0]):.0f} ms"
-    label(axes, "x [m]", "z [m]", f"{every}; {over}" if over else every)
+    label(axes, "x [m]", "z [m]", f"{every}; {literal(over)}" if over else every)
     return axes
 
 

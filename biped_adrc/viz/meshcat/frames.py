@@ -16,7 +16,7 @@ import numpy as np
 from biped_adrc.errors import check_positive
 from biped_adrc.hybrid.trajectory import Arc, hermite
 from biped_adrc.types import Array
-from biped_adrc.viz.placement import WalkScene, joint_values, loads
+from biped_adrc.viz.placement import WalkScene, check_frames, joint_values, loads
 
 TOLERANCE = 1e-6
 """Largest error [rad] of an interpolated joint angle."""
@@ -59,6 +59,7 @@ class Frames:
     def of(cls, scene: WalkScene, fps: float) -> Frames:
         """Sample a walk at `fps` [1/s] or finer. Raises InputError for an fps that is not positive."""
         check_positive(fps, f"fps is {fps} frames per second")
+        check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
         t, arcs, poses = [], [], []
         for i, arc in enumerate(scene.trajectory.arcs):
             nodes = _nodes(scene, arc, fps)

@@ -221,10 +221,13 @@ async def _serve(
 
 
 async def _launch(url: str) -> asyncio.subprocess.Process:
-    """Open the user's browser from a process of its own: some browsers do not return."""
+    """Open the user's browser from a process of its own: some browsers do not return.
+
+    -I: nothing is imported from the working directory.
+    """
     nowhere = asyncio.subprocess.DEVNULL
     return await asyncio.create_subprocess_exec(
-        sys.executable, "-m", "webbrowser", url, stdin=nowhere, stdout=nowhere, stderr=nowhere
+        sys.executable, "-I", "-m", "webbrowser", url, stdin=nowhere, stdout=nowhere, stderr=nowhere
     )
 
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.model.biped import Biped
 from biped_adrc.viz.from_the_side.side_view import SideView
 from biped_adrc.viz.meshcat import objects as draw
@@ -71,6 +71,7 @@ class Look:
             raise InputError("there is no walk to animate; expected at least one")
         if self.view not in VIEWS:
             raise InputError(f"view is '{self.view}', choose one of {list(VIEWS)}")
+        check_positive(self.fps, f"fps is {self.fps} frames per second")
         solid = list(walks)[-1] if self.solid is None else self.solid
         if solid not in walks:
             raise InputError(

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
-from biped_adrc.viz.style import label, new_figure, style
+from biped_adrc.viz.style import label, literal, new_figure, style
 
 MOST_LEVELS = 40
 """A parameter with more values than these is cut into `CELLS`."""
@@ -157,7 +157,7 @@ def _texts(levels: list[Level]) -> list[str]:
 def _text(x: Level, digits: int = 4) -> str:
     """A value as text, with so many significant digits; "none" for what is no value."""
     if isinstance(x, str):
-        return x.replace("$", r"\$")  # no formula
+        return literal(x)
     return "none" if x is None or x != x else f"{float(f'{x:.{digits}g}'):.6g}"
 
 
