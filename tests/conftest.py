@@ -13,11 +13,6 @@ import biped_adrc as ba
 
 from .preloaded import Preloaded
 
-if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # the suite runs in the background of a shell
-    signal.signal(
-        signal.SIGINT, signal.default_int_handler
-    )  # children inherit that it is not ignored
-
 PRESETS = ("identified", "identified-bare", "tac2003")
 
 
