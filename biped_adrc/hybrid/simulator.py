@@ -22,7 +22,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from biped_adrc.errors import InputError, NotFiniteError, SingularError, check_count
-from biped_adrc.hybrid.integrators import OneStepMethod, Step, StepFailed
+from biped_adrc.hybrid.integrators import Form, OneStepMethod, Step, StepFailed
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, FoundEvent, Guard, HybridSystem, Mode, Outcome, Split
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
@@ -262,7 +262,7 @@ class _Steps:
 
     system: HybridSystem
     method: OneStepMethod
-    split: Split | None
+    split: Form | None
     watch: _Watch
 
     def __call__(
@@ -285,7 +285,7 @@ class _Steps:
         Raises NotFiniteError after a step to a state that is not finite.
         """
         just_before = math.nextafter(until, -math.inf)
-        split = None if self.split is None else _until(self.split, just_before)
+        split = _until(self.split, just_before) if isinstance(self.split, Split) else self.split
         first = True
 
         def f(s: float, y: Array) -> Array:

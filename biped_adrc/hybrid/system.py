@@ -120,6 +120,20 @@ class Split(Shown):
     node: Callable[[float, Array, Array], tuple[tuple[Array, Array], Array, Array]] | None = None
 
 
+class Relaxing(NamedTuple):
+    """Numbers of x that go to others, which are constant between breaks: x_at' = speed (x_to - x_at).
+
+    RK4 steps over them exactly (`hybrid.relaxation`), so that a fast one needs no shorter step.
+    """
+
+    at: slice
+    """Those that move."""
+    to: slice
+    """Those that they go to, as many."""
+    speed: float
+    """[1/s]"""
+
+
 class HybridSystem(Shown):
     """A hybrid system; see the module for the equations. Override what the system has."""
 
@@ -148,6 +162,10 @@ class HybridSystem(Shown):
 
     def split(self, mode: Mode) -> Split | None:
         """Coordinates for the exponential method; None when the system has none."""
+        return None
+
+    def relaxing(self) -> Relaxing | None:
+        """The numbers of x that RK4 has to step over exactly; None for none."""
         return None
 
     def feedback_split(self, mode: Mode) -> Split | None:

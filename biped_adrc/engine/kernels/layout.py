@@ -27,9 +27,10 @@ ROWS_AT, PARTS_AT, DROPS_AT, SWITCHES_AT, WEIGHTS_AT = 20, 21, 22, 23, 24
 """P: where forced rows and parts of the disturbance begin in P; where drops, switching times and
 matrices (or the tableau) begin in F.
 """
-WIDTH, MOVING, RESULTANTS, P_HEAD = 25, 26, 27, 28
+WIDTH, MOVING, RESULTANTS, LAG_AT, P_HEAD = 25, 26, 27, 28, 29
 """P: numbers in a work row; how many of the first states flow, the others being held; parts of the
-disturbance with a force on the robot as a whole; length of this head.
+disturbance with a force on the robot as a whole; where in x the torques of lagging motors are, 0
+without; length of this head.
 """
 PART_SIZE = 3
 """P, of a part of the disturbance: its torque's address, where its parameters begin in F, its
@@ -42,8 +43,10 @@ PERIOD, T_FIRST, LEAST_STEP, H, RTOL, ATOL, MAX_STEP = 0, 1, 2, 3, 4, 5, 6
 """F: sampling period [s], 0 for continuous time; start of the run [s]; minimum step length [m]; fixed
 step [s]; tolerances [1] and absolute; longest step [s].
 """
-PERIOD_PART, F_HEAD = 7, 8
-"""F: time after a sample instant at which the waiting torque acts [s]; length of this head."""
+PERIOD_PART, LAG_SPEED, F_HEAD = 7, 8, 9
+"""F: time after a sample instant at which the waiting torque acts [s]; 1 / tau of lagging motors
+[1/s]; length of this head.
+"""
 
 RK4, DOP853, ETD = 0, 1, 2
 """Kinds of method."""

@@ -88,6 +88,10 @@ class StateSizes(NamedTuple):
     """Rows of E (k, p); 0 without the exponential method."""
     moving: int = 0
     """How many states flow, the first in x; the rest is held between sample instants. 0 means all flow."""
+    lag_at: int = 0
+    """Where in x the torques of lagging motors are, which go to the last p numbers; 0 without a lag."""
+    lag_speed: float = 0.0
+    """How fast they go there, 1 / tau [1/s]."""
 
 
 class GroundTable(NamedTuple):
@@ -201,14 +205,14 @@ def plan(
     P[: len(code)] = code
     P[layout.COORDINATES], P[layout.STATES], P[layout.JOINTS] = sizes.n, sizes.nx, sizes.p
     P[layout.SLOW], P[layout.STIFF] = sizes.nw, sizes.k
-    P[layout.MOVING] = sizes.moving or sizes.nx
+    P[layout.MOVING], P[layout.LAG_AT] = sizes.moving or sizes.nx, sizes.lag_at
     P[layout.FORCED], P[layout.LEVELS] = len(method.rows), len(method.phi)
     P[layout.KIND], P[layout.RESTART] = method.kind, clock.restart
     P[layout.DROPS], P[layout.SWITCHES] = len(scene.drops), len(push.switches)
     P[layout.PARTS] = len(push.addresses)
     head = np.zeros(layout.F_HEAD)
     head[layout.PERIOD], head[layout.T_FIRST] = clock.period, clock.t_first
-    head[layout.PERIOD_PART] = clock.part
+    head[layout.PERIOD_PART], head[layout.LAG_SPEED] = clock.part, sizes.lag_speed
     head[layout.LEAST_STEP], head[layout.H] = scene.least_step, method.h
     head[layout.RTOL], head[layout.ATOL] = method.rtol, method.atol
     head[layout.MAX_STEP] = method.max_step
