@@ -1,4 +1,4 @@
-"""A quantity that goes to a constant, y' = -y / tau, as a step of length h sees it: exactly, however short tau is.
+"""A quantity that goes to a constant, y' = -y / tau, in a step of length h: exactly, however short tau is.
 
     y(t + c h) = e^(-theta c) y(t),   theta = h / tau,   0 <= c <= 1
 
@@ -7,8 +7,9 @@ quadratic P(c) with the same moments instead:
 
     integral of c^j (e^(-theta c) - P(c)) dc = 0,   j = 0, 1, 2
 
-Then a classical step of order 4 stays one for every tau. What the layer after a break adds to its error, h^2 tau / 24
-times the second derivative of the response, goes to zero with tau, where the step is the one without y.
+Then a classical step of order 4 stays one for every tau. What the layer after a break adds to its error,
+h^2 tau / 24 times the second derivative of the response, goes to zero with tau, where the step is the one
+without y.
 
 The compiled loops have this file in their text (`engine.kernels.load`).
 """

@@ -28,7 +28,7 @@ weights = inner(relaxation)
 
 @inner
 def relax(P: Ints, x: Array, weight: float, out: Array) -> None:
-    """Torques of lagging motors in out (nx,): what is asked of them, and `weight` [1] of what is missing in x."""
+    """Torques of lagging motors in out (nx,): what is asked, and `weight` [1] of what x has beyond it."""
     for i in range(P[JOINTS]):
         aim = x[P[STATES] - P[JOINTS] + i]
         out[P[LAG_AT] + i] = aim + weight * (x[P[LAG_AT] + i] - aim)
