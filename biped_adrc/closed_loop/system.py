@@ -243,6 +243,10 @@ class ClosedLoop(HybridSystem, Generic[P]):
             raise NotFiniteError(f"{type(self.controller).__name__}.output returned {u} N m")
         return u
 
+    def bounded(self, u: Array) -> Array:
+        """u (p,) [N m] itself, whatever it is; a subclass may have a bound."""
+        return u
+
     def instant(self, t: float, x: Array, mode: Mode) -> Instant:
         """Measurement, torque, force and acceleration at (t, x), t in [s]."""
         return semantics.instant(self, t, x, mode)

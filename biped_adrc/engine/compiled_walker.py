@@ -129,7 +129,7 @@ def _plan(
     drops = np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2)
     return plan(
         LawAddresses(*(program.address(name) for name in LawAddresses._fields)),
-        StateSizes(n, nx, p, nx - stiff * p, stiff, nx if flows else 2 * n, *lag),
+        StateSizes(n, nx, p, nx - stiff * p, stiff, nx if flows else 2 * n, *lag, walker.fastest),
         GroundTable(LEAST_STEP, drops),
         _push(walker.disturbance, n),
         clock,

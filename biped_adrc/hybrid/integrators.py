@@ -29,7 +29,13 @@ import numpy as np
 from scipy.integrate import DOP853, RK45, OdeSolver, Radau
 from scipy.linalg import expm
 
-from biped_adrc.errors import InputError, NotFiniteError, SingularError, check_positive
+from biped_adrc.errors import (
+    InputError,
+    NotFiniteError,
+    RanAwayError,
+    SingularError,
+    check_positive,
+)
 from biped_adrc.hybrid.relaxation import relaxation
 from biped_adrc.hybrid.system import HybridSystem, Mode, Relaxing, Split
 from biped_adrc.types import Array
@@ -40,6 +46,10 @@ Flow = Callable[[float, Array], Array]
 """f(t, x) -> x'."""
 LANDING = 1e-9
 """A last step longer than h by this fraction [1] is still one step: round-off in the count of steps."""
+
+
+LOST = (NotFiniteError, RanAwayError, SingularError)
+"""What a flow may raise at a state that means nothing."""
 
 
 class StepFailed(Exception):
@@ -203,17 +213,17 @@ class _SciPy(OneStepMethod):
     ) -> Iterator[Step]:
         """Steps from (t, x), x (nx,), to t_end [s].
 
-        A flow that raises NotFiniteError or SingularError at a trial state gives NaN, and the
-        solver rejects the step; the error is raised only where the solver gives up. Raises
-        StepFailed with the solver's message otherwise.
+        A flow that raises one of LOST at a trial state gives NaN, and the solver rejects the step;
+        the error is raised only where the solver gives up. Raises StepFailed with the solver's
+        message otherwise.
         """
-        last: NotFiniteError | SingularError | None = None
+        last: Exception | None = None
 
         def tried(t: float, x: Array) -> Array:
             nonlocal last
             try:
                 dx, last = f(t, x), None
-            except (NotFiniteError, SingularError) as error:  # a step too long, which is rejected
+            except LOST as error:  # a step too long, which is rejected
                 dx, last = np.full_like(x, np.nan), last or error
             return dx
 

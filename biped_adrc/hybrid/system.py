@@ -141,6 +141,9 @@ class HybridSystem(Shown):
         """x' at (t, x) in `mode`, of the shape of x (nx,), t in [s]."""
         raise NotImplementedError(f"{type(self).__name__} has neither a flow nor a mover")
 
+    def check_state(self, t: float, x: Array) -> None:
+        """Raise RanAwayError for a state x (nx,) at t [s] beyond what the system can have; none by default."""
+
     def mover(self, fired: str | None) -> Mover | None:
         """What moves the system over one arc where it has no flow and no guards; None where it has.
 

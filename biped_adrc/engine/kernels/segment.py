@@ -104,6 +104,8 @@ def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int)
         classical(P, F, K, W, now, row(P, W, XB), row(P, W, DXB), t1 - now, x1)
     if not finite(x1, P[MOVING]):
         return broken(W)
+    if not slow(P, F, x1):
+        return RAN_AWAY
     if P[KIND] == ETD and last == 0:
         N = row(P, W, N1)
         remainder(P, F, K, W, t1, y1, N)
@@ -131,9 +133,12 @@ def pass_on(P: Ints, W: Array) -> None:
 def stop(P: Ints, F: Array, K: Array, W: Array, R: Array, code: int) -> int:
     """X0 (nx,) and TIME at the event just found, kept as a node with its slope from the left; its code.
 
-    FULL where there is no room for the node; then the arc is made again.
+    FULL where there is no room for the node; then the arc is made again. A status, and all as
+    before, where the state found is not finite.
     """
     te, x, dx = W[EVENT], row(P, W, X0), row(P, W, DX0)
+    if not finite(row(P, W, XE), P[STATES]):
+        return broken(W)
     copy(row(P, W, XE), x, P[STATES])
     W[TIME] = te
     if W[EVERY] > 0.0:

@@ -274,7 +274,9 @@ def adaptive(P: Ints, F: Array, K: Array, W: Array, t: float, t_end: float, h: f
                 factor = min(1.0, factor)
             if not finite(x1, nx):
                 return broken(W)
-            W[REACHED], W[TRY] = t1, h * factor
+            if not slow(P, F, x1):
+                return RAN_AWAY
+            W[REACHED], W[TRY], W[LOST] = t1, h * factor, 0.0
             return 0
         factor = 0.9 * error**-0.125
         h *= factor if factor > 0.2 else 0.2
