@@ -227,10 +227,12 @@ class _SciPy(OneStepMethod):
                 dx, last = np.full_like(x, np.nan), last or error
             return dx
 
+        t0, x0, dx0 = t, x, f(t, x)
+        if not np.all(np.isfinite(dx0)):  # of which SciPy's first step would never end
+            raise NotFiniteError(f"the slope is not finite at t = {t:.6g} s")
         solver: OdeSolver = self._solver(
             tried, t, x, t_end, rtol=self.rtol, atol=self.atol, max_step=self.max_step
         )
-        t0, x0, dx0 = t, x, f(t, x)
         while solver.status == "running":
             message = solver.step()
             if solver.status == "failed":
