@@ -125,11 +125,20 @@ def _plan(
     stiff = 0 if split is None else len(split.A)
     relaxing = walker.relaxing()
     flows = walker.held is None or relaxing  # the torque of the motors, then all does
-    lag = (0, 0.0) if relaxing is None else (nx + relaxing.at.start, relaxing.speed)
     drops = np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2)
     return plan(
         LawAddresses(*(program.address(name) for name in LawAddresses._fields)),
-        StateSizes(n, nx, p, nx - stiff * p, stiff, nx if flows else 2 * n, *lag, walker.fastest),
+        StateSizes(
+            n,
+            nx,
+            p,
+            nx - stiff * p,
+            stiff,
+            nx if flows else 2 * n,
+            lag_at=0 if relaxing is None else nx + relaxing.at.start,
+            lag_speed=0.0 if relaxing is None else relaxing.speed,
+            fastest=walker.fastest,
+        ),
         GroundTable(LEAST_STEP, drops),
         _push(walker.disturbance, n),
         clock,

@@ -20,6 +20,7 @@ by address. The names tick and strike are those of the kernels' tables: a sample
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple, TypeVar
@@ -198,9 +199,11 @@ class SymbolicLoop(NamedTuple):
         return u
 
     def lost(self, least: Scalar) -> Scalar:
-        """What a function adds to its result: the least pivot, and -1 where a torque is beyond the bound."""
-        over = functools.reduce(maximum, map(abs, self.torques), 0.0)
-        return where(over > self.strongest, -1.0, least) if self.torques else least
+        """What a function adds to its result: the least pivot; -1 where a finite torque is beyond the bound."""
+        if not self.torques:
+            return least
+        u = functools.reduce(maximum, map(abs, self.torques))
+        return where((u > self.strongest) * (u < math.inf) * (least > 0.0), -1.0, least)
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """The symbols of zeta (n,) [N m]."""

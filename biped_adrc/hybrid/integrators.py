@@ -213,18 +213,22 @@ class _SciPy(OneStepMethod):
     ) -> Iterator[Step]:
         """Steps from (t, x), x (nx,), to t_end [s].
 
-        A flow that raises one of LOST at a trial state gives NaN, and the solver rejects the step;
-        the error is raised only where the solver gives up. Raises StepFailed with the solver's
-        message otherwise.
+        A flow that raises one of LOST at a trial state, or is not finite there, gives NaN, and the
+        solver rejects the step; the error is raised only where the solver gives up. Raises
+        StepFailed with the solver's message otherwise.
         """
-        last: Exception | None = None
+        last: Exception | None = None  # of the last trial; lost: of any in this step
+        lost: Exception | None = None
 
         def tried(t: float, x: Array) -> Array:
-            nonlocal last
+            nonlocal last, lost
             try:
                 dx, last = f(t, x), None
+                if not np.all(np.isfinite(dx)):
+                    lost = NotFiniteError(f"the slope is not finite at t = {t:.6g} s")
             except LOST as error:  # a step too long, which is rejected
                 dx, last = np.full_like(x, np.nan), last or error
+                lost = error
             return dx
 
         t0, x0, dx0 = t, x, f(t, x)
@@ -234,7 +238,13 @@ class _SciPy(OneStepMethod):
             tried, t, x, t_end, rtol=self.rtol, atol=self.atol, max_step=self.max_step
         )
         while solver.status == "running":
-            message = solver.step()
+            lost = None
+            try:
+                message = solver.step()
+            except ValueError:  # of SciPy's linear algebra, which takes no NaN
+                if lost is None:
+                    raise
+                raise lost from None
             if solver.status == "failed":
                 if last is not None:
                     raise last

@@ -29,7 +29,8 @@ MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 """Attributes of <inertia>, in the order of `Inertial.inertia`."""
 SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 """Symmetric matrix (3, 3) of indices: the inertia matrix from the six MOMENTS."""
-_FREE = {"lower": "-1000", "upper": "1000", "effort": "1000"}  # no limit
+FREE = 1000.0
+"""What stands for no limit in <limit>, where a number is compulsory."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +93,7 @@ class Joint:
     axis: Vector
     """Unit vector, the same in both frames; without meaning for a fixed joint."""
     speed: float = math.inf
-    """<limit velocity> [rad/s] or [m/s], infinite where none is given or it is not positive."""
+    """<limit velocity> [rad/s] or [m/s]; infinite where there is none, or one that is 0 or at least FREE."""
 
 
 @dataclass(frozen=True)
@@ -160,8 +161,13 @@ def to_xml(tree: Tree) -> str:
         ET.SubElement(element, "origin", xyz=_text(*joint.origin))
         if joint.type != "fixed":
             ET.SubElement(element, "axis", xyz=_text(*joint.axis))
-            speed = "1000" if math.isinf(joint.speed) else _text(joint.speed)
-            ET.SubElement(element, "limit", _FREE | {"velocity": speed})
+            wide = {
+                "lower": -FREE,
+                "upper": FREE,
+                "effort": FREE,
+                "velocity": min(joint.speed, FREE),
+            }
+            ET.SubElement(element, "limit", {key: _text(x) for key, x in wide.items()})
     ET.indent(robot)
     return '<?xml version="1.0"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
 

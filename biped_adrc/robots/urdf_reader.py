@@ -32,6 +32,7 @@ import pinocchio as pin
 
 from biped_adrc.errors import ModelError
 from biped_adrc.robots.urdf import (
+    FREE,
     GEOMETRY_SIZES,
     JOINT_TYPES,
     MOMENTS,
@@ -415,4 +416,4 @@ def _joint(element: ET.Element, source: str, turns: Turns) -> Joint:
     kind = "revolute" if kind == "continuous" else kind
     speed = numbers(element.find("limit"), "velocity", "0", 1, f"{where} <limit>")[0]
     place = _origin(element, where, above)[0]
-    return Joint(name, kind, parent, child, place, axis, speed if speed > 0.0 else math.inf)
+    return Joint(name, kind, parent, child, place, axis, speed if 0.0 < speed < FREE else math.inf)
