@@ -2,15 +2,20 @@
 
 import math
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.control.base import ControllerLaws
+from biped_adrc.control.delayed import Delayed
 from biped_adrc.engine.batch import Case, simulate_many
+from biped_adrc.engine.run import simulate_by
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
+from biped_adrc.scenario.walk import default_method, fastest
 
 ENGINES = ("compiled", "pinocchio")
 
@@ -152,3 +157,42 @@ class Wavering(ba.RK4):
 def test_a_crossing_at_the_end_of_a_step_is_found_though_dense_output_misses_it():
     run = simulate(Falling(), np.array([0.5]), 0, Wavering(0.25), t_end=0.9)
     assert [round(e.t, 12) for e in run.events()] == [0.5]
+
+
+def test_a_controller_faster_than_the_usual_step_gets_a_shorter_one(biped, gait):
+    observer = ba.GPIObserver.from_bandwidth(300.0)
+    walker = ba.Walker(biped, Delayed(ba.ADRCController(gait.constraint, observer), 2e-4))
+    line = np.abs(np.roots(walker.controller.line.denominator[::-1])).max() / 2e-4
+    assert fastest(walker) == pytest.approx(line, rel=1e-3)
+    assert default_method(walker).h == pytest.approx(1.0 / line, rel=1e-3)
+    assert not ba.walk(walker, gait, impacts=1, method=RK4(1e-3)).trajectory.status.ok
+    assert ba.walk(walker, gait, impacts=1).trajectory.status.ok
+    assert default_method(ba.Walker(biped, ba.NPDController(gait.constraint))) == RK4(1e-3)
+    slow = Delayed(ba.ADRCController(gait.constraint, observer), 4e-3)
+    assert default_method(replace(walker, controller=slow)) == RK4(1e-3)
+
+
+class Own(NamedTuple):
+    """Of the law."""
+
+    K_p: float
+
+
+def nan_times_zero(k, s, m):
+    """Zero where the parameter is a number."""
+    return 0.0 * k.K_p * m.q[:4] + m.terms.Omega[:4]
+
+
+def test_a_parameter_that_is_nan_is_nan_in_both_engines(biped, gait):
+    class Law(ba.Controller):
+        laws = ControllerLaws(Own(math.nan), nan_times_zero)
+
+        def output(self, s, m):
+            return nan_times_zero(self.laws.parameters, s, m)
+
+    walker = ba.Walker(biped, Law())
+    x = np.concatenate(gait.start(biped))
+    for engine in ENGINES:
+        run = simulate_by(engine, walker, x, ba.Mode(), RK4(), t_end=0.1)
+        assert run.status is ba.Status.NOT_FINITE
+        assert all_finite(run)
