@@ -8,6 +8,7 @@ what that moves as much says nothing about the engines.
 
 from __future__ import annotations
 
+import traceback
 from collections import Counter
 from collections.abc import Iterator
 from typing import Any
@@ -17,6 +18,7 @@ import numpy as np
 import biped_adrc as ba
 from biped_adrc.errors import BipedError
 from biped_adrc.scenario.walk import walk_in_parts
+from tests.photograph.adapter import own
 from tests.photograph.adapter.walks import ENGINES, READY, Ready, apart
 from tests.robustness.draws import wild
 
@@ -24,8 +26,6 @@ EQUAL = 1e-5
 """Of states and times, in units of max(1, |x|)."""
 MOVE, TRIES, FACTOR = 1e-14, 4, 100.0
 """How far the start is moved, how often, and how much more than that the engines may differ."""
-OWN = "a mistake of its own"
-"""What the photograph's class that raises says."""
 SAME, REFUSED, THEIRS, SENSITIVE = "the same", "refused", "own error", "sensitive to 1e-14"
 TRACEBACK, NAN, STATUSES, STATES = "TRACEBACK", "NAN", "STATUSES DIFFER", "STATES DIFFER"
 FAULTS = (TRACEBACK, NAN, STATUSES, STATES)
@@ -50,7 +50,8 @@ def attempt(s: Plain, engine: str, moved: Any = None) -> Plain:
     except BipedError as error:
         return {"refused": str(error)}
     except Exception as error:  # what the fuzz looks for, but for a class that raises on purpose
-        kind = "theirs" if OWN in str(error) else "traceback"
+        where = traceback.extract_tb(error.__traceback__)[-1].filename
+        kind = "theirs" if where == own.__file__ else "traceback"
         return {kind: f"{type(error).__name__}: {error}"}
 
 
@@ -60,7 +61,8 @@ def walked(ready: Ready, engine: str, moved: Any) -> tuple[Ready, ba.Walk]:
     if moved is not None:
         q, v = q * (1.0 + MOVE * moved[: len(q)]), v * (1.0 + MOVE * moved[-len(v) :])
     given = {"start": (q, v), "first_step": ready.first_step, "engine": engine}
-    return ready, walk_in_parts(ready.walker, ready.gait, ready.parts(engine), **given)
+    parts = ready.parts(ENGINES[0])  # of both, since the default steps of the engines differ
+    return ready, walk_in_parts(ready.walker, ready.gait, parts, **given)
 
 
 def end_of(ready: Ready, walk: ba.Walk) -> Plain:
