@@ -12,7 +12,7 @@ BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine
   pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
-.PHONY: reproduce test fuzz docs pictures comparison results verification dev lint format types imports bench mutants faults clean
+.PHONY: reproduce test fuzz docs pictures comparison results verification attacks dev lint format types imports bench mutants faults clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -47,6 +47,13 @@ results: .venv/.core
 # published results and closed forms beside those of the package, in docs/verification.md
 verification: .venv/.core
 	$(BIN)/python docs/write_verification.py
+
+# random walks against the numerics, about an hour on two cores; tables in docs/robustness.md. What was found is kept
+# in $(OUT)/attacks, from where an interrupted run goes on
+attacks: .venv/.test
+	mkdir -p $(OUT)/attacks
+	for attack in engines steps; do \
+	  $(BIN)/python -m tests.robustness $$attack --out $(OUT)/attacks/$$attack.jsonl --page docs/robustness.md; done
 
 dev: .venv/.dev
 

@@ -51,6 +51,10 @@ class SimulationError(BipedError, RuntimeError):
     exit_code = 4
 
 
+class RanAwayError(SimulationError):
+    """A motion or a torque is beyond anything that the robot has (exit code 4)."""
+
+
 class OutputError(BipedError, OSError):
     """A result cannot be written (exit code 5)."""
 

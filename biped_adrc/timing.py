@@ -80,8 +80,10 @@ def check_timing(timing: object) -> None:
     raise InputError(f"timing is {timing!r}, expected {meant} or ContinuousTime()")
 
 
-def check_ends(max_step_time: float, fall_height: float) -> None:
+def check_ends(max_step_time: float, fall_height: float, speed: float, torque: float) -> None:
     """Raise InputError for limits that end no run: NaN, a time that is not positive, a height of 1 or more.
+
+    speed, torque [1]: multiples of the robot's limits beyond which a run ends; infinite ones are none.
 
     max_step_time [s]: the longest single support before the walk counts as stalled. fall_height
     [1]: the robot counts as fallen when its hip is lower than this fraction of |p_hip| at q = 0.
@@ -90,4 +92,9 @@ def check_ends(max_step_time: float, fall_height: float) -> None:
         raise InputError(
             f"max_step_time is {max_step_time} s and fall_height {fall_height}, expected a positive time and a "
             "share of the height, below 1"
+        )
+    if not (speed > 0.0 and torque > 0.0):
+        raise InputError(
+            f"runaway_speed is {speed} and runaway_torque {torque}, expected positive multiples of the robot's "
+            "limits, infinite for none"
         )

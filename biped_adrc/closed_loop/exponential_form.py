@@ -288,8 +288,8 @@ def remainder(
 ) -> tuple[Array, Array]:
     """N_w, and N_E in its forced rows (r, p), of the closed loop at (t, w, E), t in [s]."""
     i = instant(loop, t, laws.back(laws.parameters, w, E), mode)
-    rest = len(i.s) > laws.parameters.order * laws.parameters.p
-    ds = loop.calls.flow(i.s, i.measurement, i.u) if rest else i.s
+    rest, u = len(i.s) > laws.parameters.order * laws.parameters.p, loop.bounded(i.u)
+    ds = loop.calls.flow(i.s, i.measurement, u) if rest else i.s
     return forcing(laws, w, E, i, ds)
 
 
@@ -313,7 +313,7 @@ def split_of(loop: Loop, laws: SplitLaws, mode: Mode) -> Split:
     def node(t: float, w: Array, E: Array) -> tuple[tuple[Array, Array], Array, Array]:
         x = laws.back(k, w, E)
         i = instant(loop, t, x, mode)
-        ds = loop.calls.flow(i.s, i.measurement, i.u)
+        ds = loop.calls.flow(i.s, i.measurement, loop.bounded(i.u))
         N_w, forced = forcing(laws, w, E, i, ds)
         return (N_w, laws.spread(forced)), x, np.concatenate((i.measurement.v, i.a, ds))
 

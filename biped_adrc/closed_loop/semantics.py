@@ -176,6 +176,9 @@ class Loop(Protocol):
     def saturate(self, u: Array) -> Array:
         """u (p,) [N m] within the torque limit."""
 
+    def bounded(self, u: Array) -> Array:
+        """u (p,) [N m] itself; ends the run where it is beyond anything that the motors have."""
+
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """The disturbance zeta (n,) [N m] at t [s]."""
 
@@ -273,7 +276,8 @@ def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     k = loop.held
     if k is None:
         i = instant(loop, t, x, mode)
-        return np.concatenate((i.measurement.v, i.a, loop.calls.flow(i.s, i.measurement, i.u)))
+        u = loop.bounded(i.u)
+        return np.concatenate((i.measurement.v, i.a, loop.calls.flow(i.s, i.measurement, u)))
     q, v, s, tail = parts(loop, x)
     u = torque_held(k, tail)
     a = loop.plant.acceleration(q, v, applied(u, loop.external(t, q, v, mode)))
@@ -309,7 +313,7 @@ def as_seen(k: HeldParameters, w: Array, q: Array, v: Array) -> tuple[Array, Arr
 def asked(loop: Loop, s: Array, m: Measurement) -> tuple[Array, Array]:
     """The controller's state corrected by a measurement, and the torque (p,) [N m] that it asks for."""
     s = loop.calls.correct(s, m)
-    return s, loop.saturate(loop.calls.output(s, m))
+    return s, loop.bounded(loop.saturate(loop.calls.output(s, m)))
 
 
 def decided(

@@ -38,7 +38,7 @@ from biped_adrc.hardware.meter import MeterParameters, Outside
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import Held, HeldParameters
 from biped_adrc.hardware.sensing import Sensor
-from biped_adrc.hybrid.system import Clock, HybridSystem
+from biped_adrc.hybrid.system import Clock, HybridSystem, Relaxing
 from biped_adrc.model.reduction import disturbance_parts
 from biped_adrc.parts import check_fields, handing_out, returned
 from biped_adrc.timing import ContinuousTime, SampledTime, check_timing
@@ -243,6 +243,10 @@ class ClosedLoop(HybridSystem, Generic[P]):
             raise NotFiniteError(f"{type(self.controller).__name__}.output returned {u} N m")
         return u
 
+    def bounded(self, u: Array) -> Array:
+        """u (p,) [N m] itself, whatever it is; a subclass may have a bound."""
+        return u
+
     def instant(self, t: float, x: Array, mode: Mode) -> Instant:
         """Measurement, torque, force and acceleration at (t, x), t in [s]."""
         return semantics.instant(self, t, x, mode)
@@ -263,6 +267,14 @@ class ClosedLoop(HybridSystem, Generic[P]):
     def _release(self, t: float, x: Array, mode: Mode) -> Array:
         """x once the torque that waited for a fraction of the period acts."""
         return semantics.release(self, x)
+
+    def relaxing(self) -> Relaxing | None:
+        """Torques of motors with lag, which go to those asked of them."""
+        k, p = self.held, self.plant.p
+        if k is None or not k.sizes.lag:
+            return None
+        at = -p * (k.sizes.waiting + 2)
+        return Relaxing(slice(at, at + p), slice(-p, None), k.motors.speed)
 
     def clocks(self) -> tuple[Clock, ...]:
         """None in continuous time; the control clock, and with a fractional delay a second one that

@@ -24,7 +24,7 @@ from biped_adrc.closed_loop.semantics import Mode as Mode
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, RanAwayError
 from biped_adrc.ground import StepDown, StepUp, check_slope
 from biped_adrc.hardware.meter import Meter, MeterParameters, Outside
 from biped_adrc.hardware.motors import Motors
@@ -62,6 +62,8 @@ class Walker(ClosedLoop[Biped]):
     - fall_height [1]: the run ends as a fall when the hip is below this fraction of |p_hip| at q =
       0.
     - max_step_time [s]: a longer single support ends as stalled.
+    - runaway_speed, runaway_torque [1]: the run ends as run away beyond so many times the speed
+      limits of the URDF, or the peak torque of the robot's record; infinite for no end.
 
     Raises InputError for values that do not fit together, such as sensors in continuous time.
     """
@@ -80,6 +82,8 @@ class Walker(ClosedLoop[Biped]):
     motors: Motors | None = None
     meter: Meter | None = None
     impact_gain: tuple[float, ...] = ()
+    runaway_speed: float = 20.0
+    runaway_torque: float = 1000.0
 
     def __post_init__(self) -> None:
         """Raise InputError for values that do not fit together; see the class."""
@@ -89,7 +93,7 @@ class Walker(ClosedLoop[Biped]):
         limit = self.torque_limit
         if limit is not None and not (math.isfinite(limit) and limit > 0):
             raise InputError(f"the torque limit is {limit} N m, expected a positive number or None")
-        check_ends(self.max_step_time, self.fall_height)
+        check_ends(self.max_step_time, self.fall_height, self.runaway_speed, self.runaway_torque)
         parts = (self.sensors, self.motors, self.meter)
         check_parts(self.plant.n, self.timing, *parts, self.impact_gain)
 
@@ -103,6 +107,32 @@ class Walker(ClosedLoop[Biped]):
     def limit(self) -> float | None:
         """Largest torque of every motor [N m]; None for none."""
         return self.torque_limit
+
+    @cached_property
+    def fastest(self) -> Array:
+        """Rates (n,) [rad/s] beyond which the run ends as run away; infinite for none."""
+        return self.runaway_speed * self.plant.speed_limits
+
+    @cached_property
+    def strongest(self) -> float:
+        """Torque [N m] beyond which the run ends as run away; infinite for none, and without motors."""
+        peak = self.plant.description.peak_torque if self.plant.p else math.inf
+        return self.runaway_torque * peak
+
+    def check_state(self, t: float, x: Array) -> None:
+        """Raise RanAwayError for x (nx,) at t [s] with a rate beyond `fastest`."""
+        v = np.abs(x[self.plant.n : 2 * self.plant.n])
+        if np.any(v > self.fastest):
+            i = int(np.argmax(v / self.fastest))
+            raise RanAwayError(
+                f"t = {t:.6g} s: |q{i + 1}'| is {v[i]:.3g} rad/s, above {self.fastest[i]:.3g} rad/s"
+            )
+
+    def bounded(self, u: Array) -> Array:
+        """u (p,) [N m] itself. Raises RanAwayError for one beyond `strongest`."""
+        if self.strongest < math.inf and np.max(np.abs(u)) > self.strongest:
+            raise RanAwayError(f"torque {u} N m, above {self.strongest:.3g} N m")
+        return u
 
     @cached_property
     def gain(self) -> Array:

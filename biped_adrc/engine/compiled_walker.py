@@ -123,11 +123,22 @@ def _plan(
     """
     n, p, nx = walker.plant.n, walker.plant.p, program.nx
     stiff = 0 if split is None else len(split.A)
-    flows = walker.held is None or walker.held.sizes.lag  # the torque of the motors, then all does
+    relaxing = walker.relaxing()
+    flows = walker.held is None or relaxing  # the torque of the motors, then all does
     drops = np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2)
     return plan(
         LawAddresses(*(program.address(name) for name in LawAddresses._fields)),
-        StateSizes(n, nx, p, nx - stiff * p, stiff, nx if flows else 2 * n),
+        StateSizes(
+            n,
+            nx,
+            p,
+            nx - stiff * p,
+            stiff,
+            nx if flows else 2 * n,
+            lag_at=0 if relaxing is None else nx + relaxing.at.start,
+            lag_speed=0.0 if relaxing is None else relaxing.speed,
+            fastest=walker.fastest,
+        ),
         GroundTable(LEAST_STEP, drops),
         _push(walker.disturbance, n),
         clock,

@@ -9,7 +9,8 @@
 `outside`, for the meter: force (2,) [N], impulse since the last sample instant (2,) [N s], drop of
 the ground [m]. zeta (n,) [N m] is an input, since disturbances are compiled by themselves
 (`engine.compiled_walker`) and may differ from run to run. flow, tick, strike and remainder add,
-after their result, the least pivot of the matrices that the controller inverts.
+after their result, the least pivot of the matrices that the controller inverts; flow, tick and
+remainder -1 in its place where a torque is beyond the walker's bound.
 
 `WalkerStructure` decides the code, `WalkerNumbers` are given at run time as the vector K.
 `engine.program` asks for these functions and compiles them; the loops in `engine.kernels` call them
@@ -18,6 +19,8 @@ by address. The names tick and strike are those of the kernels' tables: a sample
 
 from __future__ import annotations
 
+import functools
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple, TypeVar
@@ -41,6 +44,7 @@ from biped_adrc.engine.symbols import (
     maximum,
     minimum,
     run,
+    where,
 )
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.meter import Outside
@@ -72,6 +76,8 @@ class WalkerNumbers(NamedTuple):
     """Longest single support [s]."""
     friction: tuple[Array, Array] | tuple[()]
     """Viscous [N m s] and static [N m] of the coordinates, each (n,); empty without."""
+    strongest: float
+    """Torque beyond which the run ends [N m], infinite without such a bound."""
     held: HeldParameters | tuple[()] = ()
     """Parameters of what is held between sample instants, empty in continuous time."""
     impact_gain: Array = NONE
@@ -170,6 +176,10 @@ class SymbolicLoop(NamedTuple):
     """Relative errors of v+ (n,) [1], or empty."""
     limit: float
     """Torque limit [N m]."""
+    strongest: float
+    """Torque beyond which the run ends [N m]."""
+    torques: list[Scalar]
+    """All torques so far that must not be beyond it."""
     zeta: Array
     given: Array
 
@@ -182,6 +192,18 @@ class SymbolicLoop(NamedTuple):
     def saturate(self, u: Array) -> Array:
         """u (p,) [N m] within the limit, which may be infinite."""
         return np.array([minimum(maximum(x, -self.limit), self.limit) for x in u], dtype=object)
+
+    def bounded(self, u: Array) -> Array:
+        """u (p,) [N m] itself, kept for `lost`."""
+        self.torques.extend(u)
+        return u
+
+    def lost(self, least: Scalar) -> Scalar:
+        """What a function adds to its result: the least pivot; -1 where a finite torque is beyond the bound."""
+        if not self.torques:
+            return least
+        u = functools.reduce(maximum, map(abs, self.torques))
+        return where((u > self.strongest) * (u < math.inf) * (least > 0.0), -1.0, least)
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """The symbols of zeta (n,) [N m]."""
@@ -205,6 +227,11 @@ class SymbolicInstant(NamedTuple):
     """State (nx,)."""
     mode: Mode
     """Single support and its start, symbols too."""
+
+    @property
+    def lost(self) -> Scalar:
+        """What a function adds to its result, see `SymbolicLoop.lost`."""
+        return self.loop.lost(self.trace.solver.least)
 
     def does(self, function: Callable[..., T], *more: object) -> T:
         """What a function of `semantics`, or one with the same first arguments, gives here."""
@@ -253,6 +280,8 @@ class Equations:
             swap=make.robot.swap,
             gain=K.impact_gain,
             limit=K.torque_limit,
+            strongest=K.strongest,
+            torques=[],
             zeta=zeta,
             given=given,
         )
@@ -273,14 +302,14 @@ class Equations:
     def flow(self) -> SymbolicFunction:
         """x' (nx,) between events, and the least pivot."""
         at = self.at()
-        return self.made(at.inp, at.does(semantics.flow), at.trace.solver.least)
+        return self.made(at.inp, at.does(semantics.flow), at.lost)
 
     def tick(self) -> SymbolicFunction:
         """x (nx,) after a sample instant, the least pivot, and q'' (n,) [rad/s^2] under the new torque."""
         at, n = self.at(), self.make.robot.n
         x = at.does(semantics.tick)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
-        return self.made(at.inp, x, at.trace.solver.least, a)
+        return self.made(at.inp, x, at.lost, a)
 
     def strike(self) -> SymbolicFunction:
         """x+ (nx,) after impact, relabelling and the controller's jump; `step` is the single
@@ -337,4 +366,4 @@ class Equations:
         N = at.trace(exponential_form.remainder)(
             at.loop, self._split(at.trace), at.t, w, E, at.mode
         )
-        return self.made(at.inp, *N, at.trace.solver.least)
+        return self.made(at.inp, *N, at.lost)

@@ -70,6 +70,11 @@ class Program:
         )
         numbers = _numbers(walker, plant, model, laws, split)
         K = np.array([*floats(numbers), 0.0])
+        if np.any(np.isnan(K)):
+            raise NotCompiled(
+                f"a parameter of {type(walker.controller).__name__} or its walker is NaN, of which generated "
+                "code would make 0 where it is multiplied by 0; it runs in Python on the compiled plant"
+            )
         return cls(make, _machine(make, numbers), K, numbers)
 
     def address(self, name: str) -> int:
@@ -130,6 +135,7 @@ def _numbers(
         float(walker.lowest_hip),
         float(walker.max_step_time),
         biped.friction_coefficients if biped.friction else (),
+        float(walker.strongest),
         () if walker.held is None else walker.held,
         walker.gain,
         () if split is None else split.parameters,

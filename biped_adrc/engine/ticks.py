@@ -243,7 +243,8 @@ class TicksWithoutHardware(HybridSystem):
             count += 1
         reference, (step, began) = self.inputs.point or NoReference(), mode
         due = origin + count * period
-        hold, at, output, saturate = seen.hold, seen.at, law.output, walker.saturate
+        hold, at, output = seen.hold, seen.at, law.output
+        saturate, bounded = walker.saturate, walker.bounded
         predict, s = walker.calls.predict, frozen(s)
         for q, v, terms, point, following in seen:
             reference.now = q, v, point
@@ -253,7 +254,7 @@ class TicksWithoutHardware(HybridSystem):
                 count += 1
                 due = origin + count * period
                 if not size:
-                    torque[:] = saturate(output(s, m))
+                    torque[:] = bounded(saturate(output(s, m)))
                 else:
                     s, u = asked(walker, s, m)
                     torque[:] = u

@@ -29,14 +29,27 @@ import numpy as np
 from scipy.integrate import DOP853, RK45, OdeSolver, Radau
 from scipy.linalg import expm
 
-from biped_adrc.errors import InputError, NotFiniteError, SingularError, check_positive
-from biped_adrc.hybrid.system import HybridSystem, Mode, Split
+from biped_adrc.errors import (
+    InputError,
+    NotFiniteError,
+    RanAwayError,
+    SingularError,
+    check_positive,
+)
+from biped_adrc.hybrid.relaxation import relaxation
+from biped_adrc.hybrid.system import HybridSystem, Mode, Relaxing, Split
 from biped_adrc.types import Array
 
+Form = Split | Relaxing
+"""What a method may know of a system beside its flow: its stiff part."""
 Flow = Callable[[float, Array], Array]
 """f(t, x) -> x'."""
 LANDING = 1e-9
 """A last step longer than h by this fraction [1] is still one step: round-off in the count of steps."""
+
+
+LOST = (NotFiniteError, RanAwayError, SingularError)
+"""What a flow may raise at a state that means nothing."""
 
 
 class StepFailed(Exception):
@@ -65,15 +78,15 @@ class OneStepMethod(ABC):
     compiled_form: ClassVar[str] = ""
     """Name of the same method in the compiled loops; empty for one that runs in Python only."""
 
-    def split(self, system: HybridSystem, mode: Mode) -> Split | None:
-        """The coordinates of `system` that the method steps in; None for x itself. Raises
+    def split(self, system: HybridSystem, mode: Mode) -> Form | None:
+        """The form of `system` that the method steps in; None for x' = f(t, x) itself. Raises
         InputError for none.
         """
         return None
 
     @abstractmethod
     def steps(
-        self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
+        self, f: Flow, split: Form | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
         """Steps from (t, x) to t_end [s] under x' = f(t, x), x (nx,); in `split` where it is not None."""
 
@@ -106,10 +119,16 @@ class RK4(OneStepMethod):
     def label(self) -> str:
         return f"RK4, h = {self.h:g} s"
 
+    def split(self, system: HybridSystem, mode: Mode) -> Relaxing | None:
+        return system.relaxing()
+
     def steps(
-        self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
+        self, f: Flow, split: Form | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
         """Steps from (t, x), x (nx,), to t_end [s]; inside a step `at` takes a shorter one from its start."""
+        if isinstance(split, Relaxing):
+            yield from _relaxing_steps(f, split, t, x, step_ends(t, t_end, self.h))
+            return
         dx = f(t, x)
         for t1 in step_ends(t, t_end, self.h):
             x1 = rk4(f, t, x, dx, t1 - t)
@@ -128,6 +147,43 @@ def rk4(f: Flow, t: float, x: Array, dx: Array, h: float) -> Array:
     k3 = f(t + 0.5 * h, x + 0.5 * h * k2)
     k4 = f(t + h, x + h * k3)
     return x + (h / 6.0) * (dx + 2.0 * (k2 + k3) + k4)
+
+
+def _relaxing_steps(
+    f: Flow, r: Relaxing, t: float, x: Array, ends: Iterator[float]
+) -> Iterator[Step]:
+    """As `RK4.steps` to these `ends` [s], with what relaxes exact."""
+    for t1 in ends:
+        dx, x1 = relaxing_rk4(f, r, t, x, t1 - t)
+
+        def at(s: float, t: float = t, x: Array = x) -> Array:
+            return relaxing_rk4(f, r, t, x, s - t)[1]
+
+        yield Step(t, t1, x, x1, dx, f(t1, x1), at)
+        t, x = t1, x1
+
+
+def relaxing_rk4(f: Flow, r: Relaxing, t: float, x: Array, h: float) -> tuple[Array, Array]:
+    """x' at the start and x (nx,) after one RK4 step of length h [s], by the weights of `relaxation`.
+
+    The slope is that of the stage, for dense output: no steeper than a cubic without overshoot may be.
+    """
+    theta = r.speed * h
+    first, middle, last, end = relaxation(theta)
+    aim, gap = x[r.to], x[r.at] - x[r.to]
+
+    def slope(c: float, y: Array, weight: float) -> Array:
+        y[r.at] = aim + weight * gap
+        return f(t + c * h, y)
+
+    k1 = slope(0.0, x.copy(), first)
+    k2 = slope(0.5, x + 0.5 * h * k1, middle)
+    k3 = slope(0.5, x + 0.5 * h * k2, middle)
+    k4 = slope(1.0, x + h * k3, last)
+    x1 = x + (h / 6.0) * (k1 + 2.0 * (k2 + k3) + k4)
+    x1[r.at] = aim + end * gap
+    k1[r.at] = -min(theta, 3.0) / h * gap if h > 0.0 else 0.0
+    return k1, x1
 
 
 @dataclass(frozen=True)
@@ -153,30 +209,42 @@ class _SciPy(OneStepMethod):
         return f"{type(self).__name__}, rtol = {self.rtol:g}, atol = {self.atol:g}"
 
     def steps(
-        self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
+        self, f: Flow, split: Form | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
         """Steps from (t, x), x (nx,), to t_end [s].
 
-        A flow that raises NotFiniteError or SingularError at a trial state gives NaN, and the
+        A flow that raises one of LOST at a trial state, or is not finite there, gives NaN, and the
         solver rejects the step; the error is raised only where the solver gives up. Raises
         StepFailed with the solver's message otherwise.
         """
-        last: NotFiniteError | SingularError | None = None
+        last: Exception | None = None  # of the last trial; lost: of any in this step
+        lost: Exception | None = None
 
         def tried(t: float, x: Array) -> Array:
-            nonlocal last
+            nonlocal last, lost
             try:
                 dx, last = f(t, x), None
-            except (NotFiniteError, SingularError) as error:  # a step too long, which is rejected
+                if not np.all(np.isfinite(dx)):
+                    lost = NotFiniteError(f"the slope is not finite at t = {t:.6g} s")
+            except LOST as error:  # a step too long, which is rejected
                 dx, last = np.full_like(x, np.nan), last or error
+                lost = error
             return dx
 
+        t0, x0, dx0 = t, x, f(t, x)
+        if not np.all(np.isfinite(dx0)):  # of which SciPy's first step would never end
+            raise NotFiniteError(f"the slope is not finite at t = {t:.6g} s")
         solver: OdeSolver = self._solver(
             tried, t, x, t_end, rtol=self.rtol, atol=self.atol, max_step=self.max_step
         )
-        t0, x0, dx0 = t, x, f(t, x)
         while solver.status == "running":
-            message = solver.step()
+            lost = None
+            try:
+                message = solver.step()
+            except ValueError:  # of SciPy's linear algebra, which takes no NaN
+                if lost is None:
+                    raise
+                raise lost from None
             if solver.status == "failed":
                 if last is not None:
                     raise last
@@ -296,14 +364,14 @@ class Exponential(OneStepMethod):
         return system.feedback_split(mode) if self.feedback else system.split(mode)
 
     def steps(
-        self, f: Flow, split: Split | None, t: float, x: Array, t_end: float
+        self, f: Flow, split: Form | None, t: float, x: Array, t_end: float
     ) -> Iterator[Step]:
         """Steps from (t, x), x (nx,), to t_end [s] in the coordinates of `split`.
 
         A step of another length than h, before a break, makes matrices of its own, and so does
         every look inside a step. Raises InputError without such coordinates.
         """
-        if split is None:
+        if not isinstance(split, Split):
             raise no_coordinates()
         A = np.ascontiguousarray(split.A)
         table = _remembered(A.tobytes(), A.shape[0], self.h)

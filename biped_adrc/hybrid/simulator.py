@@ -21,8 +21,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from biped_adrc.errors import InputError, NotFiniteError, SingularError, check_count
-from biped_adrc.hybrid.integrators import OneStepMethod, Step, StepFailed
+from biped_adrc.errors import InputError, NotFiniteError, RanAwayError, SingularError, check_count
+from biped_adrc.hybrid.integrators import Form, OneStepMethod, Step, StepFailed
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, FoundEvent, Guard, HybridSystem, Mode, Outcome, Split
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
@@ -180,7 +180,8 @@ def run_arcs(
     """A run from x0 (nx,), arc after arc made by fly(t, x, mode, name of the guard that has just fired).
 
     label: of the method, for the settings. Counts events, applies resets and decides when the run
-    is over. Overflow is no warning here: a state that is not finite ends the run as NOT_FINITE.
+    is over. Overflow is no warning here: a state that is not finite ends the run as NOT_FINITE and
+    is not kept, whatever flew the arc.
     """
     x, t = np.array(x0, dtype=float), options.t0
     options.check(x)
@@ -189,7 +190,7 @@ def run_arcs(
     while True:
         # what overflows ends as the status NOT_FINITE
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
-            flown = fly(t, x, mode, fired)
+            flown = _finite(fly(t, x, mode, fired))
         arcs.append(flown.arc)
         event, status = flown.arc.event, flown.status
         if flown.outcome is None or event is None:
@@ -206,8 +207,26 @@ def run_arcs(
     return Trajectory(tuple(arcs), status, flown.detail, {"method": label})
 
 
+def _finite(flown: FlownArc) -> FlownArc:
+    """The arc up to its last node that is finite, and without an event whose states are not."""
+    arc, event = flown.arc, flown.arc.event
+    rows = (arc.t[:, np.newaxis], arc.x, arc.dx)
+    good = np.logical_and.accumulate(np.all([np.all(np.isfinite(a), axis=1) for a in rows], axis=0))
+    states = () if event is None else (event.x_minus, event.x_plus)
+    if good[-1] and all(x is None or np.all(np.isfinite(x)) for x in states):
+        return flown
+    if not good[0]:  # what an arc starts from is finite, its slope may not be
+        good[0], arc = True, replace(arc, dx=np.zeros_like(arc.dx))
+    read = {name: rows[good] for name, rows in arc.read.items()}
+    kept = replace(arc, t=arc.t[good], x=arc.x[good], dx=arc.dx[good], event=None, read=read)
+    detail = flown.detail or f"the state or its slope is not finite after t = {kept.t[-1]:.6g} s"
+    lost = flown.status if flown.status in FAILURES else Status.NOT_FINITE
+    return FlownArc(kept, lost, detail)
+
+
 FAILURES: Mapping[Status, type[Exception]] = {
     Status.NOT_FINITE: NotFiniteError,
+    Status.RAN_AWAY: RanAwayError,
     Status.SINGULAR: SingularError,
     Status.STEP_FAILED: StepFailed,
 }
@@ -262,7 +281,7 @@ class _Steps:
 
     system: HybridSystem
     method: OneStepMethod
-    split: Split | None
+    split: Form | None
     watch: _Watch
 
     def __call__(
@@ -282,10 +301,11 @@ class _Steps:
     def steps(self, t: float, x: Array, mode: Mode, until: float, record: Record) -> Iterator[Step]:
         """Steps from (t, x) to `until` [s]; the flow is asked for its limit from the left there.
 
-        Raises NotFiniteError after a step to a state that is not finite.
+        Raises NotFiniteError after a step to a state that is not finite, RanAwayError after one to
+        a state beyond what the system can have.
         """
         just_before = math.nextafter(until, -math.inf)
-        split = None if self.split is None else _until(self.split, just_before)
+        split = _until(self.split, just_before) if isinstance(self.split, Split) else self.split
         first = True
 
         def f(s: float, y: Array) -> Array:
@@ -297,6 +317,7 @@ class _Steps:
                 first = False
             if not math.isfinite(step.x1.dot(step.x1)):
                 raise NotFiniteError(f"the state is not finite after t = {step.t0:.6g} s")
+            self.system.check_state(step.t1, step.x1)
             yield step
 
 
@@ -368,7 +389,7 @@ class _Watch:
             x = step.x1 if t == step.t1 else step.at(t)
             after = [guard.witness(t, x) for guard in self.guards]
             crossed = [
-                (*self._locate(guard, step, before_t, t), guard)
+                (*self._locate(guard, step, (before_t, w0), (t, w1)), guard)
                 for guard, w0, w1 in zip(self.guards, self.values, after, strict=True)
                 if guard.direction.crossed(w0, w1)
             ]
@@ -382,13 +403,26 @@ class _Watch:
         return None
 
     @staticmethod
-    def _locate(guard: Guard, step: Step, ta: float, tb: float) -> tuple[float, Array]:
-        """Time [s] and state (nx,) of the crossing in (ta, tb], by Brent's method to round-off."""
+    def _locate(
+        guard: Guard, step: Step, start: tuple[float, float], end: tuple[float, float]
+    ) -> tuple[float, Array]:
+        """Time [s] and state (nx,) of the crossing between two (time, witness), by Brent's method to round-off.
+
+        The witnesses at both ends are those that differ in sign: taken again, dense output may give
+        others in their last bit. Raises NotFiniteError for a state in between that is not finite.
+        """
+        known = dict((start, end))
 
         def witness(t: float) -> float:
-            return guard.witness(t, step.x0 if t == step.t0 else step.at(t))
+            return known[t] if t in known else guard.witness(t, state(t))
 
-        if witness(tb) == 0.0:
-            return tb, step.at(tb)
-        te = float(brentq(witness, ta, tb, xtol=_T_XTOL, rtol=_T_RTOL))
-        return te, step.at(te)
+        def state(t: float) -> Array:
+            x = step.at(t)
+            if not math.isfinite(x.dot(x)):
+                raise NotFiniteError(f"the state is not finite at t = {t:.6g} s, within a step")
+            return x
+
+        if end[1] == 0.0:
+            return end[0], state(end[0])
+        te = float(brentq(witness, start[0], end[0], xtol=_T_XTOL, rtol=_T_RTOL))
+        return te, state(te)

@@ -31,6 +31,12 @@ class Status(Enum):
         "shorten the step or use a stiff or exponential method"
     )
     """NaN or infinity in a state or torque."""
+    RAN_AWAY = (
+        "the motion or a torque grew beyond anything that the robot has; shorten the step, use an adaptive, "
+        "stiff or exponential method, or weaken the controller's gains or its observer; runaway_speed and "
+        "runaway_torque set these bounds"
+    )
+    """A rate or a torque passed the walker's bounds; the last state within them is kept."""
     SINGULAR = "a matrix that the controller inverts became singular; the constraint does not suit this state"
     """A matrix of the controller was singular: in compiled code, a pivot of exactly zero."""
     STEP_FAILED = "the one-step method could not go on; try another method or a looser tolerance"

@@ -120,12 +120,29 @@ class Split(Shown):
     node: Callable[[float, Array, Array], tuple[tuple[Array, Array], Array, Array]] | None = None
 
 
+class Relaxing(NamedTuple):
+    """Numbers of x that go to others, which are constant between breaks: x_at' = speed (x_to - x_at).
+
+    RK4 steps over them exactly (`hybrid.relaxation`), so that a fast one needs no shorter step.
+    """
+
+    at: slice
+    """Those that move."""
+    to: slice
+    """Those that they go to, as many."""
+    speed: float
+    """[1/s]"""
+
+
 class HybridSystem(Shown):
     """A hybrid system; see the module for the equations. Override what the system has."""
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
         """x' at (t, x) in `mode`, of the shape of x (nx,), t in [s]."""
         raise NotImplementedError(f"{type(self).__name__} has neither a flow nor a mover")
+
+    def check_state(self, t: float, x: Array) -> None:
+        """Raise RanAwayError for a state x (nx,) at t [s] beyond what the system can have; none by default."""
 
     def mover(self, fired: str | None) -> Mover | None:
         """What moves the system over one arc where it has no flow and no guards; None where it has.
@@ -148,6 +165,10 @@ class HybridSystem(Shown):
 
     def split(self, mode: Mode) -> Split | None:
         """Coordinates for the exponential method; None when the system has none."""
+        return None
+
+    def relaxing(self) -> Relaxing | None:
+        """The numbers of x that RK4 has to step over exactly; None for none."""
         return None
 
     def feedback_split(self, mode: Mode) -> Split | None:

@@ -115,6 +115,12 @@ class Biped(Shown):
         """Number of motors; the first p coordinates are the actuated ones."""
         return len(self.description.actuated)
 
+    @property
+    def speed_limits(self) -> Array:
+        """<limit velocity> of the coordinates' joints in the URDF (n,) [rad/s]; infinite for none."""
+        speeds = {joint.name: joint.speed for joint in self.tree.joints}
+        return np.array([speeds.get(name, np.inf) for name in self.description.joints])
+
     @cached_property
     def B(self) -> Array:
         """Input matrix B_s = [I; 0] (n, p) of (1), dimensionless."""

@@ -29,7 +29,8 @@ MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 """Attributes of <inertia>, in the order of `Inertial.inertia`."""
 SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 """Symmetric matrix (3, 3) of indices: the inertia matrix from the six MOMENTS."""
-_FREE = {"lower": "-1000", "upper": "1000", "effort": "1000", "velocity": "1000"}  # no limit
+FREE = 1000.0
+"""What stands for no limit in <limit>, where a number is compulsory."""
 
 
 @dataclass(frozen=True)
@@ -91,6 +92,8 @@ class Joint:
     """Origin of the child's frame in the parent's [m]."""
     axis: Vector
     """Unit vector, the same in both frames; without meaning for a fixed joint."""
+    speed: float = math.inf
+    """<limit velocity> [rad/s] or [m/s]; infinite where there is none, or one that is 0 or at least FREE."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +144,8 @@ class Tree(Shown):
 def to_xml(tree: Tree) -> str:
     """URDF text of `tree`; `load_tree` of it gives the same tree back.
 
-    Joints are written with wide limits, since the tree has none: <limit> is compulsory in URDF.
+    Joints are written with wide limits but for their speed, since the tree has none: <limit> is
+    compulsory in URDF.
     """
     robot = ET.Element("robot", name=tree.name)
     for link in tree.links.values():
@@ -157,7 +161,13 @@ def to_xml(tree: Tree) -> str:
         ET.SubElement(element, "origin", xyz=_text(*joint.origin))
         if joint.type != "fixed":
             ET.SubElement(element, "axis", xyz=_text(*joint.axis))
-            ET.SubElement(element, "limit", _FREE)
+            wide = {
+                "lower": -FREE,
+                "upper": FREE,
+                "effort": FREE,
+                "velocity": min(joint.speed, FREE),
+            }
+            ET.SubElement(element, "limit", {key: _text(x) for key, x in wide.items()})
     ET.indent(robot)
     return '<?xml version="1.0"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
 

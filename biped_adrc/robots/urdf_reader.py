@@ -32,6 +32,7 @@ import pinocchio as pin
 
 from biped_adrc.errors import ModelError
 from biped_adrc.robots.urdf import (
+    FREE,
     GEOMETRY_SIZES,
     JOINT_TYPES,
     MOMENTS,
@@ -434,4 +435,6 @@ def _joint(element: ET.Element, source: str, turns: Turns) -> Joint:
     if abs(math.hypot(*axis) - 1.0) > _ALMOST_ONE:
         raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
     kind = "revolute" if kind == "continuous" else kind
-    return Joint(name, kind, parent, child, _origin(element, where, above)[0], axis)
+    speed = numbers(element.find("limit"), "velocity", "0", 1, f"{where} <limit>")[0]
+    place = _origin(element, where, above)[0]
+    return Joint(name, kind, parent, child, place, axis, speed if 0.0 < speed < FREE else math.inf)

@@ -39,7 +39,7 @@ WALKED = ("robot", "preset", "controller", "impacts", "slope", "friction_limit",
 OF_SENSOR = "sensor_"
 """Before the name of an own value it says that it is the named sensor's: sensor_noise, where noise is the
 encoders'."""
-WITHOUT_MOTORS = (*WALKED, "method", "h", "tolerance", "engine")
+WITHOUT_MOTORS = (*WALKED, "method", "h", "tolerance", "engine", "runaway_speed")
 """Fields of a scenario that have an effect for a robot without motors."""
 
 
@@ -129,6 +129,8 @@ def build(s: Scenario, scene: RobotAndGait | None = None, metered: bool = False)
         motors=Motors(s.rate_limit, s.lag) if s.rate_limit or s.lag else None,
         meter=Meter(gait.constraint, limits(s), ENDS * gait.period) if metered else None,
         impact_gain=tuple(gain.tolist()),
+        runaway_speed=s.runaway_speed,
+        runaway_torque=s.runaway_torque,
     )
 
 
@@ -147,7 +149,13 @@ def _passive(s: Scenario, biped: Biped, known: PassiveCycle) -> Walker:
             f"robot '{s.robot}' has no motors, so it takes no {', '.join(idle)}; leave that out, or take a "
             "robot with motors ('biped-adrc robot list')"
         )
-    return Walker(biped, Passive(), slope=known.slope + s.slope, max_step_time=known.max_step_time)
+    return Walker(
+        biped,
+        Passive(),
+        slope=known.slope + s.slope,
+        max_step_time=known.max_step_time,
+        runaway_speed=s.runaway_speed,
+    )
 
 
 def limits(s: Scenario) -> Limits:

@@ -173,6 +173,8 @@ class Scenario(Shown):
     tolerance: float = 1e-9
     engine: str = "compiled"
     max_step_time: float = 2.0
+    runaway_speed: float = 20.0
+    runaway_torque: float = 1000.0
 
     @field_validator("pushes", mode="before")
     @classmethod

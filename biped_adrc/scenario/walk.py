@@ -24,8 +24,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from biped_adrc.closed_loop.walker import Mode, Walker
+from biped_adrc.control.base import controller_laws
 from biped_adrc.engine.run import COMPILED, simulate_by
-from biped_adrc.errors import InputError, check_count
+from biped_adrc.errors import BipedError, InputError, check_count
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.integrators import RK4, Exponential, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
@@ -52,9 +53,41 @@ FINE_STEP = 5e-5
 this step gives its peak within 0.2 %, one of 1 ms is wrong by a factor of five."""
 
 
+STABLE = 2.5
+"""Largest |lambda| h of RK4 [1], which is stable up to 2.78 on the real axis."""
+
+
 def default_method(walker: Walker) -> OneStepMethod:
-    """The exponential method where the walker has a linear stiff part (an observer), RK4 at 1 ms elsewhere."""
-    return RK4() if walker.split(Mode()) is None else Exponential()
+    """The exponential method where the walker has a linear stiff part (an observer), RK4 at 1 ms elsewhere.
+
+    At less where a controller's own motion would make that unstable, such as a short line of delay.
+    """
+    if walker.split(Mode()) is not None:
+        return Exponential()
+    rate, usual = fastest(walker), RK4()
+    return usual if usual.h * rate < STABLE else RK4(1.0 / rate)
+
+
+def fastest(walker: Walker) -> float:
+    """Largest |eigenvalue| [1/s] of ds'/ds of a controller with laws, by differences at q = q' = 0; 0 for none.
+
+    In sampled time no state of a controller flows.
+    """
+    if walker.sampled or controller_laws(walker.controller).obstacle:
+        return 0.0
+    still = np.zeros(walker.plant.n)
+    try:
+        m = walker.measure(0.0, still, still, Mode())
+        s, law = walker.law.initial_state(m), walker.law
+        u, moved = law.output(s, m), np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
+        ahead, behind = ([law.flow(s + d * side, m, u) for d in moved] for side in (1.0, -1.0))
+    except (
+        BipedError
+    ):  # nothing to be said of the law there; what a walk makes of it is in its status
+        return 0.0
+    J = (np.array(ahead) - np.array(behind)) / (2.0 * np.diag(moved))[:, np.newaxis]
+    known = len(s) > 0 and bool(np.all(np.isfinite(J)))
+    return float(np.max(np.abs(np.linalg.eigvals(J)))) if known else 0.0
 
 
 def default_parts(walker: Walker, impacts: int, first_step: int, engine: str) -> tuple[Part, ...]:

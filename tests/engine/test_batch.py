@@ -86,7 +86,7 @@ def mixed(biped, gait, npd, plain):
     made = {
         "plain": plain,
         "late": replace(plain, mode=Mode(3, 0.7)),
-        "falls": replace(plain, walker=replace(walker, disturbance=FALL)),
+        "falls": replace(plain, walker=replace(walker, disturbance=FALL, torque_limit=150.0)),
         "sampled": replace(plain, walker=replace(walker, controller=adrc, timing=ticks)),
         "nan": replace(plain, walker=replace(walker, controller=Rooted(npd))),
         "exponential": replace(

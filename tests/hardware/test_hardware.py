@@ -162,9 +162,9 @@ def test_in_a_walk_torques_act_late_by_the_delay(biped, gait, delay):
             assert not np.any(u)
 
 
+@pytest.mark.parametrize("tau", [1e-7, 2e-4, 3e-3])
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
-def test_lag_is_an_exponential_between_ticks(biped, gait, engine):
-    tau = 3e-3
+def test_lag_is_an_exponential_between_ticks(biped, gait, engine, tau):
     motors = Motors(lag=tau)
 
     class Step(ba.Controller):
@@ -177,7 +177,43 @@ def test_lag_is_an_exponential_between_ticks(biped, gait, engine):
     late = np.maximum(arc.t - 1.5e-3, 0.0)
     expected = (1.0 - np.exp(-late / tau))[:, None] * [10.0, -20.0, 5.0, 0.0]
     found = np.array([motor_torque(walker.held_at(x).line) for x in arc.x])
-    assert np.max(np.abs(found - expected)) < 1e-4  # (h / tau)^4 / 120 of 20 N m
+    assert np.max(np.abs(found - expected)) < 1e-11
+
+
+@pytest.mark.parametrize("plain", [False, True], ids=["laws", "plain Python"])
+@pytest.mark.parametrize("tau", [3.6e-4, 2e-4, 2e-5])
+def test_a_lag_shorter_than_the_step_walks_as_at_a_quarter_of_it(biped, gait, plain, tau):
+    law = Plain(gait.constraint) if plain else ba.NPDController(gait.constraint)
+    timing, motors = ba.SampledTime(T, delay=0.4e-3), Motors(lag=tau)
+    walker = ba.Walker(biped, law, timing=timing, motors=motors)
+    quarter = ba.walk(walker, gait, impacts=2, method=ba.RK4(T / 4)).trajectory
+    for engine in ("compiled", "pinocchio"):
+        run = ba.walk(walker, gait, impacts=2, engine=engine).trajectory
+        assert run.status is quarter.status is ba.Status.COMPLETED
+        for a, b in zip(run.events(), quarter.events(), strict=True):
+            assert abs(a.t - b.t) < 1e-8
+            assert np.max(np.abs(a.x_minus - b.x_minus)[:10]) < 1e-6
+    chosen = ba.walk(walker, gait, impacts=1, method=ba.Adaptive()).trajectory
+    assert np.max(np.abs(chosen.final_state - quarter.arcs[0].event.x_plus)[:10]) < 1e-6
+
+
+def test_a_lag_that_goes_to_zero_goes_to_no_lag(biped, gait):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(T))
+    ideal = ba.walk(walker, gait, impacts=2).trajectory.final_state[:10]
+    off = [
+        np.max(
+            np.abs(
+                ba.walk(
+                    replace(walker, motors=Motors(lag=tau)), gait, impacts=2
+                ).trajectory.final_state[:10]
+                - ideal
+            )
+        )
+        for tau in (1e-5, 1e-6, 1e-7)
+    ]
+    assert off[1] / off[0] == pytest.approx(0.1, rel=0.05)
+    assert off[2] / off[1] == pytest.approx(0.1, rel=0.05)
+    assert off[2] < 1e-5
 
 
 def adrc(gait, bandwidth=300.0):

@@ -10,8 +10,9 @@ from scipy.special import ellipk
 
 import biped_adrc as ba
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, Stiff, phi_functions
+from biped_adrc.hybrid.relaxation import relaxation
 from biped_adrc.hybrid.simulator import simulate
-from biped_adrc.hybrid.system import Guard, HybridSystem, Split
+from biped_adrc.hybrid.system import Guard, HybridSystem, Relaxing, Split
 from biped_adrc.observers.gpi import TABLE_I
 
 DATA = Path(pin.__file__).parents[4] / "share" / "example-robot-data" / "robots"
@@ -73,6 +74,70 @@ def test_pendulum_period_by_elliptic_integral(method):
     times = [event.t for event in run.events("bottom")]
     assert times[0] == pytest.approx(period / 4, abs=1e-7)
     assert times[1] - times[0] == pytest.approx(period, abs=1e-7)
+
+
+class Driven(HybridSystem):
+    """x'' = -w^2 x + y, y' = -(y - u) / tau: state (x, x', y, u); its closed form is `exact`."""
+
+    W, U, Y = 3.0, 2.0, -40.0
+
+    def __init__(self, tau):
+        self.tau = tau
+
+    def flow(self, t, x, mode):
+        return np.array([x[1], -(self.W**2) * x[0] + x[2], (x[3] - x[2]) / self.tau, 0.0])
+
+    def relaxing(self):
+        return Relaxing(slice(2, 3), slice(3, 4), 1.0 / self.tau)
+
+    def exact(self, t, x=0.3, v=-0.5):
+        w, tau = self.W, self.tau
+        forced = (self.Y - self.U) * tau**2 / (1.0 + (w * tau) ** 2)  # of e^(-t / tau)
+        a, b = x - self.U / w**2 - forced, (v + forced / tau) / w
+        decay = math.exp(-t / tau)
+        return np.array(
+            [
+                a * math.cos(w * t) + b * math.sin(w * t) + self.U / w**2 + forced * decay,
+                -a * w * math.sin(w * t) + b * w * math.cos(w * t) - forced / tau * decay,
+                self.U + (self.Y - self.U) * decay,
+            ]
+        )
+
+
+@pytest.mark.parametrize("tau", [1e-9, 1e-5, 3e-4, 2e-3, 1e-2, 0.1, 3.0])
+def test_what_relaxes_in_a_step_is_exact_and_the_motion_of_order_four(tau):
+    system, steps = Driven(tau), np.array([4e-2, 2e-2, 1e-2])
+    x0, end = np.array([0.3, -0.5, system.Y, system.U]), 0.4
+    runs = [simulate(system, x0, 0, RK4(float(h)), t_end=end) for h in steps]
+    exact = system.exact(end)
+    assert all(abs(run.final_state[2] - exact[2]) < 1e-12 for run in runs)
+    errors = np.array([np.max(np.abs(run.final_state[:2] - exact[:2])) for run in runs])
+    gap = abs(system.Y - system.U) * system.W**2
+    assert np.all(errors < 0.1 * gap * steps**4 + gap * tau * steps**2 / 20.0)
+    if tau < 1e-7 or tau > 9e-3:
+        assert 3.7 < order(errors, steps) < 4.3
+    between = runs[-1](0.3 * steps[-1])[2]
+    assert system.Y - 0.4 <= between <= system.U + 0.4  # dense output hardly overshoots
+
+
+@pytest.mark.parametrize("theta", [0.0, 1e-8, 0.3, 1.0 - 1e-12, 1.0, 4.0, 700.0, 1e9])
+def test_the_quadratic_of_what_relaxes_has_its_moments(theta):
+    first, middle, last, end = relaxation(theta)
+    c, weight = np.polynomial.legendre.leggauss(3)
+    c, weight = 0.5 + 0.5 * c, 0.5 * weight
+    P = np.polynomial.Polynomial.fit([0.0, 0.5, 1.0], [first, middle, last], 2)
+    by_parts = -math.expm1(-theta) / theta if theta > 1e-4 else 1.0 - theta / 2.0
+    moments = [by_parts]
+    for j in (1, 2):
+        moments.append(
+            (j * moments[-1] - end) / theta
+            if theta > 0.1
+            else 1.0 / (j + 1) - theta / (j + 2) + theta**2 / (2 * j + 6)
+        )
+    tolerance = 1e-13 if theta > 0.1 or theta < 1e-4 else 1e-4
+    for j, m in enumerate(moments):
+        assert np.sum(weight * c**j * P(c)) == pytest.approx(m, abs=tolerance)
+    assert end == math.exp(-theta)
 
 
 def test_order_of_rk4_on_the_passive_swing(biped):

@@ -110,7 +110,7 @@ def load(P: Ints, W: Array, s: Array) -> None:
     """The head of W and row X0 from the run vector s (HEAD + nx,)."""
     copy(s, W, HEAD)
     copy(shift(s, HEAD), row(P, W, X0), P[STATES])
-    W[ZERO_PIVOT] = 0.0
+    W[LOST] = 0.0
 
 
 @inner

@@ -71,7 +71,7 @@ def brent(
     other, f_other = before, f_before
     last = step = now - before
     for _ in range(100):
-        if f_now == 0.0:
+        if f_now == 0.0 or f_now != f_now:  # a state that is not finite, which ends the run
             return now
         if (f_before < 0.0) != (f_now < 0.0):
             other, f_other = before, f_before

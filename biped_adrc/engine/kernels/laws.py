@@ -2,8 +2,8 @@
 
 The inputs of a function are put into row INP of W in the order that `run_plan.LawAddresses` gives;
 its outputs go where the caller wants them. An output row ends with the least pivot of the matrices
-inverted; where that is exactly zero, the run is noted as singular and the row is made NaN, even
-where a torque limit has made a finite number of it.
+inverted; where that is exactly zero, or below it for a torque beyond the bound, the run is noted as
+singular or run away and the row is made NaN, even where a torque limit has made a finite number of it.
 """
 
 from __future__ import annotations
@@ -73,10 +73,26 @@ def regular(dx: Array, size: int) -> bool:
 
 @inner
 def broken(W: Array) -> int:
-    """The status of a run whose state (nx,) or slope is not finite: SINGULAR after a pivot of zero,
-    else NOT_FINITE.
+    """The status of a run whose state (nx,) or slope is not finite: what a law has asked for, else
+    NOT_FINITE.
     """
-    return SINGULAR if W[ZERO_PIVOT] == 1.0 else NOT_FINITE
+    return NOT_FINITE if W[LOST] == 0.0 else int(W[LOST])
+
+
+@inner
+def note(W: Array, out: Array, pivot: float) -> None:
+    """Make a law's result NaN where its last output says that it means nothing, and note the status."""
+    if pivot <= 0.0:
+        W[LOST], out[0] = SINGULAR if pivot == 0.0 else RAN_AWAY, math.nan
+
+
+@inner
+def slow(P: Ints, F: Array, x: Array) -> bool:
+    """Whether no rate in x (nx,) is beyond its bound."""
+    n, fits = P[COORDINATES], True
+    for i in range(n):
+        fits = fits and abs(x[n + i]) <= F[P[FASTEST_AT] + i]
+    return fits
 
 
 @inner
@@ -113,8 +129,7 @@ def evaluate(
     disturb(P, F, W, zeta)
     copy(zeta, shift(inp, 3 + nx), n)
     call(P[law], K, inp, out)
-    if out[nx] == 0.0:
-        W[ZERO_PIVOT], out[0] = 1.0, math.nan
+    note(W, out, out[nx])
 
 
 @inner
@@ -216,8 +231,7 @@ def remainder(P: Ints, F: Array, K: Array, W: Array, t: float, y: Array, N: Arra
     copy(y, shift(inp, 3), ny)
     copy(zeta, shift(inp, 3 + ny), n)
     call(P[REMAINDER], K, inp, N)
-    if N[P[SLOW] + P[FORCED] * P[JOINTS]] == 0.0:
-        W[ZERO_PIVOT], N[0] = 1.0, math.nan
+    note(W, N, N[P[SLOW] + P[FORCED] * P[JOINTS]])
 
 
 @inner

@@ -27,9 +27,10 @@ ROWS_AT, PARTS_AT, DROPS_AT, SWITCHES_AT, WEIGHTS_AT = 20, 21, 22, 23, 24
 """P: where forced rows and parts of the disturbance begin in P; where drops, switching times and
 matrices (or the tableau) begin in F.
 """
-WIDTH, MOVING, RESULTANTS, P_HEAD = 25, 26, 27, 28
+WIDTH, MOVING, RESULTANTS, LAG_AT, FASTEST_AT, P_HEAD = 25, 26, 27, 28, 29, 30
 """P: numbers in a work row; how many of the first states flow, the others being held; parts of the
-disturbance with a force on the robot as a whole; length of this head.
+disturbance with a force on the robot as a whole; where in x the torques of lagging motors are, 0
+without; where the bounds of the rates begin in F; length of this head.
 """
 PART_SIZE = 3
 """P, of a part of the disturbance: its torque's address, where its parameters begin in F, its
@@ -42,8 +43,10 @@ PERIOD, T_FIRST, LEAST_STEP, H, RTOL, ATOL, MAX_STEP = 0, 1, 2, 3, 4, 5, 6
 """F: sampling period [s], 0 for continuous time; start of the run [s]; minimum step length [m]; fixed
 step [s]; tolerances [1] and absolute; longest step [s].
 """
-PERIOD_PART, F_HEAD = 7, 8
-"""F: time after a sample instant at which the waiting torque acts [s]; length of this head."""
+PERIOD_PART, LAG_SPEED, F_HEAD = 7, 8, 9
+"""F: time after a sample instant at which the waiting torque acts [s]; 1 / tau of lagging motors
+[1/s]; length of this head.
+"""
 
 RK4, DOP853, ETD = 0, 1, 2
 """Kinds of method."""
@@ -60,19 +63,19 @@ FOOT_X = 3
 """Behind the values of the event functions: x of the swing foot [m]."""
 
 COMPLETED, TIME_OUT, FELL, STALLED = 0, 1, 2, 3
-"""Codes that an arc ends with; these and the next four are those of `run_plan.STATUS`."""
+"""Codes that an arc ends with; these, the next four and RAN_AWAY are those of `run_plan.STATUS`."""
 NOT_FINITE, SINGULAR, STEP_FAILED, EVENT_LIMIT = 4, 5, 6, 7
-STRUCK, FULL = 8, 9
-"""An impact ended the arc; R is full. These are no statuses: the caller goes on."""
+RAN_AWAY, STRUCK, FULL = 8, 9, 10
+"""One more status; an impact ended the arc; R is full. The last two are no statuses: the caller goes on."""
 
 TIME, STEP, START, END, FIRED, EVERY, COUNT, ARMED, VALUES, ARC = 0, 1, 2, 3, 4, 5, 6, 7, 8, 11
 """Head of s and of W: time [s]; single support; its start [s]; end of the arc or segment [s]; the guard
 that ended the last arc, -1 for none; every how many steps a node is kept, 0 for never; nodes kept;
 whether the event functions have values; their values (3); start of the arc [s].
 """
-DROP, LIMIT, ZERO_PIVOT, EVENT = 12, 13, 14, 15
-"""Head of W: drop of the ground [m]; laws are asked for no later time than this [s]; 1 where a pivot was
-zero; time of the event [s].
+DROP, LIMIT, LOST, EVENT = 12, 13, 14, 15
+"""Head of W: drop of the ground [m]; laws are asked for no later time than this [s]; the
+status that a law's last output asks for, 0 for none; time of the event [s].
 """
 ROOM, REACHED, TRY, LANDED, FAR, FAR_VALUE = 16, 17, 18, 19, 20, 21
 """Head of W: rows of R; of an adaptive step the time reached and the next length to try [s]; of

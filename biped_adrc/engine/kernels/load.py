@@ -20,10 +20,12 @@ from numba.core import config
 
 from biped_adrc.engine.machine import forget, load_source, seal
 from biped_adrc.errors import ModelError
+from biped_adrc.hybrid import relaxation
 
 FILES = ("layout", "call", "laws", "steps", "events", "segment", "arc")
 """The kernel files, in the order in which they need each other."""
-_OWN = "biped_adrc.engine.kernels"
+_OWN = ("biped_adrc.engine.kernels", "biped_adrc.hybrid.relaxation")
+"""Imports that are left out, since their text is there."""
 
 
 _LOCK = Lock()
@@ -72,7 +74,8 @@ def _beside_the_source() -> Iterator[None]:
 def source() -> str:
     """The text of all kernels, their imports of each other left out."""
     folder = Path(__file__).parent
-    texts = [_alone((folder / f"{name}.py").read_text(encoding="utf-8")) for name in FILES]
+    files = (Path(relaxation.__file__), *(folder / f"{name}.py" for name in FILES))
+    texts = [_alone(file.read_text(encoding="utf-8")) for file in files]
     return "\n\n".join(['"""Compiled loops."""', "from __future__ import annotations", *texts])
 
 

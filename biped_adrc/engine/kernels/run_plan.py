@@ -39,6 +39,7 @@ STATUS = (
     Status.SINGULAR,
     Status.STEP_FAILED,
     Status.EVENT_LIMIT,
+    Status.RAN_AWAY,
 )
 """The status for each code that a kernel returns; the codes `layout.STRUCK` and `layout.FULL` have none."""
 
@@ -47,8 +48,9 @@ class LawAddresses(NamedTuple):
     """Addresses of the walker's functions `void f(double* K, double* inp, double* out)`, 0 for none.
 
     K are the parameters, inp and out the values named below. pivot is the smallest |pivot| of the matrices that
-    the controller inverts, infinite without one; 0 means a singular matrix, and the run ends as SINGULAR. The
-    last four are for the exponential method, ETD-RK4, in its coordinates y = (w, E):
+    the controller inverts, infinite without one; 0 means a singular matrix, and the run ends as SINGULAR. Below
+    0 it stands for a torque beyond the walker's bound, and the run ends as RAN_AWAY. The last four are for the
+    exponential method, ETD-RK4, in its coordinates y = (w, E):
 
         w' = N_w,   E' = A E + N_E
     """
@@ -88,6 +90,12 @@ class StateSizes(NamedTuple):
     """Rows of E (k, p); 0 without the exponential method."""
     moving: int = 0
     """How many states flow, the first in x; the rest is held between sample instants. 0 means all flow."""
+    lag_at: int = 0
+    """Where in x the torques of lagging motors are, which go to the last p numbers; 0 without a lag."""
+    lag_speed: float = 0.0
+    """How fast they go there, 1 / tau [1/s]."""
+    fastest: Array = np.zeros(0)
+    """Rates (n,) [rad/s] beyond which the run ends; empty for none."""
 
 
 class GroundTable(NamedTuple):
@@ -201,20 +209,22 @@ def plan(
     P[: len(code)] = code
     P[layout.COORDINATES], P[layout.STATES], P[layout.JOINTS] = sizes.n, sizes.nx, sizes.p
     P[layout.SLOW], P[layout.STIFF] = sizes.nw, sizes.k
-    P[layout.MOVING] = sizes.moving or sizes.nx
+    P[layout.MOVING], P[layout.LAG_AT] = sizes.moving or sizes.nx, sizes.lag_at
     P[layout.FORCED], P[layout.LEVELS] = len(method.rows), len(method.phi)
     P[layout.KIND], P[layout.RESTART] = method.kind, clock.restart
     P[layout.DROPS], P[layout.SWITCHES] = len(scene.drops), len(push.switches)
     P[layout.PARTS] = len(push.addresses)
     head = np.zeros(layout.F_HEAD)
     head[layout.PERIOD], head[layout.T_FIRST] = clock.period, clock.t_first
-    head[layout.PERIOD_PART] = clock.part
+    head[layout.PERIOD_PART], head[layout.LAG_SPEED] = clock.part, sizes.lag_speed
     head[layout.LEAST_STEP], head[layout.H] = scene.least_step, method.h
     head[layout.RTOL], head[layout.ATOL] = method.rtol, method.atol
     head[layout.MAX_STEP] = method.max_step
     weights = method.phi if method.kind == layout.ETD else TABLEAU
     P[layout.WIDTH] = _width(sizes)
-    F, at = _joined([head, scene.drops, push.switches, push.K, weights], np.float64)
+    fastest = sizes.fastest if len(sizes.fastest) else np.full(sizes.n, np.inf)
+    F, at = _joined([head, scene.drops, push.switches, push.K, weights, fastest], np.float64)
+    P[layout.FASTEST_AT] = at[5]
     P[layout.DROPS_AT], P[layout.SWITCHES_AT], P[layout.WEIGHTS_AT] = at[1], at[2], at[4]
     resultants = push.resultants or (0,) * len(push.addresses)
     P[layout.RESULTANTS] = np.count_nonzero(resultants)

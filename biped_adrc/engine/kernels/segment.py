@@ -16,7 +16,14 @@ from biped_adrc.engine.kernels.call import Ints, call, inner, shift, unit
 from biped_adrc.engine.kernels.events import event, pieces, retake
 from biped_adrc.engine.kernels.laws import *
 from biped_adrc.engine.kernels.layout import *
-from biped_adrc.engine.kernels.steps import adaptive, classical, exponential, halve, initial_step
+from biped_adrc.engine.kernels.steps import (
+    adaptive,
+    classical,
+    exponential,
+    halve,
+    initial_step,
+    lagging,
+)
 from biped_adrc.types import Array
 
 
@@ -59,9 +66,9 @@ def nodes(P: Ints, F: Array, K: Array, W: Array, R: Array, t0: float, t1: float)
 
 
 @inner
-def begin(P: Ints, F: Array, K: Array, W: Array, t: float) -> None:
-    """What the first step of a segment at t [s] starts from, beside X0: slope DX0 (nx,), for
-    ETD-RK4 Y0 and N0.
+def begin(P: Ints, F: Array, K: Array, W: Array, t: float, h: float) -> None:
+    """What the first step of a segment at t [s], h [s] long, starts from, beside X0: slope DX0
+    (nx,), for ETD-RK4 Y0 and N0.
 
     After a sample instant the slope is known (SLOPED) and not computed again. ETD-RK4 needs it for
     nodes only.
@@ -70,7 +77,9 @@ def begin(P: Ints, F: Array, K: Array, W: Array, t: float) -> None:
     if P[KIND] == ETD:
         call(P[TO], K, x, y)
         remainder(P, F, K, W, t, y, row(P, W, N0))
-    if (P[KIND] != ETD or W[EVERY] > 0.0) and W[SLOPED] == 0.0:
+    if P[KIND] == RK4 and P[LAG_AT] > 0:
+        lagging(P, F, K, W, t, x, h, row(P, W, DX0))
+    elif (P[KIND] != ETD or W[EVERY] > 0.0) and W[SLOPED] == 0.0:
         flow(P, F, K, W, t, x, row(P, W, DX0))
     W[SLOPED] = 0.0
 
@@ -95,6 +104,8 @@ def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int)
         classical(P, F, K, W, now, row(P, W, XB), row(P, W, DXB), t1 - now, x1)
     if not finite(x1, P[MOVING]):
         return broken(W)
+    if not slow(P, F, x1):
+        return RAN_AWAY
     if P[KIND] == ETD and last == 0:
         N = row(P, W, N1)
         remainder(P, F, K, W, t1, y1, N)
@@ -122,9 +133,12 @@ def pass_on(P: Ints, W: Array) -> None:
 def stop(P: Ints, F: Array, K: Array, W: Array, R: Array, code: int) -> int:
     """X0 (nx,) and TIME at the event just found, kept as a node with its slope from the left; its code.
 
-    FULL where there is no room for the node; then the arc is made again.
+    FULL where there is no room for the node; then the arc is made again. A status, and all as
+    before, where the state found is not finite.
     """
     te, x, dx = W[EVENT], row(P, W, X0), row(P, W, DX0)
+    if not finite(row(P, W, XE), P[STATES]):
+        return broken(W)
     copy(row(P, W, XE), x, P[STATES])
     W[TIME] = te
     if W[EVERY] > 0.0:
@@ -144,13 +158,12 @@ def through(P: Ints, F: Array, K: Array, W: Array, t_next: float, R: Array) -> i
     t0 = t = W[TIME]
     every, skipped, steps, h = int(W[EVERY]), 0, 0, F[H]
     W[LIMIT] = left(t_next)
-    begin(P, F, K, W, t)
+    count = max(1.0, np.ceil((t_next - t0) / h - LANDING))
+    begin(P, F, K, W, t, h if count > 1.0 else t_next - t)
     if every > 0 and not node(P, W, R, t, row(P, W, X0), row(P, W, DX0)):
         return FULL
     if P[KIND] == DOP853:
         count, h = 0.0, initial_step(P, F, K, W, t, t_next)
-    else:
-        count = max(1.0, np.ceil((t_next - t0) / h - LANDING))
     while t < t_next:
         steps += 1
         if P[KIND] == DOP853:

@@ -20,7 +20,30 @@ import numpy as np
 from biped_adrc.engine.kernels.call import Ints, call, inner, shift, unit
 from biped_adrc.engine.kernels.laws import *
 from biped_adrc.engine.kernels.layout import *
+from biped_adrc.hybrid.relaxation import relaxation
 from biped_adrc.types import Array
+
+weights = inner(relaxation)
+
+
+@inner
+def relax(P: Ints, x: Array, weight: float, out: Array) -> None:
+    """Torques of lagging motors in out (nx,): what is asked, and `weight` [1] of what x has beyond it."""
+    for i in range(P[JOINTS]):
+        aim = x[P[STATES] - P[JOINTS] + i]
+        out[P[LAG_AT] + i] = aim + weight * (x[P[LAG_AT] + i] - aim)
+
+
+@unit
+def lagging(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array, h: float, dx: Array) -> None:
+    """dx (nx,) of the first stage of a step of length h [s], with lagging motors; see `relaxing_rk4`."""
+    stage, at, theta = row(P, W, STAGE), P[LAG_AT], F[LAG_SPEED] * h
+    copy(x, stage, P[STATES])
+    relax(P, x, weights(theta)[0], stage)
+    flow(P, F, K, W, t, stage, dx)
+    steep = -min(theta, 3.0) / h if h > 0.0 else 0.0
+    for i in range(P[JOINTS]):
+        dx[at + i] = steep * (x[at + i] - x[P[STATES] - P[JOINTS] + i])
 
 
 @unit
@@ -30,25 +53,38 @@ def classical(
     """out (nx,) = one RK4 step of length h [s] from (t, x) with the slope dx (nx,).
 
     Only the first MOVING numbers move; the rest, held between sample instants, is copied. The
-    stages see the torques of it, which is all that a flow reads.
+    stages see the torques of it, which is all that a flow reads. Torques of lagging motors are exact.
     """
     m, rest, stage = P[MOVING], P[STATES] - P[MOVING], row(P, W, STAGE)
-    k2, k3, k4 = row(P, W, K2), row(P, W, K3), row(P, W, K4)
+    k2, k3, k4, lag = row(P, W, K2), row(P, W, K3), row(P, W, K4), P[LAG_AT] > 0
     if rest > 0:
         copy_held(P, x, stage)
+    middle = last = end = 0.0
+    if lag:
+        _, middle, last, end = weights(F[LAG_SPEED] * h)
+        lagging(P, F, K, W, t, x, h, row(P, W, SLOPES))
+        dx = row(P, W, SLOPES)
     for i in range(m):
         stage[i] = x[i] + 0.5 * h * dx[i]
+    if lag:
+        relax(P, x, middle, stage)
     flow(P, F, K, W, t + 0.5 * h, stage, k2)
     for i in range(m):
         stage[i] = x[i] + 0.5 * h * k2[i]
+    if lag:
+        relax(P, x, middle, stage)
     flow(P, F, K, W, t + 0.5 * h, stage, k3)
     for i in range(m):
         stage[i] = x[i] + h * k3[i]
+    if lag:
+        relax(P, x, last, stage)
     flow(P, F, K, W, t + h, stage, k4)
     copy(shift(x, m), shift(out, m), rest)
     for i in range(m):
         slopes = dx[i] + 2.0 * (k2[i] + k3[i]) + k4[i]
         out[i] = x[i] + (h / 6.0) * slopes
+    if lag:
+        relax(P, x, end, out)
 
 
 @inner
@@ -238,7 +274,9 @@ def adaptive(P: Ints, F: Array, K: Array, W: Array, t: float, t_end: float, h: f
                 factor = min(1.0, factor)
             if not finite(x1, nx):
                 return broken(W)
-            W[REACHED], W[TRY] = t1, h * factor
+            if not slow(P, F, x1):
+                return RAN_AWAY
+            W[REACHED], W[TRY], W[LOST] = t1, h * factor, 0.0
             return 0
         factor = 0.9 * error**-0.125
         h *= factor if factor > 0.2 else 0.2

@@ -1,0 +1,46 @@
+"""A few scenarios of both attacks, as CI has time for; the long ones are `make attacks`."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.robustness import engines, steps
+
+SOME = (0, 5, 55)
+"""Of the engines' scenarios; in 55 the slope is lost within a step of the stiff method."""
+
+
+@pytest.mark.parametrize("k", SOME)
+def test_scenario_in_both_engines(k: int) -> None:
+    found = engines.judged(k)
+    assert found["word"] not in engines.FAULTS, found
+
+
+def test_what_is_wrong_is_told() -> None:
+    end = {"status": "FELL", "impacts": 1, "times": [0.4], "states": [1.0], "bad": []}
+    assert engines.verdict({}, [end, end])[0] == engines.SAME
+    assert engines.verdict({}, [end, {**end, "bad": ["arc 0 x"]}])[0] == engines.NAN
+    assert engines.verdict({}, [end, {"traceback": "ValueError: f(a)"}])[0] == engines.TRACEBACK
+    assert engines.verdict({}, [end, {"refused": "no"}])[0] == engines.STATUSES
+    row = {**dict.fromkeys(steps.FLOORS, 1.0), "status": "COMPLETED"}
+    assert steps.agrees("speed", row, {**row, "speed": 1.04})
+    assert not steps.agrees("speed", row, {**row, "speed": 1.06})
+    assert not steps.agrees("speed", row, {**row, "speed": None})
+    assert steps.agrees("peak_error", {"peak_error": 1e-5}, {"peak_error": 9e-5})
+
+
+@pytest.mark.parametrize("k", [0])
+def test_walk_at_a_quarter_of_the_step(k: int) -> None:
+    found = steps.judged(k)
+    assert not found["off"], found
+    assert not found["changed"] or found["edge"], found
+
+
+def test_a_table_has_a_row_for_every_word() -> None:
+    found = {"k": 3, "kind": "walker", "word": engines.NAN, "why": "x", "status": ["FELL"]}
+    assert f"| {engines.NAN} | 1 | 1 |" in engines.table([found])
+    assert engines.faults([found]) == ["3 walker: NAN x"]
+    changed = {"k": 1, "status": ["FELL", "COMPLETED"], "off": {}, "edge": False, "changed": True}
+    changed["chatters"] = False
+    assert "| another end, not near an edge | 1 |" in steps.table([changed])
+    assert steps.faults([changed]) == ["1: ['FELL', 'COMPLETED']"]

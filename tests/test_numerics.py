@@ -1,0 +1,198 @@
+"""Numerics guard themselves: a run that explodes ends in a status, and no NaN or infinity is stored."""
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.base import ControllerLaws
+from biped_adrc.control.delayed import Delayed
+from biped_adrc.engine.batch import Case, simulate_many
+from biped_adrc.engine.run import simulate_by
+from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
+from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.hybrid.system import Guard, HybridSystem
+from biped_adrc.scenario.walk import default_method, fastest
+
+ENGINES = ("compiled", "pinocchio")
+
+
+def all_finite(run):
+    """Whether every number that a trajectory keeps is finite."""
+    states = [x for e in run.events() for x in (e.x_minus, e.x_plus) if x is not None]
+    nodes = [rows for arc in run.arcs for rows in (arc.t, arc.x, arc.dx)]
+    return all(np.all(np.isfinite(x)) for x in (*nodes, *states, run.final_state))
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("controller", ["ADRC", "NPD"])
+@pytest.mark.parametrize("push", ["q5=90@1:0.1-", "q1,q2,q3,q4,q5=120@1:0.1-"])
+def test_a_walk_that_explodes_has_run_away(tmp_path, engine, controller, push):
+    s = ba.Scenario(controller, pushes=push, impacts=1, engine=engine)
+    made = ba.walk_scenario(s)
+    run = made.trajectory
+    assert run.status is ba.Status.RAN_AWAY
+    assert not run.status.ok
+    assert all_finite(run)
+    assert max(np.max(np.abs(arc.x[:, 5:10])) for arc in run.arcs) <= 20.0 * 50.0
+    outcome = made.outcome
+    assert not outcome.walked
+    assert "shorten the step" in outcome.message
+    assert math.isfinite(outcome.peak_error)
+    assert math.isfinite(outcome.peak_torque)
+    made.save(tmp_path / "run.npz")
+    again = ba.load_walk(tmp_path / "run.npz")
+    assert again.trajectory.status is ba.Status.RAN_AWAY
+    assert again.walker.runaway_speed == 20.0
+
+
+class Strong(ba.Controller):
+    """As NPD, in plain Python."""
+
+    def __init__(self, inner):
+        self.inner = inner
+
+    def output(self, s, m):
+        return self.inner.output(s, m)
+
+
+@pytest.mark.parametrize(
+    "timing", [ba.ContinuousTime(), ba.SampledTime(1e-3)], ids=["continuous", "sampled"]
+)
+@pytest.mark.parametrize("plain", [False, True], ids=["laws", "plain Python"])
+def test_the_bounds_are_the_walkers(biped, gait, timing, plain):
+    law = ba.NPDController(gait.constraint)
+    walker = ba.Walker(biped, Strong(law) if plain else law, timing=timing)
+    peak = np.max(np.abs(ba.walk(walker, gait, impacts=1).signals.u)) / 150.0
+    fast = np.max(np.abs(ba.walk(walker, gait, impacts=1).trajectory.arcs[0].x[:, 5:10])) / 50.0
+    for bound in ({"runaway_torque": 0.7 * peak}, {"runaway_speed": 0.7 * fast}):
+        ends = [
+            ba.walk(replace(walker, **bound), gait, impacts=1, engine=e).trajectory for e in ENGINES
+        ]
+        assert [run.status for run in ends] == [ba.Status.RAN_AWAY] * 2
+        assert all(all_finite(run) for run in ends)
+        assert abs(ends[0].t_end - ends[1].t_end) < 1e-9
+        assert ends[0].t_end < 0.4
+    free = replace(walker, runaway_torque=1.01 * peak, runaway_speed=1.01 * fast)
+    assert ba.walk(free, gait, impacts=1).trajectory.status is ba.Status.COMPLETED
+    with pytest.raises(ba.BipedError, match="runaway_speed is nan"):
+        replace(walker, runaway_speed=math.nan)
+
+
+@pytest.mark.parametrize("method", [ba.Exponential(1e-3), Adaptive(), Stiff(1e-6, 1e-6)])
+def test_a_torque_beyond_the_bound_ends_a_run_of_every_method(biped, gait, method):
+    law = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(300.0))
+    walker = ba.Walker(biped, law, runaway_torque=0.1)
+    for engine in ENGINES:
+        run = ba.walk(walker, gait, impacts=1, method=method, engine=engine).trajectory
+        assert run.status is ba.Status.RAN_AWAY
+        assert all_finite(run)
+
+
+def test_robots_without_motors_run_away_by_their_speed_alone():
+    assert ba.Walker(ba.Biped.load("compass"), ba.Passive()).strongest == math.inf
+    for engine in ENGINES:
+        s = ba.Scenario("passive", robot="compass", impacts=1, engine=engine, runaway_speed=0.02)
+        assert ba.walk_scenario(s).trajectory.status is ba.Status.RAN_AWAY
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_fall_has_a_state(biped, gait, engine):
+    push = ba.TorqueStep([60.0] * 5, step=1, start=0.1)
+    walker = ba.Walker(biped, ba.ADRCController(gait.constraint), push)
+    run = ba.walk(walker, gait, impacts=2, method=ba.Exponential(1e-3), engine=engine).trajectory
+    assert run.status in (ba.Status.FELL, ba.Status.RAN_AWAY)
+    assert all_finite(run)
+    case = Case(walker, *gait.start(biped), ba.Exponential(1e-3), 2)
+    (walked,) = simulate_many([case], 1)
+    assert walked.status is run.status
+    assert np.all(np.isfinite(walked.final_state))
+
+
+class Falling(HybridSystem):
+    """x' = -1, with a slope, a witness or a reset that is lost at some time or state."""
+
+    def __init__(self, slope_until=math.inf, reset_to=0.5, seen_until=-math.inf):
+        self.slope_until, self.reset_to, self.seen_until = slope_until, reset_to, seen_until
+
+    def flow(self, t, x, mode):
+        return np.array([-1.0 if t < self.slope_until else math.nan])
+
+    def guards(self, mode):
+        def height(t, x):
+            return x[0] if x[0] > self.seen_until else math.nan
+
+        return (Guard("ground", height, lambda t, x: (np.array([self.reset_to]), mode)),)
+
+
+@pytest.mark.parametrize("method", [RK4(0.1), Adaptive()])
+@pytest.mark.parametrize(
+    "system",
+    [
+        Falling(slope_until=0.25),
+        Falling(slope_until=0.0),
+        Falling(reset_to=math.nan),
+        Falling(reset_to=math.inf),
+    ],
+)
+def test_what_is_not_finite_ends_a_run_and_is_not_kept(system, method):
+    run = simulate(system, np.array([0.32]), 0, method, t_end=2.0)
+    assert run.status in (ba.Status.NOT_FINITE, ba.Status.STEP_FAILED)
+    assert all_finite(run)
+    assert run.events() == ()
+    assert run.detail
+
+
+class Wavering(ba.RK4):
+    """Its dense output misses the end of a step by the last bit, as those of adaptive methods do."""
+
+    def steps(self, f, split, t, x, t_end):
+        for step in super().steps(f, split, t, x, t_end):
+            yield replace(step, at=lambda s, at=step.at: at(s) + 1e-15)
+
+
+def test_a_crossing_at_the_end_of_a_step_is_found_though_dense_output_misses_it():
+    run = simulate(Falling(), np.array([0.5]), 0, Wavering(0.25), t_end=0.9)
+    assert [round(e.t, 12) for e in run.events()] == [0.5]
+
+
+def test_a_controller_faster_than_the_usual_step_gets_a_shorter_one(biped, gait):
+    observer = ba.GPIObserver.from_bandwidth(300.0)
+    walker = ba.Walker(biped, Delayed(ba.ADRCController(gait.constraint, observer), 2e-4))
+    line = np.abs(np.roots(walker.controller.line.denominator[::-1])).max() / 2e-4
+    assert fastest(walker) == pytest.approx(line, rel=1e-3)
+    assert default_method(walker).h == pytest.approx(1.0 / line, rel=1e-3)
+    assert not ba.walk(walker, gait, impacts=1, method=RK4(1e-3)).trajectory.status.ok
+    assert ba.walk(walker, gait, impacts=1).trajectory.status.ok
+    assert default_method(ba.Walker(biped, ba.NPDController(gait.constraint))) == RK4(1e-3)
+    slow = Delayed(ba.ADRCController(gait.constraint, observer), 4e-3)
+    assert default_method(replace(walker, controller=slow)) == RK4(1e-3)
+
+
+class Own(NamedTuple):
+    """Of the law."""
+
+    K_p: float
+
+
+def nan_times_zero(k, s, m):
+    """Zero where the parameter is a number."""
+    return 0.0 * k.K_p * m.q[:4] + m.terms.Omega[:4]
+
+
+def test_a_parameter_that_is_nan_is_nan_in_both_engines(biped, gait):
+    class Law(ba.Controller):
+        laws = ControllerLaws(Own(math.nan), nan_times_zero)
+
+        def output(self, s, m):
+            return nan_times_zero(self.laws.parameters, s, m)
+
+    walker = ba.Walker(biped, Law())
+    x = np.concatenate(gait.start(biped))
+    for engine in ENGINES:
+        run = simulate_by(engine, walker, x, ba.Mode(), RK4(), t_end=0.1)
+        assert run.status is ba.Status.NOT_FINITE
+        assert all_finite(run)
