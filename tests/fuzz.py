@@ -1,6 +1,6 @@
 """Damaged files and nonsense on the command line: each is read right or refused with one sentence.
 
-    python -m tests.fuzz [NUMBER] [SEED]      # `make fuzz`: 500 of each kind, and a leak over 2000 walks
+    python -m tests.fuzz [NUMBER] [SEED]      # `make fuzz`: 500 of each kind, 2000 random walks twice
 
 Prints a table: how many were read, read with what the damage says (a number changed), and refused. Exit code 1
 for anything else: another exception, a result that is short without a word, more than 5 s for a nonsense.
@@ -323,6 +323,8 @@ KINDS = ("run", "gait", "study", "store", "cache", "robot record", "URDF")
 
 def main(number: int = 500, seed: int = 1) -> int:
     """Print the table; the exit code."""
+    from tests.bench.test_random_trials import attack
+
     every = list[str]()
     print("| what | number | how they were met |\n|---|---|---|")
     began = time.monotonic()
@@ -341,6 +343,8 @@ def main(number: int = 500, seed: int = 1) -> int:
                 f"| {kind} | {number} | {told}{f', {len(wrong)} wrong' if wrong else ''} |",
                 flush=True,
             )
+    ends = ", ".join(f"{count} {status}" for status, count in sorted(attack(4 * number).items()))
+    print(f"| random walk | {4 * number} | {ends} |", flush=True)
     grown = leak(4 * number)
     every += [f"{grown:.1f} MB more after {4 * number} walks"] if grown > 20.0 else []
     print(

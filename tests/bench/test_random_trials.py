@@ -1,4 +1,7 @@
-"""Two thousand walks from random states, gains and pushes: each ends with a named status, none with a NaN."""
+"""Walks from random states, gains and pushes: each ends with a named status, none with a NaN.
+
+Some hundred of them here, 2000 by `make fuzz`.
+"""
 
 import math
 from collections import Counter
@@ -10,7 +13,7 @@ from biped_adrc.analysis.certificate import REASONS
 from biped_adrc.bench.run import COLUMNS, REFUSED, run_trial
 from biped_adrc.hybrid.status import Status
 
-WALKS = 2000
+WALKS = 600
 MAKES = (
     {"controller": "NPD"},
     {"controller": "NPD", "velocity": "differences", "counts": 4096.0, "noise": 1e-4},
@@ -55,9 +58,17 @@ def trial(random):
 
 
 def test_every_walk_ends_with_a_name_and_numbers():
+    found = attack(WALKS)
+    assert found["COMPLETED"] > 0.05 * WALKS
+    assert found["FELL"] > 0.05 * WALKS
+    assert sum(found.values()) == WALKS
+
+
+def attack(walks):
+    """How many of so many walks ended how, each of them checked, and the memory that they took."""
     random, found = np.random.default_rng(2026), Counter()
     process, memory = psutil.Process(), []
-    for i in range(WALKS):
+    for i in range(walks):
         record = trial(random)
         row = run_trial(record)
         assert list(row) == list(COLUMNS)
@@ -74,9 +85,7 @@ def test_every_walk_ends_with_a_name_and_numbers():
         assert row["outcome"] != "legal" or not any(bad), (record, row)
         assert row["outcome"] != "made" or any(bad), (record, row)
         found[row["status"]] += 1
-        if i % 500 == 499:
+        if (i + 1) % (walks // 4) == 0:
             memory.append(process.memory_info().rss / 2**20)
-    assert found["COMPLETED"] > 100
-    assert found["FELL"] > 100
-    assert sum(found.values()) == WALKS
     assert memory[-1] - memory[1] < 60.0, memory  # [MB]
+    return found
