@@ -31,7 +31,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.integrators import RK4, Exponential, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.parts import check_part, numbers
+from biped_adrc.parts import check_part, handing_out, numbers
 from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.types import Array
@@ -77,13 +77,12 @@ def fastest(walker: Walker) -> float:
         return 0.0
     still = np.zeros(walker.plant.n)
     try:
-        m = walker.measure(0.0, still, still, Mode())
-        s, law = walker.law.initial_state(m), walker.law
-        u, moved = law.output(s, m), np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
-        ahead, behind = ([law.flow(s + d * side, m, u) for d in moved] for side in (1.0, -1.0))
-    except (
-        BipedError
-    ):  # nothing to be said of the law there; what a walk makes of it is in its status
+        with handing_out():
+            m = walker.measure(0.0, still, still, Mode())
+            s, law = walker.law.initial_state(m), walker.law
+            u, moved = law.output(s, m), np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
+            ahead, behind = ([law.flow(s + d * side, m, u) for d in moved] for side in (1.0, -1.0))
+    except BipedError:  # the walk itself says what is wrong with the law
         return 0.0
     J = (np.array(ahead) - np.array(behind)) / (2.0 * np.diag(moved))[:, np.newaxis]
     known = len(s) > 0 and bool(np.all(np.isfinite(J)))

@@ -89,7 +89,7 @@ def test_columns_on_a_slope_with_a_wrong_model_and_friction(biped, gait, name):
 
 def test_columns_of_a_run_that_falls(biped, gait):
     push = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
-    walker = ba.Walker(biped, controllers(gait)["NPD"], push)
+    walker = ba.Walker(biped, controllers(gait)["NPD"], push, torque_limit=150.0)
     run = walked(walker, gait)
     assert run.status is ba.Status.FELL
     compare(walker, run, gait.constraint)

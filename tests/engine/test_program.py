@@ -1,5 +1,6 @@
 """A walker's equations in machine code against the Python engine, at random states."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -115,7 +116,7 @@ def test_a_plant_that_is_not_the_model(gait, name):
     biped = ba.Biped.load("rabbit", friction=True)
     heavy = biped.with_errors(mass={"torso": 1.2}, inertia={"thigh": 1.15})
     walker = Walker(heavy, CONTROLLERS[name](gait.constraint), model=biped, slope=0.05)
-    check_walker(walker, gait, 200)
+    check_walker(replace(walker, runaway_torque=math.inf), gait, 200)
 
 
 def check_walker(walker, gait, count):

@@ -140,7 +140,8 @@ def test_parts_without_compiled_form_are_mapped_by_pinocchio(biped, gait, npd):
 
 
 def test_no_return_is_said_by_either_engine(gait, npd):
-    walker = replace(npd, disturbance=ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 2, 0.1))
+    push = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 2, 0.1)
+    walker = replace(npd, disturbance=push, torque_limit=150.0)
     for P in maps(walker, ba.RK4(5e-3)):
         with pytest.raises(
             SimulationError, match=r"no return to the section: FELL, the robot fell"

@@ -339,7 +339,15 @@ def test_a_trial_says_whether_it_was_legal_and_why_not():
     assert strict["mean_friction"] == legal["mean_friction"]
     assert strict["share_outside"] > 0.0 == legal["share_outside"]
     fell = run_trial(
-        {**common, "push": "pulse", "on": "q5", "amplitude": 300.0, "pushed_step": 3, "onset": 0.1}
+        {
+            **common,
+            "push": "pulse",
+            "on": "q5",
+            "amplitude": 300.0,
+            "pushed_step": 3,
+            "onset": 0.1,
+            "torque_limit": 150.0,
+        }
     )
     assert (fell["outcome"], fell["legal"], fell["legal_impacts"]) == ("fell", 0, 2)
     stalled = run_trial({**common, "start_speed": -0.9, "max_step_time": 0.3})
