@@ -169,6 +169,7 @@ def test_derivative_of_the_flow(any_biped):
     """A against differences of the whole closed loop, for every kind of law."""
     saturated = 0
     for name, walker in loops(any_biped).items():
+        walker = replace(walker, runaway_torque=math.inf)
         for q, v, _ in states(any_biped, 3, size=0.1):
             x = np.concatenate((q, v))
             A = flow_derivative(walker, walker.instant(0.0, x, FIRST))

@@ -26,7 +26,7 @@ import numpy as np
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import controller_laws
 from biped_adrc.engine.run import COMPILED, simulate_by
-from biped_adrc.errors import BipedError, InputError, check_count
+from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.integrators import RK4, Exponential, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
@@ -82,7 +82,9 @@ def fastest(walker: Walker) -> float:
             s, law = walker.law.initial_state(m), walker.law
             u, moved = law.output(s, m), np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
             ahead, behind = ([law.flow(s + d * side, m, u) for d in moved] for side in (1.0, -1.0))
-    except BipedError:  # the walk itself says what is wrong with the law
+    except (
+        Exception
+    ):  # whatever a law of the user's may raise: the walk itself says what is wrong with it
         return 0.0
     J = (np.array(ahead) - np.array(behind)) / (2.0 * np.diag(moved))[:, np.newaxis]
     known = len(s) > 0 and bool(np.all(np.isfinite(J)))

@@ -75,7 +75,7 @@ def conforms(thing):
 @conforms.register
 def _(controller: ba.Controller):
     for timing in (ba.ContinuousTime(), ba.SampledTime(PERIOD)):
-        walker = ba.Walker(robot(), controller, timing=timing)
+        walker = ba.Walker(robot(), controller, timing=timing, runaway_torque=np.inf)
         law = unless("Time(", lambda: walker.law)  # noqa: B023
         if law is None:
             assert walker.sampled
@@ -142,7 +142,13 @@ def _(sensor: Sensor):
         assert all(np.array_equal(a, b) for a, b in zip(kept, (w, q, v), strict=True))
         w, q, v = after[0], q + 0.01 * v, v + 0.1 * dv
     timing = ba.SampledTime(PERIOD)
-    walker = ba.Walker(heavy(), ba.NPDController(gait().constraint), timing=timing, sensors=sensor)
+    walker = ba.Walker(
+        heavy(),
+        ba.NPDController(gait().constraint),
+        timing=timing,
+        sensors=sensor,
+        runaway_torque=np.inf,
+    )
     loop_compiles(replace(walker, model=robot()))
     assert walker.held.sizes.sensors == laws.size
     assert pickle.loads(pickle.dumps(walker)).sensors == sensor
@@ -200,7 +206,7 @@ def _(method: OneStepMethod):
     table = ba.ADRCController(gait().constraint)
     for controller in (table,) if linear else (ba.NPDController(gait().constraint), observing):
         for timing in (ba.ContinuousTime(), ba.SampledTime(2 * PERIOD)):
-            walker = ba.Walker(robot(), controller, timing=timing)
+            walker = ba.Walker(robot(), controller, timing=timing, runaway_torque=np.inf)
             if not (walker.sampled and linear):
                 walked_alike(walker, method)
     assert pickle.loads(pickle.dumps(method)) == method
@@ -231,7 +237,14 @@ def _(motors: Motors):
         timing = ba.SampledTime(PERIOD, delay=delay, delay_known=known)
         controller = ba.ADRCController(gait().constraint, SLOW)
         meter = Meter(gait().constraint) if known else None
-        walker = ba.Walker(heavy(), controller, timing=timing, motors=motors, meter=meter)
+        walker = ba.Walker(
+            heavy(),
+            controller,
+            timing=timing,
+            motors=motors,
+            meter=meter,
+            runaway_torque=np.inf,
+        )
         assert walker.held.sizes.queue == int(delay / PERIOD)
         loop_compiles(replace(walker, model=robot()), 20, ticks=4)
     assert pickle.loads(pickle.dumps(motors)) == motors
