@@ -19,7 +19,7 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import chdir, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -165,7 +165,7 @@ def store_changed(draw: random.Random, data: bytes) -> bytes:
     """A results file with bytes changed, or a row removed or changed."""
     if draw.random() < 0.7:
         return bytes_changed(draw, data)
-    with tempfile.TemporaryDirectory() as place:
+    with tempfile.TemporaryDirectory() as place, chdir(place):
         path = Path(place) / "r.sqlite"
         path.write_bytes(data)
         with sqlite3.connect(path) as db:
@@ -328,7 +328,7 @@ def main(number: int = 500, seed: int = 1) -> int:
     every = list[str]()
     print("| what | number | how they were met |\n|---|---|---|")
     began = time.monotonic()
-    with tempfile.TemporaryDirectory() as place:
+    with tempfile.TemporaryDirectory() as place, chdir(place):
         for kind in (*KINDS, "command line"):
             folder = Path(place) / kind.replace(" ", "-")
             folder.mkdir()
