@@ -15,7 +15,7 @@ from biped_adrc.engine.run import simulate_by
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
-from biped_adrc.scenario.walk import default_method, fastest
+from biped_adrc.scenario.walk import default_method, rate_of_law
 
 ENGINES = ("compiled", "pinocchio")
 
@@ -163,7 +163,7 @@ def test_a_controller_faster_than_the_usual_step_gets_a_shorter_one(biped, gait)
     observer = ba.GPIObserver.from_bandwidth(300.0)
     walker = ba.Walker(biped, Delayed(ba.ADRCController(gait.constraint, observer), 2e-4))
     line = np.abs(np.roots(walker.controller.line.denominator[::-1])).max() / 2e-4
-    assert fastest(walker) == pytest.approx(line, rel=1e-3)
+    assert rate_of_law(walker) == pytest.approx(line, rel=1e-3)
     assert default_method(walker).h == pytest.approx(1.0 / line, rel=1e-3)
     assert not ba.walk(walker, gait, impacts=1, method=RK4(1e-3)).trajectory.status.ok
     assert ba.walk(walker, gait, impacts=1).trajectory.status.ok

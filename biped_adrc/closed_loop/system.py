@@ -237,9 +237,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
         u, limit = returned(u, self.torques, self.controller, "output", finite=False), self.limit
         if limit is not None:
             u = np.minimum(np.maximum(u, -limit), limit)
-        if not math.isfinite(
-            u.dot(u)
-        ):  # one product tests all of them, at every stage of every step
+        # one product tests all of them, at every stage of every step
+        if not math.isfinite(u.dot(u)):
             raise NotFiniteError(f"{type(self.controller).__name__}.output returned {u} N m")
         return u
 

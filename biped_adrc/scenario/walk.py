@@ -64,11 +64,11 @@ def default_method(walker: Walker) -> OneStepMethod:
     """
     if walker.split(Mode()) is not None:
         return Exponential()
-    rate, usual = fastest(walker), RK4()
+    rate, usual = rate_of_law(walker), RK4()
     return usual if usual.h * rate < STABLE else RK4(1.0 / rate)
 
 
-def fastest(walker: Walker) -> float:
+def rate_of_law(walker: Walker) -> float:
     """Largest |eigenvalue| [1/s] of ds'/ds of a controller with laws, by differences at q = q' = 0; 0 for none.
 
     In sampled time no state of a controller flows.
@@ -80,15 +80,14 @@ def fastest(walker: Walker) -> float:
         with handing_out():
             m = walker.measure(0.0, still, still, Mode())
             s, law = walker.law.initial_state(m), walker.law
+            if len(s) == 0:
+                return 0.0
             u, moved = law.output(s, m), np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
             ahead, behind = ([law.flow(s + d * side, m, u) for d in moved] for side in (1.0, -1.0))
-    except (
-        Exception
-    ):  # whatever a law of the user's may raise: the walk itself says what is wrong with it
+    except Exception:  # whatever a law may raise: the walk itself says what is wrong with it
         return 0.0
     J = (np.array(ahead) - np.array(behind)) / (2.0 * np.diag(moved))[:, np.newaxis]
-    known = len(s) > 0 and bool(np.all(np.isfinite(J)))
-    return float(np.max(np.abs(np.linalg.eigvals(J)))) if known else 0.0
+    return float(np.max(np.abs(np.linalg.eigvals(J)))) if np.all(np.isfinite(J)) else 0.0
 
 
 def default_parts(walker: Walker, impacts: int, first_step: int, engine: str) -> tuple[Part, ...]:
