@@ -3,8 +3,9 @@
 The operators are those of cosmic-ray. Its runner is not used: laws are traced once and their machine code is
 kept, so that coverage cannot choose the tests; mutants.toml says which tests see which folder, the nearest
 first, and which survivors were found to be equivalent (why no test can tell) or open (what would). Each fault
-is put into a copy of the repository in OUT/copy, with a code cache of its own that is thrown away with it and
-without .pyc; the tests stop at the first that fails, which has to pass without the fault.
+is put into a copy of the repository in OUT/copy1, with a code cache of its own that is thrown away with it and
+with .pyc that carry their source's hash; the tests stop at the first that fails, which has to pass without the
+fault. `--workers 2` has a second copy.
 
 What has been run is in OUT/results.jsonl and is not run again; OUT/draw.json is the draw of the seed.
 `--again` runs the survivors once more, after tests were added. `--planted` puts in the faults of faults.toml,
@@ -15,9 +16,11 @@ from __future__ import annotations
 
 import argparse
 import ast
+import compileall
 import contextlib
 import json
 import os
+import py_compile
 import random
 import re
 import shutil
@@ -27,6 +30,7 @@ import sys
 import time
 import tomllib
 from collections import Counter, defaultdict
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -173,8 +177,10 @@ def _code_lines(source: str) -> list[int]:
 class Copy:
     """A copy of the files that git knows, as they are now, in which faults are put in and tests are run."""
 
-    def __init__(self, out: Path) -> None:
-        self.root, self.out = out / "copy", out
+    def __init__(self, out: Path, number: int = 1) -> None:
+        self.root, self.out = out / f"copy{number}", out / f"worker{number}"
+        self.cache = self.out / "cache"
+        self.out.mkdir(exist_ok=True)
         listed = subprocess.run(
             ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
             cwd=ROOT, check=True, capture_output=True, text=True,
@@ -186,15 +192,18 @@ class Copy:
                 shutil.copyfile(ROOT / name, self.root / name)
                 shutil.copymode(ROOT / name, self.root / name)
         (self.root / ".venv").symlink_to((ROOT / ".venv").resolve())
+        by_hash = py_compile.PycInvalidationMode.CHECKED_HASH
+        compileall.compile_dir(self.root / PACKAGE, quiet=1, invalidation_mode=by_hash)
         self.passes: dict[str, bool] = {}
 
     def tests(self, names: list[str], cache: Path, without: list[str]) -> tuple[int, str]:
         """Exit code of the tests until one fails, and the name of that one."""
         environment = os.environ | {
-            "BIPED_ADRC_CACHE": str(cache), "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1",
+            "BIPED_ADRC_CACHE": str(cache), "OPENBLAS_NUM_THREADS": "1",
             FAILED: str(self.out / "failed"),
             "PYTHONPATH": f"{self.root}{os.pathsep}{self.root / 'benchmarks'}",
         }  # fmt: skip
+        environment.pop("PYTHONDONTWRITEBYTECODE", None)
         options = ["-x", "-p", "no:cacheprovider", "-p", "mutants", "--tb=line"]
         deselected = [word for name in without for word in ("--deselect", name)]
         log, named = self.out / "pytest.log", self.out / "failed"
@@ -223,7 +232,7 @@ class Copy:
         changed = put_in(text, fault)
         if changed is None:
             return "gone", ""
-        base, cache = self.out / "cache", self.out / "cache_of_the_fault"
+        base, cache = self.cache, self.out / "cache_of_the_fault"
         without = [name for name, passes in self.passes.items() if not passes]
         try:
             while True:
@@ -310,6 +319,7 @@ def main() -> int:
     parser.add_argument("out", type=Path, help="folder of the copy, the draw and the results")
     parser.add_argument("--seed", type=int, default=16)
     parser.add_argument("--number", type=int, default=200, help="faults to draw")
+    parser.add_argument("--workers", type=int, default=1, help="faults run at a time")
     parser.add_argument("--least", type=int, default=10, help="faults of each folder")
     parser.add_argument(
         "--limit", type=float, default=1e9, help="minutes after which none is begun"
@@ -333,34 +343,43 @@ def main() -> int:
     lines = stored.read_text().splitlines() if stored.exists() else []
     results = {key(row): row for row in map(json.loads, lines)}
     if not given.report:
-        _run(Copy(out), faults, results, settings["tests"], given)
+        _run(out, faults, results, settings["tests"], given)
     text = report(faults, results, settings.get("survivor", []))
     (out / "report.md").write_text(text + "\n")
     print(text)
     return 0
 
 
-def _run(
-    copy: Copy, faults: list[Fault], results: dict[Any, Fault], tests: Any, given: Any
-) -> None:
+def _run(out: Path, faults: list[Fault], results: dict[Any, Fault], tests: Any, given: Any) -> None:
     """Run what has not been run; with `again`, the survivors, too."""
-    begin = time.monotonic()
-    if not (copy.out / "cache").exists():
-        copy.tests([COMPILES], copy.out / "cache", [])
-    for k, fault in enumerate(faults):
-        before = results.get(key(fault), {}).get("verdict")
-        if before == "noticed" or (before and not given.again):
-            continue
-        if time.monotonic() - begin > 60 * given.limit:
-            return
+    end = time.monotonic() + 60 * given.limit
+    copies = [Copy(out, k + 1) for k in range(given.workers)]
+    for copy in copies:
+        if not copy.cache.exists():
+            copy.tests([COMPILES], copy.cache, [])
+    verdicts = [results.get(key(fault), {}).get("verdict") for fault in faults]
+    left = [
+        fault
+        for fault, verdict in zip(faults, verdicts, strict=True)
+        if verdict is None or (given.again and verdict != "noticed")
+    ][::-1]
+    with ThreadPoolExecutor(given.workers) as pool:
+        for worker in [pool.submit(_work, copy, left, results, tests, end) for copy in copies]:
+            worker.result()
+
+
+def _work(copy: Copy, left: list[Fault], results: dict[Any, Fault], tests: Any, end: float) -> None:
+    """Run the last fault of `left`, which all workers share, while there is time [s, monotonic]."""
+    while left and time.monotonic() < end:
+        fault = left.pop()
         at = time.monotonic()
         verdict, by = copy.verdict(fault, tests[fault["folder"]])
         row = {**fault, "verdict": verdict, "by": by, "seconds": round(time.monotonic() - at)}
         results[key(fault)] = row
-        with (copy.out / "results.jsonl").open("a") as file:
+        with (copy.root.parent / "results.jsonl").open("a") as file:
             file.write(json.dumps(row) + "\n")
         print(
-            f"{k + 1}/{len(faults)} {fault['file']}:{fault['line']} {verdict} {by} {row['seconds']} s",
+            f"{fault['file']}:{fault['line']} {verdict} {by} {row['seconds']} s",
             flush=True,
         )
 

@@ -13,6 +13,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 import docstrings
 import expand
 from sphinx import addnodes
+from sphinx.domains.python import PythonDomain
 
 docstrings.name_array_types()  # before any other module of the package is imported
 
@@ -103,7 +104,25 @@ def light_sidebar(app, pagename, templatename, context, doctree):
     context["toctree"] = with_titles
 
 
+class IndexedNames(PythonDomain):
+    """Looks for a name among the objects that end with it; otherwise every link searches all of them."""
+
+    def find_obj(self, env, modname, classname, name, type, searchmode=0):
+        whole = self.data["objects"]
+        if getattr(self, "indexed", 0) != len(whole):
+            self.indexed, self.by_end = len(whole), {}
+            for full in whole:
+                self.by_end.setdefault(full.rpartition(".")[2], {})[full] = whole[full]
+        end = name.removesuffix("()").rpartition(".")[2]
+        try:
+            self.data["objects"] = self.by_end.get(end, {})
+            return super().find_obj(env, modname, classname, name, type, searchmode)
+        finally:
+            self.data["objects"] = whole
+
+
 def setup(app):
+    app.add_domain(IndexedNames, override=True)
     app.config.mathjax_path = (
         "mathjax/tex-svg.js"  # fonts inside: browsers refuse those of other files
     )
