@@ -368,12 +368,23 @@ def _run(out: Path, faults: list[Fault], results: dict[Any, Fault], tests: Any, 
             worker.result()
 
 
+def nearest_first(names: list[str], file: str) -> list[str]:
+    """The test files of `names`, those first that are called as the module is, or that speak of it."""
+    found: list[Path] = []
+    for name in names:
+        path = ROOT / name
+        found += sorted(path.rglob("test_*.py")) if path.is_dir() else [path]
+    stem = Path(file).stem
+    found.sort(key=lambda p: (stem not in p.stem, stem not in p.read_text(encoding="utf-8")))
+    return [str(path.relative_to(ROOT)) for path in dict.fromkeys(found)]
+
+
 def _work(copy: Copy, left: list[Fault], results: dict[Any, Fault], tests: Any, end: float) -> None:
     """Run the last fault of `left`, which all workers share, while there is time [s, monotonic]."""
     while left and time.monotonic() < end:
         fault = left.pop()
         at = time.monotonic()
-        verdict, by = copy.verdict(fault, tests[fault["folder"]])
+        verdict, by = copy.verdict(fault, nearest_first(tests[fault["folder"]], fault["file"]))
         row = {**fault, "verdict": verdict, "by": by, "seconds": round(time.monotonic() - at)}
         results[key(fault)] = row
         with (copy.root.parent / "results.jsonl").open("a") as file:

@@ -172,6 +172,29 @@ def test_a_controller_faster_than_the_usual_step_gets_a_shorter_one(biped, gait)
     assert default_method(replace(walker, controller=slow)) == RK4(1e-3)
 
 
+@pytest.mark.parametrize("observer", [None, ba.GPIObserver.from_bandwidth(300.0)])
+def test_static_friction_on_little_inertia_gets_a_shorter_step(bare, published, observer):
+    """Its smoothed sign turns within 0.05 rad/s, which the usual steps follow ten times worse."""
+    constraint = published.constraint
+    controller = (
+        ba.ADRCController(constraint, observer) if observer else ba.NPDController(constraint)
+    )
+    rubbing = ba.Biped.load("rabbit", "identified-bare", friction=True)
+    walker, (q, v) = ba.Walker(rubbing, controller), published.start(bare)
+    method = default_method(walker)
+
+    def ends(h):
+        made = ba.walk(walker, published, 1, replace(method, h=h), start=(1.02 * q, v))
+        return made.trajectory.final_state[:10]
+
+    assert method.h < type(method)().h == default_method(replace(walker, plant=bare)).h
+    assert (
+        np.max(np.abs(ends(method.h) - ends(2e-5)))
+        < 5e-7
+        < np.max(np.abs(ends(type(method)().h) - ends(2e-5)))
+    )
+
+
 class Own(NamedTuple):
     """Of the law."""
 

@@ -31,6 +31,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.integrators import RK4, Exponential, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.parts import check_part, handing_out, numbers
 from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.recording import Walk, watched
@@ -55,17 +56,33 @@ this step gives its peak within 0.2 %, one of 1 ms is wrong by a factor of five.
 
 STABLE = 2.5
 """Largest |lambda| h of RK4 [1], which is stable up to 2.78 on the real axis."""
+RESOLVED = 0.5
+"""Largest |lambda| h [1] at which RK4 follows what decays (static friction around zero rate) within 0.05 %."""
 
 
 def default_method(walker: Walker) -> OneStepMethod:
     """The exponential method where the walker has a linear stiff part (an observer), RK4 at 1 ms elsewhere.
 
-    At less where a controller's own motion would make that unstable, such as a short line of delay.
+    At less where a controller's own motion would make that unstable, such as a short line of delay, or where
+    static friction acts on little inertia.
     """
+    rubs = rate_of_friction(walker.plant)
     if walker.split(Mode()) is not None:
-        return Exponential()
+        linear = Exponential()
+        return linear if linear.h * rubs <= RESOLVED else replace(linear, h=RESOLVED / rubs)
     rate, usual = rate_of_law(walker), RK4()
-    return usual if usual.h * rate < STABLE else RK4(1.0 / rate)
+    h = usual.h if usual.h * rate < STABLE else 1.0 / rate
+    return RK4(h if h * rubs <= RESOLVED else RESOLVED / rubs)
+
+
+def rate_of_friction(plant: Biped) -> float:
+    """Largest |eigenvalue| [1/s] of D_s^-1 dF/dq' of joint friction F at q = q' = 0; 0 for none."""
+    if not plant.friction:
+        return 0.0
+    viscous, static = plant.friction_coefficients
+    slopes = np.diag(viscous + static / STICTION_SPEED)
+    J = np.linalg.solve(plant.inertia(np.zeros(plant.n)), slopes)
+    return float(np.max(np.abs(np.linalg.eigvals(J))))
 
 
 def rate_of_law(walker: Walker) -> float:

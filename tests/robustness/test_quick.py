@@ -41,6 +41,6 @@ def test_a_table_has_a_row_for_every_word() -> None:
     assert f"| {engines.NAN} | 1 | 1 |" in engines.table([found])
     assert engines.faults([found]) == ["3 walker: NAN x"]
     changed = {"k": 1, "status": ["FELL", "COMPLETED"], "off": {}, "edge": False, "changed": True}
-    changed["chatters"] = False
+    changed["chatters"] = None
     assert "| another end, not near an edge | 1 |" in steps.table([changed])
     assert steps.faults([changed]) == ["1: ['FELL', 'COMPLETED']"]
