@@ -51,7 +51,7 @@ def expression(x: Number) -> ca.SX | float:
 
 
 def _binary(code: int, reflected: bool = False) -> Callable[[Scalar, Number], Scalar]:
-    """A method of `Scalar` for CasADi's operation `code`; reflected: with the operands exchanged, as for 2.0 * x.
+    """A method of `Scalar` for CasADi's operation `code`; reflected: operands exchanged, as for 2.0 * x.
 
     Beside an array it returns NotImplemented, and NumPy then applies the operator entry by entry. CasADi's own
     operators take eight times as long, as they look for other types first.
