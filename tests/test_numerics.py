@@ -10,9 +10,12 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.base import ControllerLaws
 from biped_adrc.control.delayed import Delayed
+from biped_adrc.control.npd import npd_torque
+from biped_adrc.control.tracking import tracked_laws
 from biped_adrc.engine.batch import Case, simulate_many
+from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.run import simulate_by
-from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
+from biped_adrc.hybrid.integrators import CROWDED, CROWDED_STEP, RK4, Adaptive, Stiff
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.scenario.walk import default_method, rate_of_law
@@ -193,6 +196,35 @@ def test_static_friction_on_little_inertia_gets_a_shorter_step(bare, published, 
         < 5e-7
         < np.max(np.abs(ends(type(method)().h) - ends(2e-5)))
     )
+
+
+def switching(k, r, s, m):
+    """Of every joint's torque 20 N m change their sign with the rate: a sliding mode without a layer."""
+    return npd_torque(k, r, s, m) - 20.0 * np.sign(m.v_b)
+
+
+class Switching(ba.NPDController):
+    @property
+    def laws(self):
+        own = ControllerLaws(self.gains.parameters(self.solve_theta), switching)
+        return tracked_laws(self.reference, own)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_steps_that_a_switching_torque_makes_tiny_end_a_run(biped, gait, engine):
+    """Without a limit their number is, up to the end of the step, several millions."""
+    q, v = gait.start(biped)
+    walker = ba.Walker(biped, Switching(gait.constraint))
+    run = ba.walk(
+        walker, gait, 1, Adaptive(1e-10, 1e-12), start=(q, 0.0 * v), engine=engine
+    ).trajectory
+    assert run.status is ba.Status.STEP_FAILED
+    assert len(run.arcs[-1].t) < 5 * CROWDED
+    assert all_finite(run)
+
+
+def test_both_engines_have_the_same_least_step():
+    assert (layout.CROWDED, layout.CROWDED_STEP) == (CROWDED, CROWDED_STEP)
 
 
 class Own(NamedTuple):

@@ -186,6 +186,12 @@ def relaxing_rk4(f: Flow, r: Relaxing, t: float, x: Array, h: float) -> tuple[Ar
     return k1, x1
 
 
+CROWDED, CROWDED_STEP = 1000, 1e-7
+"""So many steps in a row of a method with step control may not be shorter on average than this [s]; on a torque
+that chatters they would go on for days.
+"""
+
+
 @dataclass(frozen=True)
 class _SciPy(OneStepMethod):
     """A SciPy solver, used one step at a time; events are located on its own dense output.
@@ -237,8 +243,9 @@ class _SciPy(OneStepMethod):
         solver: OdeSolver = self._solver(
             tried, t, x, t_end, rtol=self.rtol, atol=self.atol, max_step=self.max_step
         )
+        mark, count = t, 0
         while solver.status == "running":
-            lost = None
+            lost, count = None, count + 1
             try:
                 message = solver.step()
             except ValueError:  # of SciPy's linear algebra, which takes no NaN
@@ -249,6 +256,14 @@ class _SciPy(OneStepMethod):
                 if last is not None:
                     raise last
                 raise StepFailed(f"{type(self).__name__} at t = {solver.t:.6g} s: {message}")
+            if count % CROWDED == 0:
+                if solver.t - mark < CROWDED * CROWDED_STEP:
+                    raise StepFailed(
+                        f"{type(self).__name__} at t = {solver.t:.6g} s: the last {CROWDED} steps took "
+                        f"{solver.t - mark:.1g} s together, since the torque jumps or chatters; take a method "
+                        "of fixed step, such as RK4(1e-3), or a greater tolerance"
+                    )
+                mark = solver.t
             x1 = solver.y.copy()
             dx1 = f(solver.t, x1)
             yield Step(t0, solver.t, x0, x1, dx0, dx1, solver.dense_output())

@@ -153,9 +153,10 @@ def through(P: Ints, F: Array, K: Array, W: Array, t_next: float, R: Array) -> i
     """From X0 at TIME to t_next [s], over which all is smooth; a code, 0 at t_next.
 
     Steps of fixed length are counted and not added up, so round-off does not grow. More than
-    MOST_STEPS steps, or a step of no length, end as STEP_FAILED.
+    MOST_STEPS steps, a step of no length, or CROWDED steps in a row below CROWDED_STEP on average end
+    as STEP_FAILED.
     """
-    t0 = t = W[TIME]
+    t0 = t = mark = W[TIME]
     every, skipped, steps, h = int(W[EVERY]), 0, 0, F[H]
     W[LIMIT] = left(t_next)
     count = max(1.0, np.ceil((t_next - t0) / h - LANDING))
@@ -169,6 +170,10 @@ def through(P: Ints, F: Array, K: Array, W: Array, t_next: float, R: Array) -> i
         if P[KIND] == DOP853:
             code = adaptive(P, F, K, W, t, t_next, h)
             t1, h = W[REACHED], W[TRY]
+            if steps % CROWDED == 0:
+                if t1 - mark < CROWDED * CROWDED_STEP:
+                    return code if code != 0 else STEP_FAILED
+                mark = t1
         else:
             t1 = t0 + steps * h if steps < count else t_next
             code = fixed(P, F, K, W, t, t1, int(steps >= count))
