@@ -132,10 +132,13 @@ def test_a_walk_that_ends_early_has_to_end_alike():
     assert not convergence_check("x", replace(fell, half=made_up())).holds
 
 
-def test_the_observed_order():
-    third = made_up(peak_error=1.0 + 2.0**-9)
-    o = made_up(peak_error=1.0 + 2.0**-3, half=made_up(peak_error=1.0 + 2.0**-6, half=third))
-    assert observed_order(o, lambda o: o.peak_error) == pytest.approx(3.0)
+@pytest.mark.parametrize("limit", [1.0, 0.0, -0.1])
+@pytest.mark.parametrize("order", [-1.0, 1.0, 3.0])
+def test_the_observed_order(limit, order):
+    """Of a quantity whose error is (h / h_0)^order."""
+    one, half, quarter = (made_up(peak_error=limit + 2.0 ** (-order * k)) for k in (1, 2, 3))
+    o = replace(one, half=replace(half, half=quarter))
+    assert observed_order(o, lambda o: o.peak_error) == pytest.approx(order)
 
 
 def test_fine_steps_go_where_a_push_switches(biped, gait):

@@ -10,6 +10,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.errors import InputError
 from biped_adrc.paper.push_map import (
+    PATTERNS,
     Fate,
     PushCell,
     Tried,
@@ -90,6 +91,21 @@ def test_the_map_is_drawn_of_every_word():
     assert "unlimited" in axes.get_title(loc="left")
     with pytest.raises(InputError, match="at least one"):
         push_map_figure([])
+
+
+@pytest.mark.parametrize(
+    ("name", "joints"),
+    [("all", "1234"), ("hips", "12"), ("stance knee", "3"), ("swing knee", "4")],
+)
+def test_the_joints_of_a_pattern_are_those_of_its_name(name, joints):
+    for sign in "+-":
+        assert PATTERNS[f"{name} {sign}"] == {f"q{k}": float(f"{sign}1") for k in joints}
+
+
+def test_hips_pushed_apart_and_together_are_opposite():
+    apart, together = PATTERNS["hips apart"], PATTERNS["hips together"]
+    assert apart == {"q1": 1.0, "q2": -1.0}
+    assert together == {joint: -factor for joint, factor in apart.items()}
 
 
 def test_pushes_are_all_combinations():

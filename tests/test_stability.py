@@ -36,6 +36,7 @@ from biped_adrc.studies.cycle_stability import (
     find_cycle,
     gait_cycle,
     known_cycle,
+    return_map_samples,
     walk_beside,
 )
 
@@ -204,6 +205,19 @@ def three_link() -> Cycle:
     walker = ba.Walker(biped, ba.NPDController(h, ba.Gains(400.0, 40.0)))
     P = ReturnMap(walker, TIGHT, difference=1e-4, pitch=float(q[2]))
     return Cycle(P, np.concatenate((q, v)))
+
+
+def test_samples_of_the_return_map_are_those_of_the_zero_dynamics(
+    biped: ba.Biped, gait: ba.Gait
+) -> None:
+    """With its rates f times those of the gait a walker has f^2 zeta*, and rates go with sqrt(zeta)."""
+    orbits = ba.ZeroOrbits.of(ZeroDynamics.of(biped, gait.constraint))
+    f = np.array([0.95, 1.05])
+    rate = biped.phase @ gait.v_minus
+    zeta = np.array([orbits.rho(k**2 * orbits.zeta_star) for k in f])
+    before, after = return_map_samples(Scenario("NPD"), size=0.05, count=2)
+    np.testing.assert_allclose(before, f * rate)
+    np.testing.assert_allclose(after, rate * np.sqrt(zeta / orbits.zeta_star), rtol=1e-7)
 
 
 def test_multipliers_of_the_three_link_walker() -> None:

@@ -71,8 +71,7 @@ class Cluster(Workers):
         return max(1, sum(_client_of(executor).nthreads().values()))
 
     def stop(self, executor: Executor, now: bool) -> None:
-        """Give up what has not begun where `now`, and close the connection; the cluster itself goes on."""
-        executor.shutdown(wait=not now)
+        """Close the connection, which gives up what has not ended; the cluster itself goes on."""
         _client_of(executor).close(timeout=2)
 
     def restart(self, executor: Executor) -> Executor:
@@ -199,9 +198,6 @@ class _Checked(Executor):
         here.add_done_callback(lambda ended: there.cancel() if ended.cancelled() else None)
         there.add_done_callback(partial(_hand_over, here))
         return here
-
-    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """Nothing: `Cluster.stop` closes the connection, which gives up what has not ended."""
 
 
 def _hand_over(here: Future[T], there: DaskFuture) -> None:

@@ -303,13 +303,13 @@ def regression_of(outcome: Outcome) -> Regression:
 def return_map_samples(run: Scenario, size: float = 0.05, count: int = 21) -> tuple[Array, Array]:
     """Samples of the return map in Theta': its value before one impact, and before the next.
 
-    The rates of the fixed point are scaled by 1 - size to 1 + size. Returns both arrays (count,) [rad/s]; NaN
-    where the walker does not reach another impact.
+    The rates of the fixed point are scaled by 1 - size to 1 + size. Returns both arrays (count,) [rad/s].
+    Raises SimulationError where the walker does not reach another impact.
     """
     P, scene = gait_map(run, observer_states=False).P, RobotAndGait.of(run)
     biped, gait = scene.biped, scene.walked
     before = np.linspace(1.0 - size, 1.0 + size, count)
-    after = np.full(count, np.nan)
+    after = np.empty(count)
     c = biped.phase
     for i, factor in enumerate(before):
         x = np.concatenate((gait.q_minus, factor * gait.v_minus))

@@ -75,6 +75,16 @@ def test_the_same_rows_as_in_threads(tmp_path, address):
     assert there == here
 
 
+def test_what_is_submitted_twice_runs_twice(address):
+    """A chunk whose worker died is the same call again, and must not be answered with its old outcome."""
+    crew = Cluster(address)
+    executor = crew.start()
+    given = [executor.submit(os.urandom, 8) for _ in range(2)]
+    one, other = [future.result(timeout=10.0) for future in given]
+    crew.stop(executor, True)
+    assert one != other
+
+
 def test_walks_are_the_same_as_in_threads(tmp_path, address):
     study = read_study(
         {

@@ -91,6 +91,28 @@ def test_points_are_made_when_they_are_needed(tmp_path):
     assert len(taken) <= 2 * LOOK_UP
 
 
+def test_what_was_running_when_a_study_is_stopped_is_stored(tmp_path):
+    begun, go_on = threading.Event(), threading.Event()
+
+    def in_turn(given):
+        """The run of 0 ends while that of 1 is in the middle."""
+        if given[0]["x"] == 1:
+            begun.set()
+            assert go_on.wait(5.0)
+        assert begun.wait(5.0)
+        return rows(given)
+
+    def stop(p):
+        if p.fresh == 1:
+            go_on.set()
+            raise KeyboardInterrupt
+
+    with open_store(tmp_path / "r.sqlite", about()) as store:
+        with pytest.raises(KeyboardInterrupt):
+            run_study(in_turn, records(2), store, Threads(2), chunk=1, progress=stop)
+        assert [row["n"] for *_, row in results(store)] == [0, 1]
+
+
 def test_a_record_that_raises_is_named_and_spoils_no_other(tmp_path, expected):
     given = [{**r, "raise": 1} if r["x"] in (5, 50) else r for r in records(90)]
     found, _ = run(tmp_path / "r.sqlite", given, Threads(2), chunk=9)

@@ -19,7 +19,7 @@ from biped_adrc.bench.build import files_of_study, scene_of
 from biped_adrc.bench.export import export, sweep_map, write_map
 from biped_adrc.bench.run import run_trials
 from biped_adrc.bench.study import rehearse
-from biped_adrc.bench.study_file import read_study
+from biped_adrc.bench.study_file import load_study, read_study
 from biped_adrc.bench.sweep import Table, load_sweep, sweep
 from biped_adrc.campaign.dask_cluster import Cluster
 from biped_adrc.campaign.store_check import COLUMNS, checksum
@@ -274,9 +274,12 @@ def test_names_are_no_markup(tmp_path):
     arguments = ["sweep", str(path), "--out", str(out), "--no-run", "--export", "csv"]
     again = CliRunner().invoke(app, arguments)
     assert f"written to {out / 'results.csv'}" in again.stdout
+    stored = load_study(path)
     path.write_text(WALKS)
-    with pytest.raises(InputError, match="expected the same"):
+    with pytest.raises(InputError) as caught:
         CliRunner().invoke(app, arguments, catch_exceptions=False)
+    assert f"holds the study 'gain [/b] x' ({stored.hash[:8]})" in str(caught.value)
+    assert f"the file is of 'walks' ({load_study(path).hash[:8]}); expected" in str(caught.value)
 
 
 def test_the_command_goes_on_with_other_versions(tmp_path):

@@ -184,6 +184,16 @@ def test_library_is_written_read_and_searched(tmp_path, level: DesignedGait) -> 
         GaitLibrary.load(tmp_path, Biped.load("rabbit", "identified"))
 
 
+@pytest.mark.parametrize("other", [b"{", b"\xff", b"[1]", b'{"robot": "nao"}', None])
+def test_what_is_no_gait_of_the_robot_is_left_out_of_the_library(tmp_path, other) -> None:
+    """A file that is no JSON, no text, no table or of another robot, and a folder."""
+    biped = Biped.load("rabbit", "tac2003")
+    load_gait("v0.5", biped).save(tmp_path / "a-tac2003.json")
+    beside = tmp_path / "b-tac2003.json"
+    beside.mkdir() if other is None else beside.write_bytes(other)
+    assert GaitLibrary.load(tmp_path, biped).speeds == pytest.approx((0.5,), abs=1e-5)
+
+
 def test_speeds_are_read_from_text() -> None:
     assert speeds_named("0.4:1.1:0.1") == pytest.approx(SPEEDS)
     assert speeds_named("0.4,1") == (0.4, 1.0)

@@ -305,6 +305,24 @@ def test_the_picture_shows_the_orbit(bare, published):
     np.testing.assert_array_equal(x[:-1:2], x[1::2])
 
 
+def test_inertia_and_potential_are_those_of_the_gait_in_another_colour_than_its_orbit(
+    bare, published
+):
+    report = zero_report(bare, published.constraint)
+    first, second, portrait, _ = zero_dynamics_figure(report).axes
+    (inertia, zero), (V, orbit, _) = first.get_lines(), second.get_lines()
+    sigma = bare.angular_momentum(published.q_minus, published.v_minus)
+    assert inertia.get_ydata()[-1] == pytest.approx(
+        sigma / (bare.phase @ published.v_minus), rel=1e-6
+    )
+    assert set(zero.get_ydata()) == {0.0}
+    begin = set(orbit.get_ydata()).pop()
+    np.testing.assert_allclose(V.get_ydata()[[0, -1]], [0.0, begin - sigma**2 / 2], atol=1e-4)
+    orbits = {line.get_color() for line in (orbit, *portrait.get_lines()[:2])}
+    assert len(orbits) == 1
+    assert {inertia.get_color(), V.get_color()}.isdisjoint(orbits)
+
+
 def test_command(tmp_path):
     out = tmp_path / "zero.svg"
     words = ["gait", "zero", "published", "--preset", "tac2003", "--torque", "150"]

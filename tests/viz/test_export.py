@@ -104,9 +104,13 @@ def test_gif(walks: dict[str, Walk], tmp_path: Path) -> None:
 
 
 def test_arrows_grow_with_the_force() -> None:
-    for length in (0.02, 0.3):
+    """The head is 9 cm long and 7 cm wide, and of the same shape where the arrow is shorter than that."""
+    for length, share in ((0.02, 2 / 9), (0.3, 1.0)):
         outline = arrow(np.zeros(2), np.array([0.0, length]))
         assert outline[:, 1].max() == pytest.approx(length)
+        right, tip, left = outline[2:5]
+        np.testing.assert_allclose(tip - 0.5 * (left + right), [0.0, 0.09 * share], atol=1e-12)
+        np.testing.assert_allclose(right - left, [0.07 * share, 0.0], atol=1e-12)
     small, large = ring(np.zeros(2), 0.1), ring(np.zeros(2), 0.3)
     np.testing.assert_allclose(3.0 * small, large)
     np.testing.assert_allclose(ring(np.zeros(2), -0.1), small * [-1.0, 1.0])
