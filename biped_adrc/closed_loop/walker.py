@@ -90,6 +90,8 @@ class Walker(ClosedLoop[Biped]):
         self.check()
         self.plant.check_motors()
         check_slope(self.slope)
+        if self.disturbance is not None:
+            self.disturbance.check_size(self.plant.n)
         limit = self.torque_limit
         if limit is not None and not (math.isfinite(limit) and limit > 0):
             raise InputError(f"the torque limit is {limit} N m, expected a positive number or None")

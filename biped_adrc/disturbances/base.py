@@ -98,6 +98,9 @@ class Disturbance(Composed):
                 total += returned(zeta, total.shape, self, "torque", finite=False)
         return total
 
+    def check_size(self, n: int) -> None:
+        """Raise InputError where this is known beforehand to be of other coordinates than n."""
+
     def resultant(self, t: float, step: int, t_start: float) -> Array:
         """Force (F_x, F_z) (2,) [N] from outside on the robot as a whole, zero for torques between links.
 
@@ -181,6 +184,10 @@ class Sum(Disturbance):
     def laws(self) -> tuple[DisturbanceLaw, ...]:
         """Those of all parts; a part without laws stands for itself, and keeps the others compiled."""
         return tuple(law for part in self.parts for law in disturbance_laws(part))
+
+    def check_size(self, n: int) -> None:
+        for part in self.parts:
+            part.check_size(n)
 
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
         return tuple(s for part in self.parts for s in part.switching_times(step, t_start))
@@ -267,6 +274,13 @@ class Windowed(Disturbance):
             check_count(self.step, what)
         amplitude.setflags(write=False)
         object.__setattr__(self, "amplitude", amplitude)
+
+    def check_size(self, n: int) -> None:
+        if len(self.amplitude) != n:
+            raise InputError(
+                f"{type(self).__name__} has an amplitude of {len(self.amplitude)} numbers, expected {n}, one "
+                "for each coordinate (0 where nothing acts)"
+            )
 
     @cached_property
     def window(self) -> WindowParameters:

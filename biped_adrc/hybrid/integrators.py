@@ -186,7 +186,7 @@ def relaxing_rk4(f: Flow, r: Relaxing, t: float, x: Array, h: float) -> tuple[Ar
     return k1, x1
 
 
-CROWDED, CROWDED_STEP = 1000, 1e-7
+CROWDED, CROWDED_STEP = 1000, 1e-6
 """So many steps in a row of a method with step control may not be shorter on average than this [s]; on a torque
 that chatters they would go on for days.
 """

@@ -13,6 +13,7 @@ from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.noise import TorqueNoise
+from biped_adrc.errors import InputError
 from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
 from biped_adrc.robots.robot_toml import robot_names
@@ -361,3 +362,10 @@ def test_uneven_ground_goes_down_where_the_next_foothold_is_lower():
     assert drops == pytest.approx({k: heights[k - 1] - heights[k] for k in range(1, 7)})
     down = {g.step for g in uneven_ground(7, 0.01, 6) if isinstance(g, StepDown)}
     assert down == {k for k in range(1, 7) if heights[k] < heights[k - 1]}
+
+
+def test_a_torque_for_another_robot_is_refused_before_it_acts(biped, gait):
+    late = ba.TorqueStep([1.0, 2.0], step=9)
+    for disturbance in (late, ba.TorqueStep(np.ones(5)) + late):
+        with pytest.raises(InputError, match="2 numbers, expected 5"):
+            ba.Walker(biped, ba.NPDController(gait.constraint), disturbance)

@@ -103,7 +103,7 @@ RESOLUTION = 2e-3
 """Longest stretch of a step without a look at the event functions [s]."""
 MOST_STEPS = 10_000_000
 """Of one segment; with more of them a method cannot go on (STEP_FAILED)."""
-CROWDED, CROWDED_STEP = 1000, 1e-7
+CROWDED, CROWDED_STEP = 1000, 1e-6
 """So many steps of DOP853 in a row may not be shorter on average than this [s] (STEP_FAILED)."""
 LANDING = 1e-9
 """A last step longer than h by this fraction [1] is still one step."""
