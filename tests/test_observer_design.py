@@ -564,7 +564,7 @@ def test_report_names_bad_input(biped, gait):
     for m in (15, 18):
         with pytest.raises(InputError, match=f"m = {m} was asked for, expected m <= 14"):
             observer_report(ba.GPIObserver.from_bandwidth(50.0, m), robot=biped, gait=gait)
-    with pytest.raises(InputError, match="joint 2"):
+    with pytest.raises(InputError, match="joint 2 was asked for, found gains of joints 0 to 1"):
         observer_loop(FIRST, ba.Gains(np.array([1.0, 2.0]), np.array([1.0, 2.0])), 2)
     with pytest.raises(InputError, match="SampledGPIObserver"):
         observer_loop(FIRST.sampled(1e-3))
