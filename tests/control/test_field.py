@@ -271,7 +271,9 @@ def test_the_largest_integral_gain_is_that_of_routh(gait):
     """K_i < K_p K_d for a filter without a lag."""
     limit, fast = K_P * K_D, 1e7
     assert NPIDController(gait.constraint, K_i=0.99 * limit, filter_bandwidth=fast)
-    with pytest.raises(InputError, match=r"K_i = 252500 and a filter of 1e\+07 .* K_d = 250000 1/s"):
+    with pytest.raises(
+        InputError, match=r"K_i = 252500 and a filter of 1e\+07 .* K_d = 250000 1/s"
+    ):
         NPIDController(gait.constraint, K_i=1.01 * limit, filter_bandwidth=fast)
 
 
