@@ -242,6 +242,7 @@ def test_a_wave_of_ones_own_has_no_law_and_acts_all_the_same(biped):
         (("arm", PULSE), r"no link 'arm'; it has \['torso', 'left_thigh'"),
         (("base_x_carriage", PULSE), "above the trunk 'torso'"),
         (("torso", ba.TorquePulse([1.0] * 5)), "expected three numbers"),
+        (("torso", ba.TorquePulse([1.0] * 2)), "expected three numbers"),
         (("torso", PULSE + PULSE), "is a Sum"),
         (("torso", PULSE, (np.nan, 0.0)), "two finite numbers"),
         (("torso", PULSE, (1.0,)), "two finite numbers"),
