@@ -118,13 +118,13 @@ def equal_poles(bandwidth: float, number: int) -> tuple[complex, ...]:
     return (complex(-bandwidth),) * number
 
 
-def whole(number: int, least: int, name: str, what: str) -> int:
-    """The number as an int. Raises InputError unless it is whole and at least `least`."""
+def whole(number: int, least: int, name: str, what: str, most: int = MOST_POLES - 2) -> int:
+    """The number as an int, as m of m + 2 poles. Raises InputError unless it is whole, `least` to `most`."""
     is_whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
-    if not (is_whole and least <= number <= MOST_POLES):
-        most = f", at most {MOST_POLES}" if is_whole and number > least else ""
+    if not (is_whole and least <= number <= most):
+        above = f", at most {most}" if is_whole and number > least else ""
         raise InputError(
-            f"{what} is {name} = {number!r}, expected a whole number {name} >= {least}{most}"
+            f"{what} is {name} = {number!r}, expected a whole number {name} >= {least}{above}"
         )
     return int(number)
 
