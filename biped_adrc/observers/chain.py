@@ -97,8 +97,7 @@ def stable_poles(poles: Sequence[complex], what: str, because: str) -> tuple[com
         raise InputError(
             f"the poles of {what} are {poles!r}, expected a sequence of numbers [rad/s] as (-300, -400)"
         ) from None
-    if len(numbers) > MOST_POLES:
-        check_chain(len(numbers), 1.0, what)
+    check_chain(len(numbers), 1.0, what)
     if len(numbers) < 2:
         raise InputError(f"{what} needs at least 2 poles{because}, found {len(numbers)}")
     for pole in numbers:
