@@ -39,21 +39,21 @@ class HeldSizes(NamedTuple):
 
     n: int
     p: int
-    sensors: int = 0
+    sensors: int
     """Numbers in w."""
-    meter: int = 0
+    meter: int
     """Numbers in g."""
-    queue: int = 0
+    queue: int
     """Torques that wait for whole periods, j of `hardware.motors`."""
-    lag: int = 0
+    lag: int
     """1 with a lag of the motors."""
-    waiting: int = 0
+    waiting: int
     """1 with a delay that is not of whole periods."""
-    rate: int = 0
+    rate: int
     """1 with a rate limit."""
-    known: int = 0
+    known: int
     """1 when the controller knows the delay."""
-    own: int = 0
+    own: int
     """Numbers that the plant keeps for itself."""
 
     @property

@@ -97,8 +97,7 @@ def stable_poles(poles: Sequence[complex], what: str, because: str) -> tuple[com
         raise InputError(
             f"the poles of {what} are {poles!r}, expected a sequence of numbers [rad/s] as (-300, -400)"
         ) from None
-    if len(numbers) > MOST_POLES:
-        check_chain(len(numbers), 1.0, what)
+    check_chain(len(numbers), 1.0, what)
     if len(numbers) < 2:
         raise InputError(f"{what} needs at least 2 poles{because}, found {len(numbers)}")
     for pole in numbers:
@@ -118,13 +117,13 @@ def equal_poles(bandwidth: float, number: int) -> tuple[complex, ...]:
     return (complex(-bandwidth),) * number
 
 
-def whole(number: int, least: int, name: str, what: str) -> int:
-    """The number as an int. Raises InputError unless it is whole and at least `least`."""
+def whole(number: int, least: int, name: str, what: str, most: int = MOST_POLES - 2) -> int:
+    """The number as an int, as m of m + 2 poles. Raises InputError unless it is whole, `least` to `most`."""
     is_whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
-    if not (is_whole and least <= number <= MOST_POLES):
-        most = f", at most {MOST_POLES}" if is_whole and number > least else ""
+    if not (is_whole and least <= number <= most):
+        above = f", at most {most}" if is_whole and number > least else ""
         raise InputError(
-            f"{what} is {name} = {number!r}, expected a whole number {name} >= {least}{most}"
+            f"{what} is {name} = {number!r}, expected a whole number {name} >= {least}{above}"
         )
     return int(number)
 

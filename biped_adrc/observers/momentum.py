@@ -38,6 +38,7 @@ import numpy as np
 from biped_adrc.observers.base import Estimate, Observer, ObserverLaws
 from biped_adrc.observers.chain import (
     MODEL,
+    MOST_POLES,
     NONE,
     RELABEL,
     Chain,
@@ -140,7 +141,7 @@ class MomentumObserver(MomentumChain):
     @classmethod
     def from_bandwidth(cls, bandwidth: float, order: int = 2) -> MomentumObserver:
         """The observer with k = order poles, two or more, all at -bandwidth [rad/s]. Raises InputError."""
-        number = whole(order, 2, "k", "the number of poles of a momentum observer")
+        number = whole(order, 2, "k", "the number of poles of a momentum observer", MOST_POLES)
         return cls.from_poles(equal_poles(bandwidth, number))
 
     @cached_property

@@ -13,9 +13,11 @@ from biped_adrc.control.clf_qp import CLFQPController
 from biped_adrc.control.linear_adrc import bandwidth_gains, linear_adrc
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.npd import NPDController
+from biped_adrc.control.npid import NPIDController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.control.reference_reset import ReferenceReset
+from biped_adrc.control.super_twisting import SuperTwistingController
 from biped_adrc.errors import InputError
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.high_gain import HighGainObserver
@@ -197,6 +199,82 @@ def test_inside_an_outer_loop_the_outputs_are_those_in_force(biped, gait):
     for state in (s, law.jump(s + 1.0, m, swap)):
         assert np.max(np.abs(law.inner.observer.estimate(state[:12]).disturbance)) > 1.0
         assert np.max(np.abs(state[:8])) < 1e-9
+
+
+# -- super-twisting and filtered PID ------------------------------------------------------------
+SWAP = np.array([1, 0, 3, 2])
+
+
+def started(walker, gait, biped, rows):
+    """x off the orbit with rows (12,) or (4,) of the controller's state, as it starts with them, and m."""
+    x = walker.initial_state(*off_orbit(gait, biped))
+    first, x[10:] = x[10:].copy(), rows
+    return x, first, walker.measure(0.0, x[:5], x[5:10], Mode())
+
+
+def test_the_error_obeys_the_super_twisting_equations(biped, gait):
+    """sigma' = -k_1 |sigma|^(1/2) sign(sigma) + z, z' = -k_2 sign(sigma), smooth within delta; slope 50."""
+    z, law = np.array([10.0, -20.0, 30.0, -40.0]), SuperTwistingController(gait.constraint)
+    walker = Walker(biped, law)
+    x, first, m = started(walker, gait, biped, z)
+    assert not np.any(first)
+    y, dy, ddy = output_acceleration(walker, gait, x)
+    sigma, delta = dy + 50.0 * y, 0.05
+    root = sigma / np.sqrt(np.abs(sigma) + delta)
+    assert ddy + 50.0 * dy == pytest.approx(z - 1.5 * np.sqrt(1e4) * root, rel=1e-8)
+    slope = -1.1e4 * sigma / (np.abs(sigma) + delta)
+    assert walker.flow(0.0, x, Mode())[10:] == pytest.approx(slope, rel=1e-9)
+    tick = law.sampled(2e-3)
+    assert tick.predict(z, m, np.zeros(4)) == pytest.approx(z + 2e-3 * slope, rel=1e-9)
+    assert np.array_equal(tick.jump(z, m, SWAP), z[SWAP])
+
+
+def test_the_error_obeys_the_filtered_pid(biped, gait):
+    """y'' = -K_d e_f' - K_p e_f - K_i s, e_f'' = w^2 (y - e_f) - 2 w e_f' with w = 1000 rad/s, s' = e_f."""
+    e_f, de_f, s = rows = np.arange(1.0, 13.0).reshape(3, 4) * [[1e-3], [1e-2], [1e-4]]
+    walker = Walker(biped, NPIDController(gait.constraint))
+    x, first, m = started(walker, gait, biped, rows.ravel())
+    y, dy, ddy = output_acceleration(walker, gait, x)
+    assert first == pytest.approx(np.concatenate((y, dy, np.zeros(4))), abs=1e-12)
+    assert ddy == pytest.approx(-K_D * de_f - K_P * e_f - 5e4 * s, rel=1e-8)
+    expected = np.concatenate((de_f, 1e6 * (y - e_f) - 2e3 * de_f, e_f))
+    assert walker.flow(0.0, x, Mode())[10:] == pytest.approx(expected, rel=1e-9)
+    after = walker.law.jump(rows.ravel(), m, SWAP)
+    assert after == pytest.approx(np.concatenate((y, dy, s[SWAP])), abs=1e-12)
+
+
+def test_a_tick_of_the_filtered_pid_is_its_flow_under_a_held_error(biped, gait):
+    """Two ticks of T / 2 are one of T, and a short one is T times the slope: what only the solution does."""
+    law = NPIDController(gait.constraint, damping=0.3)
+    m = Walker(biped, law).measure(0.0, *off_orbit(gait, biped), Mode())
+    s, u, T = np.linspace(-1.0, 1.0, 12), np.zeros(4), 2e-3
+    whole, half, short = (law.sampled(t) for t in (T, T / 2, 1e-9))
+    twice = half.predict(half.predict(s, m, u), m, u)
+    assert whole.predict(s, m, u) == pytest.approx(twice, rel=1e-12)
+    slope = law.flow(s, m, u)
+    assert short.predict(s, m, u) - s == pytest.approx(1e-9 * slope, rel=1e-5, abs=1e-12)
+
+
+def test_a_pid_like_adrc_has_the_transfer_function_of_its_observer():
+    """C(s) = k (s I - A + L C + B k)^-1 L of ADRC with u = -k z; C of the PID as the module prints it."""
+    w_o, k_p, k_d, s = 300.0, 900.0, 40.0, 70.0 + 200.0j
+    pid = NPIDController.like_adrc(at_rest(np.zeros(5)), ba.Gains(k_p, k_d), w_o)
+    l_1, l_2, l_3 = 3.0 * w_o, 3.0 * w_o**2, w_o**3
+    observer = np.array([[s + l_1, -1.0, 0.0], [l_2 + k_p, s + k_d, 0.0], [l_3, 0.0, s]])
+    C = np.array([k_p, k_d, 1.0]) @ np.linalg.solve(observer, [l_1, l_2, l_3])
+    w, zeta, (K_p, K_d) = pid.filter_bandwidth, pid.damping, (pid.gains.K_p, pid.gains.K_d)
+    found = (K_d * s * s + K_p * s + pid.K_i) / (s * (s * s / w**2 + 2.0 * zeta * s / w + 1.0))
+    assert found == pytest.approx(C, rel=1e-12)
+
+
+def test_the_largest_integral_gain_is_that_of_routh(gait):
+    """K_i < K_p K_d for a filter without a lag."""
+    limit, fast = K_P * K_D, 1e7
+    assert NPIDController(gait.constraint, K_i=0.99 * limit, filter_bandwidth=fast)
+    with pytest.raises(
+        InputError, match=r"K_i = 252500 and a filter of 1e\+07 .* K_d = 250000 1/s"
+    ):
+        NPIDController(gait.constraint, K_i=1.01 * limit, filter_bandwidth=fast)
 
 
 # -- linear ADRC and the high-gain observer ----------------------------------------------------

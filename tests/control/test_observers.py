@@ -1,7 +1,8 @@
-"""The GPI observer: its poles, what it estimates exactly, its discrete form, its resets."""
+"""The GPI observer: its poles, what it estimates exactly, its discrete form, its resets; the Kalman filter."""
 
 import numpy as np
 import pytest
+from scipy.linalg import expm, solve_continuous_are
 
 import biped_adrc as ba
 from biped_adrc.analysis.linear_loop import error_matrix, estimation_error
@@ -10,6 +11,7 @@ from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
+from biped_adrc.observers.kalman import KalmanObserver
 
 POLES = [
     (-3.0, -5.0),
@@ -144,3 +146,39 @@ def test_reset_policies():
 def test_bad_observers(call, message):
     with pytest.raises(InputError, match=message):
         call()
+
+
+# -- the Kalman filter -------------------------------------------------------------------------
+def noisy_chain(m):
+    """A, W e_k e_k' and C of the chain of the module with m + 2 states, for W = 4."""
+    k = m + 2
+    return np.eye(k, k=1), 4.0 * np.diag(np.arange(k) == k - 1), np.eye(1, k)
+
+
+@pytest.mark.parametrize("m", [1, 2])
+def test_the_gains_of_the_kalman_filter_solve_the_riccati_equation(m):
+    A, Q, C = noisy_chain(m)
+    observer = KalmanObserver.from_noise(2.0, 0.1, m)
+    assert (observer.intensity, observer.measurement) == pytest.approx((4.0, 0.01), rel=1e-12)
+    P = solve_continuous_are(A.T, C.T, Q, [[0.01]])
+    assert observer.gains == pytest.approx(P[:, 0] / 0.01, rel=1e-8)
+    assert np.poly(observer.poles) == pytest.approx([1.0, *observer.gains], rel=1e-8)
+
+
+@pytest.mark.parametrize("m", [1, 2])
+def test_a_tick_of_the_kalman_filter_is_where_its_covariance_ends(m):
+    """P <- Phi (I - L C) P Phi' + Q_T, L = P C' / (P_11 + R / T), a thousand ticks; Q_T by Van Loan."""
+    (A, Q, _), T, k = noisy_chain(m), 0.2, m + 2
+    both = expm(np.block([[-A, Q], [np.zeros((k, k)), A.T]]) * T)
+    Phi, P = both[k:, k:].T, np.eye(k)
+    for _ in range(1000):
+        L = P[:, 0] / (P[0, 0] + 0.01 / T)
+        P = Phi @ (P - np.outer(L, P[0])) @ Phi.T + Phi @ both[:k, k:]
+    observer = KalmanObserver.from_noise(2.0, 0.1, m).sampled(T)
+    z, one, nothing = observer.initial_state(*np.zeros((3, 1))), np.ones(1), np.zeros(1)
+    seen = observer.correct(z, one)
+    assert np.ravel(observer.estimate(seen)) == pytest.approx(L[:3], rel=1e-8)
+    later = observer.estimate(observer.predict(seen, nothing))
+    assert np.ravel(later) == pytest.approx((Phi @ L)[:3], rel=1e-8)
+    pushed = observer.estimate(observer.predict(z, one))
+    assert np.ravel(pushed) == pytest.approx((T * T / 2, T, 0.0), abs=1e-12)

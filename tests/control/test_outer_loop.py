@@ -225,6 +225,10 @@ def test_corrections_of_nested_loops_add_up(bare, published):
     for x, y, z in zip(first, second, h, strict=True):
         np.testing.assert_allclose(x, y, atol=1e-12)
         assert np.max(np.abs(x - z)) > 1e-4
+    m = ba.Walker(bare, one).measure(0.0, q, v, ba.Mode())
+    for loop, s in ((one, np.concatenate((w, a))), (two, np.concatenate((a, w)))):
+        inside = ba.NPDController(reference_in_force(loop, s))
+        np.testing.assert_allclose(loop.output(s, m), inside.output(np.zeros(0), m), rtol=1e-12)
 
 
 def test_the_exponential_method_carries_the_loops_states_along(bare, recipe):

@@ -30,6 +30,16 @@ def test_it_is_the_files_lines_and_its_impulse_that_of_trapezoids(biped):
         assert not np.any(recorded.torque(t, step, 1.0, still, still))
 
 
+def test_columns_are_joints_by_either_name(biped):
+    file, still = written("q5,t,right_hip\n1,0,-2\n5,.4,-2\n\n5,.5,6"), np.zeros(5)
+    made = RecordedTorque.read(file, biped, 3, 0.2)
+    for t, expected in ((0.2, (1.0, -2.0)), (0.3, (2.0, -2.0)), (0.65, (5.0, 2.0))):
+        zeta = made.torque(7.0 + t, 3, 7.0, still, still)
+        assert zeta[[4, 1]] == pytest.approx(expected)
+        assert np.count_nonzero(zeta) == 2
+    assert np.array(made.switches) == pytest.approx(np.array([[3, 0.2], [3, 0.7]]))
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -38,8 +38,8 @@ from biped_adrc.hybrid.integrators import Exponential, phi_table
 from biped_adrc.hybrid.status import Status
 from biped_adrc.observers.gpi import GPIObserver
 
-GRAVITY, ALPHA, A0, A1, ZERO_PIVOT_AT, NAN_AT, BLOW, GAIN, LOWEST_HIP, LONGEST = range(10)
-NUMBERS = np.array([9.81, 0.3, 400.0, 50.0, math.inf, math.inf, 0.0, 0.5, 0.5, 3.0])
+GRAVITY, ALPHA, A0, A1, ZERO_PIVOT_AT, NAN_AT, BLOW, GAIN, LOWEST_HIP, LONGEST, HOLE = range(11)
+NUMBERS = np.array([9.81, 0.3, 400.0, 50.0, math.inf, math.inf, 0.0, 0.5, 0.5, 3.0, math.inf])
 STIFF = NUMBERS.copy()
 STIFF[A0], STIFF[A1] = 2e4 * 300.0, 2e4 + 300.0
 START = np.array([-0.3, 1.1, 0.02, 0.1])
@@ -141,7 +141,7 @@ def remainder(K, inp, out):
     q, v, e, zeta = inp[3], inp[4], inp[5], inp[7]
     out[0] = v
     out[1] = K[0] * math.sin(q + 0.08) - 0.1 * v + 0.3 * e + zeta + K[6] * v**3
-    out[2] = q**2 + zeta
+    out[2] = math.nan if abs(q - K[10]) < 1e-10 else q**2 + zeta
     out[3] = math.inf
 
 
@@ -528,6 +528,18 @@ def test_how_a_run_ends(address, status, name):
     if name == "rk4" or status not in (Status.NOT_FINITE, Status.SINGULAR):
         np.testing.assert_allclose(end.t, trajectory.arcs[-1].t[-1], rtol=0, atol=1e-8)
         np.testing.assert_allclose(end.x, trajectory.final_state, rtol=0, atol=1e-7)
+
+
+def test_a_step_to_a_state_whose_remainder_is_no_number_is_not_taken(address):
+    """N_E alone, at the state after two steps and at none of their stages: the run ends after the first."""
+    free, ours, theirs = Case(pulses=()), methods.etd(0.01, linear(NUMBERS), [1]), Exponential(0.01)
+    one, two = (free.walk(address, ours, t_end=t)[0].x for t in (0.01, 0.02))
+    case = free._replace(K=with_number(HOLE, two[0]))
+    end, _ = case.walk(address, ours, t_end=0.03)
+    trajectory = case.python(theirs, t_end=0.03)
+    assert STATUS[end.code] is trajectory.status is Status.NOT_FINITE
+    np.testing.assert_array_equal(end.x, one)
+    np.testing.assert_allclose(trajectory.final_state, one, rtol=0, atol=1e-12)
 
 
 def test_a_step_that_underflows(address):

@@ -1,10 +1,13 @@
 """Generated files on disk: damaged ones are made again, what cannot be written is kept elsewhere."""
 
+import atexit
 import importlib.util
 import os
 import py_compile
+import shutil
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +19,7 @@ from biped_adrc.engine.machine import (
     VARIABLE,
     ModuleText,
     _path,
+    _temporary,
     cache_folder,
     load_or_compile,
     load_source,
@@ -131,6 +135,19 @@ def test_what_cannot_be_written_is_kept_elsewhere(tmp_path, monkeypatch):
     assert blocked not in Path(str(module.__file__)).parents
     assert make("elsewhere") == (42.0, 1)
     assert make("elsewhere") == (42.0, 1)
+
+
+@pytest.mark.parametrize("gone", [False, True])
+def test_a_folder_of_one_process_goes_with_it_and_may_be_gone_before(gone, monkeypatch):
+    ends = []
+    monkeypatch.setattr(atexit, "register", lambda f, *a, **k: ends.append(partial(f, *a, **k)))
+    folder = _temporary.__wrapped__()
+    (folder / "code").write_text("")
+    if gone:
+        shutil.rmtree(folder)
+    (end,) = ends
+    end()
+    assert not folder.exists()
 
 
 def test_several_processes_make_the_same_code(cache):

@@ -18,6 +18,7 @@ from biped_adrc.hardware.motors import (
     relabelled,
     sent,
 )
+from biped_adrc.hardware.pitch_sensor import PitchSensor
 from biped_adrc.hardware.sample_hold import motor_torque
 from biped_adrc.hardware.sensors import Sensors, rounded, sense, sensed_impact, sensor_state
 
@@ -97,6 +98,38 @@ def test_at_impact_differences_start_anew():
     w = sensed_impact(k, w, q, v, expected)
     assert np.array_equal(w[2:4], expected)
     assert np.array_equal(sense(k, w, q, v)[2:4], expected)  # nothing of the jump from 0 to 5 rad
+
+
+def test_a_pitch_sensor_is_off_by_a_bias_and_a_drift_and_sees_nothing_else():
+    bias, drift, sensor = 0.02, -0.3, PitchSensor(0.02, -0.3)
+    law, (q, v, hit) = sensor.laws(3, 2, T), np.random.default_rng(5).normal(size=(3, 3))
+    k, off = law.parameters, np.array([0.0, 0.0, 1.0])
+    w = sensor.start(k, q, v)
+    for i in range(4):
+        seen = law.seen(k, w, q, v)
+        assert np.allclose(seen, (q + (bias + max(i - 1, 0) * drift * T) * off, v + drift * off))
+        w = law.sense(k, w, q, v)
+    last, w = law.seen(k, w, q, v)[0], law.impact(k, w, q + 1.0, hit, v)
+    assert np.allclose(law.seen(k, w, q, hit), (last, hit + drift * off))
+    after = law.seen(k, law.sense(k, w, q, hit), q, hit)[0]
+    assert np.allclose(after, q + (bias + 4 * drift * T) * off)
+
+
+def test_the_noise_of_a_pitch_sensor_has_its_deviation_and_its_seed():
+    def angles(seed, count):
+        sensor = PitchSensor(noise=2e-3, seed=seed)
+        law, q = sensor.laws(1, 0, T), np.array([0.4])
+        w, found = sensor.start(law.parameters, q, q), []
+        for _ in range(count):
+            w = law.sense(law.parameters, w, q, q)
+            found.append(w[0])
+        return np.array(found)
+
+    one = angles(1, 1500)
+    assert one.mean() == pytest.approx(0.4, abs=2e-4)
+    assert one.std() == pytest.approx(2e-3, rel=0.05)
+    assert np.array_equal(one[:9], angles(1, 9))
+    assert not np.any(one[:9] == angles(2, 9))
 
 
 def line(j, waiting, lag=0):

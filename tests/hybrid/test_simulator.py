@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
-from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.errors import InputError, NotFiniteError, RanAwayError, SingularError
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.status import Status
@@ -203,6 +203,33 @@ def test_a_state_that_is_not_finite_ends_the_run_with_the_last_good_one():
     assert (run.status, run.detail) == (Status.NOT_FINITE, "torque is nan")
 
 
+@pytest.mark.parametrize("method", [Adaptive(), Stiff()])
+@pytest.mark.parametrize(
+    ("error", "status"),
+    [
+        (SingularError("D is singular"), Status.SINGULAR),
+        (NotFiniteError("D is nan"), Status.NOT_FINITE),
+        (RanAwayError("u is out of reach"), Status.RAN_AWAY),
+    ],
+)
+def test_a_method_with_step_control_stops_where_the_flow_ends_and_says_why(method, error, status):
+    """x' = 1 up to x = 0.5: longer steps are rejected, and what the flow said is what the run ends with."""
+
+    class Wall(HybridSystem):
+        def flow(self, t, x, mode):
+            if np.isnan(x[0]):
+                raise NotFiniteError(
+                    "the state is nan, as of every stage after the first that was lost"
+                )
+            if x[0] > 0.5:
+                raise error
+            return np.ones(1)
+
+    run = go(Wall(), method)
+    assert (run.status, run.detail) == (status, str(error))
+    assert run.final_state[0] == pytest.approx(0.5, abs=1e-4)
+
+
 @pytest.mark.parametrize("t_end", [0.0, -1.0, math.nan, math.inf])
 def test_durations_that_are_no_durations(t_end):
     with pytest.raises(InputError, match="duration"):
@@ -248,6 +275,51 @@ def test_runs_are_stored_without_pickle_and_come_back_whole(tmp_path):
         load(tmp_path / "run.npz")
     with pytest.raises(InputError, match="not found"):
         load(tmp_path / "none.npz")
+
+
+def first(x):
+    return x[:, 0]
+
+
+def shorter(x):
+    return x[:-1]
+
+
+def twice(x):
+    return np.concatenate((x, x), axis=-1)
+
+
+@pytest.mark.parametrize(
+    ("damage", "message"),
+    [
+        ({"x1": first, "dx1": first}, r"arc 1 has \d+ times, x \(\d+,\) and x' \(\d+,\)"),
+        ({"dx1": first}, r"arc 1 has \d+ times, x \(\d+, 2\) and x' \(\d+,\)"),
+        ({"x1": shorter, "dx1": shorter}, r"arc 1 has \d+ times, x \(\d+, 2\) and x' \(\d+, 2\)"),
+        ({"t1": lambda t: t[::-1]}, r"arc 1 has no times t \(K,\) that ascend"),
+        ({"t1": lambda t: t[:, np.newaxis]}, r"arc 1 has no times t \(K,\) that ascend"),
+        ({"t1": lambda t: 0.0 * t / 0.0}, "arc 1 has t with NaN or infinity"),
+        ({"t1": lambda t: t - 1.0}, "arc 1 begins at -0.5.* s, arc 0 ends at 0.4.* s"),
+        ({"t1": lambda t: t + 1.0}, "arc 1 ends at 2.17.* s, its event is at 1.17.* s"),
+        ({"x0": lambda x: x.astype(int)}, "arc 0 has x of type int64, expected floating point"),
+        ({"dx0": lambda x: x / 0.0}, "arc 0 has x' with NaN or infinity"),
+        ({"dx0": lambda x: x + 0j}, "arc 0 has x' of type complex128, expected floating point"),
+        ({"dx1": twice}, r"arc 1 has \d+ times, x \(\d+, 2\) and x' \(\d+, 4\)"),
+        ({"x_minus1": twice}, "arc 1 ends in states of another size than its 2"),
+        ({"x_minus1": shorter}, "arc 1 ends in states of another size than its 2"),
+        ({"x_plus1": shorter}, "arc 1 ends in states of another size than its 2"),
+        ({"read1_force": shorter}, r"arc 1 has \d+ times"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:.*divi.*:RuntimeWarning")
+def test_a_stored_run_whose_arrays_do_not_fit_is_refused(tmp_path, damage, message):
+    run = simulate(Ball(), np.array([1.0, 0.0]), 0, RK4(0.1), t_end=9.0, stop_after=("bounce", 2))
+    arrays = dict(np.load(save(run, tmp_path / "run.npz")))
+    arrays["read1_force"] = 1.0 * arrays["t1"]
+    for name, change in damage.items():
+        arrays[name] = change(arrays[name])
+    np.savez(tmp_path / "run.npz", **arrays)
+    with pytest.raises(InputError, match=message):
+        load(tmp_path / "run.npz", int_mode)
 
 
 def int_mode(*numbers):

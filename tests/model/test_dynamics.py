@@ -7,7 +7,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.gait.published import X_STAR
-from biped_adrc.model.reduction import disturbance_acceleration
+from biped_adrc.model.reduction import disturbance_acceleration, reduce
 from biped_adrc.robots.robot_toml import GRAVITY
 
 
@@ -84,6 +84,18 @@ def test_reduction_is_the_dynamics_of_the_actuated_joints(any_biped):
         assert np.allclose(terms.kappa @ terms.kappa_inverse, np.eye(b.p), atol=1e-10)
         free = b.acceleration(q, v, b.B @ u)
         assert np.allclose(terms.A_N @ free[: b.p] + terms.a_N, free[b.p :], rtol=1e-9, atol=1e-8)
+
+
+@pytest.mark.parametrize("p", [0, 2, 4, 5])
+def test_the_split_of_any_number_of_motors_is_the_system_solved_whole(p):
+    """D a + Omega = (u, 0): a_b = kappa u + xi and a_N = A_N a_b + a_N, for 5 coordinates."""
+    random = np.random.default_rng(6)
+    root, Omega, u = random.normal(size=(5, 5)), random.normal(size=5), random.normal(size=p)
+    D = root @ root.T + np.eye(5)
+    a, terms = np.linalg.solve(D, np.append(u, np.zeros(5 - p)) - Omega), reduce(D, Omega, p)
+    assert terms.kappa @ u + terms.xi == pytest.approx(a[:p], rel=1e-9)
+    assert terms.A_N @ a[:p] + terms.a_N == pytest.approx(a[p:], rel=1e-9)
+    assert terms.kappa_inverse @ (a[:p] - terms.xi) == pytest.approx(u, rel=1e-9)
 
 
 def test_swing_foot_by_hand(biped):

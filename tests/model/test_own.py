@@ -220,6 +220,60 @@ def test_guesses_are_said_and_laws_hold(urdf):
     assert 7800 * 4 / 3 * math.pi * ball.size[0] ** 3 == pytest.approx(6.8)
 
 
+LINK = '<link name="left_thigh"><inertial>'
+MESH = '<visual><geometry><mesh filename="thigh.stl"/></geometry></visual>'
+MOMENTS = r'ixx="[^"]*" iyy="([^"]*)" izz="[^"]*"'
+FRICTION = "dry friction of the feet: 0.6, as of RABBIT; a URDF does not say"
+ROTORS = "rotor inertia: none; a URDF does not say"
+TORQUE = "torque limit: 150 N m, of every motor"
+READ = "joint friction: read from <dynamics>, off unless asked for"
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory):
+    """What is said of RABBIT as it is written."""
+    path = tmp_path_factory.mktemp("plain") / "own.urdf"
+    path.write_text(rabbit())
+    return derive(path).said
+
+
+@pytest.mark.parametrize(
+    ("text", "hints", "gone", "new"),
+    [
+        (rabbit(), Hints(friction_coefficient=0.5), FRICTION, None),
+        (rabbit(), Hints(armature=0.1), ROTORS, None),
+        (rabbit(), Hints(torque=90.0), TORQUE, None),
+        (rabbit().replace(LIMIT, LIMIT + '<dynamics damping="0.1"/>'), Hints(), None, READ),
+        (rabbit().replace(LIMIT, LIMIT + '<dynamics friction="2"/>'), Hints(), None, READ),
+        (
+            re.sub(MOMENTS, r'ixx="0" iyy="\1" izz="0"', rabbit()),
+            Hints(),
+            None,
+            r"moments about x and z of \['torso', .*'left_shin'\]: those of slender links",
+        ),
+        (
+            rabbit().replace(LINK, LINK.replace("<inertial>", MESH + "<inertial>")),
+            Hints(),
+            None,
+            r"shapes of \['left_thigh'\] are meshes or stand oblique, and are not drawn",
+        ),
+        (
+            re.sub(r'("q2_.*)"150"', r'\1"80"', rabbit()),
+            Hints(),
+            TORQUE,
+            "torque limit: 80 N m, of the weakest of {.*'q1_left': 150.0, .*'q2_left': 80.0",
+        ),
+    ],
+    ids=["friction", "rotors", "torque", "damping", "dry", "flat", "mesh", "weakest"],
+)
+def test_each_remark_is_made_where_it_applies_and_only_there(urdf, plain, text, hints, gone, new):
+    found = derive(urdf(text), hints).said
+    assert [sentence for sentence in plain if sentence not in found] == ([gone] if gone else [])
+    more = [sentence for sentence in found if sentence not in plain]
+    assert len(more) == (new is not None)
+    assert not more or re.match(new, more[0])
+
+
 @pytest.mark.parametrize(
     ("change", "law"),
     [
