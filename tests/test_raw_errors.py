@@ -47,7 +47,7 @@ PULSE = ba.TorquePulse([30.0] * 5)
 CASES = {
     "a torque too few": (
         lambda s: s.walk(disturbance=ba.TorquePulse([30.0] * 4)),
-        "gives 4 numbers, expected 5",
+        "an amplitude of 4 numbers, expected 5",
     ),
     "gains of five joints": (
         lambda s: s.walk(ba.NPDController(s.h, ba.Gains([1.0] * 5, [1.0] * 5))),
