@@ -31,7 +31,8 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.integrators import RK4, Exponential, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.biped import STICTION_SPEED, Biped
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.derivatives import friction_derivative
 from biped_adrc.parts import check_part, handing_out, numbers
 from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.recording import Walk, watched
@@ -66,22 +67,19 @@ def default_method(walker: Walker) -> OneStepMethod:
     At less where a controller's own motion would make that unstable, such as a short line of delay, or where
     static friction acts on little inertia.
     """
+    method: Exponential | RK4 = Exponential() if walker.split(Mode()) is not None else RK4()
+    if isinstance(method, RK4) and method.h * (rate := rate_of_law(walker)) >= STABLE:
+        method = RK4(1.0 / rate)
     rubs = rate_of_friction(walker.plant)
-    if walker.split(Mode()) is not None:
-        linear = Exponential()
-        return linear if linear.h * rubs <= RESOLVED else replace(linear, h=RESOLVED / rubs)
-    rate, usual = rate_of_law(walker), RK4()
-    h = usual.h if usual.h * rate < STABLE else 1.0 / rate
-    return RK4(h if h * rubs <= RESOLVED else RESOLVED / rubs)
+    return method if method.h * rubs <= RESOLVED else replace(method, h=RESOLVED / rubs)
 
 
 def rate_of_friction(plant: Biped) -> float:
     """Largest |eigenvalue| [1/s] of D_s^-1 dF/dq' of joint friction F at q = q' = 0; 0 for none."""
     if not plant.friction:
         return 0.0
-    viscous, static = plant.friction_coefficients
-    slopes = np.diag(viscous + static / STICTION_SPEED)
-    J = np.linalg.solve(plant.inertia(np.zeros(plant.n)), slopes)
+    still = np.zeros(plant.n)
+    J = np.linalg.solve(plant.inertia(still), friction_derivative(plant, still))
     return float(np.max(np.abs(np.linalg.eigvals(J))))
 
 

@@ -35,7 +35,7 @@ def main() -> int:
     todo = sorted(set(range(given.first, given.first + number)) - {x["k"] for x in found})
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(given.workers, mp_context=context) as pool:
-        for i, record in enumerate(pool.map(module.judged, todo, chunksize=1), 1):
+        for i, record in enumerate(pool.map(module.judged, todo), 1):
             found.append(record)
             if given.out:
                 with given.out.open("a", encoding="utf-8") as file:

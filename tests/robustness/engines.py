@@ -127,11 +127,13 @@ def verdict(s: Plain, ends: list[Plain]) -> tuple[str, str]:
             other = attempt(s, engine, random.standard_normal(20))
             if not same(end, other) or gap <= FACTOR * distance(end, other):
                 return SENSITIVE, ""
-    half = attempt(s, ENGINES[0], share=0.5)
-    if alike and same(ends[0], half) and gap <= distance(ends[0], half):
-        return WITHIN, ""
     told = [(end["status"], end["impacts"]) for end in ends]
-    return (STATES, f"{gap:.1e} {told[0]}") if alike else (STATUSES, str(told))
+    if not alike:
+        return STATUSES, str(told)
+    half = attempt(s, ENGINES[0], share=0.5)
+    if same(ends[0], half) and gap <= distance(ends[0], half):
+        return WITHIN, ""
+    return STATES, f"{gap:.1e} {told[0]}"
 
 
 def same(a: Plain, b: Plain) -> bool:

@@ -3,8 +3,8 @@
 A column of the results agrees where it is within `SHARE` of itself or within its floor. A walk whose status
 changes is near a fall, or at the edge of another end, where rates of the start changed by EDGE change it too.
 Torques that chatter at a limit or between counts of an encoder are as random as that: where rates changed by
-one of MOVES, all of them less than what a step of 1 ms leaves after an edge, move a column as far as the step
-did, it says nothing of the step, and is reported as such with the least of them.
+one of MOVES move a column at least half as far as the step did, it says nothing of the step, and is reported as
+such with the least of them.
 """
 
 from __future__ import annotations
@@ -92,7 +92,7 @@ def judged(k: int) -> Plain:
 
 
 def moved(fields: Plain, off: Plain, whole: Plain, quarter: Plain) -> float | None:
-    """The least of MOVES up to which every column that is off has moved as far as by the step, or None."""
+    """The least of MOVES up to which every column that is off has moved half as far as by the step, or None."""
     left = set(off)
     for move in MOVES:
         others = [row(fields, share, 1.0 + c * move) for share in (1.0, 0.25) for c in (-1.0, 1.0)]
