@@ -238,3 +238,23 @@ def test_ctrl_c_while_the_command_is_imported():
         [sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, check=False, timeout=60
     )
     assert (done.returncode, done.stderr) == (130, "interrupted; nothing was begun\n")
+
+
+LOST = """
+import signal, time
+import biped_adrc.cli as cli
+class Gone:
+    def __del__(self):
+        signal.raise_signal(signal.SIGINT)  # no exception leaves this function
+def app(**_):
+    Gone()
+    time.sleep(10.0)
+cli.app = app
+cli.main()
+"""
+
+
+def test_ctrl_c_inside_a_callback_of_the_interpreter_is_not_lost(tmp_path, preloaded):
+    (tmp_path / "lost.py").write_text(LOST)
+    done = preloaded.run(tmp_path / "lost.py", [], tmp_path, strict=False)
+    assert (done.code, done.stderr) == (130, "interrupted; what was already written is complete\n")

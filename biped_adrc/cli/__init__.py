@@ -12,14 +12,20 @@ check` does not hold; 2 the command line is wrong; 3 bad input (robot, gait, pol
 
 from __future__ import annotations
 
+import signal
 import sys
 import warnings
 from importlib import import_module
+from threading import Timer, main_thread
+from typing import TYPE_CHECKING
 
 from biped_adrc.cli import early
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, complain, gait_app
 from biped_adrc.cli.terminal import lasting, reason_lost
 from biped_adrc.errors import BipedError, OutputError
+
+if TYPE_CHECKING:
+    from sys import UnraisableHookArgs
 
 __all__ = ["app", "gait_app", "main"]
 
@@ -38,6 +44,7 @@ def main() -> None:
     """
     printed, _ = lasting("stdout"), lasting("stderr")
     warnings.showwarning = lambda message, *_: complain(f"warning: {message}")
+    sys.unraisablehook = _once_more
     code = _run()
     sys.stdout.flush()
     lost = reason_lost(printed)
@@ -63,6 +70,14 @@ def _run() -> int:
         _say_interrupted()
         return EXIT_INTERRUPTED
     return 0
+
+
+def _once_more(lost: UnraisableHookArgs) -> None:
+    """Give Ctrl-C again that came inside a callback of the interpreter, which cannot hand it on."""
+    if not issubclass(lost.exc_type, KeyboardInterrupt):
+        sys.__unraisablehook__(lost)
+    elif (main := main_thread().ident) is not None:
+        Timer(0.01, signal.pthread_kill, (main, signal.SIGINT)).start()
 
 
 def _say_interrupted() -> None:
