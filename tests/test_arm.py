@@ -4,6 +4,7 @@ import math
 import runpy
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -188,6 +189,14 @@ def test_runs_converge_at_the_order_of_the_method(arm, heavy):
     ends = [system.run(Q, np.zeros(6), 0.2, ba.RK4(h)).final_state[:12] for h in (4e-3, 2e-3, 1e-3)]
     gaps = [np.max(np.abs(ends[i] - ends[i + 1])) for i in (0, 1)]
     assert math.log2(gaps[0] / gaps[1]) == pytest.approx(4.0, abs=0.4)
+
+
+def test_the_error_is_taken_from_a_reference_of_time_angles_and_rates(arm):
+    system = ArmSystem(arm, ba.ADRCController(REFERENCE, ba.GPIObserver.from_bandwidth(50.0, 1)))
+    run = system.run(Q, np.ones(6), 2e-3, ba.RK4(1e-3))
+    t, x = run.arcs[0].t[:, np.newaxis], run.arcs[0].x
+    error = system.error(run, lambda t, q, v: SimpleNamespace(q_d=t + 0.5 * q - 2.0 * v))
+    np.testing.assert_allclose(error, 0.5 * x[:, :6] + 2.0 * x[:, 6:12] - t)
 
 
 # -- what is refused -------------------------------------------------------------------------------

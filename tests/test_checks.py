@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import ast
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -49,11 +49,11 @@ CHANGING = {
 def test_dataclasses_are_frozen_but_for_those_that_count():
     loose: dict[str, set[str]] = {}
     for path in PACKAGE.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if not isinstance(node, ast.ClassDef):
-                continue
-            made = [ast.unparse(d) for d in node.decorator_list if "dataclass" in ast.unparse(d)]
-            if made and "frozen=True" not in made[0]:
-                name = path.relative_to(PACKAGE).as_posix()
-                loose.setdefault(name, set()).add(node.name)
+        found = re.findall(
+            r"^ *@(?:\w+\.)?dataclass\b(.*)\n(?: *@.*\n)* *class (\w+)",
+            path.read_text("utf-8"),
+            re.M,
+        )
+        if changing := {name for options, name in found if "frozen=True" not in options}:
+            loose[path.relative_to(PACKAGE).as_posix()] = changing
     assert loose == CHANGING

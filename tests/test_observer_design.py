@@ -18,7 +18,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.hardware.motors import IDEAL, Line, acting, sent, whole_and_part
 from biped_adrc.observer_design.observer_choice import Hardware, OnHardware, count_error, recommend
 from biped_adrc.observer_design.observer_impact import ImpactStates, impact_peak, orbit_impact
-from biped_adrc.observer_design.observer_loop import conditioning, observer_loop
+from biped_adrc.observer_design.observer_loop import _squared, conditioning, observer_loop
 from biped_adrc.observer_design.observer_report import observer_report
 from biped_adrc.observer_design.observer_sampled import (
     FORMS,
@@ -87,6 +87,12 @@ def test_delay_margin_is_where_a_root_crosses_the_axis(observer, known, g):
 def test_margins_of_the_paper_and_of_the_linear_observer():
     assert observer_loop(TABLE_I).delay_margin().delay == pytest.approx(85e-6, rel=0.05)
     assert observer_loop(FIRST).delay_margin().delay == pytest.approx(4.6e-3, rel=0.05)
+
+
+@pytest.mark.parametrize("order", range(6))
+def test_the_square_of_a_polynomial_on_the_axis_is_one_of_the_squared_frequency(order):
+    p, w = np.arange(1.0, order + 2.0), np.linspace(0.1, 3.0, 7)
+    np.testing.assert_allclose(np.polyval(_squared(p), w**2), np.abs(np.polyval(p, 1j * w)) ** 2)
 
 
 def test_known_delay_leaves_the_textbook_margin_of_the_gains(observer):

@@ -163,8 +163,6 @@ def _names(x: Any) -> list[str]:
     """Names of what the constructor of an object takes; none for a class or a function itself."""
     if is_dataclass(x):
         return [f.name for f in fields(x) if f.init]
-    if hasattr(x, "_fields"):
-        return list(x._fields)
     return [] if hasattr(x, "__qualname__") else list(takes(type(x)))
 
 

@@ -154,11 +154,14 @@ def foreign(path):
     db.close()
 
 
-def newer(path):
-    filled(path)
-    with sqlite3.connect(path) as db:
-        db.execute("PRAGMA user_version = 9")
-    db.close()
+def of_format(number):
+    def make(path):
+        filled(path)
+        with sqlite3.connect(path) as db:
+            db.execute(f"PRAGMA user_version = {number}")
+        db.close()
+
+    return make
 
 
 @pytest.mark.parametrize(
@@ -166,7 +169,7 @@ def newer(path):
     [
         (lambda path: path.write_text("a,b\n1,2\n" * 200), "no results file"),
         (foreign, "another program"),
-        (newer, "format 9, expected 1"),
+        *[(of_format(k), f"format {k}, expected 1 or 2") for k in (-1, 0, 3, 9)],
         (
             lambda path: filled(path).write_bytes(path.read_bytes()[:3000]),
             "damaged|malformed|no results",

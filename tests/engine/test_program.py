@@ -212,6 +212,17 @@ def test_another_robot_s_numbers_are_refused(biped):
         wrong.checked(biped)
 
 
+@pytest.mark.parametrize("pose", [0.0, np.pi])
+def test_a_tree_that_is_right_in_one_pose_alone_is_refused(biped, pose):
+    """What one link of the swing leg is too long another is too short, as seen in that pose."""
+    tree = PlanarTree.of(biped)
+    wrong = np.zeros(biped.n)
+    wrong[:2] = 0.1 * np.cos(pose * tree.A.sum(axis=1))[1::-1] * (1.0, -1.0)
+    off = PlanarTree(tree.A, tree.K._replace(foot_re=tree.K.foot_re + wrong))
+    with pytest.raises(ModelError, match="the swing foot in absolute angles differs"):
+        off.check(biped)
+
+
 def test_numbers_that_are_zero_by_make_are_no_part_of_the_code(biped):
     """RABBIT's links are straight: no imaginary part is there to be multiplied."""
     arrays = PlanarTree.of(biped).K

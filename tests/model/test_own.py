@@ -372,6 +372,7 @@ SENSOR = joint("mount", "fixed", "left_shin", "sensor", xyz="0 0 0.1") + '<link 
         (rabbit(), Hints(actuated=("q1_left",)), "only one has a motor.*--actuated"),
         (rabbit(), Hints(torque=-5.0), "peak_torque is -5"),
         (rabbit(), Hints(armature=math.nan), "armature is nan"),
+        (rabbit(), Hints(armature=-0.1), "armature is -0.1, expected a number >= 0"),
         (rabbit().replace(' effort="150"', ""), Hints(), "no torque limit.*--torque"),
         (RIGID, Hints(), "no revolute joint below the trunk 'torso'"),
         ("this is no XML", Hints(), "not well-formed XML"),

@@ -182,6 +182,14 @@ def test_the_page_stands_alone(page: str) -> None:
     assert settings["follow"].startswith("meshcat/robots/ADRC/")
 
 
+def test_the_stage_is_white_and_empty(page: str) -> None:
+    told = [c for c in scene(page)[1] if c["type"] == "set_property"]
+    found = {(c["path"].rsplit("/", 1)[-1], c["property"]): c["value"] for c in told}
+    for end in ("top", "bottom"):
+        assert found["Background", f"{end}_color"] == [1.0, 1.0, 1.0]
+    assert [found[name, "visible"] for name in ("Axes", "Grid")] == [False, False]
+
+
 def test_the_page_repeats_byte_for_byte(biped: Biped, walks: dict[str, Walk], page: str) -> None:
     assert animation_html(walks, Look(fps=FPS)) == page
 
