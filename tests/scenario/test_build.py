@@ -58,3 +58,36 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
     speed = sum(lengths) / sum(c.duration for c in walk.certificates)
     assert row["speed"] == pytest.approx(speed, rel=1e-6)
     assert row["speed_change"] == pytest.approx((speed - usual) / usual, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("said", "idle", "with_effect"),
+    [
+        (
+            "rate_noise with rates from differences",
+            {"period": 1e-3, "rate_noise": 1e-3, "velocity": "differences"},
+            {"velocity": "measured"},
+        ),
+        (
+            "filter_time with rates that are measured",
+            {"period": 1e-3, "filter_time": 1e-3, "velocity": "measured"},
+            {"velocity": "differences"},
+        ),
+        ("friction_error without friction", {"friction_error": 0.1}, {"friction": True}),
+        ("amplitude or force without a push", {"amplitude": 9.0}, {"push": "pulse"}),
+        (
+            "pushed_step = 11 of 10 steps",
+            {"push": "pulse", "amplitude": 9.0, "impacts": 10, "pushed_step": 11},
+            {"pushed_step": 10},
+        ),
+        ("a tolerance without the method adaptive", {"tolerance": 1e-8}, {"method": "adaptive"}),
+        ("poles and a bandwidth", {"poles": "-9,-9,-9", "bandwidth": 3.0}, {"poles": None}),
+    ],
+)
+def test_a_value_that_would_do_nothing_is_refused(
+    said: str, idle: dict[str, object], with_effect: dict[str, object]
+) -> None:
+    with pytest.raises(ValueError, match=said):
+        Scenario(**idle)
+    s = Scenario(**idle | with_effect)
+    assert Scenario(**s.record()) == s
