@@ -203,7 +203,7 @@ def until_illegal(
         found = first_violation(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc))
         if found is None:
             continue
-        kept = max(1, int(np.searchsorted(arc.t, found.t, side="right")))
+        kept = int(np.searchsorted(arc.t, found.t, side="right"))
         last = replace(arc, t=arc.t[:kept], x=arc.x[:kept], dx=arc.dx[:kept], event=None)
         detail = f"single support {arc.mode.step}, {found.t:.4f} s: {found.what}"
         arcs = (*trajectory.arcs[:number], last)

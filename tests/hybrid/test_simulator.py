@@ -283,6 +283,12 @@ def test_runs_are_stored_without_pickle_and_come_back_whole(tmp_path):
         load(tmp_path / "run.npz")
     with pytest.raises(InputError, match="not found"):
         load(tmp_path / "none.npz")
+    (tmp_path / "run.npz").write_bytes(b"no run")
+    with pytest.raises(InputError, match="is damaged"):
+        load(tmp_path / "run.npz")
+    (tmp_path / "run.json").write_text("{}")
+    with pytest.raises(InputError, match=r"it is no run.*take '.*run\.npz'"):
+        load(tmp_path / "run.json")
 
 
 def first(x):
