@@ -53,6 +53,8 @@ def test_points_are_all_combinations_in_si_units(tmp_path):
     names = ("case", "bandwidth", "period", "start.v5", "noise", "seed")
     assert study.varied == names == tuple(points[0].at)
     assert len({tuple(p.at.values()) for p in points}) == study.count
+    assert [study.levels(name) for name in names] == [2, 3, 2, 2, 4, 3]
+    assert study.levels("impacts") == 1
     assert {p.at["period"] for p in points} == {0.5e-3, 1e-3}
     assert {p.at["start.v5"] for p in points} == {-0.1, math.radians(5.0)}
     assert sorted({p.at["bandwidth"] for p in points}) == pytest.approx(

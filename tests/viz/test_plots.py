@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 from dataclasses import fields, replace
+from itertools import pairwise
 
 import matplotlib as mpl
 import numpy as np
@@ -64,6 +65,9 @@ def test_tracking_figure(walks: dict[str, Walk]) -> None:
     np.testing.assert_array_equal(q[~np.isnan(q)], s.q[:, 0])
     assert around[0].get_xlim()[0] == pytest.approx(0.2)
     assert len(t) == len(s.t) + 2
+    for column in (whole, around, begins, ends):  # one below the other, none on another
+        heights = [axes.get_position() for axes in column]
+        assert all(a.y0 > b.y1 for a, b in pairwise(heights))
     assert len(tracking_figure(s, "no push").axes) == 4
 
 
