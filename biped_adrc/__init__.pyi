@@ -5,6 +5,7 @@ from biped_adrc.analysis.stride_gain import stride_response as stride_response
 from biped_adrc.analysis.zero_report import zero_report as zero_report
 from biped_adrc.closed_loop.arm import ArmSystem as ArmSystem
 from biped_adrc.closed_loop.semantics import Mode as Mode
+from biped_adrc.closed_loop.stepping import SteppingLoop as SteppingLoop
 from biped_adrc.closed_loop.walker import Walker as Walker
 from biped_adrc.control.adrc import ADRCController as ADRCController
 from biped_adrc.control.base import Controller as Controller
@@ -68,6 +69,7 @@ from biped_adrc.hybrid.integrators import RK4 as RK4
 from biped_adrc.hybrid.integrators import Adaptive as Adaptive
 from biped_adrc.hybrid.integrators import Exponential as Exponential
 from biped_adrc.hybrid.integrators import Stiff as Stiff
+from biped_adrc.hybrid.simulator import RunOptions as RunOptions
 from biped_adrc.hybrid.simulator import simulate as simulate
 from biped_adrc.hybrid.status import Status as Status
 from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
@@ -93,6 +95,8 @@ from biped_adrc.scenario.run import walk_scenario as walk_scenario
 from biped_adrc.scenario.scenario import Scenario as Scenario
 from biped_adrc.scenario.stored import load_walk as load_walk
 from biped_adrc.scenario.walk import walk as walk
+from biped_adrc.soft.ground import SoftGround as SoftGround
+from biped_adrc.soft.mujoco_plant import MuJoCoPlant as MuJoCoPlant
 from biped_adrc.studies.cycle_stability import cycle_stability as cycle_stability
 from biped_adrc.studies.cycle_stability import find_cycle as find_cycle
 from biped_adrc.studies.gait_design import DesignedGait as DesignedGait

@@ -26,6 +26,14 @@ For summaries, stored rows and TOML tables, whose keys are stated where they are
 package a dataclass or a NamedTuple is preferred.
 """
 
+MuJoCoModel: TypeAlias = Any
+"""`mujoco.MjModel`, a compiled robot: MuJoCo is optional."""
+MuJoCoSpec: TypeAlias = Any
+"""`mujoco.MjSpec`, or a part of one, from which a model is compiled."""
+
+MuJoCoData: TypeAlias = Any
+"""`mujoco.MjData`, the state and work space of a model."""
+
 DaskClient: TypeAlias = Any
 """`distributed.Client`, the connection to a Dask scheduler: Dask is optional and has no types of its own."""
 DaskFuture: TypeAlias = Any

@@ -24,6 +24,7 @@ WORDS = {
     "analysis": "signals, legality, return map",
     "observer_design": "bandwidth, noise, delay",
     "engine": "laws as machine code",
+    "soft": "contact of others: MuJoCo",
     "closed_loop": "flow, tick, impact, events",
     "control": "u from a measurement",
     "hardware": "sensors, motors",

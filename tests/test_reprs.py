@@ -91,6 +91,9 @@ def things(biped, gait):
         ),
         *(ba.StepLimits(), cycle, cycle.P, ba.cycle_stability(cycle, samples=0), ba.GaitLimits()),
     ]
+    soft = ba.MuJoCoPlant(biped, ba.SoftGround())
+    period = ba.SampledTime(1e-3)
+    found += [soft, soft.ground, ba.SteppingLoop(soft, npd, biped, period), ba.RunOptions(1.0)]
     record = ba.GaitRecord(
         "paper", h.curve.coefficients, h.theta_plus, h.theta_minus, phase=h.phase
     )

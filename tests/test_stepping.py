@@ -34,12 +34,12 @@ class Ball:
     def start(self, t, q, v):
         return PlantState(t, q, v, np.zeros(1))
 
-    def advance(self, state, u, zeta, until):
+    def advance(self, state, u, outside, until):
         first, state_nodes = state.t, []
         steps = max(1, round((until - first) / DT))
         for k in range(1, steps + 1):
             t = first + (until - first) * k / steps
-            a = (u + zeta(state.t, state.q, state.v)) / MASS - GRAVITY
+            a = (u + outside(state.t, state.q, state.v).zeta) / MASS - GRAVITY
             v = state.v + a * (t - state.t)
             state = PlantState(t, state.q + v * (t - state.t), v, state.own)
             state_nodes.append(state)
@@ -186,8 +186,8 @@ def test_what_does_not_fit():
         loop(motors=Motors(lag=1e-3))
 
     class Lazy(Ball):
-        def advance(self, state, u, zeta, until):
-            return super().advance(state, u, zeta, 0.5 * (state.t + until))
+        def advance(self, state, u, outside, until):
+            return super().advance(state, u, outside, 0.5 * (state.t + until))
 
     with pytest.raises(InputError, match=r"Lazy\.advance came to 0.0025 s without a contact"):
         run(loop(plant=Lazy()))
@@ -195,8 +195,8 @@ def test_what_does_not_fit():
 
 def test_a_plant_without_numbers_ends_the_run():
     class Broken(Ball):
-        def advance(self, state, u, zeta, until):
-            return super().advance(state, np.nan * u, zeta, until)
+        def advance(self, state, u, outside, until):
+            return super().advance(state, np.nan * u, outside, until)
 
     walked = run(loop(plant=Broken()))
     assert walked.status is ba.Status.NOT_FINITE
@@ -243,8 +243,8 @@ def telling(change):
     """A ball that tells something else of how it moved."""
 
     class Liar(Ball):
-        def advance(self, state, u, zeta, until):
-            return change(state, super().advance(state, u, zeta, until))
+        def advance(self, state, u, outside, until):
+            return change(state, super().advance(state, u, outside, until))
 
     return Liar()
 
@@ -373,7 +373,7 @@ def test_a_fall_with_a_touchdown_is_a_fall():
 
 def test_what_a_plant_raises_is_said_with_its_name():
     class Stopping(Ball):
-        def advance(self, state, u, zeta, until):
+        def advance(self, state, u, outside, until):
             raise error
 
     error = RuntimeError("gave up")
@@ -387,10 +387,10 @@ def test_what_a_plant_raises_is_said_with_its_name():
 @pytest.mark.parametrize("written", ["q", "v", "own", "u", "zeta"])
 def test_a_plant_cannot_write_into_what_it_is_given(written):
     class Writing(Ball):
-        def advance(self, state, u, zeta, until):
-            given = {"u": u, "zeta": zeta(*state[:3])} | state._asdict()
+        def advance(self, state, u, outside, until):
+            given = {"u": u, "zeta": outside(*state[:3]).zeta} | state._asdict()
             given[written][:] = 99.0
-            return super().advance(state, u, zeta, until)
+            return super().advance(state, u, outside, until)
 
     with pytest.raises(SimulationError, match=r"Writing\.advance raised ValueError: .* read-only"):
         run(loop(plant=Writing()))

@@ -7,18 +7,17 @@ the chain. On the ground the contact is MuJoCo's soft one, so that motion is ano
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 import mujoco
 import numpy as np
-from chain import Chain, Coordinates, Simulate, rotors, welded
+from chain import Chain, Coordinates, Simulate
 
 from biped_adrc.model.biped import Biped
-from biped_adrc.robots.urdf import to_xml
+from biped_adrc.soft.ground import SoftGround
+from biped_adrc.soft.mujoco_robot import floating_model, pinned_model
 from biped_adrc.types import Array
 
 H = 1e-3  # [s]
-FOOT = 0.02  # radius of a foot on the ground [m]
 METHODS = {
     "Euler 1 ms": mujoco.mjtIntegrator.mjINT_EULER,
     "implicitfast 1 ms": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
@@ -27,14 +26,11 @@ METHODS = {
 
 
 class MuJoCoChain(Chain):
-    """MjModel of the pinned tree's URDF with rotors as armature."""
+    """The package's own MuJoCo model of the pinned robot."""
 
     def __init__(self, biped: Biped) -> None:
         super().__init__(biped)
-        self.model = _model(biped, mujoco.MjSpec.from_string(to_xml(welded(biped.pinned_tree))))
-        self.model.opt.disableflags |= (
-            mujoco.mjtDisableBit.mjDSBL_CONSTRAINT | mujoco.mjtDisableBit.mjDSBL_CONTACT
-        )
+        self.model = pinned_model(biped, H)
         self.data = mujoco.MjData(self.model)
         joints = [self.model.joint(j).name for j in range(self.model.njnt)]
         self.coordinates = Coordinates(biped, joints)
@@ -65,14 +61,7 @@ class MuJoCoChain(Chain):
 
 def on_the_ground(biped: Biped) -> Mapping[str, Simulate]:
     """The floating robot with spheres for feet over a plane; only its cost is of interest."""
-    spec = _floating(biped)
-    spec.worldbody.add_geom(
-        type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0.0, 0.0, 1.0], pos=[0.0, 0.0, -FOOT]
-    )
-    for foot in (biped.description.stance_foot, biped.description.swing_foot):
-        spec.body(foot).add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[FOOT, 0.0, 0.0], mass=0.0)
-    model = _model(biped, spec)
-    model.jnt_limited[:] = 0
+    model = floating_model(biped, SoftGround(time_constant=10 * H), 0.0, H)
     data = mujoco.MjData(model)
 
     def simulate(q: Array, v: Array, duration: float) -> Array:
@@ -84,29 +73,4 @@ def on_the_ground(biped: Biped) -> Mapping[str, Simulate]:
         mujoco.mj_step(model, data, nstep=round(duration / H))
         return np.array([data.joint(name).qpos[0] for name in biped.description.joints])
 
-    return {"with contact, Euler 1 ms": simulate}
-
-
-def _floating(biped: Biped) -> mujoco.MjSpec:
-    """The trunk with three joints of its own: bodies without mass between them are refused."""
-    tree, d = biped.tree, biped.description
-    carried = [replace(j, type="fixed") if j.name in d.base else j for j in tree.joints]
-    spec = mujoco.MjSpec.from_string(to_xml(replace(tree, joints=tuple(carried))))
-    trunk = spec.body(d.trunk)
-    spec.delete(spec.joint(d.unactuated))
-    slide, hinge = mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_HINGE
-    for name, kind in ((d.base[0], slide), (d.base[1], slide), (d.unactuated, hinge)):
-        axis = next(j.axis for j in tree.joints if j.name == name)
-        trunk.add_joint(name=name, type=kind, axis=axis)
-    return spec
-
-
-def _model(biped: Biped, spec: mujoco.MjSpec) -> mujoco.MjModel:
-    model = spec.compile()
-    model.opt.timestep = H
-    model.opt.gravity[:] = (0.0, 0.0, -biped.description.gravity)
-    for joint, inertia in rotors(biped).items():
-        model.joint(joint).armature = inertia
-    # derived constants, such as the inertia at qpos0, know of the rotors only after this
-    mujoco.mj_setConst(model, mujoco.MjData(model))
-    return model
+    return {"with contact, 1 ms": simulate}

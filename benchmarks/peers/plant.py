@@ -34,7 +34,7 @@ PEERS = {
     "CasADi": ("casadi_chain", "CasADiChain"),
     "Pinocchio": ("pinocchio_chain", "PinocchioChain"),
 }
-PACKAGES = ("mujoco", "drake", "casadi", "pin")
+PACKAGES = ("mujoco-core", "drake", "casadi", "pin")
 
 
 def reference(biped: ba.Biped, q: Array, v: Array) -> Array:

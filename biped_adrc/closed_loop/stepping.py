@@ -20,6 +20,7 @@ from biped_adrc.closed_loop.semantics import Mode, Plant, landed, parts, torque_
 from biped_adrc.closed_loop.stepping_plant import (
     Advanced,
     Contact,
+    Load,
     PlantState,
     SteppingPlant,
     advanced,
@@ -38,7 +39,7 @@ from biped_adrc.hybrid.system import FoundEvent, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
 from biped_adrc.parts import returned
 from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array, Indices
+from biped_adrc.types import Array, Indices, frozen
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ class SteppingLoop(ClosedLoop[Any]):
 
     - plant: what moves. model: what the controller knows of it, a `semantics.Plant`.
     - timing: sampled, since between sample instants the plant is given one torque.
-    - disturbance: zeta (n,) [N m], asked for by the plant as often as it likes.
+    - disturbance: zeta (n,) [N m] and its resultant, asked for by the plant as often as it likes.
     - torque_limit [N m]: saturates every motor; None for no limit.
     - sensors, motors: between controller and plant.
 
@@ -107,6 +108,12 @@ class SteppingLoop(ClosedLoop[Any]):
         zeta = self.disturbance.torque(t, mode.step, mode.start, q, v)
         return returned(zeta, q.shape, self.disturbance, "torque")
 
+    def resultant(self, t: float, mode: Mode) -> Array:
+        """Force from outside on the robot as a whole (2,) [N] at t [s]."""
+        if self.disturbance is None:
+            return np.zeros(2)
+        return self.disturbance.resultant(t, mode.step, mode.start)
+
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
         """x (nx,) at the start of a single support in q (n,) [rad], v (n,) [rad/s], the plant started there."""
         x, mode = super().initial_state(q, v, mode), Mode() if mode is None else mode
@@ -142,10 +149,10 @@ class SteppingLoop(ClosedLoop[Any]):
         assert k is not None
         u, state = torque_held(k, tail), PlantState(t, q, v, tail[: k.sizes.own])
 
-        def zeta(t: float, q: Array, v: Array) -> Array:
-            return self.external(t, q, v, mode)
+        def outside(t: float, q: Array, v: Array) -> Load:
+            return frozen(Load(self.external(t, q, v, mode), self.resultant(t, mode)))
 
-        moved = advanced(self.plant, state, u, zeta, until)
+        moved = advanced(self.plant, state, u, outside, until)
         passed = np.array([state.t, *(node.t for node in moved.nodes)])
         rows = np.array([self.with_plant(x, s) for s in (state, *moved.nodes)])
         good = np.logical_and.accumulate(np.all(np.isfinite(rows), axis=1))

@@ -1,6 +1,6 @@
 """What a plant that moves by itself has to give, and the checks of what it gives.
 
-    advance(state, u, zeta, until) -> state, contacts, nodes
+    advance(state, u, outside, until) -> state, contacts, nodes
 
 `closed_loop.stepping.SteppingLoop` drives such a plant, for instance MuJoCo or Drake behind a class
 of the user's. `started` and `advanced` call the plant and check once what it gives. What breaks
@@ -36,6 +36,15 @@ class PlantState(NamedTuple):
     """Rates (n,) [rad/s]."""
     own: Array
     """What else the plant needs to go on, numbers of its own (k,)."""
+
+
+class Load(NamedTuple):
+    """What acts from outside at one time."""
+
+    zeta: Array
+    """Generalised force (n,) [N m] of the coordinates q, with the stance foot held."""
+    force: Array
+    """Resultant (x, z) (2,) [N], which a base that floats feels too."""
 
 
 class Contact(NamedTuple):
@@ -87,10 +96,10 @@ class SteppingPlant(Protocol):
         self,
         state: PlantState,
         u: Array,
-        zeta: Callable[[float, Array, Array], Array],
+        outside: Callable[[float, Array, Array], Load],
         until: float,
     ) -> Advanced:
-        """On to `until` [s] or to the next contact, under u (p,) [N m] and zeta(t, q, v) (n,) [N m].
+        """On to `until` [s] or to the next contact, under u (p,) [N m] and outside(t, q, v).
 
         Where it cannot go on it raises `hybrid.integrators.StepFailed`, which ends the run with
         that status.
@@ -129,7 +138,7 @@ def advanced(
     plant: SteppingPlant,
     state: PlantState,
     u: Array,
-    zeta: Callable[[float, Array, Array], Array],
+    outside: Callable[[float, Array, Array], Load],
     until: float,
 ) -> Advanced:
     """What `plant.advance` gives under u (p,) [N m], checked, its last times at `until` [s] without
@@ -139,7 +148,7 @@ def advanced(
     """
     who, (t, *arrays) = f"{type(plant).__name__}.advance", state
     given = PlantState(t, *(read_only(numbers) for numbers in arrays)), read_only(u)
-    found = _called(who, plant.advance, *given, lambda *at: read_only(zeta(*at)), until)
+    found = _called(who, plant.advance, *given, outside, until)
     if not isinstance(found, Advanced):
         raise InputError(f"{who} gives {found!r:.60}, expected an Advanced(state, contacts, nodes)")
     sizes = len(state.q), len(state.own)

@@ -1,0 +1,47 @@
+"""Ground that gives way, in the terms of MuJoCo's contact.
+
+    a_ref = -b r' - k r,   b = 2 / (d T),   k = d(r) / (d^2 T^2 zeta^2)
+
+is the acceleration that a foot at depth r is driven to: T is `time_constant`, zeta `damping_ratio`
+(solref), d(r) the impedance, which rises from the first to the second value of `impedance`, d (solimp).
+Spring and damper act on the effective mass of the foot, so that a stiffness in N/m follows from the robot
+and cannot be asked for. Friction carries up to mu F_N; below that a foot creeps, the less the larger
+`impratio`.
+
+MuJoCo documentation, "Modeling: Solver parameters".
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from biped_adrc.errors import InputError, check_positive
+from biped_adrc.shown import Shown
+
+
+@dataclass(frozen=True)
+class SoftGround(Shown):
+    """Ground under point feet; a positive slope goes downhill in the direction of walking."""
+
+    friction: float = 0.6
+    """mu [1]."""
+    time_constant: float = 2e-3
+    """T [s]; MuJoCo takes two of its steps for any that is shorter."""
+    damping_ratio: float = 1.0
+    """zeta [1]."""
+    impedance: tuple[float, float] = (0.95, 0.99)
+    """[1]; 1 would leave no slack at all."""
+    impratio: float = 20.0
+    """Impedance of friction over that of the normal force [1]."""
+    foot_radius: float = 1e-3
+    """[m]; a foot rolls on by the radius times the angle that its leg turns."""
+
+    def __post_init__(self) -> None:
+        """Raise InputError for values that no ground has."""
+        for name in ("friction", "time_constant", "damping_ratio", "impratio", "foot_radius"):
+            check_positive(getattr(self, name), f"{name} of the ground is {getattr(self, name)}")
+        low, high = self.impedance
+        if not 0.0 < low <= high < 1.0:
+            raise InputError(
+                f"the impedance of the ground is {self.impedance}, expected 0 < first <= second < 1"
+            )

@@ -1,0 +1,219 @@
+"""A biped in MuJoCo: its equations are Pinocchio's without contact, and Newton's laws hold with it."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import biped_adrc as ba
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.closed_loop.stepping_plant import Load
+from biped_adrc.errors import InputError
+from biped_adrc.ground import ground_axes
+from biped_adrc.hybrid.simulator import RunOptions
+from biped_adrc.soft import mujoco_robot
+from biped_adrc.soft.ground import SoftGround
+from biped_adrc.soft.mujoco_plant import MuJoCoPlant, Own
+from biped_adrc.soft.mujoco_robot import floating_model, mujoco, pinned_model
+
+ROBOTS = [("rabbit", "identified"), ("rabbit", "tac2003"), ("three_link", None)]
+"""Those with motors."""
+
+
+@pytest.fixture(params=ROBOTS, ids=lambda robot: "-".join(filter(None, robot)))
+def robot(request):
+    name, preset = request.param
+    return ba.Biped.load(name, preset) if preset else ba.Biped.load(name)
+
+
+@pytest.fixture(scope="module")
+def plant(biped):
+    return MuJoCoPlant(biped)
+
+
+def in_joints_of(model, biped):
+    """T with qpos = T q for the pinned model."""
+    ours = list(biped.pinned.model.names)[1:]
+    return biped.pinned.T[[ours.index(model.joint(j).name) for j in range(model.njnt)]]
+
+
+def test_pinned_it_accelerates_as_pinocchio_says(robot):
+    mj, model, random = mujoco(), pinned_model(robot, 1e-3), np.random.default_rng(3)
+    data, T = mj.MjData(model), in_joints_of(model, robot)
+    for _ in range(20):
+        q, v = random.uniform(-np.pi, np.pi, robot.n), random.normal(size=robot.n)
+        force = random.normal(scale=50.0, size=robot.n)
+        data.qpos[:], data.qvel[:] = T @ q, T @ v
+        data.qfrc_applied[:] = np.linalg.solve(T.T, force)
+        mj.mj_forward(model, data)
+        expected = robot.acceleration(q, v, force)
+        gap = np.linalg.solve(T, data.qacc) - expected
+        assert np.max(np.abs(gap)) < 1e-12 * np.max(np.abs(expected))
+
+
+def test_pinned_it_moves_as_pinocchio_says_but_for_the_fourth_power_of_the_step(robot, gait):
+    q, v = 0.1 * np.arange(1, robot.n + 1), 0.2 * np.ones(robot.n)
+    force = np.zeros(robot.n)
+    force[: robot.p] = 5.0
+    exact = solve_ivp(
+        lambda t, x: np.concatenate(
+            (x[robot.n :], robot.acceleration(x[: robot.n], x[robot.n :], force))
+        ),
+        (0.0, 0.2), np.concatenate((q, v)), method="DOP853", rtol=1e-12, atol=1e-12,
+    ).y[: robot.n, -1]  # fmt: skip
+    mj, gaps = mujoco(), []
+    for h in (2e-3, 1e-3):
+        model = pinned_model(robot, h)
+        model.opt.integrator = mj.mjtIntegrator.mjINT_RK4
+        data, T = mj.MjData(model), in_joints_of(model, robot)
+        data.qpos[:], data.qvel[:] = T @ q, T @ v
+        data.qfrc_applied[:] = np.linalg.solve(T.T, force)
+        mj.mj_step(model, data, round(0.2 / h))
+        gaps.append(np.max(np.abs(np.linalg.solve(T, data.qpos) - exact)))
+    assert gaps[1] < 1e-7
+    assert gaps[0] / gaps[1] == pytest.approx(16.0, rel=0.2)
+
+
+def test_in_free_flight_the_centre_falls_and_the_spin_stays(robot):
+    """Newton and Euler for the whole robot, with torques in its joints."""
+    mj, model = mujoco(), floating_model(robot, SoftGround(), 0.0, 1e-3)
+    model.opt.integrator = mj.mjtIntegrator.mjINT_RK4
+    data, random = mj.MjData(model), np.random.default_rng(4)
+    data.qpos[:], data.qvel[:] = random.normal(size=model.nv), random.normal(size=model.nv)
+    data.qpos[model.joint("base_z").qposadr[0]] = 50.0
+    data.ctrl[:] = random.normal(scale=20.0, size=model.nu)
+    spins, centres = [], []
+    for _ in range(3):
+        mj.mj_forward(model, data)
+        mj.mj_subtreeVel(model, data)
+        spins.append(data.subtree_angmom[0, 1])
+        centres.append(data.subtree_com[0, 2])
+        mj.mj_step(model, data, 100)
+    assert np.ptp(spins) < 1e-7 * abs(spins[0])
+    assert np.diff(centres, n=2)[0] == pytest.approx(-robot.description.gravity * 0.1**2, rel=1e-7)
+
+
+def test_motors_and_pushes_give_the_power_that_they_give_on_the_rigid_plant(plant, gait):
+    """u' q_b' + zeta' q', although the base floats."""
+    q, v = gait.start(plant.biped)
+    f, random = plant.biped.floating, np.random.default_rng(5)
+    speed = (f.velocity_map(q)[:, :5] @ v)[f.base]
+    own = Own(0.0, f.configuration(q)[f.base], speed)
+    u = random.normal(size=4)
+    load = Load(random.normal(size=5), random.normal(size=2))
+    plant._place(q, v, own)
+    plant._push(u, q, load)
+    data = plant.data
+    mujoco().mj_forward(plant.model, data)
+    power = (data.qfrc_actuator + data.qfrc_applied) @ data.qvel
+    assert power == pytest.approx(u @ v[:4] + load.zeta @ v, rel=1e-12)
+    state = plant._read(0.0, own)
+    np.testing.assert_allclose((state.q, state.v), (q, v), rtol=0.0, atol=1e-14)
+
+
+def test_a_force_on_a_link_moves_the_centre_of_mass_as_newton_says(plant, gait):
+    """Off the ground, F = m a of the centre for a force that the pinned coordinates feel as J' F."""
+    biped = plant.biped
+    q, _ = gait.start(biped)
+    own = Own(0.0, np.array([0.0, 9.0]), np.zeros(2))
+    force = np.array([30.0, -20.0])
+    hip = biped.floating.velocity_map(q)[biped.floating.base, :5]
+    plant._place(q, np.zeros(5), own)
+    plant._push(np.zeros(4), q, Load(hip.T @ force, force))
+    mujoco().mj_forward(plant.model, plant.data)
+    mujoco().mj_rnePostConstraint(plant.model, plant.data)
+    masses = plant.model.body_mass
+    jacobian, total = np.zeros((3, plant.model.nv)), np.zeros(3)
+    for body in np.flatnonzero(masses):
+        mujoco().mj_jacBodyCom(plant.model, plant.data, jacobian, None, body)
+        total += masses[body] * (jacobian @ plant.data.qacc)
+    np.testing.assert_allclose(total[[0, 2]], force - [0.0, biped.weight], rtol=1e-10)
+
+
+def loop(plant, controller, **more):
+    return SteppingLoop(
+        plant, controller, plant.biped, ba.SampledTime(1e-3), torque_limit=150.0, **more
+    )
+
+
+def walked(system, gait, impacts):
+    x0 = system.initial_state(*gait.start(system.plant.biped))
+    return system.run(x0, RunOptions(0.8 * impacts, stop_after=("foot_strike", impacts)))
+
+
+@pytest.fixture(scope="module")
+def walk(plant, gait):
+    return walked(loop(plant, ba.NPDController(gait.constraint)), gait, 3)
+
+
+def test_feedback_linearisation_walks(walk):
+    """Periods near the rigid one, 0.416 s: contact takes a time constant or two."""
+    assert walk.status is ba.Status.COMPLETED
+    assert [arc.mode.step for arc in walk.arcs] == [1, 2, 3]
+    times = [event.t for event in walk.events("foot_strike")]
+    assert np.diff(times) == pytest.approx(0.416, abs=0.012)
+
+
+def test_the_same_walk_bit_for_bit(plant, gait, walk):
+    """Whatever the engine did before: its work space is no state."""
+    again = walked(loop(plant, ba.NPDController(gait.constraint)), gait, 1)
+    np.testing.assert_array_equal(again.arcs[0].x, walk.arcs[0].x)
+    other = loop(MuJoCoPlant(plant.biped), ba.NPDController(gait.constraint))
+    np.testing.assert_array_equal(walked(other, gait, 1).arcs[0].x, walk.arcs[0].x)
+
+
+def test_the_ground_carries_what_the_momentum_asks_for(plant, gait):
+    """Sum of F h over a while = m g t e_z + change of the momentum of the whole robot."""
+    biped, mj = plant.biped, mujoco()
+    state = plant.start(0.0, *gait.start(biped))
+    still = Load(np.zeros(5), np.zeros(2))
+    impulse, momenta, until = np.zeros(2), [], 0.1
+    for k in range(round(until / plant.h)):
+        plant._place(state.q, state.v, Own.of(state.own))
+        mj.mj_forward(plant.model, plant.data)
+        mj.mj_subtreeVel(plant.model, plant.data)
+        momenta.append(plant.model.body_subtreemass[0] * plant.data.subtree_linvel[0, [0, 2]])
+        state = plant.advance(state, np.zeros(4), lambda *_: still, (k + 1) * plant.h).state
+        impulse += plant.forces().sum(axis=0) * plant.h
+    duration = (len(momenta) - 1) * plant.h
+    expected = momenta[-1] - momenta[0] + [0.0, biped.weight * duration]
+    np.testing.assert_allclose(impulse, expected, rtol=0.01, atol=0.5)
+
+
+def test_a_motion_that_is_lost_is_a_status_and_leaves_nothing_behind(plant, gait, walk):
+    system = loop(plant, ba.NPDController(gait.constraint))
+    x0 = system.initial_state(*gait.start(plant.biped))
+    x0[5:10] *= 1e9
+    assert system.run(x0, RunOptions(0.1)).status is ba.Status.STEP_FAILED
+    np.testing.assert_array_equal(walked(system, gait, 1).arcs[0].x, walk.arcs[0].x)
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.1])
+def test_a_foot_touches_where_a_point_would_and_slides_with_its_friction(biped, gait, slope):
+    plant = MuJoCoPlant(biped, SoftGround(friction=0.4, foot_radius=5e-3), slope)
+    q = gait.start(biped)[0] - [0.0, 0.0, 0.0, 0.6, 0.0]  # the swing foot in the air
+    along, out = ground_axes(slope)
+    own = Own.of(plant.start(0.0, q, np.zeros(5)).own)
+    plant._place(q, np.zeros(5), own._replace(base=own.base - 1e-6 * out, speed=0.5 * along))
+    mujoco().mj_forward(plant.model, plant.data)
+    assert plant.data.contact[0].dist == pytest.approx(-1e-6, abs=1e-12)
+    F = plant.forces()[0]
+    assert F @ along / (F @ out) == pytest.approx(-0.4, rel=0.01)
+
+
+def test_what_is_missing_or_wrong_is_said(biped, monkeypatch):
+    for wrong in ({"friction": -1.0}, {"time_constant": 0.0}, {"impedance": (0.9, 1.0)}):
+        with pytest.raises(InputError, match=f"{next(iter(wrong))} of the ground|impedance"):
+            SoftGround(**wrong)
+    with pytest.raises(InputError, match="has no motors"):
+        MuJoCoPlant(ba.Biped.load("compass"))
+    with pytest.warns(UserWarning, match="more than a tenth of the ground's time constant"):
+        MuJoCoPlant(biped, h=1e-3)
+    mujoco_robot.mujoco.cache_clear()
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    with pytest.raises(InputError, match=r"MuJoCo is not installed.*biped-adrc\[mujoco\]"):
+        MuJoCoPlant(biped)
+    mujoco_robot.mujoco.cache_clear()
