@@ -433,3 +433,79 @@ def test_a_sensor_that_shows_something_else(engine, name, bad, biped, gait):
     )
     with pytest.raises(InputError, match=re.escape(f"Blind.{name} returned")):
         ba.walk(walker, gait, 1, engine=engine)
+
+
+def complex_first(point):
+    return point._replace(**{point._fields[0]: point[0] + 1j})
+
+
+def none_for_a_point(point):
+    return None
+
+
+def one_number_for_all(point):
+    return point._replace(drift=0.0)
+
+
+def short_rows(point):
+    return point._replace(**{point._fields[1]: np.zeros(3)})
+
+
+def no_numbers(point):
+    return point._replace(drift=np.full(4, np.nan))
+
+
+POINTS = {
+    complex_first: (r"gives (y|q_d) = complex128 numbers, expected \(4,\), real numbers"),
+    none_for_a_point: r"gives None, expected an? (Output|Reference)Point\(",
+    one_number_for_all: r"gives drift of shape \(\), expected \(4,\)",
+    short_rows: r"gives dq?(y|_d) of shape \(3,\), expected \(4,\)",
+    no_numbers: r"gives drift = \[nan nan nan nan\]",
+}
+
+
+def own_point(base: type, right: Callable[..., object], bad: Callable[..., object], after: float):
+    """An object of a class Own below `base`, which gives something else from the time `after` [s] on."""
+
+    def call(self, t, q, v):
+        return bad(right(t, q, v)) if t >= after else right(t, q, v)
+
+    return type("Own", (base,), {"__call__": call, "laws": None})()
+
+
+@pytest.mark.parametrize("after", [0.0, 0.004])
+@pytest.mark.parametrize("bad", POINTS)
+@pytest.mark.parametrize("kind", ["outputs", "reference"])
+def test_outputs_and_references_that_give_something_else(kind, bad, after, biped, gait):
+    h = gait.constraint
+    if kind == "outputs":
+        right = ba.LinearOutputs(np.eye(4, 5), h)
+        controller = ba.OutputNPDController(own_point(ba.Outputs, right, bad, after))
+    else:
+        controller = ba.NPDController(own_point(ba.Reference, h, bad, after))
+    walker = ba.Walker(biped, controller)
+    if bad is no_numbers and after:
+        run = ba.walk(walker, gait, 1).trajectory
+        assert run.status.name == "NOT_FINITE"
+        assert re.match(f"Own {POINTS[bad]}", run.detail)
+        return
+    with pytest.raises(InputError, match=f"^Own {POINTS[bad]}"):
+        ba.walk(walker, gait, 1)
+
+
+def test_a_reference_that_writes_is_told_where_at_the_start_too(biped, gait):
+    def written(t, q, v):
+        q[0] = 0.0
+        return gait.constraint(t, q, v)
+
+    controller = ba.NPDController(own_point(ba.Reference, written, written, 1.0))
+    with pytest.raises(InputError, match=WRITES):
+        ba.walk(ba.Walker(biped, controller), gait, 1)
+
+
+@pytest.mark.parametrize(
+    "function", [lambda q: None, lambda q: q[:4] * 1j, lambda q: "abcd", lambda q: q[:4] * np.nan]
+)
+def test_a_function_of_outputs_that_gives_something_else(function):
+    with pytest.raises(InputError, match=r"^FunctionOutputs\.function returned"):
+        ba.FunctionOutputs(function)(0.0, np.zeros(5), np.zeros(5))

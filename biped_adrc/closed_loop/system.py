@@ -304,7 +304,8 @@ def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
     if not isinstance(reference, Reference):
         return
     try:
-        point = reference(m.t, m.q, m.v)
+        with handing_out():
+            point = reference(m.t, m.q, m.v)
     except BipedError:
         raise
     except (ValueError, IndexError, TypeError) as error:
