@@ -11,8 +11,11 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.walker import Mode
+from biped_adrc.engine.simulate import detail_of
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.sensing import Sensor, SensorLaws
+from biped_adrc.hybrid import simulator
 from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array
 
@@ -128,6 +131,35 @@ def test_a_law_that_writes_into_its_arguments(engine, law, biped, gait):
     with pytest.raises(InputError, match=WRITES):
         ba.walk(ba.Walker(biped, controller), gait, 1, engine=engine)
     controller.K[0] = 3.0  # the user's own array stays the user's
+
+
+def ends_at_ten_ms(k, s, m):
+    return k.K * np.sqrt(0.0105 - m.t) * m.q[:4]
+
+
+@pytest.mark.parametrize("timing", TIMINGS)
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_law_without_numbers_is_named_in_compiled_code_too(engine, timing, biped, gait):
+    walker = ba.Walker(biped, Lawful(ends_at_ten_ms), timing=TIMINGS[timing])
+    run = ba.walk(walker, gait, 1, engine=engine).trajectory
+    assert run.settings["engine"] == engine
+    assert run.status.name == "NOT_FINITE"
+    assert "Lawful.output returned [nan nan nan nan]" in run.detail
+    assert 0.01 <= run.t_end < 0.0115
+
+
+def divides(k, s, m):
+    return k.K * (1.0 / (0.001 - m.t))
+
+
+def test_a_law_that_only_python_refuses_is_named_by_its_error(biped, gait):
+    """The run is one that machine code, where 1 / 0 is infinite, might have left."""
+    walker = ba.Walker(biped, Lawful(divides), timing=TIMINGS["ticks"])
+    x, options = walker.initial_state(*gait.start(biped)), simulator.RunOptions(1e-3)
+    run = simulator.run(walker, x, Mode(), ba.RK4(5e-4), options)
+    lost = replace(run, status=ba.Status.NOT_FINITE, detail="after t = 0.001 s")
+    found = detail_of(walker, ba.RK4(5e-4), lost)
+    assert found == "after t = 0.001 s: ZeroDivisionError: float division by zero"
 
 
 @dataclass(frozen=True)
