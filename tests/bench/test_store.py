@@ -352,6 +352,21 @@ def test_what_is_left_of_a_file_is_not_begun_anew(tmp_path):
     assert log.read_bytes() == b"log"
 
 
+@pytest.mark.parametrize("beside", ["", ".lock", "-wal"])
+def test_what_is_a_link_to_another_folder_is_not_written_to(beside, tmp_path):
+    path = filled(tmp_path / "r.sqlite", 3)
+    link, target = path.with_name(f"r.sqlite{beside}"), tmp_path / "elsewhere"
+    if beside:
+        target.write_text("kept")
+    else:
+        path.rename(target)
+    link.symlink_to(target)
+    before = target.read_bytes()
+    with pytest.raises(OutputError, match=rf"r\.sqlite{beside}' is a link to '.*elsewhere'"):
+        open_store(path, about())
+    assert target.read_bytes() == before
+
+
 def test_a_lock_of_another_program_is_named_soon(tmp_path):
     path = filled(tmp_path / "r.sqlite", 3)
     other = sqlite3.connect(path, isolation_level=None)
