@@ -112,8 +112,7 @@ def returned(
     """
     if type(found) is not np.ndarray or found.dtype is not FLOAT or found.shape != shape:
         found = _numbers_returned(found, shape, part, method, field)
-    flat = found.ravel()
-    if finite and not math.isfinite(flat.dot(flat)) and not np.all(np.isfinite(flat)):
+    if finite and not all(map(math.isfinite, found.ravel().tolist())):
         shown = " ".join(str(found).split())
         raise NotFiniteError(f"{_said(part, method, field)} {shown}")
     return found
