@@ -236,5 +236,6 @@ def _locked(path: Path) -> FileLock:
             "study at a time. Wait for it, or choose another folder"
         ) from error
     except OSError as error:
+        lock.release()
         raise cannot_write(path, error) from error
     return lock

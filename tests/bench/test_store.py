@@ -1,5 +1,6 @@
 """The results file: exact, whole after a kill at any moment, and left alone where it is not one's own."""
 
+import errno
 import os
 import random
 import signal
@@ -218,6 +219,21 @@ def test_a_full_disk_ends_the_study_and_keeps_what_was_finished(tmp_path):
         assert len(store) == kept
         run_study(rows, records(500), store, Threads(2))
         assert [r.row["n"] for r in store.results()] == [k * k for k in range(500)]
+
+
+def test_a_disk_too_full_for_the_lock_leaves_it_free(tmp_path, monkeypatch):
+    path = filled(tmp_path / "r.sqlite", 3)
+
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "write_text", full)
+        with pytest.raises(OutputError, match="No space") as caught:
+            open_store(path, about())
+    with open_store(path, about()) as store:
+        assert len(store) == 3
+    assert caught.value.exit_code == 5
 
 
 def test_a_file_that_cannot_be_written(tmp_path):
