@@ -97,40 +97,79 @@ FLOAT = np.dtype(float)
 
 
 def returned(
-    found: object, shape: tuple[int, ...] | None, part: object, method: str, finite: bool = True
+    found: object,
+    shape: tuple[int, ...] | None,
+    part: object,
+    method: str,
+    finite: bool = True,
+    field: bool = False,
 ) -> Array:
     """What a method of a user's class gave, as an array of floats; shape None: any row.
 
-    It is called at every tick, so what is such an array already costs less than a microsecond. Raises
-    InputError that names the class for None, complex numbers, text, objects and another shape, and, where
-    `finite`, NotFiniteError.
+    field: `method` is the name of one of the arrays that the class gave together. It is called at every tick,
+    so what is such an array already costs less than a microsecond. Raises InputError that names the class for
+    None, complex numbers, text, objects and another shape, and, where `finite`, NotFiniteError.
     """
     if type(found) is not np.ndarray or found.dtype is not FLOAT or found.shape != shape:
-        found = _numbers_returned(found, shape, part, method)
-    if finite and not math.isfinite(found.dot(found)) and not np.all(np.isfinite(found)):
-        raise NotFiniteError(f"{spoken(part)}.{method} returned {found}")
+        found = _numbers_returned(found, shape, part, method, field)
+    if finite and not all(map(math.isfinite, found.ravel().tolist())):
+        shown = " ".join(str(found).split())
+        raise NotFiniteError(f"{_said(part, method, field)} {shown}")
     return found
 
 
+def _said(part: object, method: str, field: bool) -> str:
+    """How a sentence about what a class gave begins: X.output returned, X gives q_d =."""
+    name = spoken(part)
+    return f"{name} gives {method} =" if field else f"{name}.{method} returned"
+
+
 def _numbers_returned(
-    found: object, shape: tuple[int, ...] | None, part: object, method: str
+    found: object, shape: tuple[int, ...] | None, part: object, method: str, field: bool
 ) -> Array:
     """As `returned`, for what is no array of floats of this shape at first sight."""
     try:
         array = np.asarray(found)
     except ValueError:  # rows of different lengths
         array = np.empty(0, dtype=object)
+    said = _said(part, method, field)
     expected = "a row of real numbers" if shape is None else f"{shape}, real numbers"
     if array.dtype.kind not in "fiu":
-        forgot = "; is a return statement missing?" if found is None else ""
-        raise InputError(
-            f"{spoken(part)}.{method} returned {_shown(found)}, expected {expected}{forgot}"
-        )
+        forgot = "; is a return statement missing?" if found is None and not field else ""
+        shown = f"{found.dtype} numbers" if isinstance(found, np.ndarray) else _shown(found)
+        raise InputError(f"{said} {shown}, expected {expected}{forgot}")
     if array.ndim != 1 if shape is None else array.shape != shape:
-        raise InputError(
-            f"{spoken(part)}.{method} returned an array of shape {array.shape}, expected {expected}"
-        )
+        said = said.removesuffix(" =") if field else f"{said} an array"
+        raise InputError(f"{said} of shape {array.shape}, expected {expected}")
     return array.astype(float)
+
+
+def point_returned(found: object, kind: Any, part: object, n: int, p: int | None = None) -> Any:
+    """What `__call__` of a reference or of outputs gave: a `kind` of arrays (p,), its H or J (p, n).
+
+    p: None takes it from that matrix. Raises as `returned`, with the name of the field.
+    """
+    if not isinstance(found, kind):
+        raise InputError(
+            f"{spoken(part)} gives {_shown(found)}, expected {_a(kind)}({', '.join(kind._fields)})"
+        )
+    matrix = "J" if "J" in kind._fields else "H"
+    rows = (p, *getattr(getattr(found, matrix), "shape", ()), np.size(found[0]))[p is None]
+    shapes = [(rows, n) if name == matrix else (rows,) for name in kind._fields]
+    each = zip(found, shapes, kind._fields, strict=True)
+    return kind(*(returned(x, shape, part, name, field=True) for x, shape, name in each))
+
+
+def called_checked(cls: Any, kind: type) -> None:
+    """Hold what the method `__call__`(t, q, v) gives, where a class writes one, against `point_returned`."""
+    own = vars(cls).get("__call__")
+    if own is not None:
+
+        @wraps(own)
+        def call(self: Any, t: float, q: Array, v: Array) -> Any:
+            return point_returned(own(self, t, q, v), kind, self, len(q))
+
+        cls.__call__ = call
 
 
 def spoken(part: object) -> str:

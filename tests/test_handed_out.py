@@ -11,8 +11,11 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.walker import Mode
+from biped_adrc.engine.simulate import detail_of
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.sensing import Sensor, SensorLaws
+from biped_adrc.hybrid import simulator
 from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array
 
@@ -128,6 +131,35 @@ def test_a_law_that_writes_into_its_arguments(engine, law, biped, gait):
     with pytest.raises(InputError, match=WRITES):
         ba.walk(ba.Walker(biped, controller), gait, 1, engine=engine)
     controller.K[0] = 3.0  # the user's own array stays the user's
+
+
+def ends_at_ten_ms(k, s, m):
+    return k.K * np.sqrt(0.0105 - m.t) * m.q[:4]
+
+
+@pytest.mark.parametrize("timing", TIMINGS)
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_law_without_numbers_is_named_in_compiled_code_too(engine, timing, biped, gait):
+    walker = ba.Walker(biped, Lawful(ends_at_ten_ms), timing=TIMINGS[timing])
+    run = ba.walk(walker, gait, 1, engine=engine).trajectory
+    assert run.settings["engine"] == engine
+    assert run.status.name == "NOT_FINITE"
+    assert "Lawful.output returned [nan nan nan nan]" in run.detail
+    assert 0.01 <= run.t_end < 0.0115
+
+
+def divides(k, s, m):
+    return k.K * (1.0 / (0.001 - m.t))
+
+
+def test_a_law_that_only_python_refuses_is_named_by_its_error(biped, gait):
+    """The run is one that machine code, where 1 / 0 is infinite, might have left."""
+    walker = ba.Walker(biped, Lawful(divides), timing=TIMINGS["ticks"])
+    x, options = walker.initial_state(*gait.start(biped)), simulator.RunOptions(1e-3)
+    run = simulator.run(walker, x, Mode(), ba.RK4(5e-4), options)
+    lost = replace(run, status=ba.Status.NOT_FINITE, detail="after t = 0.001 s")
+    found = detail_of(walker, ba.RK4(5e-4), lost)
+    assert found == "after t = 0.001 s: ZeroDivisionError: float division by zero"
 
 
 @dataclass(frozen=True)
@@ -433,3 +465,79 @@ def test_a_sensor_that_shows_something_else(engine, name, bad, biped, gait):
     )
     with pytest.raises(InputError, match=re.escape(f"Blind.{name} returned")):
         ba.walk(walker, gait, 1, engine=engine)
+
+
+def complex_first(point):
+    return point._replace(**{point._fields[0]: point[0] + 1j})
+
+
+def none_for_a_point(point):
+    return None
+
+
+def one_number_for_all(point):
+    return point._replace(drift=0.0)
+
+
+def short_rows(point):
+    return point._replace(**{point._fields[1]: np.zeros(3)})
+
+
+def no_numbers(point):
+    return point._replace(drift=np.full(4, np.nan))
+
+
+POINTS = {
+    complex_first: (r"gives (y|q_d) = complex128 numbers, expected \(4,\), real numbers"),
+    none_for_a_point: r"gives None, expected an? (Output|Reference)Point\(",
+    one_number_for_all: r"gives drift of shape \(\), expected \(4,\)",
+    short_rows: r"gives dq?(y|_d) of shape \(3,\), expected \(4,\)",
+    no_numbers: r"gives drift = \[nan nan nan nan\]",
+}
+
+
+def own_point(base: type, right: Callable[..., object], bad: Callable[..., object], after: float):
+    """An object of a class Own below `base`, which gives something else from the time `after` [s] on."""
+
+    def call(self, t, q, v):
+        return bad(right(t, q, v)) if t >= after else right(t, q, v)
+
+    return type("Own", (base,), {"__call__": call, "laws": None})()
+
+
+@pytest.mark.parametrize("after", [0.0, 0.004])
+@pytest.mark.parametrize("bad", POINTS)
+@pytest.mark.parametrize("kind", ["outputs", "reference"])
+def test_outputs_and_references_that_give_something_else(kind, bad, after, biped, gait):
+    h = gait.constraint
+    if kind == "outputs":
+        right = ba.LinearOutputs(np.eye(4, 5), h)
+        controller = ba.OutputNPDController(own_point(ba.Outputs, right, bad, after))
+    else:
+        controller = ba.NPDController(own_point(ba.Reference, h, bad, after))
+    walker = ba.Walker(biped, controller)
+    if bad is no_numbers and after:
+        run = ba.walk(walker, gait, 1).trajectory
+        assert run.status.name == "NOT_FINITE"
+        assert re.match(f"Own {POINTS[bad]}", run.detail)
+        return
+    with pytest.raises(InputError, match=f"^Own {POINTS[bad]}"):
+        ba.walk(walker, gait, 1)
+
+
+def test_a_reference_that_writes_is_told_where_at_the_start_too(biped, gait):
+    def written(t, q, v):
+        q[0] = 0.0
+        return gait.constraint(t, q, v)
+
+    controller = ba.NPDController(own_point(ba.Reference, written, written, 1.0))
+    with pytest.raises(InputError, match=WRITES):
+        ba.walk(ba.Walker(biped, controller), gait, 1)
+
+
+@pytest.mark.parametrize(
+    "function", [lambda q: None, lambda q: q[:4] * 1j, lambda q: "abcd", lambda q: q[:4] * np.nan]
+)
+def test_a_function_of_outputs_that_gives_something_else(function):
+    with pytest.raises(InputError, match=r"^FunctionOutputs\.function returned"):
+        ba.FunctionOutputs(function)(0.0, np.zeros(5), np.zeros(5))

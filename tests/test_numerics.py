@@ -15,6 +15,7 @@ from biped_adrc.control.tracking import tracked_laws
 from biped_adrc.engine.batch import Case, simulate_many
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.run import simulate_by
+from biped_adrc.errors import InputError
 from biped_adrc.hybrid.integrators import CROWDED, CROWDED_STEP, RK4, Adaptive, Stiff
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
@@ -251,3 +252,20 @@ def test_a_parameter_that_is_nan_is_nan_in_both_engines(biped, gait):
         run = simulate_by(engine, walker, x, ba.Mode(), RK4(), t_end=0.1)
         assert run.status is ba.Status.NOT_FINITE
         assert all_finite(run)
+
+
+@pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
+@pytest.mark.parametrize("size", [1e160, 1e300])
+def test_a_gait_beyond_all_numbers_is_refused_or_ends_without_warnings(size, engine, biped, gait):
+    """A warning is an error in these tests."""
+    h = gait.constraint
+    h = replace(h, curve=replace(h.curve, coefficients=size * h.curve.coefficients))
+    with pytest.raises(InputError, match=r"expected finite angles or rates, below 1e\+150"):
+        ba.ZeroDynamics.of(biped, h)
+    walker = ba.Walker(biped, ba.NPDController(h))
+    if size > 1e200:
+        with pytest.raises(InputError, match=r"^NPDController\.output returned \["):
+            ba.walk(walker, gait, 1, engine=engine)
+    else:
+        end = ba.walk(walker, gait, 1, engine=engine).trajectory.status
+        assert end in (ba.Status.RAN_AWAY, ba.Status.SINGULAR)

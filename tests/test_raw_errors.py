@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -256,6 +258,22 @@ CASES = {
         lambda s: cycle_of(ba.Scenario("passive", robot="compass", h=1e-3)),
         "by a fixed method, and takes no h: this would do nothing",
     ),
+    "an engine of a return map": (
+        lambda s: cycle_of(ba.Scenario("NPD", engine="pinocchio")),
+        "takes no engine: this would do nothing",
+    ),
+    "a step of the ground for a return map": (
+        lambda s: cycle_of(ba.Scenario("NPD", ground_step=0.01)),
+        "takes no ground_step: this would do nothing",
+    ),
+    "two slopes of a return map": (
+        lambda s: cycle_of(ba.Scenario("NPD", slope=0.01), slope=0.02),
+        "cycle on a slope of 0.02 rad and takes no slope: this would do nothing",
+    ),
+    "a gait for a passive cycle": (
+        lambda s: ba.find_cycle("compass", gait="v0.8"),
+        "robot 'compass' has no motors, so it takes no gait",
+    ),
     "a gait as a walker": (lambda s: ba.ReturnMap(s.gait, ba.RK4()), "walker of ReturnMap is a Ga"),
 }
 
@@ -417,6 +435,29 @@ def test_a_return_map_takes_the_method_and_step_of_the_scenario():
     assert steps() == ba.RK4(5e-4)
     assert steps(h=2e-4) == ba.RK4(2e-4)
     assert steps(method="adaptive") == ba.Adaptive(1e-9, 1e-9)
+
+
+def test_a_passive_cycle_takes_the_slope_of_the_scenario():
+    level, beside = (
+        cycle_of(ba.Scenario("passive", robot="compass", slope=x)).P.walker.slope for x in (0, 0.01)
+    )
+    assert beside == pytest.approx(level + 0.01, abs=1e-15)
+
+
+def test_poincare_judges_by_the_limits_given_and_says_what_does_nothing(monkeypatch):
+    """At the guess of the cycle, which is close; Newton's iteration takes seconds."""
+
+    def guessed(cycle, samples):
+        orbit = SimpleNamespace(x_minus=cycle.guess, residual=0.0)
+        return SimpleNamespace(orbit=orbit, table=SimpleNamespace(text=str))
+
+    monkeypatch.setattr("biped_adrc.studies.cycle_stability.cycle_stability", guessed)
+    values = ("--set", "friction_limit=0.3", "--set", "force_window=0.02", "--set", "seed=5")
+    found = CliRunner().invoke(app, ["poincare", *values])
+    said = " ".join(found.output.split())
+    assert found.exit_code == 0
+    assert re.search(r"mean of 20 ms .*, limit 0\.3; not legal: .*> 0\.3 over 20 ms", said)
+    assert "note: seed = 5 does nothing: nothing in this walk is random" in said
 
 
 def test_the_pitch_sensors_noise_is_named_apart_and_drawn_apart():

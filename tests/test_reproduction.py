@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, OutputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.plan import PAPER_PUSH, SINE, Plan, base_runs, tasks
+from biped_adrc.paper.reproduction import probe
 from biped_adrc.scenario.push import Push, parse_push
 
 
@@ -29,6 +30,15 @@ def test_a_quick_plan_leaves_out_what_it_says() -> None:
 def test_quick_and_full_exclude_one_another() -> None:
     with pytest.raises(InputError, match="exclude one another"):
         Plan(quick=True, full=True)
+
+
+def test_a_link_in_its_folder_is_refused_before_minutes_of_walking(tmp_path: Path) -> None:
+    probe(tmp_path / "out")
+    (tmp_path / "out" / "notes.txt").symlink_to(tmp_path)  # nothing that is written
+    probe(tmp_path / "out")
+    (tmp_path / "out" / "report.html").symlink_to(tmp_path / "precious.html")
+    with pytest.raises(OutputError, match=r"report\.html' is a link to"):
+        probe(tmp_path / "out")
 
 
 def test_the_map_of_pushes_is_of_the_full_plan() -> None:

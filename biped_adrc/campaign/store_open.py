@@ -24,7 +24,7 @@ from biped_adrc.campaign.chunk import text_of
 from biped_adrc.campaign.store import About, Store, cannot_write, identity_of
 from biped_adrc.campaign.store_check import add_checks, check_whole, checksum, damaged
 from biped_adrc.errors import InputError, OutputError
-from biped_adrc.files import replacing
+from biped_adrc.files import check_place, replacing
 from biped_adrc.versions import differences
 
 APPLICATION = 0x62614452
@@ -47,8 +47,11 @@ def open_store(path: Path, about: About, other_versions: bool = False) -> Store:
 
     about: the study that is to be run. other_versions: go on though other versions made what is there; each run
     names its own. Raises InputError for a file that is not one of this study, or that another process writes,
-    and OutputError.
+    and OutputError, also where the file or one that SQLite keeps beside it is a link to elsewhere.
     """
+    for beside in ("", ".lock", "-wal", "-shm", "-journal"):
+        if (kept := path.with_name(path.name + beside)).is_symlink():
+            check_place(kept)
     try:
         with ExitStack() as undo:
             lock = _locked(path)
@@ -233,5 +236,6 @@ def _locked(path: Path) -> FileLock:
             "study at a time. Wait for it, or choose another folder"
         ) from error
     except OSError as error:
+        lock.release()
         raise cannot_write(path, error) from error
     return lock

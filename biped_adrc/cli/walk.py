@@ -198,7 +198,8 @@ def poincare(
     samples: int = 25,
 ) -> None:
     """Fixed point of the return map, and its multipliers by every method beside each other."""
-    from biped_adrc.scenario.scenario import Scenario
+    from biped_adrc.scenario.build import limits
+    from biped_adrc.scenario.scenario import Scenario, idle
     from biped_adrc.studies.cycle_stability import (
         cycle_of,
         cycle_stability,
@@ -214,8 +215,9 @@ def poincare(
     lines = (
         f"{s.robot}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}",
         "x- = " + " ".join(f"{value:.6f}" for value in o.x_minus[: 2 * walker.plant.n]),
-        _nominal(nominal_step(cycle, o)),
+        _nominal(nominal_step(cycle, o, limits(s))),
         f"residual {o.residual:.1e}; |lambda| by every method:",
         found.table.text(),
+        *(f"note: {remark}" for remark in idle(s)),
     )
     say("\n".join(lines))

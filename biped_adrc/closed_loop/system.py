@@ -205,7 +205,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
         raises InputError for shapes that do not fit, NotFiniteError for a first torque that is NaN.
         """
         mode = Mode() if mode is None else mode
-        with handing_out():
+        # what overflows is refused, or ends the walk
+        with handing_out(), np.errstate(over="ignore", invalid="ignore"):
             m = self.measure(
                 mode.start, np.asarray(q, dtype=float), np.asarray(v, dtype=float), mode
             )
@@ -304,7 +305,8 @@ def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
     if not isinstance(reference, Reference):
         return
     try:
-        point = reference(m.t, m.q, m.v)
+        with handing_out():
+            point = reference(m.t, m.q, m.v)
     except BipedError:
         raise
     except (ValueError, IndexError, TypeError) as error:

@@ -29,8 +29,12 @@ from biped_adrc.engine.ticks import TERMINAL, run_ticks
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import FlownArc, RunOptions, run_arcs
+from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.types import Array
+
+ONWARD, STORE = 0.005, 1_000_000
+"""How far Python looks past the last good state of a lost run [s]; it keeps no nodes between."""
 
 
 def run_compiled(
@@ -50,7 +54,26 @@ def run_compiled(
         why = {"engine": COMPILED_PLANT, "why": str(reason)}
         return replace(run, settings={**run.settings, **why})
     run = run_arcs(_Arcs(made, options).fly, x0, mode, method.label, options)
-    return replace(run, settings={**run.settings, "engine": COMPILED})
+    return replace(
+        run, detail=detail_of(walker, method, run), settings={**run.settings, "engine": COMPILED}
+    )
+
+
+def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
+    """The detail of a run, with what Python says of its next steps where compiled code lost its numbers.
+
+    Compiled laws give NaN without a name; the methods in Python name the class that gave it.
+    """
+    if run.status not in (Status.NOT_FINITE, Status.SINGULAR, Status.RAN_AWAY):
+        return run.detail
+    options = RunOptions(run.t_end + ONWARD, run.t_end, store_every=STORE)
+    try:
+        found = simulator.run(walker, run.final_state, run.arcs[-1].mode, method, options)
+    except Exception as error:  # what a law raises in Python, such as a division by zero
+        return f"{run.detail}: {type(error).__name__}: {error}"
+    if found.status is not run.status or not found.detail:
+        return run.detail
+    return found.detail if run.detail in found.detail else f"{run.detail}: {found.detail}"
 
 
 def on_compiled_plant(

@@ -22,12 +22,13 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import GaitError, InputError, NotFiniteError, check_positive
+from biped_adrc.errors import GaitError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.parts import called_checked, returned
 from biped_adrc.shown import Shown, one_line
 from biped_adrc.types import Array, read_only
 
@@ -54,7 +55,14 @@ class OutputPoint(NamedTuple):
 
 
 class Outputs(Shown, ABC):
-    """Base class: outputs as a pure function of (t, q, q')."""
+    """Base class: outputs as a pure function of (t, q, q').
+
+    What a subclass gives is checked at every call: InputError, or NotFiniteError, with the name of the class.
+    """
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        called_checked(cls, OutputPoint)
 
     @abstractmethod
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
@@ -135,17 +143,11 @@ class FunctionOutputs(Outputs):
         check_positive(self.difference, f"difference is {self.difference} rad", " such as 4e-3")
 
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
-        y = np.asarray(self.function(q), dtype=float)
-        if y.ndim != 1:
-            raise InputError(
-                f"the function of the outputs returned an array of shape {y.shape}, expected (p,): "
-                "one number per output"
-            )
-        _check("function", y, y.shape)
-        J = np.asarray(self.jacobian(q) if self.jacobian else self._slopes(q), dtype=float)
-        _check("jacobian", J, (len(y), len(q)))
-        drift = np.asarray(self.drift(q, v) if self.drift else self._bend(q, v), dtype=float)
-        _check("drift", drift, y.shape)
+        y = returned(self.function(q), None, self, "function")
+        J = self.jacobian(q) if self.jacobian else self._slopes(q)
+        J = returned(J, (len(y), len(q)), self, "jacobian")
+        drift = self.drift(q, v) if self.drift else self._bend(q, v)
+        drift = returned(drift, y.shape, self, "drift")
         return OutputPoint(y, J @ v, J, drift)
 
     def _slopes(self, q: Array) -> Array:
@@ -174,15 +176,3 @@ def _along(f: Callable[[Array], Array], q: Array, dq: Array, weights: Array) -> 
         sum(w * np.asarray(f(q + k * dq)) for k, w in zip(range(-2, 3), weights, strict=True) if w)
     )
     return total
-
-
-def _check(name: str, found: Array, shape: tuple[int, ...]) -> None:
-    """Raise InputError for an array of another shape, NotFiniteError for one that is not finite."""
-    if found.shape != shape:
-        raise InputError(
-            f"the {name} of the outputs returned an array of shape {found.shape}, expected {shape}"
-        )
-    if not np.all(np.isfinite(found)):
-        raise NotFiniteError(
-            f"the {name} of the outputs returned {found}; expected finite numbers at every state"
-        )

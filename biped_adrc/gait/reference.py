@@ -16,12 +16,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError
+from biped_adrc.parts import called_checked, point_returned
 from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
@@ -62,6 +63,10 @@ class Reference(Composed):
     _kind: ClassVar[str] = "reference"
     _methods: ClassVar[frozenset[str]] = frozenset(("__call__",))
 
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        called_checked(cls, ReferencePoint)
+
     @property
     def laws(self) -> ReferenceLaws | None:
         """The pure function that `__call__` calls; None for a reference written as a method."""
@@ -94,18 +99,7 @@ def check_point(reference: Reference, r: object, p: int, n: int) -> None:
 
     Called once before a walk, since a wrong shape would broadcast silently.
     """
-    name = type(reference).__name__
-    if not isinstance(r, ReferencePoint):
-        raise InputError(
-            f"{name} gives a {type(r).__name__}, expected a ReferencePoint(q_d, dq_d, drift, H)"
-        )
-    for field, value in r._asdict().items():
-        expected = (p, n) if field == "H" else (p,)
-        if np.shape(value) != expected:
-            raise InputError(
-                f"{name} gives {field} of shape {np.shape(value)}, expected {expected}: {p} joints"
-                f"{f', {n} coordinates' if field == 'H' else ''}"
-            )
+    point_returned(r, ReferencePoint, reference, n, p)
 
 
 @dataclass(frozen=True)

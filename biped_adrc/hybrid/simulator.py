@@ -35,6 +35,7 @@ Progress = Callable[[float, int], None]
 RESOLUTION = 2e-3
 """Longest stretch [s] of a step over which a double crossing of a witness could pass unseen."""
 _T_XTOL, _T_RTOL = 1e-15, 9e-16  # of the event time: [s], and relative to it
+_ITERATIONS = 10_000  # a witness that touches zero flatly takes more than SciPy's 100
 
 
 @dataclass
@@ -424,5 +425,6 @@ class _Watch:
 
         if end[1] == 0.0:
             return end[0], state(end[0])
-        te = float(brentq(witness, start[0], end[0], xtol=_T_XTOL, rtol=_T_RTOL))
+        limits = {"xtol": _T_XTOL, "rtol": _T_RTOL, "maxiter": _ITERATIONS}
+        te = float(brentq(witness, start[0], end[0], **limits))
         return te, state(te)

@@ -15,7 +15,6 @@ geometry is in three dimensions, the rows XZ of it are the plane of motion.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -64,16 +63,20 @@ def frame_index(model: pin.Model, frame: str) -> int:
     return int(model.getBodyId(frame))
 
 
+BEYOND = 1e150
+"""Angle or rate [rad, rad/s] from which on squares of it overflow."""
+
+
 def finite_angles(q: Array, shape: tuple[int]) -> Array:
     """q itself, once it is known to have this shape, (n,), and finite numbers [rad] or [rad/s].
 
-    Raises InputError for the shape, NotFiniteError for NaN or infinity. The sum of squares is
-    tested since it is one fast call; it is finite only if all entries are.
+    Raises InputError for the shape, NotFiniteError for NaN, infinity and what is `BEYOND`. Python's floats
+    are added since that is the fastest test and overflows without a warning.
     """
     if q.shape != shape:
         raise InputError(f"expected an array of shape {shape}, found {q.shape}")
-    if not math.isfinite(q.dot(q)):
-        raise NotFiniteError(f"expected finite angles or rates, found {q}")
+    if not sum(map(abs, q.tolist())) < BEYOND:
+        raise NotFiniteError(f"expected finite angles or rates, below {BEYOND:g}, found {q}")
     return q
 
 

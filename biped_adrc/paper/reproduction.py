@@ -24,7 +24,7 @@ from biped_adrc.campaign.pool import TaskProgress, run_tasks
 from biped_adrc.checks import Check
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.errors import OutputError
-from biped_adrc.files import plain, write_text
+from biped_adrc.files import check_place, plain, write_text
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper import verdicts
@@ -44,6 +44,9 @@ from biped_adrc.scenario.stored import replay
 from biped_adrc.versions import versions
 from biped_adrc.viz.meshcat.view import Look, animation_html
 from biped_adrc.viz.pages import write_report
+
+WRITTEN = (".html", ".json", ".npz", ".png", ".svg")
+"""Kinds of the files that a reproduction writes."""
 
 
 def reproduce(
@@ -141,12 +144,18 @@ def _checks(plan: Plan, r: Results) -> list[Check]:
 
 
 def probe(out: Path) -> None:
-    """Make the folder and try to write in it, since the runs take minutes. Raises OutputError."""
+    """Make the folder and try to write in it, since the runs take minutes.
+
+    Raises OutputError, also where a file there that may be written over is a link or a device.
+    """
     marker = out / ".writable"
     write_text(marker, "")
     marker.unlink()
     if not out.is_dir():
         raise OutputError(f"'{out}' is not a folder; choose another with --out")
+    for path in out.iterdir():
+        if path.suffix in WRITTEN:
+            check_place(path)
 
 
 def _settings(plan: Plan) -> dict[str, object]:

@@ -61,7 +61,7 @@ BESIDE = 1e-3
 
 
 NO_MAP = (
-    *("impacts", "first_step", "fine", "pushes", "push", "pushed_step"),
+    *("impacts", "first_step", "fine", "pushes", "push", "pushed_step", "ground_step", "engine"),
     *("start", "start_speed", "start_speed_spread", "start_spread", "start_rate_spread"),
 )
 """Fields of a scenario that have no effect on a return map."""
@@ -135,17 +135,21 @@ def cycle_of(s: Scenario, observer_states: bool = True, slope: float | None = No
     Raises as `find_cycle`, and InputError for values that have no effect on a return map.
     """
     scene = RobotAndGait.of(s)
-    without = NO_MAP if scene.gait else (*NO_MAP, "method", "h", "tolerance")
-    idle = [name for name in s.record() if name in without]
-    if idle:
+    without = NO_MAP if scene.gait else (*NO_MAP, "method", "h", "tolerance", "runaway_speed")
+    if slope is not None:
+        without = (*without, "slope")
+    useless = [name for name in s.record() if name in without]
+    if useless:
+        on = "" if slope is None else f" on a slope of {slope:g} rad"
         raise InputError(
-            "the return map is of one step of the undisturbed cycle"
-            f"{'' if scene.gait else ', by a fixed method,'} and takes no {', '.join(idle)}: this would do "
+            f"the return map is of one step of the undisturbed cycle{on}"
+            f"{'' if scene.gait else ', by a fixed method,'} and takes no {', '.join(useless)}: this would do "
             "nothing, leave it out"
         )
     if scene.gait:
         return gait_cycle(s, observer_states, slope)
-    return known_cycle(build(replace(s, gait=Scenario.gait), scene).plant, slope)
+    walker = build(s, scene)
+    return known_cycle(walker.plant, walker.slope if slope is None else slope)
 
 
 def cycle_stability(

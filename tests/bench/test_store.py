@@ -1,5 +1,6 @@
 """The results file: exact, whole after a kill at any moment, and left alone where it is not one's own."""
 
+import errno
 import os
 import random
 import signal
@@ -223,6 +224,21 @@ def test_a_full_disk_ends_the_study_and_keeps_what_was_finished(tmp_path):
         assert [r.row["n"] for r in store.results()] == [k * k for k in range(500)]
 
 
+def test_a_disk_too_full_for_the_lock_leaves_it_free(tmp_path, monkeypatch):
+    path = filled(tmp_path / "r.sqlite", 3)
+
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "write_text", full)
+        with pytest.raises(OutputError, match="No space") as caught:
+            open_store(path, about())
+    with open_store(path, about()) as store:
+        assert len(store) == 3
+    assert caught.value.exit_code == 5
+
+
 def test_a_file_that_cannot_be_written(tmp_path):
     (tmp_path / "file").touch()
     for path in (tmp_path / "file" / "r.sqlite", Path(os.devnull) / "r.sqlite"):
@@ -353,6 +369,21 @@ def test_what_is_left_of_a_file_is_not_begun_anew(tmp_path):
         open_store(path, about())
     assert not path.exists()
     assert log.read_bytes() == b"log"
+
+
+@pytest.mark.parametrize("beside", ["", ".lock", "-wal"])
+def test_what_is_a_link_to_another_folder_is_not_written_to(beside, tmp_path):
+    path = filled(tmp_path / "r.sqlite", 3)
+    link, target = path.with_name(f"r.sqlite{beside}"), tmp_path / "elsewhere"
+    if beside:
+        target.write_text("kept")
+    else:
+        path.rename(target)
+    link.symlink_to(target)
+    before = target.read_bytes()
+    with pytest.raises(OutputError, match=rf"r\.sqlite{beside}' is a link to '.*elsewhere'"):
+        open_store(path, about())
+    assert target.read_bytes() == before
 
 
 def test_a_lock_of_another_program_is_named_soon(tmp_path):

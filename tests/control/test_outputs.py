@@ -160,8 +160,8 @@ def test_outputs_that_do_not_fit(biped, gait, state):
     with pytest.raises(InputError, match="difference is 0"):
         FunctionOutputs(lambda q: q, difference=0.0)
     for function, error, message in (
-        (lambda q: q[0], InputError, r"shape \(\), expected \(p,\)"),
-        (lambda q: q * np.nan, NotFiniteError, "the function of the outputs returned"),
+        (lambda q: q[0], InputError, r"shape \(\), expected a row"),
+        (lambda q: q * np.nan, NotFiniteError, "FunctionOutputs.function returned"),
         (lambda q: q[:3], InputError, r"Jacobian of shape \(3, 5\), expected \(4, 5\)"),
     ):
         with pytest.raises(error, match=message):

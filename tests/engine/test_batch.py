@@ -5,6 +5,7 @@ import threading
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import count, islice
+from typing import NamedTuple
 
 import numpy as np
 import psutil
@@ -151,6 +152,41 @@ def test_a_start_without_numbers_ends_its_own_run(plain):
     assert [w.status.name for w in walked] == ["COMPLETED", "NOT_FINITE", "COMPLETED"]
     assert "expected finite" in walked[1].detail
     assert walked[1].impacts == 0
+
+
+class Gap(NamedTuple):
+    """npd: parameters of NPD. middle: of 0.06 ms in which the torque is NaN [s]."""
+
+    npd: object
+    middle: float
+
+
+def gapped(k, s, m):
+    return npd_output(k.npd, s, m) + 1e-12 * np.sqrt((m.t - k.middle) ** 2 - 1e-9)
+
+
+@dataclass(frozen=True)
+class Gapped(Controller):
+    npd: ba.NPDController
+    middle: float
+
+    @property
+    def laws(self):
+        return ControllerLaws(Gap(self.npd.laws.parameters, self.middle), gapped)
+
+
+def test_an_impact_that_cannot_be_located_ends_its_own_run(plain, npd):
+    """NaN half way between the last node and the impact, where the whole step does not look."""
+    one = replace(plain, impacts=1)
+    (made,) = simulate_many([one])
+    node = made.times[0] - made.times[0] % plain.method.h
+    walker = replace(plain.walker, controller=Gapped(npd, 0.5 * (node + made.times[0])))
+    before, lost, after = simulate_many([one, replace(one, walker=walker), one])
+    assert lost.status is ba.Status.NOT_FINITE
+    assert lost.t_end == pytest.approx(node, abs=1e-12)
+    assert np.all(np.isfinite(lost.final_state))
+    same(before, made)
+    same(after, made)
 
 
 def test_what_each_run_leaves(mixed):

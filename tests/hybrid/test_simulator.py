@@ -122,6 +122,14 @@ def test_a_double_crossing_inside_a_long_step_is_found():
     assert run.events()[0].t == pytest.approx(0.497, abs=1e-9)
 
 
+def test_a_crossing_that_is_flat_is_found():
+    """A triple root takes Brent's method more than SciPy's 100 iterations."""
+    root = 1.0998
+    flat = Timer(lambda t: (root - t) ** 3)
+    run = go(flat, RK4(2e-3), t0=root - 5e-4, t_end=2.0)
+    assert run.events()[0].t == pytest.approx(root, abs=1e-9)
+
+
 def test_a_crossing_may_be_let_pass():
     run = go(Timer(lambda t: 0.55 - t, accept=False))
     assert not run.events()

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 
 from biped_adrc.engine.kernels.call import Ints, inner, shift, unit
-from biped_adrc.engine.kernels.laws import copy, row, watch
+from biped_adrc.engine.kernels.laws import broken, copy, finite, row, watch
 from biped_adrc.engine.kernels.layout import *
 from biped_adrc.engine.kernels.steps import classical, eighth, halve
 from biped_adrc.types import Array
@@ -70,7 +70,7 @@ def brent(
     """
     other, f_other = before, f_before
     last = step = now - before
-    for _ in range(100):
+    for _ in range(ITERATIONS):
         if f_now == 0.0 or f_now != f_now:  # a state that is not finite, which ends the run
             return now
         if (f_before < 0.0) != (f_now < 0.0):
@@ -134,13 +134,16 @@ def crossed(P: Ints, F: Array, K: Array, W: Array, t0: float, ta: float, tb: flo
     into row XE.
 
     Every event function that falls through zero is located and the earliest counts. A touchdown
-    less than LEAST_STEP ahead of the stance foot is no event, so the others are still looked at.
+    less than LEAST_STEP ahead of the stance foot is no event, so the others are still looked at. A
+    state without numbers at a time that was tried is a status: nothing is known of the event.
     """
     after, tried = row(P, W, AFTER), row(P, W, TRIED)
     first, first_guard, last = math.inf, -1, -1
     for guard in range(GUARDS):
         if W[VALUES + guard] > 0.0 >= after[guard]:
             te, last = locate(P, F, K, W, guard, t0, ta, tb), guard
+            if not finite(row(P, W, XE), P[STATES]):
+                return broken(W)
             ahead = tried[FOOT_X] > F[LEAST_STEP]
             if te < first and (guard != FOOT_STRIKE or ahead):
                 first, first_guard = te, guard

@@ -109,5 +109,5 @@ LANDING = 1e-9
 """A last step longer than h by this fraction [1] is still one step."""
 SAME_STEP = 1e-9
 """Relative difference [1] below which two steps share their matrices."""
-XTOL, XRTOL = 1e-15, 9e-16
-"""Tolerances [s] and [1] of the time of an event."""
+XTOL, XRTOL, ITERATIONS = 1e-15, 9e-16, 10_000
+"""Tolerances [s] and [1] of the time of an event, and most iterations of its root finder."""
