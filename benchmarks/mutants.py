@@ -8,8 +8,9 @@ with .pyc that carry their source's hash; the tests stop at the first that fails
 fault. `--workers 2` has a second copy.
 
 What has been run is in OUT/results.jsonl and is not run again; OUT/draw.json is the draw of the seed.
-`--again` runs the survivors once more, after tests were added. `--planted` puts in the faults of faults.toml,
-which were chosen by hand, and runs the one test that each of them names. `--report` only prints the tables.
+`--again` runs the survivors once more, after tests were added, but for those found to be equivalent.
+`--planted` puts in the faults of faults.toml, which were chosen by hand, and runs the one test that each of
+them names. `--report` only prints the tables.
 """
 
 from __future__ import annotations
@@ -343,7 +344,9 @@ def main() -> int:
     lines = stored.read_text().splitlines() if stored.exists() else []
     results = {key(row): row for row in map(json.loads, lines)}
     if not given.report:
-        _run(out, faults, results, settings["tests"], given)
+        same = {key(f) for f in settings.get("survivor", []) if "equivalent" in f}
+        left = [f for f in faults if key(f) not in results or key(f) not in same]
+        _run(out, left, results, settings["tests"], given)
     text = report(faults, results, settings.get("survivor", []))
     (out / "report.md").write_text(text + "\n")
     print(text)
