@@ -42,6 +42,7 @@ NEVER_TRACED = (
     "observer_design",
     "paper",
     "scenario",
+    "soft",
     "studies",
     "viz",
 )
