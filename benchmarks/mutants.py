@@ -318,8 +318,8 @@ def report(faults: list[Fault], results: dict[Any, Fault], judged: list[Fault]) 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path, help="folder of the copy, the draw and the results")
-    parser.add_argument("--seed", type=int, default=16)
-    parser.add_argument("--number", type=int, default=200, help="faults to draw")
+    parser.add_argument("--seed", type=int, default=17)
+    parser.add_argument("--number", type=int, default=212, help="faults to draw")
     parser.add_argument("--workers", type=int, default=1, help="faults run at a time")
     parser.add_argument("--least", type=int, default=10, help="faults of each folder")
     parser.add_argument(

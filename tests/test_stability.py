@@ -26,12 +26,13 @@ from biped_adrc.analysis.variational import (
 )
 from biped_adrc.errors import GaitError, InputError, SimulationError, SingularError
 from biped_adrc.gait.curves import Polynomial as PolynomialCurve
-from biped_adrc.gait.published import passive_cycle
+from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, passive_cycle
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import (
     BESIDE,
     Cycle,
+    cycle_of,
     cycle_stability,
     find_cycle,
     gait_cycle,
@@ -274,3 +275,22 @@ def test_cycles_that_cannot_be_found(biped: ba.Biped) -> None:
 def test_newton_at_a_multiplier_of_one() -> None:
     with pytest.raises(SingularError, match="1 - dP/ds"):
         newton_step(np.diag([1.0, 0.5]), np.ones(2))
+
+
+def test_a_slope_is_given_once():
+    """By the scenario, beside the robot's own, or as a whole."""
+    s, own = (
+        ba.Scenario(robot="compass", controller="passive", slope=0.002),
+        passive_cycle(ba.Biped.load("compass")).slope,
+    )
+    assert cycle_of(s).P.walker.slope == own + 0.002
+    with pytest.raises(InputError, match=r"on a slope of 0\.06 rad.*takes no slope"):
+        cycle_of(s, slope=0.06)
+
+
+def test_the_printed_multipliers_are_those_of_a_real_matrix():
+    """Complex ones come in pairs of equal size; the largest is 0.844."""
+    sizes = sorted(PUBLISHED_MULTIPLIERS)
+    assert sizes[-1] == 0.844
+    assert sum(sizes.count(x) == 2 for x in set(sizes)) == 4
+    assert [x for x in sizes if sizes.count(x) == 1] == [0.138, 0.6609]

@@ -7,7 +7,8 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.bench.run import run_trial
-from biped_adrc.scenario.build import RobotAndGait, plant_of, start
+from biped_adrc.control.momentum_dob import MomentumDOBController
+from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 
@@ -91,3 +92,10 @@ def test_a_value_that_would_do_nothing_is_refused(
         Scenario(**idle)
     s = Scenario(**idle | with_effect)
     assert Scenario(**s.record()) == s
+
+
+def test_a_class_and_its_name_have_the_same_settings() -> None:
+    """A default that both write down."""
+    scene = RobotAndGait.of(Scenario("DOB"))
+    named = build(Scenario("DOB"), scene).controller
+    assert named == MomentumDOBController(scene.gait.constraint)
