@@ -132,6 +132,14 @@ def test_the_clock_may_run_on_over_contacts():
         assert np.max(np.abs(ticks - np.round(ticks))) < 1e-9
 
 
+def test_a_wrong_limit_or_plant_is_refused():
+    for limit in (-1.0, 0.0, np.nan):
+        with pytest.raises(InputError, match="the torque limit is"):
+            loop(torque_limit=limit)
+    with pytest.raises(InputError, match=r"the plant is 'ball'.*expected one that moves by itself"):
+        loop(plant="ball")
+
+
 def test_the_plant_may_end_the_run():
     walked = run(loop(plant=Ball(sticks_at=0.0)), t_end=2.0)
     assert walked.status is ba.Status.FELL

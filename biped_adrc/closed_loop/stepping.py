@@ -30,14 +30,13 @@ from biped_adrc.closed_loop.stepping_plant import (
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.errors import InputError, NotFiniteError, check_positive
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import Record, RunOptions
 from biped_adrc.hybrid.system import FoundEvent, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
-from biped_adrc.parts import returned
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, Indices, frozen
 
@@ -72,7 +71,14 @@ class SteppingLoop(ClosedLoop[Any]):
                 f"a plant that moves by itself is controlled at ticks, found {type(self.timing).__name__}; "
                 "give timing=SampledTime(period)"
             )
+        if not isinstance(self.plant, SteppingPlant):
+            raise InputError(
+                f"the plant is {self.plant!r:.60}, expected one that moves by itself, with n, p, swap, start "
+                "and advance, such as MuJoCoPlant(biped)"
+            )
         self.check()
+        if (limit := self.torque_limit) is not None:
+            check_positive(limit, f"the torque limit is {limit} N m", " or None")
         check_swap(self.plant)
         if self.motors is not None and self.motors.lag > 0.0:
             raise InputError(
@@ -100,19 +106,6 @@ class SteppingLoop(ClosedLoop[Any]):
         """How many numbers of its own the plant keeps, found by starting it once at rest."""
         still = np.zeros(self.plant.n)
         return len(started(self.plant, 0.0, still, still, None).own)
-
-    def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
-        """zeta (n,) [N m] at t [s], q (n,) [rad], v (n,) [rad/s]."""
-        if self.disturbance is None:
-            return np.zeros(self.plant.n)
-        zeta = self.disturbance.torque(t, mode.step, mode.start, q, v)
-        return returned(zeta, q.shape, self.disturbance, "torque")
-
-    def resultant(self, t: float, mode: Mode) -> Array:
-        """Force from outside on the robot as a whole (2,) [N] at t [s]."""
-        if self.disturbance is None:
-            return np.zeros(2)
-        return self.disturbance.resultant(t, mode.step, mode.start)
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
         """x (nx,) at the start of a single support in q (n,) [rad], v (n,) [rad/s], the plant started there."""

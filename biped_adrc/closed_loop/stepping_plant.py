@@ -12,7 +12,7 @@ the run with NOT_FINITE, as for any plant.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -74,6 +74,7 @@ class Advanced(NamedTuple):
     the state just before the contacts, at the same time as `state`; without contacts it equals `state`."""
 
 
+@runtime_checkable
 class SteppingPlant(Protocol):
     """n coordinates, the first p of them with motors. Arrays that it is given are read-only."""
 

@@ -31,6 +31,7 @@ from biped_adrc.closed_loop.semantics import (
 )
 from biped_adrc.control.base import Controller, Measurement, check_state
 from biped_adrc.control.tracking import Gains
+from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import BipedError, InputError, NotFiniteError
 from biped_adrc.gait.reference import Reference, ReferencePoint, check_point
 from biped_adrc.hardware import sample_hold as held
@@ -66,6 +67,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
     """Between plant and controller, in sampled time; None for exact measurements."""
     motors: Motors | None = None
     """Between controller and plant, in sampled time; None for ideal ones."""
+    disturbance: Disturbance | None = None
+    """What acts from outside; None for nothing."""
 
     def check(self) -> None:
         """Raise InputError for a part that is none, or a model with another number of coordinates."""
@@ -171,8 +174,26 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return np.arange(self.plant.p)
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
-        """zeta (n,) [N m]; zero unless a subclass has a disturbance."""
-        return np.zeros(self.plant.n)
+        """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s].
+
+        Raises InputError where a user's disturbance returns no row of n numbers, NotFiniteError for NaN.
+        """
+        if self.disturbance is None:
+            return np.zeros(self.plant.n)
+        zeta = self.disturbance.torque(t, mode.step, mode.start, q, v)
+        return returned(zeta, q.shape, self.disturbance, "torque")
+
+    def resultant(self, t: float, mode: Mode) -> Array:
+        """Force from outside on the robot as a whole (2,) [N] at t [s]; needed for the ground reaction."""
+        if self.disturbance is None:
+            return np.zeros(2)
+        return self.disturbance.resultant(t, mode.step, mode.start)
+
+    def switching_times(self, mode: Mode) -> tuple[float, ...]:
+        """Times [s] at which the disturbance is not smooth; no step of the integrator goes across one."""
+        if self.disturbance is None:
+            return ()
+        return self.disturbance.switching_times(mode.step, mode.start)
 
     def outside(self, t: float, mode: Mode) -> Outside:
         """Nothing from outside, and flat ground."""

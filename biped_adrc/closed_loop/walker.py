@@ -33,7 +33,6 @@ from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Guard, Split
 from biped_adrc.model.biped import Biped
-from biped_adrc.parts import returned
 from biped_adrc.timing import ContinuousTime, SampledTime, check_ends
 from biped_adrc.types import Array, Indices, read_only
 
@@ -154,22 +153,6 @@ class Walker(ClosedLoop[Biped]):
         return self.meter.parameters(self.plant, timing.period, self.slope)
 
     # -- from outside ------------------------------------------------------------------------------
-    def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
-        """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s].
-
-        Raises InputError where a user's disturbance returns no row of n numbers, NotFiniteError for NaN.
-        """
-        if self.disturbance is None:
-            return np.zeros(self.plant.n)
-        zeta = self.disturbance.torque(t, mode.step, mode.start, q, v)
-        return returned(zeta, q.shape, self.disturbance, "torque")
-
-    def resultant(self, t: float, mode: Mode) -> Array:
-        """Force from outside on the robot as a whole (2,) [N] at t [s]; needed for the ground reaction."""
-        if self.disturbance is None:
-            return np.zeros(2)
-        return self.disturbance.resultant(t, mode.step, mode.start)
-
     def outside(self, t: float, mode: Mode) -> Outside:
         """Force now, impulse since the last sample instant, drop of the ground; for the meter."""
         impulse = np.zeros(2)
@@ -177,12 +160,6 @@ class Walker(ClosedLoop[Biped]):
             assert self.held is not None
             impulse = self.disturbance.impulse(t - self.held.meter.period, t, *mode)
         return Outside(self.resultant(t, mode), impulse, self.drop(mode.step))
-
-    def switching_times(self, mode: Mode) -> tuple[float, ...]:
-        """Times [s] at which the disturbance is not smooth; no step of the integrator goes across one."""
-        if self.disturbance is None:
-            return ()
-        return self.disturbance.switching_times(mode.step, mode.start)
 
     def ground_reaction(self, i: Instant, mode: Mode) -> Array:
         """Force of the ground on the stance foot (F_T, F_N) (2,) [N], forces from outside taken off.

@@ -16,11 +16,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from biped_adrc.errors import InputError, check_positive
+from biped_adrc.parts import Checked, numbers
 from biped_adrc.shown import Shown
 
 
 @dataclass(frozen=True)
-class SoftGround(Shown):
+class SoftGround(Checked, Shown):
     """Ground under point feet; a positive slope goes downhill in the direction of walking."""
 
     friction: float = 0.6
@@ -40,8 +41,8 @@ class SoftGround(Shown):
         """Raise InputError for values that no ground has."""
         for name in ("friction", "time_constant", "damping_ratio", "impratio", "foot_radius"):
             check_positive(getattr(self, name), f"{name} of the ground is {getattr(self, name)}")
-        low, high = self.impedance
-        if not 0.0 < low <= high < 1.0:
+        found = numbers(self.impedance, "the impedance of the ground")
+        if found.shape != (2,) or not 0.0 < found[0] <= found[1] < 1.0:
             raise InputError(
                 f"the impedance of the ground is {self.impedance}, expected 0 < first <= second < 1"
             )

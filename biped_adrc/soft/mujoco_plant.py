@@ -6,7 +6,7 @@ The legs are alike, so at a touchdown the state is relabelled as on the rigid pl
 model stands again; an error of one link follows the leg that stands, here as there. A touchdown is where
 the swing foot, ahead of the stance foot, carries more than `touchdown_force` at a sample instant. Between
 sample instants the engine steps alone, with the torque held and what acts from outside taken in the middle,
-so that edges of a push are rounded to the period. Forces zeta of the coordinates with the stance foot held
+and it begins anew at the edges of a push. Forces zeta of the coordinates with the stance foot held
 become, where the base floats,
 
     f_base = F,   f_q = zeta - J' F,   J = d(base)/dq with the stance foot held
@@ -27,16 +27,23 @@ import numpy as np
 
 from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, Load, PlantState
 from biped_adrc.errors import InputError, check_positive
+from biped_adrc.ground import check_slope, ground_axes
 from biped_adrc.hybrid.integrators import StepFailed
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
+from biped_adrc.parts import Checked
 from biped_adrc.shown import Shown
 from biped_adrc.soft.ground import SoftGround
 from biped_adrc.soft.mujoco_robot import floating_model, mujoco
+from biped_adrc.timing import check_ends
 from biped_adrc.types import Array, Indices, MuJoCoData, MuJoCoModel
 
 FOOT_STRIKE = "foot_strike"
 """Name of a touchdown in the trajectory."""
+TOUCHING = 1e-6
+"""How deep the stance foot is in the ground at the start [m]: no last bit decides whether it touches."""
+DEEPEST = 1e-4
+"""How deep the swing foot may be in the ground at the start [m]."""
 
 
 class Own(NamedTuple):
@@ -59,12 +66,12 @@ class Own(NamedTuple):
 
 
 @dataclass(frozen=True)
-class MuJoCoPlant(Shown):
+class MuJoCoPlant(Checked, Shown):
     """A biped with motors on soft ground; a `SteppingPlant`.
 
     - h [s]: step of the engine. slope [rad]: of the ground, positive downhill.
     - touchdown_force [N], ahead [m]: what the swing foot has to carry, and how far in front it has to
-      be.
+      be. flight_height [m]: the run ends as illegal where the stance foot is higher above the ground.
     - fall_height [1], max_step_time [s]: ends of a run, as of a `Walker`.
 
     Raises InputError where MuJoCo is missing, or a value is none; ModelError for a robot whose motors no
@@ -76,6 +83,7 @@ class MuJoCoPlant(Shown):
     h: float = 2e-4
     touchdown_force: float = 50.0
     ahead: float = 0.1
+    flight_height: float = 0.02
     fall_height: float = 0.35
     max_step_time: float = 2.0
     model: MuJoCoModel = field(init=False, repr=False, compare=False)
@@ -83,8 +91,10 @@ class MuJoCoPlant(Shown):
     """The engine's work space; what it holds is set anew at each call."""
 
     def __post_init__(self) -> None:
-        for name in ("h", "touchdown_force", "fall_height", "max_step_time"):
+        for name in ("h", "touchdown_force", "ahead", "flight_height"):
             check_positive(getattr(self, name), f"{name} of the plant is {getattr(self, name)}")
+        check_slope(self.slope)
+        check_ends(self.max_step_time, self.fall_height, math.inf, math.inf)
         if self.biped.p == 0:
             raise InputError(
                 f"robot '{self.biped.description.name}' has no motors; expected one with motors at its joints"
@@ -116,6 +126,11 @@ class MuJoCoPlant(Shown):
         return self.biped.relabelling[: self.p]
 
     @cached_property
+    def out(self) -> Array:
+        """Unit vector (x, z) (2,) out of the ground."""
+        return ground_axes(self.slope)[1]
+
+    @cached_property
     def angles(self) -> Indices:
         """Places of q in MuJoCo's positions (n,)."""
         return self._places(self.biped.description.joints)
@@ -133,7 +148,13 @@ class MuJoCoPlant(Shown):
         """At t [s] in q (n,) [rad], v (n,) [rad/s], the stance foot at rest at the origin."""
         f = self.biped.floating
         base, speed = f.configuration(q)[f.base], (f.velocity_map(q)[:, : self.n] @ v)[f.base]
-        return PlantState(t, q, v, Own(t, base, speed).numbers())
+        depth = -float(self.out @ self.biped.swing_foot(q))
+        if depth > DEEPEST:
+            raise InputError(
+                f"the swing foot starts {1e3 * depth:.3g} mm inside the ground, expected at most "
+                f"{1e3 * DEEPEST:g} mm; start from a state after an impact on this slope, {self.slope:g} rad"
+            )
+        return PlantState(t, q, v, Own(t, base - TOUCHING * self.out, speed).numbers())
 
     def advance(
         self,
@@ -150,6 +171,7 @@ class MuJoCoPlant(Shown):
         middle = 0.5 * (state.t + until)
         self._push(u, state.q, outside(middle, state.q, state.v))
         mj.mj_step(self.model, data, steps)
+        mj.mj_forward(self.model, data)  # forces of this state, not of the last stage of a step
         if np.any(data.warning.number):
             raise StepFailed(f"MuJoCo lost the motion before t = {until:.6g} s: not finite or huge")
         moved = self._read(until, own)
@@ -188,10 +210,14 @@ class MuJoCoPlant(Shown):
 
     # -- what ends a single support ----------------------------------------------------------------
     def contacts(self, state: PlantState, own: Own) -> tuple[Contact, ...]:
-        """A fall, a step that lasts too long, or a touchdown, in this order; none elsewhere."""
-        hip = self.biped.hip(state.q)
-        if hip[1] < self.fall_height * np.linalg.norm(self.biped.hip(np.zeros(self.n))):
+        """What ends the run (a fall, a stance foot in the air, a step too long), else a touchdown; or none."""
+        f = self.biped.floating
+        foot = self.out @ (own.base - f.configuration(state.q)[f.base])
+        hip = foot + self.out @ self.biped.hip(state.q)
+        if hip < self.fall_height * np.linalg.norm(self.biped.hip(np.zeros(self.n))):
             return (Contact("hip_too_low", ends=Status.FELL),)
+        if foot > self.flight_height:
+            return (Contact("stance_foot_in_the_air", ends=Status.ILLEGAL),)
         if state.t - own.since > self.max_step_time:
             return (Contact("step_too_long", ends=Status.STALLED),)
         force = self.forces()[1]

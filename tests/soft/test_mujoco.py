@@ -16,7 +16,7 @@ from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.soft import mujoco_robot
 from biped_adrc.soft.ground import SoftGround
-from biped_adrc.soft.mujoco_plant import MuJoCoPlant, Own
+from biped_adrc.soft.mujoco_plant import TOUCHING, MuJoCoPlant, Own
 from biped_adrc.soft.mujoco_robot import floating_model, mujoco, pinned_model
 
 ROBOTS = [("rabbit", "identified"), ("rabbit", "tac2003"), ("three_link", None)]
@@ -80,7 +80,6 @@ def test_pinned_it_moves_as_pinocchio_says_but_for_the_fourth_power_of_the_step(
 def test_in_free_flight_the_centre_falls_and_the_spin_stays(robot):
     """Newton and Euler for the whole robot, with torques in its joints."""
     mj, model = mujoco(), floating_model(robot, SoftGround(), 0.0, 1e-3)
-    model.opt.integrator = mj.mjtIntegrator.mjINT_RK4
     data, random = mj.MjData(model), np.random.default_rng(4)
     data.qpos[:], data.qvel[:] = random.normal(size=model.nv), random.normal(size=model.nv)
     data.qpos[model.joint("base_z").qposadr[0]] = 50.0
@@ -197,17 +196,60 @@ def test_a_foot_touches_where_a_point_would_and_slides_with_its_friction(biped, 
     q = gait.start(biped)[0] - [0.0, 0.0, 0.0, 0.6, 0.0]  # the swing foot in the air
     along, out = ground_axes(slope)
     own = Own.of(plant.start(0.0, q, np.zeros(5)).own)
-    plant._place(q, np.zeros(5), own._replace(base=own.base - 1e-6 * out, speed=0.5 * along))
+    plant._place(q, np.zeros(5), own._replace(speed=0.5 * along))
     mujoco().mj_forward(plant.model, plant.data)
-    assert plant.data.contact[0].dist == pytest.approx(-1e-6, abs=1e-12)
+    assert plant.data.contact[0].dist == pytest.approx(-TOUCHING, abs=1e-12)
     F = plant.forces()[0]
     assert F @ along / (F @ out) == pytest.approx(-0.4, rel=0.01)
+
+
+def test_a_push_shorter_than_a_period_gives_the_momentum_that_it_has(biped, gait):
+    """In free flight, by a torque on the torso of 0.2 ms within a period of 1 ms: change of spin = A T."""
+    plant, (q, v) = MuJoCoPlant(biped, flight_height=99.0), gait.start(biped)
+    push = ba.TorquePulse([0.0, 0.0, 0.0, 0.0, 500.0], start=1.4e-3, stop=1.6e-3)
+    system = loop(plant, ba.Passive(), disturbance=push)
+    state = plant.start(0.0, q, v)
+    own = Own.of(state.own)
+    lifted = state._replace(own=own._replace(base=own.base + np.array([0.0, 9.0])).numbers())
+    run = system.run(system.with_plant(system.initial_state(q, v), lifted), RunOptions(3e-3))
+    assert run.status is ba.Status.COMPLETED
+
+    def spin(t):
+        x = run(t)
+        plant._place(x[:5], x[5:10], Own.of(x[10:15]))
+        mujoco().mj_forward(plant.model, plant.data)
+        mujoco().mj_subtreeVel(plant.model, plant.data)
+        return -plant.data.subtree_angmom[0, 1]  # about -y, counter-clockwise in (x, z)
+
+    assert spin(3e-3) - spin(1e-3) == pytest.approx(500.0 * 0.2e-3, rel=1e-3)
+    assert np.any(run.arcs[0].read["zeta"] == 500.0)
+
+
+def test_a_robot_in_the_air_is_told_from_one_that_fell(plant, gait):
+    system = loop(plant, ba.Passive(), disturbance=ba.HipForce(plant.biped, (0.0, 900.0)))
+    q, v = gait.start(plant.biped)
+    run = system.run(system.initial_state(q, v), RunOptions(1.0))
+    assert run.status is ba.Status.ILLEGAL
+    assert run.arcs[-1].event.guard == "stance_foot_in_the_air"
+    fallen = loop(plant, ba.Passive())
+    run = fallen.run(fallen.initial_state(q, v), RunOptions(2.0))
+    assert run.status is ba.Status.FELL
+
+
+def test_a_foot_inside_the_ground_is_no_start(biped, gait):
+    downhill = loop(MuJoCoPlant(biped, slope=0.02), ba.NPDController(gait.constraint))
+    with pytest.raises(InputError, match=r"starts 6\.2\d mm inside the ground.*0\.02 rad"):
+        downhill.initial_state(*gait.start(biped))
 
 
 def test_what_is_missing_or_wrong_is_said(biped, monkeypatch):
     for wrong in ({"friction": -1.0}, {"time_constant": 0.0}, {"impedance": (0.9, 1.0)}):
         with pytest.raises(InputError, match=f"{next(iter(wrong))} of the ground|impedance"):
             SoftGround(**wrong)
+    with pytest.raises(InputError, match=r"biped of MuJoCoPlant is 'rabbit'.*expected a Biped"):
+        MuJoCoPlant("rabbit")
+    with pytest.raises(InputError, match="the slope is nan rad"):
+        MuJoCoPlant(biped, slope=float("nan"))
     with pytest.raises(InputError, match="has no motors"):
         MuJoCoPlant(ba.Biped.load("compass"))
     with pytest.warns(UserWarning, match="more than a tenth of the ground's time constant"):
