@@ -150,13 +150,26 @@ def _client(address: str, timeout: float) -> DaskClient:
         raise InputError(
             f"the address of the Dask scheduler is '{address}', expected one such as {PRINTED}"
         )
+    client: DaskClient = connect.__new__(connect)
     try:
-        return connect(address, timeout=timeout, set_as_default=False)  # type: ignore[no-untyped-call]
+        client.__init__(address, timeout=timeout, set_as_default=False)
     except (OSError, ValueError, TypeError, TimeoutError, ImportError) as error:
+        _let_go(client)
         raise InputError(
             f"no Dask scheduler answers at '{address}' within {timeout:g} s ({type(error).__name__}: {error}); "
             f"expected an address such as {PRINTED}"
         ) from error
+    return client
+
+
+def _let_go(client: DaskClient) -> None:
+    """End a connection that its constructor left half made.
+
+    As garbage it would be closed some time later; while another one starts that waits for Dask's lock for ever.
+    """
+    client.status = "closed"
+    if (runner := getattr(client, "_loop_runner", None)) is not None:
+        runner.stop()
 
 
 def _asked() -> Callable[[], Versions | str]:
