@@ -154,8 +154,10 @@ def point_returned(found: object, kind: Any, part: object, n: int, p: int | None
             f"{spoken(part)} gives {_shown(found)}, expected {_a(kind)}({', '.join(kind._fields)})"
         )
     matrix = "J" if "J" in kind._fields else "H"
-    rows = (p, *getattr(getattr(found, matrix), "shape", ()), np.size(found[0]))[p is None]
-    shapes = [(rows, n) if name == matrix else (rows,) for name in kind._fields]
+    if p is None:
+        shape = getattr(getattr(found, matrix), "shape", ())
+        p = shape[0] if shape else np.size(found[0])
+    shapes = [(p, n) if name == matrix else (p,) for name in kind._fields]
     each = zip(found, shapes, kind._fields, strict=True)
     return kind(*(returned(x, shape, part, name, field=True) for x, shape, name in each))
 

@@ -22,7 +22,7 @@ from biped_adrc.shown import Shown
 
 @dataclass(frozen=True)
 class SoftGround(Checked, Shown):
-    """Ground under point feet; a positive slope goes downhill in the direction of walking."""
+    """Ground under point feet. Raises InputError for values that no ground has."""
 
     friction: float = 0.6
     """mu [1]."""
@@ -38,7 +38,6 @@ class SoftGround(Checked, Shown):
     """[m]; a foot rolls on by the radius times the angle that its leg turns."""
 
     def __post_init__(self) -> None:
-        """Raise InputError for values that no ground has."""
         for name in ("friction", "time_constant", "damping_ratio", "impratio", "foot_radius"):
             check_positive(getattr(self, name), f"{name} of the ground is {getattr(self, name)}")
         found = numbers(self.impedance, "the impedance of the ground")

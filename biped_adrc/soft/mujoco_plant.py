@@ -4,10 +4,10 @@
 
 The legs are alike, so at a touchdown the state is relabelled as on the rigid plant, and the same leg of the
 model stands again; an error of one link follows the leg that stands, here as there. A touchdown is where
-the swing foot, ahead of the stance foot, carries more than `touchdown_force` at a sample instant. Between
-sample instants the engine steps alone, with the torque held and what acts from outside taken in the middle,
-and it begins anew at the edges of a push. Forces zeta of the coordinates with the stance foot held
-become, where the base floats,
+the swing foot, ahead of the stance foot, carries more than `touchdown_force` at a sample instant. From one
+to the next, and at the edges of a push, the engine steps alone, with the torque held and what acts from
+outside taken in the middle. Forces zeta of the coordinates with the stance foot held become, where the base
+floats,
 
     f_base = F,   f_q = zeta - J' F,   J = d(base)/dq with the stance foot held
 
@@ -26,6 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, Load, PlantState
+from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.ground import check_slope, ground_axes
 from biped_adrc.hybrid.integrators import StepFailed
@@ -38,8 +39,6 @@ from biped_adrc.soft.mujoco_robot import floating_model, mujoco
 from biped_adrc.timing import check_ends
 from biped_adrc.types import Array, Indices, MuJoCoData, MuJoCoModel
 
-FOOT_STRIKE = "foot_strike"
-"""Name of a touchdown in the trajectory."""
 TOUCHING = 1e-6
 """How deep the stance foot is in the ground at the start [m]: no last bit decides whether it touches."""
 DEEPEST = 1e-4
@@ -75,7 +74,8 @@ class MuJoCoPlant(Checked, Shown):
     - fall_height [1], max_step_time [s]: ends of a run, as of a `Walker`.
 
     Raises InputError where MuJoCo is missing, or a value is none; ModelError for a robot whose motors no
-    impact exchanges one by one. Warns of a step of the engine above a tenth of the ground's time constant."""
+    impact exchanges one by one. Warns of a step of the engine above a tenth of the ground's time constant.
+    """
 
     biped: Biped
     ground: SoftGround = SoftGround()  # noqa: RUF009
@@ -129,6 +129,11 @@ class MuJoCoPlant(Checked, Shown):
     def out(self) -> Array:
         """Unit vector (x, z) (2,) out of the ground."""
         return ground_axes(self.slope)[1]
+
+    @cached_property
+    def lowest_hip(self) -> float:
+        """Height of the hip above the ground [m] below which the run ends as a fall."""
+        return self.fall_height * float(np.linalg.norm(self.biped.hip(np.zeros(self.n))))
 
     @cached_property
     def angles(self) -> Indices:
@@ -214,7 +219,7 @@ class MuJoCoPlant(Checked, Shown):
         f = self.biped.floating
         foot = self.out @ (own.base - f.configuration(state.q)[f.base])
         hip = foot + self.out @ self.biped.hip(state.q)
-        if hip < self.fall_height * np.linalg.norm(self.biped.hip(np.zeros(self.n))):
+        if hip < self.lowest_hip:
             return (Contact("hip_too_low", ends=Status.FELL),)
         if foot > self.flight_height:
             return (Contact("stance_foot_in_the_air", ends=Status.ILLEGAL),)

@@ -18,6 +18,7 @@ from types import ModuleType
 import numpy as np
 
 from biped_adrc.errors import InputError
+from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.robots.urdf import Joint, Link, Tree
 from biped_adrc.soft.ground import SoftGround
@@ -53,13 +54,14 @@ def floating_model(biped: Biped, ground: SoftGround, slope: float, h: float) -> 
     """The robot on soft ground of a slope [rad]; h [s]: step of the engine.
 
     The plane lies a foot's radius below the plane of the foot points, so that a foot touches where a point
-    would."""
+    would.
+    """
     mj, d = mujoco(), biped.description
     spec = _spec(biped, h)
     spec.option.cone, spec.option.impratio = mj.mjtCone.mjCONE_ELLIPTIC, ground.impratio
     joints = {joint.name: joint for joint in biped.tree.joints}
     _add(spec.worldbody, biped.tree, [joints[name] for name in (*d.base, d.unactuated)], biped)
-    out = np.array([np.sin(slope), 0.0, np.cos(slope)])
+    out = np.insert(ground_axes(slope)[1], 1, 0.0)
     spec.worldbody.add_geom(
         name="ground", type=mj.mjtGeom.mjGEOM_PLANE, size=[0.0, 0.0, 1.0],
         pos=-ground.foot_radius * out, quat=[np.cos(slope / 2), 0.0, np.sin(slope / 2), 0.0],
