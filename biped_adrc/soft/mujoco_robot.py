@@ -5,7 +5,7 @@
 `floating_model` stands on a `SoftGround` with spheres for feet; `pinned_model` turns about its stance foot
 and has no contact. Of MuJoCo's bodies those that move have to have a mass, so the joints of the base belong
 to the trunk. RK4, since MuJoCo's Euler methods move the angles over a sampling period by (1 + h/T)
-a T^2 / 2, which a fast observer takes for a disturbance: under that of Table I a walk falls that RK4 keeps.
+a T^2 / 2, which a fast observer takes for a disturbance: that of Table I does not walk on them.
 Static friction is MuJoCo's `frictionloss`, a bound on a constraint's force, where the rigid plant has tanh.
 """
 
