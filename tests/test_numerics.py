@@ -97,7 +97,7 @@ def test_a_torque_beyond_the_bound_ends_a_run_of_every_method(biped, gait, metho
 
 
 def test_robots_without_motors_run_away_by_their_speed_alone():
-    assert ba.Walker(ba.Biped.load("compass"), ba.Passive()).strongest == math.inf
+    assert ba.Walker(ba.Biped.load("compass"), ba.Passive()).bounds.strongest == math.inf
     for engine in ENGINES:
         s = ba.Scenario("passive", robot="compass", impacts=1, engine=engine, runaway_speed=0.02)
         assert ba.walk_scenario(s).trajectory.status is ba.Status.RAN_AWAY

@@ -23,7 +23,8 @@ Plain = dict[str, Any]
 
 def scenario_record(drawn: Plain) -> Plain:
     """What is stored of a scenario."""
-    return {"scenario": drawn, "found": walks.record(drawn)}
+    with walks.as_before():
+        return {"scenario": drawn, "found": walks.record(drawn)}
 
 
 def report_record(name: str) -> Plain:

@@ -7,8 +7,10 @@ when the start is moved by `MOVE` of itself, in units of max(1, |x|).
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import replace
 from typing import Any, NamedTuple
+from unittest.mock import patch
 
 import numpy as np
 
@@ -46,6 +48,11 @@ class Ready(NamedTuple):
 
 
 # -- scenarios by kind -----------------------------------------------------------------------------
+def as_before() -> AbstractContextManager[object]:
+    """While it lasts the default step behind hardware is the 1 ms with which `before` was taken."""
+    return patch("biped_adrc.scenario.walk.HARDWARE_STEP", 1e-3)
+
+
 def _walker(s: Plain) -> Ready:
     biped = walkers.robot(s["robot"], s["preset"], s["joint_friction"])
     g = walkers.gait(s, biped)
