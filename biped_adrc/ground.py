@@ -85,6 +85,11 @@ class StepUp(GroundStep):
     way, other = "up", "down"
 
 
+def drop_of(steps: tuple[StepDown | StepUp, ...], number: int) -> float:
+    """How far these steps lower the ground on which single support `number` ends [m]."""
+    return sum((d.drop for d in steps if d.step == number), 0.0)
+
+
 def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp, ...]:
     """Steps up and down whose footholds have heights of mean zero and root mean square `rms` [m].
 

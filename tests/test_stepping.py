@@ -441,3 +441,15 @@ def test_every_so_many_nodes_are_kept():
         assert max(np.diff(some.t)) <= 10 * DT + 1e-12
     between = np.linspace(0.0, 0.3, 77)
     assert max(abs(thin(t)[0] - whole(t)[0]) for t in between) < 1e-6
+
+
+@pytest.mark.parametrize("timing", [TICK, replace(TICK, delay=2e-3)])
+def test_a_plant_and_a_model_of_ones_own_are_the_same_in_a_compiled_loop(timing):
+    system = loop(timing=timing)
+    compiled = ba.CompiledLoop(Ball(), Told(), Model(), timing)
+    python, found = (run(s, t_end=2.0, stop_after=("wall", 3)) for s in (system, compiled))
+    assert "the model is a Model" in found.settings["why"]
+    assert found.status is python.status
+    for one, other in zip(python.arcs, found.arcs, strict=True):
+        np.testing.assert_array_equal(other.x, one.x)
+        np.testing.assert_array_equal(other.read["u"], one.read["u"])

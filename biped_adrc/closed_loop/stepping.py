@@ -11,11 +11,15 @@ recorded at the nodes, since they cannot be computed again from the states.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
+from typing import Any, cast
 
 import numpy as np
 
+from biped_adrc.closed_loop.bounds import Bounds
+from biped_adrc.closed_loop.noticing import estimated
 from biped_adrc.closed_loop.semantics import Mode, Plant, landed, parts, torque_held
 from biped_adrc.closed_loop.stepping_plant import (
     Advanced,
@@ -25,6 +29,7 @@ from biped_adrc.closed_loop.stepping_plant import (
     SteppingPlant,
     advanced,
     check_swap,
+    motor_torque,
     started,
 )
 from biped_adrc.closed_loop.system import ClosedLoop
@@ -33,11 +38,13 @@ from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError, NotFiniteError, check_positive
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import Record, RunOptions
 from biped_adrc.hybrid.system import FoundEvent, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
-from biped_adrc.timing import SampledTime
+from biped_adrc.parts import handing_out, numbers
+from biped_adrc.timing import SampledTime, check_ends
 from biped_adrc.types import Array, Indices, frozen
 
 
@@ -50,6 +57,8 @@ class SteppingLoop(ClosedLoop[Any]):
     - disturbance: zeta (n,) [N m] and its resultant, asked for by the plant as often as it likes.
     - torque_limit [N m]: saturates every motor; None for no limit.
     - sensors, motors: between controller and plant.
+    - touchdown: how the controller is told of one, with restart=False; None: as the plant reports it.
+    - runaway_speed, runaway_torque [1]: ends of a run, as of a `Walker`, where the model is a Biped.
 
     Raises InputError for what does not fit: continuous time, or a motor's lag, which belongs into
     the plant.
@@ -63,6 +72,9 @@ class SteppingLoop(ClosedLoop[Any]):
     torque_limit: float | None = None
     sensors: Sensor | None = None
     motors: Motors | None = None
+    touchdown: Touchdown | None = None
+    runaway_speed: float = 20.0
+    runaway_torque: float = 1000.0
 
     def __post_init__(self) -> None:
         """Raise InputError for what does not fit; see the class."""
@@ -80,10 +92,17 @@ class SteppingLoop(ClosedLoop[Any]):
         if (limit := self.torque_limit) is not None:
             check_positive(limit, f"the torque limit is {limit} N m", " or None")
         check_swap(self.plant)
+        felt = self.touchdown is not None and self.touchdown.laws().needs_force
+        if felt and not hasattr(self.plant, "footing"):
+            raise InputError(
+                f"{type(self.plant).__name__} does not say what its feet carry (footing), and "
+                f"{type(self.touchdown).__name__} goes by that; give another touchdown, such as ByKinematics()"
+            )
+        check_ends(math.inf, 0.0, self.runaway_speed, self.runaway_torque)
         if self.motors is not None and self.motors.lag > 0.0:
             raise InputError(
                 f"the motors' lag is {self.motors.lag} s, expected 0: between ticks a plant that moves by "
-                "itself is given one torque; put the lag into the plant"
+                "itself is given one torque; put the lag into the plant, as MuJoCoPlant(biped, lag=1e-3)"
             )
 
     @property
@@ -95,6 +114,15 @@ class SteppingLoop(ClosedLoop[Any]):
     def limit(self) -> float | None:
         """Largest torque of every motor [N m]; None for none."""
         return self.torque_limit
+
+    @cached_property
+    def bounds(self) -> Bounds:
+        """Rates and torque beyond which the run ends as run away."""
+        return Bounds.of(self.nominal, self.plant.n, self.runaway_speed, self.runaway_torque)
+
+    def bounded(self, u: Array) -> Array:
+        """u (p,) [N m] itself. Raises RanAwayError for one beyond the bounds."""
+        return self.bounds.bounded(u)
 
     @property
     def swap(self) -> Indices:
@@ -117,7 +145,25 @@ class SteppingLoop(ClosedLoop[Any]):
         """A run from x0 (nx,); what happens on the way is in the status. Raises InputError for a
         start that is none.
         """
-        return simulator.run(self, x0, Mode() if mode is None else mode, None, options)
+        mode = Mode() if mode is None else mode
+        return simulator.run(self, self.checked_start(x0, options, mode), mode, None, options)
+
+    def checked_start(self, x0: Array, options: RunOptions, mode: Mode) -> Array:
+        """x0 (nx,) as an array. Raises InputError for one that is no state of this loop."""
+        x, n = numbers(x0, "the initial state"), self.plant.n
+        options.check(x)
+        size, expected = len(x), 2 * n + self.behind
+        if whole := expected <= size:
+            with handing_out(), np.errstate(over="ignore", invalid="ignore"):
+                m = self.measure(mode.start, x[:n], x[n : 2 * n], mode)
+                expected += len(self.law.initial_state(m))
+        if size != expected:
+            has = f"{'' if whole else 'at least '}{expected}"
+            raise InputError(
+                f"the initial state has {size} numbers, and a loop with {type(self.controller).__name__} has "
+                f"{has}; expected what initial_state(q, v) of this loop gives"
+            )
+        return x
 
     def with_plant(self, x: Array, state: PlantState) -> Array:
         """x (nx,) with the plant in another state, all else kept."""
@@ -135,26 +181,56 @@ class SteppingLoop(ClosedLoop[Any]):
         """From a sample instant at t [s] to the next, or to a contact: time, x (nx,), and the event
         if there is one.
 
-        Finite nodes are recorded before a state that is not finite raises NotFiniteError, so that
-        the last good motion can be looked at.
+        Nodes are recorded before a state that is not finite raises NotFiniteError, or one beyond the
+        bounds RanAwayError, so that the last good motion can be looked at.
         """
         (q, v, _, tail), k = parts(self, x), self.held
         assert k is not None
         u, state = torque_held(k, tail), PlantState(t, q, v, tail[: k.sizes.own])
 
         def outside(t: float, q: Array, v: Array) -> Load:
-            return frozen(Load(self.external(t, q, v, mode), self.resultant(t, mode)))
+            return self.load(t, q, v, mode)
 
         moved = advanced(self.plant, state, u, outside, until)
         passed = np.array([state.t, *(node.t for node in moved.nodes)])
         rows = np.array([self.with_plant(x, s) for s in (state, *moved.nodes)])
-        good = np.logical_and.accumulate(np.all(np.isfinite(rows), axis=1))
-        self.keep(passed[good], rows[good], u, mode, record)
+        rates, finite = rows[:, len(q) : 2 * len(q)], np.all(np.isfinite(rows), axis=1)
+        good = np.logical_and.accumulate(finite & self.bounds.slow(rates))
+        self.keep(passed[good], rows[good], mode, record)
         if not np.all(good):
+            bad = int(np.argmin(good))
+            if finite[bad]:
+                self.bounds.check_rates(passed[bad], rates[bad])
             last = np.max(passed[good], initial=t)
             raise NotFiniteError(f"the state of the plant is not finite after t = {last:.6g} s")
         t, x_minus = moved.state.t, rows[-1]
         return t, x_minus, self.found(t, x_minus, mode, moved) if moved.contacts else None
+
+    def load(self, t: float, q: Array, v: Array, mode: Mode) -> Load:
+        """What acts from outside at t [s], q (n,) [rad], v (n,) [rad/s], read-only."""
+        return frozen(Load(self.external(t, q, v, mode), self.resultant(t, mode)))
+
+    def motor_torque(self, x: Array) -> Array:
+        """Torque on the joints (.., p) [N m] in states x (.., nx): the plant's, where its motors have a lag."""
+        u, end = x[..., -self.plant.p :], x.shape[-1] - self.behind
+        assert self.held is not None
+        return motor_torque(self.plant, x[..., end : end + self.held.sizes.own], u)
+
+    def estimated(self, t: float, x: Array, mode: Mode) -> Array:
+        """The observer's estimate of xi (p,) [rad/s^2] at (t, x), t in [s]; NaN without an observer."""
+        q, v, s, tail = parts(self, x)
+        xi = estimated(self, s, tail, self.measure(t, q, v, mode), mode)
+        return np.full(self.plant.p, np.nan) if xi is None else xi
+
+    def foot_forces(
+        self, t: float, q: Array, v: Array, tail: Array, mode: Mode
+    ) -> tuple[float, float]:
+        """On stance and swing foot [N], as the plant says (`closed_loop.feet`)."""
+        k, plant = self.held, cast("Any", self.plant)
+        assert k is not None
+        state, u = PlantState(t, q, v, tail[: k.sizes.own]), torque_held(k, tail)
+        stance, swing = plant.footing(state, u, self.load(t, q, v, mode)).force[:, 1]
+        return float(stance), float(swing)
 
     def found(self, t: float, x: Array, mode: Mode, moved: Advanced) -> FoundEvent:
         """The event of the contacts at t [s], x (nx,) the state just before, with the controller's jump.
@@ -173,11 +249,11 @@ class SteppingLoop(ClosedLoop[Any]):
         x_plus = self.with_plant(landed(self, t, x, state.q, state.v, impulse, after), state)
         return FoundEvent(Event(name, t, x, x_plus), (x_plus, after))
 
-    def keep(self, t: Array, x: Array, u: Array, mode: Mode, record: Record) -> None:
+    def keep(self, t: Array, x: Array, mode: Mode, record: Record) -> None:
         """Record each `store_every`-th of K nodes, t (K,) [s] and x (K, nx), both ends among them.
 
-        Beside them u (p,) and zeta (n,) [N m] and the observer's estimate (p,) [rad/s^2]. Slopes of
-        the rates are their differences, since the plant does not give q''.
+        Beside them the motors' torque (p,) and zeta (n,) [N m] and the observer's estimate (p,)
+        [rad/s^2]. Slopes of the rates are their differences, since the plant does not give q''.
         """
         if len(t) == 0:
             return
@@ -186,13 +262,11 @@ class SteppingLoop(ClosedLoop[Any]):
         if len(t) > 1:
             a = np.diff(v, axis=0) / np.diff(t)[:, np.newaxis]
             slopes[:, n : 2 * n] = np.vstack((a, a[-1:]))
-        q, s = x[0, :n], parts(self, x[0])[2]
-        estimate = self.calls.estimate(s, self.measure(t[0], q, v[0], mode))
-        xi = np.full(self.plant.p, np.nan) if estimate is None else estimate.disturbance
+        xi = self.estimated(t[0], x[0], mode)
         kept = np.unique(np.append(np.arange(0, len(t), record.every), len(t) - 1))
         zeta = np.array([self.external(t[k], x[k, :n], v[k], mode) for k in kept])
         count = len(kept), 1
-        read = {"u": np.tile(u, count), "zeta": zeta, "xi_estimate": np.tile(xi, count)}
+        read = {"u": self.motor_torque(x[kept]), "zeta": zeta, "xi_estimate": np.tile(xi, count)}
         record.add(t[kept], x[kept], slopes[kept], **read)
 
 

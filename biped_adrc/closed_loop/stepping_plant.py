@@ -17,6 +17,7 @@ from typing import NamedTuple, Protocol, runtime_checkable
 import numpy as np
 
 from biped_adrc.errors import BipedError, InputError, SimulationError
+from biped_adrc.ground import StepDown, StepUp
 from biped_adrc.hybrid.integrators import StepFailed
 from biped_adrc.hybrid.status import Status
 from biped_adrc.types import Array, Indices, read_only
@@ -105,6 +106,60 @@ class SteppingPlant(Protocol):
         Where it cannot go on it raises `hybrid.integrators.StepFailed`, which ends the run with
         that status.
         """
+
+
+@runtime_checkable
+class StridingPlant(SteppingPlant, Protocol):
+    """One whose word is taken: what `stride` and `landed` give is not checked, so that a sample instant costs
+    microseconds. Its state is one row (q, q', own) (2 n + k,).
+    """
+
+    def stride(
+        self, t: float, row: Array, u: Array, load: Load | None, until: float
+    ) -> tuple[Array, tuple[Contact, ...]]:
+        """The row at `until` [s] from one at t [s], under u (p,) [N m] and a load held, and the contacts
+        there; before what these change.
+        """
+
+    def landed(self, state: PlantState, contacts: tuple[Contact, ...]) -> PlantState:
+        """The state after these contacts."""
+
+
+@runtime_checkable
+class LaggingPlant(SteppingPlant, Protocol):
+    """One whose motors may have a lag, so that its torque is not the one that is asked of them."""
+
+    @property
+    def lag(self) -> float:
+        """Time constant [s]; 0 for none."""
+
+    def lagging(self, lag: float) -> SteppingPlant:
+        """The same plant with this lag [s]."""
+
+    def motor_torque(self, own: Array, u: Array) -> Array:
+        """Torque on the joints (.., p) [N m] where u (.., p) is asked of the motors, in states with `own`."""
+
+
+@runtime_checkable
+class UnevenPlant(SteppingPlant, Protocol):
+    """One whose ground may have steps, counted in single supports."""
+
+    @property
+    def ground_steps(self) -> tuple[StepDown | StepUp, ...]:
+        """Where the ground falls or rises."""
+
+    def on_steps(self, steps: tuple[StepDown | StepUp, ...], first_step: int) -> SteppingPlant:
+        """The same plant on these steps; its first single support is number `first_step`."""
+
+
+def motor_torque(plant: SteppingPlant, own: Array, u: Array) -> Array:
+    """As `LaggingPlant.motor_torque`; u (.., p) [N m] itself where the plant knows of no lag."""
+    return plant.motor_torque(own, u) if isinstance(plant, LaggingPlant) else u
+
+
+def lag_of(plant: SteppingPlant) -> float:
+    """Time constant of the plant's motors [s]; 0 for one that knows of none."""
+    return plant.lag if isinstance(plant, LaggingPlant) else 0.0
 
 
 def check_swap(plant: SteppingPlant) -> None:

@@ -1,7 +1,7 @@
 """A robot whose dynamics are compiled, for controllers in plain Python.
 
     terms      (q, v) -> D, Omega, kappa, xi, ... of (11)-(15)
-    body       (q, v) -> G, C' q', F_a, F_0
+    body       (q, v) -> G, C' q', F_a, F_0, J_2, mass
     accelerate (q, v, force) -> q''
     ground     (q, v, a) -> F
 
@@ -22,6 +22,7 @@ from dataclasses import dataclass, fields
 from functools import cached_property, partial
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from biped_adrc.engine.equations import SymbolicFunction, count
 from biped_adrc.engine.fingerprint import hash_of, structure_text, versions_text
@@ -146,7 +147,7 @@ class CompiledBiped(Biped):
         K, n = np.array([*floats(robot.arrays), 0.0]), self.n
         sizes = {
             "terms": (2 * n, self.size),
-            "body": (2 * n, 4 * n + 2),
+            "body": (2 * n, 6 * n + 3),
             "accelerate": (3 * n, n),
             "ground": (3 * n, 2),
         }
@@ -169,9 +170,10 @@ class CompiledBiped(Biped):
         return Reduction(*parts_of(terms, self.shapes))
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
-        """G, C' q' (n,) [N m], F_a (2, n), F_0 (2,) [N] at q (n,) [rad], v (n,) [rad/s]."""
+        """The parts of `BodyTerms` at q (n,) [rad], v (n,) [rad/s]."""
         out, n = self._calls["body"](self._angles(q), self._angles(v)), self.n
-        return BodyTerms(out[:n], out[n : 2 * n], out[2 * n : 4 * n].reshape(2, n), out[4 * n :])
+        G, turning, F_a, F_0, J_2 = parts_of(out[:-1], ((n,), (n,), (2, n), (2,), (2, n)))
+        return BodyTerms(G, turning, F_a, F_0, J_2, float(out[-1]))
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         """q'' (n,) [rad/s^2] under `force` (n,) [N m]; friction is added in Python, where the robot has any."""
@@ -202,7 +204,7 @@ def plant_functions(
     K = Vector("K", count(example))
     robot = PlanarRobot.of(structure, K.like(example))
 
-    def function(law: Callable[..., Iterable[Array]], given: int) -> SymbolicFunction:
+    def function(law: Callable[..., Iterable[ArrayLike]], given: int) -> SymbolicFunction:
         inp = Vector("inp", given * robot.n)
         parts = law(*(inp.take(robot.n) for _ in range(given)))
         return SymbolicFunction(K.symbol, inp.symbol, column(*parts))

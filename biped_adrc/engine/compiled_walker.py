@@ -102,6 +102,7 @@ class CompiledWalker:
             timing=SampledTime(LONGEST_PERIOD),
             sensors=None,
             meter=None,
+            touchdown=None,
             motors=None if walker.motors is None else replace(walker.motors, rate_limit=None),
         )
         split, made = _method(bare, method)
@@ -137,7 +138,7 @@ def _plan(
             nx if flows else 2 * n,
             lag_at=0 if relaxing is None else nx + relaxing.at.start,
             lag_speed=0.0 if relaxing is None else relaxing.speed,
-            fastest=walker.fastest,
+            fastest=walker.bounds.fastest,
         ),
         GroundTable(LEAST_STEP, drops),
         _push(walker.disturbance, n),

@@ -4,6 +4,7 @@
     tick      (t, step, t_start, x, zeta, outside) -> x, q''  sensors, controller, motors, meter
     strike    (t, step, x) -> x+                              (7), (8), relabelling, controller's jump
     watch     (t, t_start, drop, q) -> event functions, x of the swing foot
+    sample    (t, step, t_start, x, ..) -> x, xi^         as tick, of a plant that moves by itself
     to, back, remainder                                       coordinates of the exponential method
 
 `outside`, for the meter: force (2,) [N], impulse since the last sample instant (2,) [N s], drop of
@@ -29,7 +30,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike
 
-from biped_adrc.closed_loop import exponential_form, semantics
+from biped_adrc.closed_loop import exponential_form, noticing, semantics
 from biped_adrc.closed_loop.exponential_form import ErrorParameters, LoopParameters, SplitLaws
 from biped_adrc.closed_loop.semantics import ControlLaw, Mode
 from biped_adrc.control.base import ControllerLaws, Measurement
@@ -153,8 +154,10 @@ STATE_LAWS = ("flow", "jump", "correct", "predict")
 
 
 def traced_sensors(trace: Tracer, held: HeldParameters) -> HeldParameters:
-    """With the laws of the sensors for symbols."""
-    return held._replace(sensors=held.sensors.traced(trace)) if held.sensors else held
+    """With the laws of the sensors, and of the touchdown, for symbols."""
+    if held.sensors:
+        held = held._replace(sensors=held.sensors.traced(trace))
+    return held._replace(touchdown=held.touchdown.traced(trace)) if held.touchdown else held
 
 
 class SymbolicLoop(NamedTuple):
@@ -182,6 +185,8 @@ class SymbolicLoop(NamedTuple):
     """All torques so far that must not be beyond it."""
     zeta: Array
     given: Array
+    moves: bool = False
+    """Whether the plant moves by itself: then the first of `given` are the forces on its feet [N]."""
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
         """With the body's terms always, at q (n,) [rad], v (n,) [rad/s]: what no law asks for
@@ -192,6 +197,21 @@ class SymbolicLoop(NamedTuple):
     def saturate(self, u: Array) -> Array:
         """u (p,) [N m] within the limit, which may be infinite."""
         return np.array([minimum(maximum(x, -self.limit), self.limit) for x in u], dtype=object)
+
+    def jumped(self, fires: float, s: Array, m: Measurement) -> Array:
+        """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
+        after = self.calls.jump(s, m, self.swap)
+        return np.array(
+            [where(fires > 0.5, a, b) for a, b in zip(after, s, strict=True)], dtype=object
+        )
+
+    def foot_forces(
+        self, t: float, q: Array, v: Array, tail: Array, mode: Mode
+    ) -> tuple[float, float]:
+        """Vertical forces of the ground on stance and swing foot [N]."""
+        if self.moves:
+            return self.given[0], self.given[1]
+        return semantics.on_stance_foot(self, self.given[:2], t, q, v, tail, mode)
 
     def bounded(self, u: Array) -> Array:
         """u (p,) [N m] itself, kept for `lost`."""
@@ -310,6 +330,19 @@ class Equations:
         x = at.does(semantics.tick)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
         return self.made(at.inp, x, at.lost, a)
+
+    def sample(self) -> SymbolicFunction:
+        """Of a plant that moves by itself: x (nx,) after a sample instant, the observer's estimate of xi
+        (p,) [rad/s^2], 0 without one, and the least pivot. In place of what a meter needs: forces on the feet.
+        """
+        at = self.at()
+        at = at._replace(loop=at.loop._replace(moves=True))
+        x = at.does(semantics.tick)
+        q, v, s, tail = semantics.parts(at.loop, x)
+        m = at.loop.measure(at.t, q, v, at.mode)
+        found = at.trace(noticing.estimated)(at.loop, s, tail, m, at.mode)
+        xi = np.zeros(self.make.robot.p) if found is None else found
+        return self.made(at.inp, x, xi, at.lost)
 
     def strike(self) -> SymbolicFunction:
         """x+ (nx,) after impact, relabelling and the controller's jump; `step` is the single

@@ -112,16 +112,26 @@ class PlanarRobot:
         """a = A q (n, n)."""
         return self.structure.A
 
+    @property
+    def R(self) -> Indices:
+        """Relabelling of the coordinates at an impact (n, n)."""
+        return self.structure.R
+
+    def relabel(self, q: Array) -> Array:
+        """R q + r: q (n,) [rad] in the coordinates of the next single support."""
+        return self.R @ q + self.structure.offset
+
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The terms of (11)-(15) at q (n,) [rad], v (n,) [rad/s]."""
         return Tracer()(reduce)(*inertia_and_bias(self, self.K, q, v), self.p)
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
-        """G, C' q' (n,) [N m], F_a (2, n) and F_0 (2,) [N]: the ground's force is F_a q'' + F_0."""
+        """The parts of `BodyTerms` at q (n,) [rad], v (n,) [rad/s]."""
         F_0 = self.ground_reaction(q, v, np.full(self.n, 0.0, dtype=object))
         t = turned(self, q)
         F_a = jacobian(self, t, self.K.w_re, self.K.w_im)
-        return BodyTerms(*gravity_and_turning(self, self.K, t, v), F_a, F_0)
+        J_2 = jacobian(self, t, self.K.foot_re, self.K.foot_im)
+        return BodyTerms(*gravity_and_turning(self, self.K, t, v), F_a, F_0, J_2, self.K.mass)
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         """q'' (n,) [rad/s^2] under `force` (n,) [N m], joint friction taken off.

@@ -135,7 +135,7 @@ def _numbers(
         float(walker.lowest_hip),
         float(walker.max_step_time),
         biped.friction_coefficients if biped.friction else (),
-        float(walker.strongest),
+        float(walker.bounds.strongest),
         () if walker.held is None else walker.held,
         walker.gain,
         () if split is None else split.parameters,

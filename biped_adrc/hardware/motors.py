@@ -100,6 +100,12 @@ def relabelled(line: Line, swap: Indices) -> Line:
     return Line(*(x.reshape(-1, p)[:, swap].ravel() if len(x) > 0 else x for x in line))
 
 
+def check_lag(lag: float) -> None:
+    """Raise InputError for a time constant [s] that is not finite or below zero."""
+    if not (math.isfinite(lag) and lag >= 0.0):
+        raise InputError(f"the motors' lag is {lag} s, expected zero or a positive number")
+
+
 @dataclass(frozen=True)
 class Motors(Checked, Shown):
     """rate_limit [N m/s], None for none; lag: time constant tau [s] of the torque, 0 for none.
@@ -114,8 +120,7 @@ class Motors(Checked, Shown):
         rate = self.rate_limit
         if rate is not None and not (math.isfinite(rate) and rate > 0.0):
             raise InputError(f"the motors' rate_limit is {rate} N m/s, expected a positive number")
-        if not (math.isfinite(self.lag) and self.lag >= 0.0):
-            raise InputError(f"the motors' lag is {self.lag} s, expected zero or a positive number")
+        check_lag(self.lag)
 
     def parameters(self, period: float, fraction: float) -> MotorParameters:
         """What the laws take, for ticks every `period` [s] and the delay's part f of a period."""

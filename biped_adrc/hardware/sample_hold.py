@@ -1,9 +1,10 @@
 """What a walker holds between ticks, behind its controller's state.
 
-    x = (q, q', s, own, w, g, queue, u_m, waiting, u)
+    x = (q, q', s, own, b, w, g, queue, u_m, waiting, u)
 
-own is what a plant that moves by itself keeps, w the sensors' state, g the meter's, the rest the line of
-torques on their way to the motors; each is empty where the walker has no such part. u_m alone flows.
+own is what a plant that moves by itself keeps, b what the controller takes for its single support, w the
+sensors' state, g the meter's, the rest the line of torques on their way to the motors; each is empty where the
+walker has no such part. u_m alone flows.
 
 The walker's state is one vector, since integrators, stored runs and machine code know vectors alone. Here its
 tail is taken apart (`read`) and put together (`written`), and what happens to all parts at the start, between
@@ -29,6 +30,7 @@ from biped_adrc.hardware.motors import (
     whole_and_part,
 )
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hardware.touchdown import HEAD, Belief, Touchdown, numbers_of
 from biped_adrc.parts import returned
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array, Indices, frozen
@@ -55,12 +57,14 @@ class HeldSizes(NamedTuple):
     """1 when the controller knows the delay."""
     own: int
     """Numbers that the plant keeps for itself."""
+    told: int = 0
+    """Numbers in b."""
 
     @property
     def total(self) -> int:
         """Numbers held."""
         torques = self.queue + self.lag + self.waiting + 1
-        return self.own + self.sensors + self.meter + self.p * torques
+        return self.own + self.told + self.sensors + self.meter + self.p * torques
 
 
 class HeldParameters(NamedTuple):
@@ -72,6 +76,8 @@ class HeldParameters(NamedTuple):
     meter: Any
     """`MeterParameters`."""
     sizes: HeldSizes
+    touchdown: Any = ()
+    """`TouchdownLaws`."""
 
 
 class Held(NamedTuple):
@@ -85,6 +91,8 @@ class Held(NamedTuple):
     """Torques on their way to the motors [N m]."""
     own: Array
     """Of a plant that moves by itself."""
+    b: Array
+    """Of the controller's belief."""
 
 
 def check_parts(
@@ -118,6 +126,7 @@ def held_parameters(
     motors: Motors | None = None,
     metered: MeterParameters | None = None,
     own: int = 0,
+    touchdown: Touchdown | None = None,
 ) -> HeldParameters:
     """What a walker's tail is laid out by, and the numbers of its parts.
 
@@ -126,6 +135,7 @@ def held_parameters(
     """
     motors, period = IDEAL if motors is None else motors, timing.period
     sensing = None if sensors is None else sensors.laws(n, p, period)
+    noticing = None if touchdown is None else touchdown.laws()
     queue, fraction = whole_and_part(timing.delay, period)
     sizes = HeldSizes(
         n,
@@ -138,12 +148,14 @@ def held_parameters(
         int(motors.rate_limit is not None),
         int(timing.delay_known and timing.delay > 0.0),
         own,
+        0 if noticing is None else HEAD + noticing.size,
     )
     made = HeldParameters(
         () if sensing is None else sensing,
         motors.parameters(period, fraction),
         () if metered is None else metered,
         sizes,
+        () if noticing is None else noticing,
     )
     return frozen(made)
 
@@ -152,16 +164,16 @@ def read(k: HeldSizes, tail: Array) -> Held:
     """The parts of what follows the controller's state: tail (total,), as views."""
     at, parts = 0, []
     of_line = (k.queue * k.p, k.lag * k.p, k.waiting * k.p, k.p)
-    for size in (k.own, k.sensors, k.meter, *of_line):
+    for size in (k.own, k.told, k.sensors, k.meter, *of_line):
         parts.append(tail[at : at + size])
         at += size
-    own, w, g, *line = parts
-    return Held(w, g, Line(*line), own)
+    own, b, w, g, *line = parts
+    return Held(w, g, Line(*line), own, b)
 
 
 def written(held: Held) -> Array:
     """The parts in one vector (total,), the inverse of `read`."""
-    return np.concatenate((held.own, held.w, held.g, *held.line))
+    return np.concatenate((held.own, held.b, held.w, held.g, *held.line))
 
 
 def motor_torque(line: Line) -> Array:
@@ -178,12 +190,26 @@ def lagged(k: HeldParameters, tail: Array) -> Array:
     return rate
 
 
-def at_start(k: HeldParameters, q: Array, v: Array, sensors: Sensor | None) -> Array:
-    """What is held (total,) at the start of a run in q (n,), v (n,): no torque, a first look of the sensors."""
+def at_start(
+    k: HeldParameters,
+    q: Array,
+    v: Array,
+    sensors: Sensor | None,
+    touchdown: Touchdown | None,
+    support: tuple[int, float],
+) -> Array:
+    """What is held (total,) at the start of a run in q (n,), v (n,): no torque, a first look of the sensors.
+
+    support: number and start [s] of the single support, which the controller knows at first.
+    """
     sizes = k.sizes
     w = np.zeros(0) if sensors is None else _tried(k, q, v, sensors)
-    rest = np.zeros(sizes.total - sizes.own - sizes.sensors)
-    return np.concatenate((np.zeros(sizes.own), w, rest))
+    b = np.zeros(0)
+    if touchdown is not None:
+        d = returned(touchdown.start(), (sizes.told - HEAD,), touchdown, "start")
+        b = numbers_of(Belief(0.0, *support, d))
+    rest = np.zeros(sizes.total - sizes.own - sizes.told - sizes.sensors)
+    return np.concatenate((np.zeros(sizes.own), b, w, rest))
 
 
 def _tried(k: HeldParameters, q: Array, v: Array, sensors: Sensor) -> Array:
@@ -195,6 +221,12 @@ def _tried(k: HeldParameters, q: Array, v: Array, sensors: Sensor) -> Array:
     for x in law.seen(law.parameters, frozen(w), q, v):
         returned(x, q.shape, sensors, "seen")
     return w
+
+
+def as_seen(k: HeldParameters, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+    """(q, v) as the sensors in their state w show it, each (n,)."""
+    sight: tuple[Array, Array] = q, v
+    return k.sensors.seen(k.sensors.parameters, w, q, v) if k.sizes.sensors > 0 else sight
 
 
 def after_impact(
@@ -210,11 +242,11 @@ def after_impact(
     """What is held after an impact from q_minus to (q, v), each (n,); swap (p,) relabels the joints.
 
     v_model (n,) [rad/s]: the rate that the controller expects by its nominal model. hit: for the meter; None
-    without one.
+    without one. Sensors show no impact to a controller that has yet to notice it.
     """
     w, g, p = held.w, held.g, k.sizes.p
-    if k.sizes.sensors > 0:
+    if k.sizes.sensors > 0 and k.sizes.told == 0:
         w = k.sensors.impact(k.sensors.parameters, w, q, v, v_model)
     if hit is not None:
         g = metered_impact(k.meter, g, q_minus[:p], q[:p], swap, hit)
-    return Held(w, g, relabelled(held.line, swap), held.own)
+    return Held(w, g, relabelled(held.line, swap), held.own, held.b)

@@ -1,6 +1,6 @@
 """A biped on soft ground in MuJoCo, as a plant that moves by itself.
 
-    own = (time of the last touchdown, base (x, z), its velocity)
+    own = (time of the last touchdown, base (x, z), its velocity, steps of the ground, u_m of motors with lag)
 
 The legs are alike, so at a touchdown the state is relabelled as on the rigid plant, and the same leg of the
 model stands again; an error of one link follows the leg that stands, here as there. A touchdown is where
@@ -12,6 +12,11 @@ floats,
     f_base = F,   f_q = zeta - J' F,   J = d(base)/dq with the stance foot held
 
 F (2,) their resultant. A state alone decides what comes next: there are no warm starts.
+
+On steps of the ground each foot has a plane of its own. That of the stance foot rests; that of the other
+foot is at its last foothold, until a sample instant where this foot is ahead and above the next one, and at
+that from there on. So a plane moves under a foot in the air alone and gives no kick; a foot that does not
+clear a step up strikes the level behind it.
 """
 
 from __future__ import annotations
@@ -19,23 +24,25 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.closed_loop.feet import Feet
 from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, Load, PlantState
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
-from biped_adrc.errors import InputError, check_positive
-from biped_adrc.ground import check_slope, ground_axes
-from biped_adrc.hybrid.integrators import StepFailed
+from biped_adrc.errors import InputError, check_count, check_positive
+from biped_adrc.ground import StepDown, StepUp, check_slope, drop_of, ground_axes
+from biped_adrc.hardware.motors import check_lag
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import Checked
 from biped_adrc.shown import Shown
 from biped_adrc.soft.ground import SoftGround
-from biped_adrc.soft.mujoco_robot import floating_model, mujoco
+from biped_adrc.soft.mujoco_engine import INTEGRATORS, MuJoCoEngine, Own
+from biped_adrc.soft.mujoco_feet import feet_of
+from biped_adrc.soft.mujoco_robot import PLANES, floating_model, mujoco
 from biped_adrc.timing import check_ends
 from biped_adrc.types import Array, Indices, MuJoCoData, MuJoCoModel
 
@@ -45,25 +52,6 @@ DEEPEST = 1e-4
 """How deep the swing foot may be in the ground at the start [m]."""
 
 
-class Own(NamedTuple):
-    """What the plant keeps beside (q, q')."""
-
-    since: float
-    """Time of the last touchdown [s]."""
-    base: Array
-    """Place of the trunk (x, z) (2,) [m]."""
-    speed: Array
-    """Its velocity (2,) [m/s]."""
-
-    @classmethod
-    def of(cls, own: Array) -> Own:
-        return cls(own[0], own[1:3], own[3:5])
-
-    def numbers(self) -> Array:
-        """(5,)."""
-        return np.array([self.since, *self.base, *self.speed])
-
-
 @dataclass(frozen=True)
 class MuJoCoPlant(Checked, Shown):
     """A biped with motors on soft ground; a `SteppingPlant`.
@@ -71,6 +59,9 @@ class MuJoCoPlant(Checked, Shown):
     - h [s]: step of the engine. slope [rad]: of the ground, positive downhill.
     - touchdown_force [N], ahead [m]: what the swing foot has to carry, and how far in front it has to
       be. flight_height [m]: the run ends as illegal where the stance foot is higher above the ground.
+    - integrator: "rk4", or "leapfrog" at a quarter of the price (`mujoco_engine`).
+    - lag [s]: time constant tau of the motors, tau u_m' = u - u_m; 0 for none.
+    - ground_steps: where the ground falls or rises. first_step: number of the first single support.
     - fall_height [1], max_step_time [s]: ends of a run, as of a `Walker`.
 
     Raises InputError where MuJoCo is missing, or a value is none; ModelError for a robot whose motors no
@@ -86,6 +77,10 @@ class MuJoCoPlant(Checked, Shown):
     flight_height: float = 0.02
     fall_height: float = 0.35
     max_step_time: float = 2.0
+    integrator: str = "rk4"
+    lag: float = 0.0
+    ground_steps: tuple[StepDown | StepUp, ...] = ()
+    first_step: int = 1
     model: MuJoCoModel = field(init=False, repr=False, compare=False)
     data: MuJoCoData = field(init=False, repr=False, compare=False)
     """The engine's work space; what it holds is set anew at each call."""
@@ -94,19 +89,27 @@ class MuJoCoPlant(Checked, Shown):
         for name in ("h", "touchdown_force", "ahead", "flight_height"):
             check_positive(getattr(self, name), f"{name} of the plant is {getattr(self, name)}")
         check_slope(self.slope)
+        check_lag(self.lag)
+        check_count(self.first_step, f"the plant begins in single support {self.first_step}")
         check_ends(self.max_step_time, self.fall_height, math.inf, math.inf)
         if self.biped.p == 0:
             raise InputError(
                 f"robot '{self.biped.description.name}' has no motors; expected one with motors at its joints"
             )
         self.biped.check_motors()
+        if self.integrator not in INTEGRATORS:
+            raise InputError(
+                f"the integrator of the plant is {self.integrator!r}, expected one of {list(INTEGRATORS)}"
+            )
         if self.h > 0.1 * self.ground.time_constant * (1.0 + 1e-9):
             warnings.warn(
                 f"the engine's step is {self.h:g} s, more than a tenth of the ground's time constant, "
                 f"{self.ground.time_constant:g} s: contact is not resolved",
                 stacklevel=3,
             )
-        model = floating_model(self.biped, self.ground, self.slope, self.h)
+        planes = PLANES if self.ground_steps else PLANES[:1]
+        model = floating_model(self.biped, self.ground, self.slope, self.h, planes)
+        model.opt.integrator = getattr(mujoco().mjtIntegrator, INTEGRATORS[self.integrator])
         object.__setattr__(self, "model", model)
         object.__setattr__(self, "data", mujoco().MjData(model))
 
@@ -126,9 +129,10 @@ class MuJoCoPlant(Checked, Shown):
         return self.biped.relabelling[: self.p]
 
     @cached_property
-    def out(self) -> Array:
-        """Unit vector (x, z) (2,) out of the ground."""
-        return ground_axes(self.slope)[1]
+    def out(self) -> tuple[float, float]:
+        """Unit vector (x, z) out of the ground."""
+        x, z = ground_axes(self.slope)[1].tolist()
+        return x, z
 
     @cached_property
     def lowest_hip(self) -> float:
@@ -136,30 +140,54 @@ class MuJoCoPlant(Checked, Shown):
         return self.fall_height * float(np.linalg.norm(self.biped.hip(np.zeros(self.n))))
 
     @cached_property
-    def angles(self) -> Indices:
-        """Places of q in MuJoCo's positions (n,)."""
-        return self._places(self.biped.description.joints)
+    def engine(self) -> MuJoCoEngine:
+        """MuJoCo with the places of the package's numbers in it."""
+        return MuJoCoEngine(self.biped, self.model, self.data, self.h, self.integrator, self.lag)
 
-    @cached_property
-    def base(self) -> Indices:
-        """Places of the base's (x, z) in MuJoCo's positions (2,)."""
-        return self._places(self.biped.description.base)
+    def lagging(self, lag: float) -> MuJoCoPlant:
+        """The same plant, whose motors have this lag [s]."""
+        return replace(self, lag=lag)
 
-    def _places(self, joints: tuple[str, ...]) -> Indices:
-        return np.array([self.model.joint(name).dofadr[0] for name in joints])
+    def on_steps(self, steps: tuple[StepDown | StepUp, ...], first_step: int) -> MuJoCoPlant:
+        """The same plant on steps of the ground, from single support `first_step` on."""
+        return replace(self, ground_steps=steps, first_step=first_step)
+
+    def levels(self, own: Array) -> Array:
+        """Heights (.., 2) [m] of the ground under the stance foot and under the other one."""
+        return own[..., 6:8] if self.ground_steps else np.zeros((*own.shape[:-1], 2))
+
+    def motor_torque(self, own: Array, u: Array) -> Array:
+        """Torque on the joints (p,) or (K, p) [N m] where u is asked of the motors."""
+        return own[..., -self.p :] if self.lag > 0.0 else u
+
+    def __hash__(self) -> int:
+        """Of numbers alone: a robot has none."""
+        return hash((self.slope, self.h, self.integrator, self.lag, self.first_step))
+
+    def __getstate__(self) -> dict[str, object]:
+        """Without what is made again where it is needed: views of memory of this process."""
+        return {name: value for name, value in vars(self).items() if name != "engine"}
 
     # -- the contract ------------------------------------------------------------------------------
+    @staticmethod
+    def engine_version() -> str:
+        """MuJoCo's, on which the digits of a run depend."""
+        return str(mujoco().__version__)
+
     def start(self, t: float, q: Array, v: Array) -> PlantState:
         """At t [s] in q (n,) [rad], v (n,) [rad/s], the stance foot at rest at the origin."""
         f = self.biped.floating
         base, speed = f.configuration(q)[f.base], (f.velocity_map(q)[:, : self.n] @ v)[f.base]
-        depth = -float(self.out @ self.biped.swing_foot(q))
+        depth = -float(np.dot(self.out, self.biped.swing_foot(q)))
         if depth > DEEPEST:
             raise InputError(
                 f"the swing foot starts {1e3 * depth:.3g} mm inside the ground, expected at most "
                 f"{1e3 * DEEPEST:g} mm; start from a state after an impact on this slope, {self.slope:g} rad"
             )
-        return PlantState(t, q, v, Own(t, base - TOUCHING * self.out, speed).numbers())
+        steps = [float(self.first_step), 0.0, 0.0] if self.ground_steps else []
+        rest = [*steps, *np.zeros(self.p if self.lag > 0.0 else 0)]
+        own = Own(t, base - TOUCHING * np.array(self.out), speed, np.array(rest))
+        return PlantState(t, q, v, own.numbers())
 
     def advance(
         self,
@@ -168,71 +196,83 @@ class MuJoCoPlant(Checked, Shown):
         outside: Callable[[float, Array, Array], Load],
         until: float,
     ) -> Advanced:
-        """On to `until` [s] under u (p,) [N m]; a touchdown and a fall are looked for there."""
-        own, mj, data = Own.of(state.own), mujoco(), self.data
-        steps = max(1, math.ceil((until - state.t) / self.h - 1e-6))
-        self.model.opt.timestep = (until - state.t) / steps
-        self._place(state.q, state.v, own)
-        middle = 0.5 * (state.t + until)
-        self._push(u, state.q, outside(middle, state.q, state.v))
-        mj.mj_step(self.model, data, steps)
-        mj.mj_forward(self.model, data)  # forces of this state, not of the last stage of a step
-        if np.any(data.warning.number):
-            raise StepFailed(f"MuJoCo lost the motion before t = {until:.6g} s: not finite or huge")
-        moved = self._read(until, own)
-        contacts = self.contacts(moved, Own.of(moved.own))
-        after = self._relabelled(moved) if contacts and contacts[0].ends is None else moved
-        return Advanced(after, contacts, (moved,))
+        """On to `until` [s], u (p,) [N m] asked of the motors; a touchdown and a fall are looked for there."""
+        t, q, v, own = state
+        load = outside(0.5 * (t + until), q, v)
+        row, contacts = self.stride(t, np.concatenate((q, v, own)), u, load, until)
+        moved = self._state(until, row)
+        return Advanced(self.landed(moved, contacts), contacts, (moved,))
 
-    # -- between the package's coordinates and MuJoCo's --------------------------------------------
-    def _place(self, q: Array, v: Array, own: Own) -> None:
-        """The engine at rest inside, at q (n,) [rad], v (n,) [rad/s]."""
-        data = self.data
-        mujoco().mj_resetData(self.model, data)
-        data.qpos[self.angles], data.qvel[self.angles] = q, v
-        data.qpos[self.base], data.qvel[self.base] = own.base, own.speed
+    def stride(
+        self, t: float, row: Array, u: Array, load: Load | None, until: float
+    ) -> tuple[Array, tuple[Contact, ...]]:
+        """As `advance` for the state as one row (q, q', own), before what a contact changes."""
+        after = self.engine.moved(t, row, u, load, until)
+        found = self.contacts(until, after[2 * self.n :])
+        if self.ground_steps and not found:
+            self.look_ahead(after[2 * self.n :])
+        return after, found
 
-    def _push(self, u: Array, q: Array, load: Load) -> None:
-        """The engine with u (p,) [N m] at its motors and a load from outside."""
-        f, data = self.biped.floating, self.data
-        J = f.velocity_map(q)[f.base, : self.n]
-        data.ctrl[:] = u
-        data.qfrc_applied[self.angles] = load.zeta - J.T @ load.force
-        data.qfrc_applied[self.base] = load.force
+    def look_ahead(self, own: Array) -> None:
+        """Put the swing foot's plane at the next foothold, in `own`, where the foot is ahead and above that."""
+        (x, z), (stance, swing, _) = self.out, self.engine.points()
+        foothold = own[6] - drop_of(self.ground_steps, int(own[5]))
+        if swing[0] > stance[0] and x * swing[0] + z * (swing[2] - foothold) > 0.0:
+            own[7] = foothold
 
-    def _read(self, t: float, own: Own) -> PlantState:
-        """What the engine has come to at t [s]."""
-        data = self.data
-        base, speed = data.qpos[self.base], data.qvel[self.base]
-        now = own._replace(base=base, speed=speed).numbers()
-        return PlantState(t, data.qpos[self.angles].copy(), data.qvel[self.angles].copy(), now)
+    def footing(self, state: PlantState, u: Array, load: Load) -> Feet:
+        """Both feet in a state under u (p,) [N m] and a load (`closed_loop.feet`)."""
+        _, q, v, own = state
+        self.engine.place(np.concatenate((q, v, own)))
+        self.engine.push(self.motor_torque(own, u), q, load)
+        names, up = self.biped.description.feet, self.ground.foot_radius * np.array(self.out)
+        return feet_of(self.model, self.data, names, self.forces(), up)
 
-    def _relabelled(self, state: PlantState) -> PlantState:
-        """The same motion after a touchdown, in the coordinates of the next single support."""
+    def landed(self, state: PlantState, contacts: tuple[Contact, ...]) -> PlantState:
+        """The same motion after these contacts: a touchdown relabels the coordinates."""
+        if not contacts or contacts[0].ends is not None:
+            return state
         own = Own.of(state.own)._replace(since=state.t).numbers()
+        if self.lag > 0.0:
+            own[-self.p :] = own[-self.p :][self.swap]
+        if self.ground_steps:
+            own[5:8] = own[5] + 1.0, own[7], own[6]
         q, v = self.biped.relabel(state.q), self.biped.R @ state.v
         return PlantState(state.t, q, v, own)
 
+    def _state(self, t: float, row: Array) -> PlantState:
+        """A row in parts."""
+        return PlantState(t, row[: self.n], row[self.n : 2 * self.n], row[2 * self.n :])
+
     # -- what ends a single support ----------------------------------------------------------------
-    def contacts(self, state: PlantState, own: Own) -> tuple[Contact, ...]:
-        """What ends the run (a fall, a stance foot in the air, a step too long), else a touchdown; or none."""
-        f = self.biped.floating
-        foot = self.out @ (own.base - f.configuration(state.q)[f.base])
-        hip = foot + self.out @ self.biped.hip(state.q)
-        if hip < self.lowest_hip:
+    def contacts(self, t: float, own: Array) -> tuple[Contact, ...]:
+        """What ends the run at t [s] (a fall, a stance foot in the air, a step too long), else a
+        touchdown; or none.
+
+        own: the plant's numbers there. A foot above the ground carries nothing, so that forces are asked
+        for only where the swing foot is in it.
+        """
+        (x, z), (stance, swing, hip) = self.out, self.engine.points()
+        below, ahead = self.levels(own).tolist()
+        if x * hip[0] + z * (hip[2] - below) < self.lowest_hip:
             return (Contact("hip_too_low", ends=Status.FELL),)
-        if foot > self.flight_height:
+        if x * stance[0] + z * (stance[2] - below) > self.flight_height:
             return (Contact("stance_foot_in_the_air", ends=Status.ILLEGAL),)
-        if state.t - own.since > self.max_step_time:
+        if t - own[0] > self.max_step_time:
             return (Contact("step_too_long", ends=Status.STALLED),)
+        if x * swing[0] + z * (swing[2] - ahead) > TOUCHING or swing[0] - stance[0] <= self.ahead:
+            return ()
         force = self.forces()[1]
-        if force[1] <= self.touchdown_force or self.biped.swing_foot(state.q)[0] <= self.ahead:
+        if force[1] <= self.touchdown_force:
             return ()
         return (Contact(FOOT_STRIKE, force * self.model.opt.timestep),)
 
     def forces(self) -> Array:
-        """Forces of the ground (x, z) (2, 2) [N] on the two feet now, in the order of the robot's record."""
+        """Forces of the ground (x, z) (2, 2) [N] on the two feet in the state that MuJoCo is in, in the order
+        of the robot's record.
+        """
         mj, found, wrench = mujoco(), np.zeros((2, 2)), np.zeros(6)
+        mj.mj_forward(self.model, self.data)  # those of the last step are of a state before
         for k in range(self.data.ncon):
             mj.mj_contactForce(self.model, self.data, k, wrench)
             contact = self.data.contact[k]

@@ -26,6 +26,8 @@ from biped_adrc.types import MuJoCoModel, MuJoCoSpec
 
 KINDS = {"revolute": "mjJNT_HINGE", "prismatic": "mjJNT_SLIDE"}
 """MuJoCo's types of joints, by the type in the tree."""
+PLANES = ("ground", "ground ahead")
+"""Under both feet; on steps, under the stance foot and under the other one."""
 
 
 @cache
@@ -50,8 +52,17 @@ def pinned_model(biped: Biped, h: float) -> MuJoCoModel:
     return spec.compile()
 
 
-def floating_model(biped: Biped, ground: SoftGround, slope: float, h: float) -> MuJoCoModel:
-    """The robot on soft ground of a slope [rad]; h [s]: step of the engine.
+def floating_model(
+    biped: Biped, ground: SoftGround, slope: float, h: float, planes: tuple[str, ...] = PLANES[:1]
+) -> MuJoCoModel:
+    """The robot on soft ground of a slope [rad]; h [s]: step of the engine. planes: one, or one a foot."""
+    return floating_spec(biped, ground, slope, h, planes).compile()
+
+
+def floating_spec(
+    biped: Biped, ground: SoftGround, slope: float, h: float, planes: tuple[str, ...] = PLANES[:1]
+) -> MuJoCoSpec:
+    """From what `floating_model` is compiled.
 
     The plane lies a foot's radius below the plane of the foot points, so that a foot touches where a point
     would.
@@ -62,23 +73,24 @@ def floating_model(biped: Biped, ground: SoftGround, slope: float, h: float) -> 
     joints = {joint.name: joint for joint in biped.tree.joints}
     _add(spec.worldbody, biped.tree, [joints[name] for name in (*d.base, d.unactuated)], biped)
     out = np.insert(ground_axes(slope)[1], 1, 0.0)
-    spec.worldbody.add_geom(
-        name="ground", type=mj.mjtGeom.mjGEOM_PLANE, size=[0.0, 0.0, 1.0],
-        pos=-ground.foot_radius * out, quat=[np.cos(slope / 2), 0.0, np.sin(slope / 2), 0.0],
-        contype=0, conaffinity=0,
-    )  # fmt: skip
-    for foot in d.feet:
+    for name in planes:
+        spec.worldbody.add_geom(
+            name=name, type=mj.mjtGeom.mjGEOM_PLANE, size=[0.0, 0.0, 1.0],
+            pos=-ground.foot_radius * out, quat=[np.cos(slope / 2), 0.0, np.sin(slope / 2), 0.0],
+            contype=0, conaffinity=0,
+        )  # fmt: skip
+    for foot, plane in zip(d.feet, (planes[0], planes[-1]), strict=True):
         spec.body(foot).add_geom(
             name=foot, type=mj.mjtGeom.mjGEOM_SPHERE, size=[ground.foot_radius, 0.0, 0.0],
             mass=0.0, contype=0, conaffinity=0,
         )  # fmt: skip
         spec.add_pair(
-            geomname1="ground", geomname2=foot, condim=3,
+            geomname1=plane, geomname2=foot, condim=3,
             friction=[ground.friction, ground.friction, 0.0, 0.0, 0.0],
             solref=[ground.time_constant, ground.damping_ratio],
             solimp=[*ground.impedance, 1e-3, 0.5, 2.0],
         )  # fmt: skip
-    return spec.compile()
+    return spec
 
 
 def _spec(biped: Biped, h: float) -> MuJoCoSpec:
@@ -90,6 +102,9 @@ def _spec(biped: Biped, h: float) -> MuJoCoSpec:
     spec.option.integrator = mj.mjtIntegrator.mjINT_RK4
     spec.option.jacobian = mj.mjtJacobian.mjJAC_DENSE
     spec.option.disableflags |= mj.mjtDisableBit.mjDSBL_WARMSTART
+    spec.option.disableflags |= (
+        mj.mjtDisableBit.mjDSBL_ISLAND
+    )  # one robot is one, and looking costs 7 %
     for joint in biped.description.actuated:
         spec.add_actuator(name=joint, target=joint, trntype=mj.mjtTrn.mjTRN_JOINT)
     return spec

@@ -95,6 +95,12 @@ def test_in_free_flight_the_centre_falls_and_the_spin_stays(robot):
     assert np.diff(centres, n=2)[0] == pytest.approx(-robot.description.gravity * 0.1**2, rel=1e-7)
 
 
+def placed(plant, q, v, own, u=0.0, load=None):
+    """MuJoCo in that state, under u (p,) [N m] and a load."""
+    plant.engine.place(np.concatenate((q, v, own.numbers())))
+    plant.engine.push(u, q, load)
+
+
 def test_motors_and_pushes_give_the_power_that_they_give_on_the_rigid_plant(plant, gait):
     """u' q_b' + zeta' q', although the base floats."""
     q, v = gait.start(plant.biped)
@@ -103,14 +109,13 @@ def test_motors_and_pushes_give_the_power_that_they_give_on_the_rigid_plant(plan
     own = Own(0.0, f.configuration(q)[f.base], speed)
     u = random.normal(size=4)
     load = Load(random.normal(size=5), random.normal(size=2))
-    plant._place(q, v, own)
-    plant._push(u, q, load)
+    placed(plant, q, v, own, u, load)
     data = plant.data
     mujoco().mj_forward(plant.model, data)
     power = (data.qfrc_actuator + data.qfrc_applied) @ data.qvel
     assert power == pytest.approx(u @ v[:4] + load.zeta @ v, rel=1e-12)
-    state = plant._read(0.0, own)
-    np.testing.assert_allclose((state.q, state.v), (q, v), rtol=0.0, atol=1e-14)
+    read = plant.engine.read(np.zeros(15))
+    np.testing.assert_allclose(read, np.concatenate((q, v, own.numbers())), rtol=0.0, atol=1e-14)
 
 
 def test_a_force_on_a_link_moves_the_centre_of_mass_as_newton_says(plant, gait):
@@ -120,8 +125,7 @@ def test_a_force_on_a_link_moves_the_centre_of_mass_as_newton_says(plant, gait):
     own = Own(0.0, np.array([0.0, 9.0]), np.zeros(2))
     force = np.array([30.0, -20.0])
     hip = biped.floating.velocity_map(q)[biped.floating.base, :5]
-    plant._place(q, np.zeros(5), own)
-    plant._push(np.zeros(4), q, Load(hip.T @ force, force))
+    placed(plant, q, np.zeros(5), own, load=Load(hip.T @ force, force))
     mujoco().mj_forward(plant.model, plant.data)
     mujoco().mj_rnePostConstraint(plant.model, plant.data)
     masses = plant.model.body_mass
@@ -130,6 +134,17 @@ def test_a_force_on_a_link_moves_the_centre_of_mass_as_newton_says(plant, gait):
         mujoco().mj_jacBodyCom(plant.model, plant.data, jacobian, None, body)
         total += masses[body] * (jacobian @ plant.data.qacc)
     np.testing.assert_allclose(total[[0, 2]], force - [0.0, biped.weight], rtol=1e-10)
+
+
+def test_feet_and_hip_are_where_pinocchio_has_them(robot):
+    plant, random = MuJoCoPlant(robot), np.random.default_rng(6)
+    f, at = robot.floating, np.array([3.0, 2.0])
+    for _ in range(5):
+        q = random.uniform(-np.pi, np.pi, robot.n)
+        placed(plant, q, np.zeros(robot.n), Own(0.0, f.configuration(q, at)[f.base], np.zeros(2)))
+        expected = at + np.array((np.zeros(2), robot.swing_foot(q), robot.hip(q)))
+        found = np.array(plant.engine.points())[:, [0, 2]]
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12)
 
 
 def loop(plant, controller, **more):
@@ -171,7 +186,7 @@ def test_the_ground_carries_what_the_momentum_asks_for(plant, gait):
     still = Load(np.zeros(5), np.zeros(2))
     impulse, momenta, until = np.zeros(2), [], 0.1
     for k in range(round(until / plant.h)):
-        plant._place(state.q, state.v, Own.of(state.own))
+        placed(plant, state.q, state.v, Own.of(state.own))
         mj.mj_forward(plant.model, plant.data)
         mj.mj_subtreeVel(plant.model, plant.data)
         momenta.append(plant.model.body_subtreemass[0] * plant.data.subtree_linvel[0, [0, 2]])
@@ -196,7 +211,7 @@ def test_a_foot_touches_where_a_point_would_and_slides_with_its_friction(biped, 
     q = gait.start(biped)[0] - [0.0, 0.0, 0.0, 0.6, 0.0]  # the swing foot in the air
     along, out = ground_axes(slope)
     own = Own.of(plant.start(0.0, q, np.zeros(5)).own)
-    plant._place(q, np.zeros(5), own._replace(speed=0.5 * along))
+    placed(plant, q, np.zeros(5), own._replace(speed=0.5 * along))
     mujoco().mj_forward(plant.model, plant.data)
     assert plant.data.contact[0].dist == pytest.approx(-TOUCHING, abs=1e-12)
     F = plant.forces()[0]
@@ -216,7 +231,7 @@ def test_a_push_shorter_than_a_period_gives_the_momentum_that_it_has(biped, gait
 
     def spin(t):
         x = run(t)
-        plant._place(x[:5], x[5:10], Own.of(x[10:15]))
+        placed(plant, x[:5], x[5:10], Own.of(x[10:15]))
         mujoco().mj_forward(plant.model, plant.data)
         mujoco().mj_subtreeVel(plant.model, plant.data)
         return -plant.data.subtree_angmom[0, 1]  # about -y, counter-clockwise in (x, z)

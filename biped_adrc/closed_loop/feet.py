@@ -1,0 +1,178 @@
+"""What the ground does to the feet along a run of a plant that moves by itself.
+
+    footing(state, u, load) -> Feet     what a plant gives, for instance `MuJoCoPlant`
+
+Forces of the ground follow from state, torque and load, so nothing is added to a run, nor to what it costs:
+`readings` goes through an arc again, between the recorded states as finely as asked for, and asks the plant
+at each of them. A state that the plant does not come to again is an error: such readings would be of another
+walk. `with_readings` puts those at the nodes into the run, from where files carry them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import NamedTuple, Protocol, runtime_checkable
+
+import numpy as np
+
+from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.closed_loop.stepping_plant import Load, PlantState, motor_torque
+from biped_adrc.errors import InputError, check_positive
+from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.shown import Shown
+from biped_adrc.types import Array
+
+AGAIN = 1e-6
+"""Largest difference of a state come to again, relative to the largest of its numbers."""
+NAMES = ("foot_force", "foot_place", "foot_speed")
+"""What `with_readings` records: `Feet`, (K, 4) each, x and z of the stance foot before those of the other."""
+
+
+class Feet(NamedTuple):
+    """Both feet at one time, the stance foot first; (x, z) of each."""
+
+    force: Array
+    """Of the ground on the feet (2, 2) [N]."""
+    place: Array
+    """Of the foot points (2, 2) [m]."""
+    speed: Array
+    """Of the points that touch the ground, or would (2, 2) [m/s]."""
+
+
+@runtime_checkable
+class OnFeet(Protocol):
+    """A plant that can say what its feet do."""
+
+    def footing(self, state: PlantState, u: Array, load: Load) -> Feet:
+        """In a state under u (p,) [N m] and what acts from outside."""
+
+
+@dataclass(frozen=True)
+class Readings(Shown):
+    """The feet at K times of one single support. At a sample instant, and where a torque from outside jumps,
+    a time occurs twice."""
+
+    t: Array
+    """(K,) [s]"""
+    q: Array
+    """Angles (K, n) [rad]."""
+    v: Array
+    """Rates (K, n) [rad/s]."""
+    own: Array
+    """The plant's own numbers (K, k)."""
+    u: Array
+    """Torques of the motors (K, p) [N m]."""
+    zeta: Array
+    """What acts from outside (K, n) [N m]."""
+    force: Array
+    """Of the ground (K, 2, 2) [N]."""
+    place: Array
+    """Of the foot points (K, 2, 2) [m]."""
+    speed: Array
+    """Of the points that touch the ground (K, 2, 2) [m/s]."""
+
+
+def readings(loop: SteppingLoop, arc: Arc, apart: float | None = None) -> Readings:
+    """The feet along an arc of a run of this loop, at the nodes and between them at most `apart` [s] apart.
+
+    apart: the step of the plant's engine, or a multiple of it, since another step is another motion; None
+    for the nodes alone. Raises InputError for a plant without feet, and where the run is not of this loop
+    or was thinned.
+    """
+    if apart is not None:
+        check_positive(apart, f"readings are {apart} s apart", " or None")
+    if not isinstance(loop.plant, OnFeet):
+        raise InputError(
+            f"{type(loop.plant).__name__} does not say what its feet do, expected a plant with footing(state, "
+            "u, load), such as MuJoCoPlant"
+        )
+    if "u" not in arc.read and len(arc.t) > 1:  # one that failed at once has none
+        raise InputError("the run has no torques at its nodes, expected one of a SteppingLoop")
+    return _readings(loop, _passed(loop, arc, apart))
+
+
+def _readings(loop: SteppingLoop, passed: Iterator[tuple[PlantState, Array, Load]]) -> Readings:
+    """Of the feet in these states, with the torques and loads that act there."""
+    plant = loop.plant
+    assert isinstance(plant, OnFeet)
+    rows = [
+        (*state, motor_torque(plant, state.own, u), load.zeta, *plant.footing(state, u, load))
+        for state, u, load in passed
+    ]
+    return Readings(*(np.array(column) for column in zip(*rows, strict=True)))
+
+
+def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
+    """The same run with `NAMES` at its nodes, so that they are stored with it.
+
+    The run is taken to be of this loop: the plant is asked in the states of the nodes, and goes nowhere.
+    """
+    arcs = []
+    for arc in run.arcs:
+        seen = _readings(loop, _at_nodes(loop, arc))
+        kept = (seen.force, seen.place, seen.speed)
+        read = {name: x.reshape(len(x), -1) for name, x in zip(NAMES, kept, strict=True)}
+        arcs.append(replace(arc, read={**arc.read, **read}))
+    return replace(run, arcs=tuple(arcs))
+
+
+def _passed(
+    loop: SteppingLoop, arc: Arc, apart: float | None
+) -> Iterator[tuple[PlantState, Array, Load]]:
+    """States that the plant passes with what acts on it, piece by piece between two nodes at most `apart` [s]
+    apart, both ends of each piece among them."""
+    states = [_state(loop, t, x) for t, x in zip(arc.t, arc.x, strict=True)]
+    pieces, torques = np.flatnonzero(np.diff(arc.t) > 0.0), arc.x[:, -loop.plant.p :]
+    if len(pieces) == 0:
+        yield states[0], torques[0], _load(loop, states[0].t, states[0], arc.mode)
+    for k in pieces:
+        state, end, u = states[k], states[k + 1], torques[k]
+        load = _load(loop, 0.5 * (state.t + end.t), state, arc.mode)
+        yield state, u, load
+        for until in _between(state.t, end.t, apart):
+            state = loop.plant.advance(state, u, lambda *_, load=load: load, until).nodes[-1]
+            yield state, u, load
+        _check_again(state, end)
+
+
+def _at_nodes(loop: SteppingLoop, arc: Arc) -> Iterator[tuple[PlantState, Array, Load]]:
+    """The nodes of `_passed`, as the run has them."""
+    states = [_state(loop, t, x) for t, x in zip(arc.t, arc.x, strict=True)]
+    u, pieces = arc.x[:, -loop.plant.p :], np.flatnonzero(np.diff(arc.t) > 0.0)
+    if len(pieces) == 0:
+        yield states[0], u[0], _load(loop, states[0].t, states[0], arc.mode)
+    for k in pieces:
+        load = _load(loop, 0.5 * (states[k].t + states[k + 1].t), states[k], arc.mode)
+        yield states[k], u[k], load
+        yield states[k + 1], u[k], load
+
+
+def _between(begin: float, end: float, apart: float | None) -> list[float]:
+    """Times in (begin, end] [s], the same way apart, at most `apart`; the last is `end` itself."""
+    count = 1 if apart is None else max(1, math.ceil((end - begin) / apart - 1e-6))
+    return [*(begin + (end - begin) * k / count for k in range(1, count)), end]
+
+
+def _state(loop: SteppingLoop, t: float, x: Array) -> PlantState:
+    """Of the plant in x (nx,) at t [s]."""
+    n, own = loop.plant.n, len(x) - loop.behind
+    assert loop.held is not None
+    return PlantState(float(t), x[:n], x[n : 2 * n], x[own : own + loop.held.sizes.own])
+
+
+def _load(loop: SteppingLoop, t: float, state: PlantState, mode: Mode) -> Load:
+    return Load(loop.external(t, state.q, state.v, mode), loop.resultant(t, mode))
+
+
+def _check_again(found: PlantState, expected: PlantState) -> None:
+    """Raise InputError where the plant came elsewhere than in the run."""
+    a, b = (np.concatenate(state[1:]) for state in (found, expected))
+    if not np.max(np.abs(a - b)) <= AGAIN * max(1.0, np.max(np.abs(b))):
+        raise InputError(
+            f"from the node before t = {expected.t:.6g} s this plant comes to a state that differs by "
+            f"{np.max(np.abs(a - b)):.2g} from the run's; give the loop that made the run, the run not "
+            "thinned, and readings a whole number of the engine's steps apart"
+        )

@@ -1,0 +1,94 @@
+"""What acts from outside on a plant that moves by itself, asked for in one state or at many.
+
+`PythonPush` asks the loop's disturbance, `CompiledPush` its laws in machine code (`engine.compiled_walker`);
+both give the same.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.closed_loop.stepping_plant import Load
+from biped_adrc.disturbances.base import Disturbance, disturbance_laws
+from biped_adrc.engine.compiled_biped import pointer_call
+from biped_adrc.engine.compiled_walker import disturbance_code
+from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.symbols import floats
+from biped_adrc.types import Array
+
+_LAW = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
+
+
+@dataclass(frozen=True)
+class PythonPush:
+    """By the methods of the loop, whose disturbance may be none."""
+
+    loop: SteppingLoop
+
+    def load(self, t: float, q: Array, v: Array, mode: Mode) -> Load | None:
+        """At t [s], q (n,) [rad], v (n,) [rad/s]; None without a disturbance."""
+        return None if self.loop.disturbance is None else self.loop.load(t, q, v, mode)
+
+    def zeta(self, t: Array, q: Array, v: Array, mode: Mode) -> Array:
+        """zeta (K, n) [N m] at K times [s], q (K, n) [rad], v (K, n) [rad/s]."""
+        if self.loop.disturbance is None:
+            return np.zeros_like(q)
+        return np.array([self.loop.external(*at, mode) for at in zip(t, q, v, strict=True)])
+
+
+class CompiledPush:
+    """By the laws of a disturbance. Raises NotCompiled for one without.
+
+    law(K, inp, out) is called for each torque and each resultant; the rows of `out` are (zeta, force) (n + 2,).
+    """
+
+    def __init__(self, loop: SteppingLoop, disturbance: Disturbance):
+        n, laws = loop.plant.n, disturbance_laws(disturbance)
+        if why := next((law.obstacle for law in laws if law.obstacle), ""):
+            raise NotCompiled(why)
+        self.loop, self.inp = loop, np.zeros(3 + 2 * n)
+        self.codes = [disturbance_code(law, n) for law in laws]
+        self.K = [np.array([*floats(law.parameters), 0.0]) for law in laws]
+        self.out = np.zeros((len(laws), n + 2))
+        given, places = self.inp.ctypes.data, {"torque": 0, "resultant": n}
+        self.calls = [
+            (_LAW(code.addresses[name]), (K.ctypes.data, given, row[at:].ctypes.data))
+            for code, K, row in zip(self.codes, self.K, self.out, strict=True)
+            for name, at in places.items()
+            if name in code.addresses
+        ]
+
+    def _at(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
+        """zeta and force in one row (n + 2,)."""
+        inp, n = self.inp, len(q)
+        inp[0], inp[1], inp[2] = t, mode.step, mode.start
+        inp[3 : 3 + n], inp[3 + n :] = q, v
+        for function, given in self.calls:
+            function(*given)
+        return self.out.sum(axis=0) if len(self.out) > 1 else self.out[0].copy()
+
+    def load(self, t: float, q: Array, v: Array, mode: Mode) -> Load | None:
+        """At t [s], q (n,) [rad], v (n,) [rad/s]; Python says what is wrong with numbers that are not
+        finite.
+        """
+        row = self._at(t, q, v, mode)
+        size = row.dot(row)
+        if not math.isfinite(size):
+            return self.loop.load(t, q, v, mode)
+        return Load(row[:-2], row[-2:]) if size > 0.0 else None
+
+    def zeta(self, t: Array, q: Array, v: Array, mode: Mode) -> Array:
+        """zeta (K, n) [N m] at K times [s], q (K, n) [rad], v (K, n) [rad/s]."""
+        ones = np.ones((len(t), 1))
+        inp = np.hstack((t[:, np.newaxis], mode.step * ones, mode.start * ones, q, v))
+        total, out = np.zeros_like(q), np.empty(q.shape)
+        for code, K in zip(self.codes, self.K, strict=True):
+            pointer_call(code, "torque", K, inp, out)
+            total += out
+        return total

@@ -1,0 +1,155 @@
+"""What a soft walk did on the ground, single support by single support.
+
+    slips        |F_T| >= AT_CONE mu F_N  and  |v_T| > slip_speed:  creep below the cone is no slip
+    carries      F_N > carrying
+    depth        of a foot point below the ground
+
+Times are of the readings (`closed_loop.feet`), each of which stands for half the way to its neighbours, so
+that single support, double support and flight add up to the duration. The force of a touchdown begins
+within one step h of the engine, of which half is counted: impulses and work are off by up to h F / 2 and
+h F v / 2 there, of first order, and of second order everywhere else.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from biped_adrc.closed_loop.feet import NAMES, Readings, readings
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.ground import ground_axes
+from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.parts import check_part
+from biped_adrc.shown import Shown
+from biped_adrc.soft.mujoco_plant import MuJoCoPlant
+from biped_adrc.types import Array
+
+AT_CONE = 0.99
+"""Of mu F_N [1]: a tangential force from there on is at the cone; the solver does not come closer."""
+CARRYING = 1.0
+"""Normal force from which on a foot carries weight [N]."""
+SLIP_SPEED = 5e-3
+"""Tangential speed from which on a foot at the cone slips [m/s]."""
+PRESSED = 20.0
+"""Normal force from which on |F_T| / F_N is taken [N]; below, it is a quotient of small numbers."""
+
+
+@dataclass(frozen=True)
+class SoftStep(Shown):
+    """One single support on soft ground; pairs are of the stance foot and of the other one."""
+
+    duration: float
+    """[s]"""
+    double_support: float
+    """Both feet carry [s]."""
+    flight: float
+    """No foot carries [s]."""
+    slip_time: tuple[float, float]
+    """[s]"""
+    slip: tuple[float, float]
+    """Distance along the ground while slipping [m]."""
+    creep: tuple[float, float]
+    """Distance along the ground while carrying and not slipping [m]."""
+    depth: float
+    """Largest penetration [m]."""
+    peak_torque: float
+    """[N m]"""
+    normal_force: tuple[float, float]
+    """Largest F_N [N]."""
+    friction_used: float
+    """Largest |F_T| / F_N of a foot with F_N > 20 N [1]."""
+    impulse: tuple[float, float]
+    """Of the ground on the robot (x, z) [N s]."""
+    contact_work: float
+    """Of the ground on the robot [J]; what contact takes is negative."""
+
+    @property
+    def single_support(self) -> float:
+        """One foot carries [s]."""
+        return self.duration - self.double_support - self.flight
+
+
+def soft_steps(
+    loop: SteppingLoop, run: Trajectory, apart: float | None = None
+) -> tuple[SoftStep, ...]:
+    """The meter of every single support of a run on soft ground, that at the end included.
+
+    apart [s]: between two readings; None for one at each step of the engine. Raises InputError for a plant
+    that is not on soft ground, and for a run that is not of this loop.
+    """
+    plant = loop.plant
+    check_part(plant, "the plant of the loop", MuJoCoPlant)
+    assert isinstance(plant, MuJoCoPlant)
+    apart, axes = plant.h if apart is None else apart, ground_axes(plant.slope)
+    return tuple(
+        metered(r, plant.ground.friction, axes, plant.levels(r.own))
+        for r in (readings(loop, arc, apart) for arc in run.arcs)
+    )
+
+
+def recorded_steps(
+    run: Trajectory, friction: float, axes: tuple[Array, Array]
+) -> tuple[SoftStep, ...]:
+    """As `soft_steps`, of a run with readings at its nodes (`feet.with_readings`), and of those alone.
+
+    Coarser, and at no price: a slip is off by up to the time between two nodes times the speed at which it
+    begins. friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground.
+    """
+    return tuple(metered(_recorded(arc), friction, axes) for arc in run.arcs)
+
+
+def _recorded(arc: Arc) -> Readings:
+    """The readings that an arc carries; angles, rates and the plant's own are left out."""
+    force, place, speed = (arc.read[name].reshape(-1, 2, 2) for name in NAMES)
+    none = np.zeros((len(arc.t), 0))
+    return Readings(arc.t, none, none, none, arc.read["u"], arc.read["zeta"], force, place, speed)
+
+
+def metered(
+    r: Readings,
+    friction: float,
+    axes: tuple[Array, Array],
+    level: Array | float = 0.0,
+    carrying: float = CARRYING,
+    slip_speed: float = SLIP_SPEED,
+) -> SoftStep:
+    """The meter of one single support from readings at K times.
+
+    friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground. level (K, 2) [m]: of the
+    ground under each foot. carrying [N],
+    slip_speed [m/s]: from where on a foot carries, and slips.
+    """
+    along, out = axes
+    w, normal, tangential = weights(r.t), r.force @ out, np.abs(r.force @ along)
+    speed, carries = np.abs(r.speed @ along), normal > carrying
+    at_cone = tangential >= AT_CONE * friction * normal
+    slips = carries & at_cone & (speed > slip_speed)
+    pressed = normal > PRESSED
+    used = np.divide(tangential, normal, where=pressed, out=np.zeros_like(normal))
+    feet = carries.sum(axis=1)
+    return SoftStep(
+        duration=float(r.t[-1] - r.t[0]),
+        double_support=float(w @ (feet == 2)),
+        flight=float(w @ (feet == 0)),
+        slip_time=_pair(w @ slips),
+        slip=_pair(w @ (slips * speed)),
+        creep=_pair(w @ ((carries & ~slips) * speed)),
+        depth=float(max(0.0, np.max(level * out[1] - r.place @ out))),
+        peak_torque=float(np.max(np.abs(r.u), initial=0.0)),
+        normal_force=_pair(np.max(normal, axis=0)),
+        friction_used=float(np.max(used)),
+        impulse=_pair(w @ r.force.sum(axis=1)),
+        contact_work=float(w @ np.sum(r.force * r.speed, axis=(1, 2))),
+    )
+
+
+def weights(t: Array) -> Array:
+    """Of the trapezoidal rule at times t (K,) [s]: half the way to both neighbours."""
+    ways = np.diff(t)
+    return 0.5 * (np.append(ways, 0.0) + np.append(0.0, ways))
+
+
+def _pair(numbers: Array) -> tuple[float, float]:
+    one, other = map(float, numbers)
+    return one, other

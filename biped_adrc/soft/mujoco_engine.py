@@ -1,0 +1,178 @@
+"""MuJoCo's work space for one floating biped, and where the package's numbers are in it.
+
+    row = (q, q', own),   own = (time of the last touchdown, base (x, z), its velocity, rest)
+
+rest is, on steps of the ground, (number of the single support, levels under stance and swing foot), then
+u_m (p,) of motors with lag. A row is the whole state of a
+`mujoco_plant.MuJoCoPlant`. `moved` puts it in, lets MuJoCo step and reads what came of it. Integrators:
+
+    rk4         v, q by the classical method, four evaluations of the forces in a step
+    leapfrog    q <- q + h v / 2;  N times (v <- v + h a(q, v), q <- q + h v);  q <- q - h v / 2
+
+The middle of leapfrog is MuJoCo's Euler method, whose positions are off by a h T / 2 after a time T. Between
+the two half steps forces of position are taken in the middle of each step, which is of second order; what
+depends on v, as the terms of Coriolis, at its beginning, which is of first.
+
+Torques of motors with lag, tau u_m' = u - u_m, do not depend on the motion: each step of the engine is given
+their exact mean over it, so that the impulse is exact, the angles are of second order in h, and no lag is too
+short.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.closed_loop.stepping_plant import Load
+from biped_adrc.hybrid.integrators import StepFailed
+from biped_adrc.model.biped import Biped
+from biped_adrc.soft.mujoco_robot import PLANES, mujoco
+from biped_adrc.types import Array, Indices, MuJoCoData, MuJoCoModel
+
+INTEGRATORS = {"rk4": "mjINT_RK4", "leapfrog": "mjINT_EULER"}
+"""MuJoCo's method behind each name."""
+
+
+class Own(NamedTuple):
+    """What the plant keeps beside (q, q')."""
+
+    since: float
+    """Time of the last touchdown [s]."""
+    base: Array
+    """Place of the trunk (x, z) (2,) [m]."""
+    speed: Array
+    """Its velocity (2,) [m/s]."""
+    rest: Array = np.zeros(0)
+    """Of steps of the ground (3,) [1, m, m] and of motors with lag (p,) [N m]; empty without."""
+
+    @classmethod
+    def of(cls, own: Array) -> Own:
+        return cls(own[0], own[1:3], own[3:5], own[5:])
+
+    def numbers(self) -> Array:
+        """In one row."""
+        return np.array([self.since, *self.base, *self.speed, *self.rest])
+
+
+Move = Callable[[MuJoCoModel, MuJoCoData, int], None]
+"""So many steps of MuJoCo."""
+
+
+def leapfrog(model: MuJoCoModel, data: MuJoCoData, steps: int, move: Move | None = None) -> None:
+    """So many steps of leapfrog, for a model with MuJoCo's Euler method; move: in place of mj_step."""
+    half, q, v = 0.5 * model.opt.timestep, data.qpos, data.qvel
+    q += half * v
+    (mujoco().mj_step if move is None else move)(model, data, steps)
+    q -= half * v
+
+
+class MuJoCoEngine:
+    """A model with one work space, whose arrays are looked up once. Not to be shared between threads.
+
+    h [s]: longest step. integrator: one of INTEGRATORS, for which the model has to be made. lag [s]: tau.
+    """
+
+    def __init__(
+        self,
+        biped: Biped,
+        model: MuJoCoModel,
+        data: MuJoCoData,
+        h: float,
+        integrator: str,
+        lag: float = 0.0,
+    ):
+        self.biped, self.model, self.data, self.h, self.lag = biped, model, data, h, lag
+        self.step = leapfrog if integrator == "leapfrog" else mujoco().mj_step
+        self.kinematics = mujoco().mj_kinematics
+        self.options, self.warnings = model.opt, data.warning.number
+        self.qpos, self.qvel = data.qpos, data.qvel
+        self.ctrl, self.applied = data.ctrl, data.qfrc_applied
+        d, n = biped.description, biped.n
+        self.angles, self.base = self._places(d.joints), self._places(d.base)
+        order = np.argsort(np.concatenate((self.angles, self.base)))
+        self.positions = np.array([*range(n), 2 * n + 1, 2 * n + 2])[order]
+        self.rates = np.array([*range(n, 2 * n), 2 * n + 3, 2 * n + 4])[order]
+        planes = [k for k in range(model.ngeom) if model.geom(k).name in PLANES]
+        self.planes = planes if len(planes) > 1 else []
+        """Those that move: one for each foot."""
+        turn, radius = model.geom_quat[planes[0], 2], model.geom(d.feet[0]).size[0]
+        self.depth = -radius * (1.0 - 2.0 * turn**2)
+        """Height of a plane at level 0 [m]; its own may have been left elsewhere."""
+        self.points_at = [data.xpos[model.body(name).id] for name in (*d.feet, d.hip)]
+
+    def _places(self, joints: tuple[str, ...]) -> Indices:
+        return np.array([self.model.joint(name).dofadr[0] for name in joints])
+
+    def place(self, row: Array) -> None:
+        """Positions and rates of a row; all else that MuJoCo knows follows from them."""
+        self.qpos[:], self.qvel[:] = row[self.positions], row[self.rates]
+        self.warnings[:] = 0
+        if self.planes:
+            first = 2 * self.biped.n + 6
+            self.model.geom_pos[self.planes, 2] = self.depth + row[first : first + 2]
+
+    def push(self, u: Array, q: Array, load: Load | None) -> None:
+        """u (p,) [N m] at the motors, and a load from outside at q (n,) [rad]; None for none."""
+        self.ctrl[:] = u
+        self.applied[:] = 0.0
+        if load is None:
+            return
+        self.applied[self.angles] = load.zeta
+        if load.force.any():
+            f = self.biped.floating
+            J = f.velocity_map(q)[f.base, : self.biped.n]
+            self.applied[self.angles] -= J.T @ load.force
+            self.applied[self.base] = load.force
+
+    def moved(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Array:
+        """The row at `until` [s], from t [s] on with u (p,) [N m] asked of the motors and the load held.
+
+        Raises StepFailed where MuJoCo warns.
+        """
+        steps = max(1, math.ceil((until - t) / self.h - 1e-6))
+        self.options.timestep = (until - t) / steps
+        self.place(row)
+        self.push(u, row[: self.biped.n], load)
+        if self.lag > 0.0:
+            row = np.concatenate((row[: -len(u)], self.followed(u, row[-len(u) :], steps)))
+        else:
+            self.step(self.model, self.data, steps)
+        if any(self.warnings.tolist()):
+            mujoco().mj_resetData(self.model, self.data)
+            raise StepFailed(f"MuJoCo lost the motion before t = {until:.6g} s: not finite or huge")
+        return self.read(row)
+
+    def followed(self, u: Array, u_m: Array, steps: int) -> Array:
+        """u_m (p,) [N m] after so many steps in which it goes from u_m to u (p,) [N m]."""
+        ratio = self.options.timestep / self.lag
+        left, mean = math.exp(-ratio), -math.expm1(-ratio) / ratio
+        step, missing = mujoco().mj_step, u_m - u
+
+        def move(model: MuJoCoModel, data: MuJoCoData, steps: int) -> None:
+            for k in range(steps):
+                self.ctrl[:] = u + (mean * left**k) * missing
+                step(model, data)
+
+        if self.step is leapfrog:
+            leapfrog(self.model, self.data, steps, move)
+        else:
+            move(self.model, self.data, steps)
+        self.ctrl[:] = u_m = u + left**steps * missing
+        return u_m
+
+    def read(self, row: Array) -> Array:
+        """A row with MuJoCo's positions and rates in place of its own."""
+        row = row.copy()
+        row[self.positions], row[self.rates] = self.qpos, self.qvel
+        return row
+
+    def points(self) -> list[list[float]]:
+        """Places [m] of both feet, in the order of the robot's record, and the hip at MuJoCo's positions.
+
+        (x, y, z) as plain numbers, since they are looked at after every stride.
+        """
+        self.kinematics(self.model, self.data)
+        return [place.tolist() for place in self.points_at]

@@ -1,0 +1,161 @@
+"""A walker's walk on a plant that moves by itself: its controller, sensors, motors and pushes, another ground.
+
+    walker -> SteppingLoop -> Trajectory with states (q, q', s, held), as the rigid plant's
+
+What the plant keeps for itself is taken out of the states, so that whatever reads a walk reads this one.
+At the nodes is recorded, since it cannot be computed again: forces of the ground, places and velocities of both
+feet, where the plant has feet (`closed_loop.feet`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields, is_dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.closed_loop.feet import OnFeet, with_readings
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.closed_loop.stepping_plant import LaggingPlant, SteppingPlant, UnevenPlant, lag_of
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.engine.run import COMPILED, PINOCCHIO
+from biped_adrc.errors import InputError
+from biped_adrc.hardware.motors import Motors
+from biped_adrc.hybrid.simulator import Progress, RunOptions
+from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
+from biped_adrc.model.biped import Biped
+from biped_adrc.timing import SampledTime
+from biped_adrc.types import Array
+
+
+def stepping_loop(
+    walker: Walker, plant: SteppingPlant, engine: str = COMPILED, first_step: int = 1
+) -> SteppingLoop:
+    """All of a walker but its plant, around another one; its sample instants compiled, or in Python.
+
+    A lag of its motors and steps of its ground become the plant's, a rate limit stays where it is. first_step:
+    number of the first single support, by which steps of the ground are counted. Raises InputError for a
+    walker in continuous time, and for what only the rigid plant has: errors of the impact map.
+    """
+    if len(walker.gain) > 0:
+        raise InputError(
+            f"the walker has an error of the impact map, and {type(plant).__name__} takes none; leave that "
+            "out, or walk on the rigid plant"
+        )
+    if not isinstance(walker.timing, SampledTime):
+        raise InputError(
+            f"{type(plant).__name__} is controlled at ticks, and this walker acts at every instant; give a "
+            "period, as timing=SampledTime(1e-3), or period = 0.001 in a scenario"
+        )
+    plant, motors = with_motors(on_ground(plant, walker, first_step), walker.motors)
+    made = CompiledLoop if engine == COMPILED else SteppingLoop
+    return made(
+        plant,
+        walker.controller,
+        walker.nominal,
+        walker.timing,
+        walker.disturbance,
+        walker.torque_limit,
+        walker.sensors,
+        motors,
+        walker.touchdown,
+        walker.runaway_speed,
+        walker.runaway_torque,
+    )
+
+
+def on_ground(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPlant:
+    """The plant on the walker's steps of the ground; InputError for one that takes none, or has others."""
+    steps, has = walker.ground_steps, plant.ground_steps if isinstance(plant, UnevenPlant) else ()
+    if has not in ((), steps):
+        raise InputError(
+            f"the plant has the steps of the ground {has} and the walker {steps}; give them to the "
+            "walker alone"
+        )
+    if not steps:
+        return plant
+    if not isinstance(plant, UnevenPlant):
+        raise InputError(
+            f"{type(plant).__name__} takes no steps of the ground, and the walker has some; leave them out"
+        )
+    return plant.on_steps(steps, first_step)
+
+
+def with_motors(plant: SteppingPlant, motors: Motors | None) -> tuple[SteppingPlant, Motors | None]:
+    """The plant with the lag of these motors, and the motors without.
+
+    Raises InputError for a plant that takes none, or that has another one.
+    """
+    lag = 0.0 if motors is None else motors.lag
+    if lag_of(plant) != lag:
+        if lag_of(plant) > 0.0:
+            raise InputError(
+                f"the plant's motors have a lag of {lag_of(plant)} s and the walker's of {lag} s; give it to "
+                "the walker alone, as motors=Motors(lag=...)"
+            )
+        if not isinstance(plant, LaggingPlant):
+            raise InputError(
+                f"{type(plant).__name__} takes no lag of motors, and the walker's have one of {lag} s; "
+                "leave it out"
+            )
+        plant = plant.lagging(lag)
+    return plant, None if motors is None else replace(motors, lag=0.0)
+
+
+def walk_on(
+    loop: SteppingLoop,
+    walker: Walker,
+    start: tuple[Array, Array],
+    mode: Mode,
+    impacts: int,
+    progress: Progress | None = None,
+) -> Trajectory:
+    """The walk of `stepping_loop` from (q, v), each (n,), for some impacts; states as of the walker.
+
+    Raises InputError for a start that is none.
+    """
+    x0 = loop.initial_state(*start, mode)
+    options = RunOptions(
+        mode.start + impacts * walker.max_step_time,
+        mode.start,
+        stop_after=(FOOT_STRIKE, impacts),
+        progress=progress,
+    )
+    run = loop.run(x0, options, mode)
+    if isinstance(loop.plant, OnFeet):
+        run = with_readings(loop, run)
+    arcs = tuple(_as_rigid(loop, arc) for arc in run.arcs)
+    engine = {"engine": PINOCCHIO, "why": "the plant moves by itself"}
+    settings = {**engine, **run.settings, "plant": told(loop.plant)}
+    return replace(run, arcs=arcs, settings=settings)
+
+
+def _as_rigid(loop: SteppingLoop, arc: Arc) -> Arc:
+    """An arc with states as the rigid plant's walker has them, and with the place of the stance foot."""
+    size, p, k = loop.controller_size(arc.x[0]) + 2 * loop.plant.n, loop.plant.p, loop.held
+    assert k is not None
+    mine, line = slice(size, size + k.sizes.own), -p * (k.sizes.waiting + 1)
+
+    def without(x: Array) -> Array:
+        """The plant's own out, and u_m where the rigid plant's walker has it."""
+        u_m = loop.motor_torque(x)[..., : p if lag_of(loop.plant) > 0.0 else 0]
+        return np.concatenate(
+            (np.delete(x[..., :line], mine, axis=-1), u_m, x[..., line:]), axis=-1
+        )
+
+    event = arc.event
+    if event is not None:
+        after = None if event.x_plus is None else without(event.x_plus)
+        event = Event(event.guard, event.t, without(event.x_minus), after)
+    return replace(arc, x=without(arc.x), dx=without(arc.dx), event=event)
+
+
+def told(thing: Any) -> Any:
+    """A plant as plain values for the record of a run: its class and what it was made with."""
+    if isinstance(thing, tuple):
+        return tuple(map(told, thing))
+    if not is_dataclass(thing) or isinstance(thing, Biped):
+        return thing if isinstance(thing, int | float | str) else type(thing).__name__
+    values = {f.name: told(getattr(thing, f.name)) for f in fields(thing) if f.init}
+    return {"class": type(thing).__name__, **values}

@@ -1,0 +1,154 @@
+"""A stepping loop with compiled sample instants: the same walk as in Python, with the same ends."""
+
+from __future__ import annotations
+
+import pickle
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.engine.compiled_tick import CompiledTick
+
+PUSH = ba.TorquePulse([30.0, 0.0, 10.0, 0.0, 5.0], start=0.0303, stop=0.0507)
+PERIOD = ba.SampledTime(1e-3)
+
+
+@pytest.fixture(scope="module")
+def plant(biped):
+    return ba.MuJoCoPlant(biped, integrator="leapfrog")
+
+
+def loop(kind, plant, controller, **more):
+    more = {"timing": PERIOD, "torque_limit": 150.0} | more
+    return kind(plant, controller, plant.biped, **more)
+
+
+def both(plant, gait, controller, t_end=0.1, change=None, **more):
+    """The walk in Python and the same one compiled, from the gait's start or a change of it."""
+    runs = []
+    for kind in (ba.SteppingLoop, ba.CompiledLoop):
+        system = loop(kind, plant, controller, **more)
+        x0 = system.initial_state(*gait.start(plant.biped))
+        x0 = x0 if change is None else change(x0)
+        runs.append(system.run(x0, ba.RunOptions(t_end)))
+    return runs
+
+
+def same(python, compiled, rtol):
+    """Nodes at equal times, and all that was recorded there."""
+    assert (compiled.status, compiled.detail) == (python.status, python.detail)
+    assert len(compiled.arcs) == len(python.arcs)
+    for one, other in zip(python.arcs, compiled.arcs, strict=True):
+        np.testing.assert_array_equal(other.t, one.t)
+        pairs = [(one.x, other.x), (one.dx, other.dx)]
+        pairs += [(one.read[name], other.read[name]) for name in one.read]
+        for a, b in pairs:
+            scale = np.max(np.abs(np.nan_to_num(a)), axis=0) + 1e-9
+            np.testing.assert_allclose(b / scale, a / scale, rtol=0.0, atol=rtol)
+
+
+HARDWARE = {
+    "bare": {},
+    "pushed": {},
+    "sensors": {"sensors": ba.Sensors(counts=8192), "torque_limit": 40.0},
+    "delays": {"timing": ba.SampledTime(1e-3, delay=2e-3, delay_known=True)},
+    "a fraction of a period": {"timing": ba.SampledTime(1e-3, delay=0.4e-3)},
+    "motors": {"motors": ba.Motors(rate_limit=2e4), "timing": replace(PERIOD, restart=False)},
+}
+
+
+@pytest.mark.parametrize("controller", [ba.NPDController, ba.ADRCController])
+@pytest.mark.parametrize("name", HARDWARE)
+def test_the_same_walk_whatever_is_between(plant, gait, controller, name):
+    more = dict(HARDWARE[name])
+    if name == "pushed":
+        more["disturbance"] = PUSH + ba.HipForce(plant.biped, (20.0, -10.0))
+    python, compiled = both(plant, gait, controller(gait.constraint), **more)
+    assert compiled.settings["engine"] == "compiled"
+    assert python.status is ba.Status.COMPLETED
+    same(python, compiled, 1e-6)
+
+
+def test_over_a_touchdown(plant, gait):
+    python, compiled = both(plant, gait, ba.NPDController(gait.constraint), 0.45)
+    assert [event.guard for event in compiled.events()] == ["foot_strike"]
+    same(python, compiled, 1e-6)
+
+
+def test_one_sample_instant_to_round_off(plant, gait):
+    system = loop(ba.SteppingLoop, plant, ba.ADRCController(gait.constraint))
+    x0 = system.initial_state(*gait.start(plant.biped))
+    tick = CompiledTick(system, system.controller_size(x0))
+    arc = system.run(x0, ba.RunOptions(0.02)).arcs[0]
+    for t, x in zip(arc.t[1::2], arc.x[1::2], strict=True):
+        x = x.copy()
+        found, expected = tick(t, x, arc.mode), system.tick(t, x, arc.mode)
+        np.testing.assert_allclose(found[: len(x)], expected, rtol=1e-10, atol=1e-10)
+        xi = system.estimated(t, expected, arc.mode)
+        np.testing.assert_allclose(found[len(x) :], xi, rtol=1e-10, atol=1e-7)
+
+
+@dataclass(frozen=True)
+class Written(ba.Controller):
+    """u = -K_d q_b' as a method, not a number from `lost` on."""
+
+    lost: float = np.inf
+
+    def output(self, s, m):
+        return np.full(4, np.nan) if m.t >= self.lost else -5.0 * m.v_b
+
+
+def test_a_controller_without_laws_runs_in_python_on_a_compiled_model(plant, gait):
+    python, compiled = both(plant, gait, Written(), 0.05, disturbance=PUSH)
+    assert compiled.settings["engine"] == "compiled model"
+    assert "Written" in compiled.settings["why"]
+    same(python, compiled, 1e-9)
+
+
+@dataclass(frozen=True)
+class Own(ba.WindowedTorque):
+    """A disturbance without laws."""
+
+    def profile(self, s):
+        return np.sin(50.0 * s)
+
+
+def test_a_disturbance_without_laws_is_asked_in_python(plant, gait):
+    push = Own([10.0] * 5, start=0.0101)
+    python, compiled = both(plant, gait, ba.NPDController(gait.constraint), 0.05, disturbance=push)
+    assert compiled.settings["engine"] == "compiled"
+    same(python, compiled, 1e-6)
+    assert np.max(np.abs(compiled.arcs[0].read["zeta"])) > 5.0
+
+
+def rushing(x0):
+    x0[5:10] *= 1e9
+    return x0
+
+
+ENDS = {
+    "not a number": (Written(lost=0.0105), {}, 0.1, None, ba.Status.NOT_FINITE),
+    "lost by the engine": (None, {}, 0.1, rushing, ba.Status.STEP_FAILED),
+    "a fall": (ba.Passive(), {}, 2.0, None, ba.Status.FELL),
+}
+
+
+@pytest.mark.parametrize("name", ENDS)
+def test_the_same_ends(plant, gait, name):
+    controller, more, t_end, change, status = ENDS[name]
+    controller = controller or ba.NPDController(gait.constraint)
+    python, compiled = both(plant, gait, controller, t_end, change, **more)
+    assert python.status is status
+    same(python, compiled, 1e-6)
+
+
+def test_the_same_bits_again_and_elsewhere(plant, gait):
+    system = loop(ba.CompiledLoop, plant, ba.ADRCController(gait.constraint), disturbance=PUSH)
+    x0 = system.initial_state(*gait.start(plant.biped))
+    first = system.run(x0, ba.RunOptions(0.05)).arcs[0]
+    for again in (system, pickle.loads(pickle.dumps(system))):
+        arc = again.run(x0, ba.RunOptions(0.05)).arcs[0]
+        np.testing.assert_array_equal(arc.x, first.x)
+        np.testing.assert_array_equal(arc.read["xi_estimate"], first.read["xi_estimate"])

@@ -1,0 +1,102 @@
+"""A run on a plant that moves by itself ends as run away, as a walker's does, and never as a crash."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.errors import InputError
+
+LOOPS = [SteppingLoop, CompiledLoop]
+TICK = ba.SampledTime(1e-3)
+
+
+class Explodes(ba.Controller):
+    """Torques e times as large every millisecond, in plain Python."""
+
+    def output(self, s, m):
+        return np.full(4, math.exp(1e3 * m.t))
+
+
+@pytest.fixture(scope="module")
+def plant(biped):
+    return ba.MuJoCoPlant(biped)
+
+
+def run(loop, gait):
+    return loop.run(loop.initial_state(*gait.start(loop.model)), ba.RunOptions(0.05))
+
+
+def all_finite(found):
+    return all(np.all(np.isfinite(arc.x)) and np.all(np.isfinite(arc.dx)) for arc in found.arcs)
+
+
+@pytest.mark.parametrize("made", LOOPS)
+def test_a_controller_that_explodes_ends_as_run_away(made, plant, gait):
+    """By its torque: e^(1e3 t) is above 1000 times 150 N m from 12 ms on, unless a rate is too high before."""
+    free = run(made(plant, Explodes(), plant.biped, TICK, runaway_speed=math.inf), gait)
+    assert free.status is ba.Status.RAN_AWAY
+    assert "above 1.5e+05 N m" in free.detail
+    assert free.t_end == pytest.approx(12e-3)
+    assert all_finite(free)
+    found = run(made(plant, Explodes(), plant.biped, TICK, runaway_speed=0.5), gait)
+    assert found.status is ba.Status.RAN_AWAY
+    assert "rad/s, above" in found.detail
+    assert found.t_end < 12e-3
+    assert all_finite(found)
+    assert np.all(np.abs(found.arcs[-1].x[:, 5:10]) <= 0.5 * plant.biped.speed_limits)
+
+
+@pytest.mark.parametrize("made", LOOPS)
+def test_the_bounds_are_the_loops(made, plant, gait):
+    """Just below the peaks of a walk they end it, at the tick or the stride where it is beyond; above, not."""
+    parts = plant, ba.NPDController(gait.constraint), plant.biped, TICK
+    arc = run(made(*parts), gait).arcs[0]
+    peak = np.max(np.abs(arc.read["u"]), axis=1) / 150.0
+    fast = np.max(np.abs(arc.x[:, 5:10]) / plant.biped.speed_limits, axis=1)
+    for bound, course in (("runaway_torque", peak), ("runaway_speed", fast)):
+        limit = float(0.99 * np.max(course))
+        found = run(made(*parts, **{bound: limit}), gait)
+        assert found.status is ba.Status.RAN_AWAY
+        # at the tick of that torque; after the last stretch that is not too fast
+        assert found.t_end == pytest.approx(arc.t[np.argmax(course > limit) - ("speed" in bound)])
+        whole = run(made(*parts, **{bound: float(1.01 * np.max(course))}), gait)
+        assert whole.status is ba.Status.COMPLETED
+    with pytest.raises(InputError, match="runaway_speed is nan"):
+        made(*parts, runaway_speed=math.nan)
+
+
+def test_fields_of_a_scenario_apply_and_a_walk_that_fails_at_once_can_be_read():
+    soft = {"plant": "mujoco", "period": 1e-3, "impacts": 1}
+    for engine in ("compiled", "pinocchio"):
+        s = ba.Scenario("NPD", **soft, engine=engine, runaway_torque=0.05)
+        walk = ba.walk_scenario(s)
+        assert walk.trajectory.status is ba.Status.RAN_AWAY
+        assert walk.signals.ground_reaction.shape == (1, 2)
+
+
+@pytest.mark.parametrize("made", LOOPS)
+def test_the_start_of_another_loop_is_refused(made, plant, gait):
+    npd, adrc = (
+        made(plant, law(gait.constraint), plant.biped, TICK)
+        for law in (ba.NPDController, ba.ADRCController)
+    )
+    starts = [loop.initial_state(*gait.start(plant.biped)) for loop in (npd, adrc)]
+    for loop, other in ((adrc, starts[0]), (npd, starts[1]), (npd, np.zeros(5))):
+        with pytest.raises(
+            InputError, match=f"initial state has {len(other)} numbers, and a loop with"
+        ):
+            loop.run(other, ba.RunOptions(0.01))
+    with pytest.raises(InputError, match="expected numbers"):
+        npd.run("standing", ba.RunOptions(0.01))
+    with pytest.raises(InputError, match="expected a vector of finite numbers"):
+        npd.run(starts[0] * math.nan, ba.RunOptions(0.01))
+
+
+def test_plants_that_are_equal_are_one_in_a_set(plant, biped):
+    assert len({plant, ba.MuJoCoPlant(biped), ba.MuJoCoPlant(biped, h=1e-4)}) == 2

@@ -1,0 +1,92 @@
+"""The transient of a touchdown and the error of a push, kept apart; the feet as a row of a study has them."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.contact_errors import contact_errors
+from biped_adrc.bench.run import run_trial
+from biped_adrc.closed_loop.feet import with_readings
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.ground import ground_axes
+from biped_adrc.hybrid.simulator import RunOptions
+from biped_adrc.soft.meters import recorded_steps, soft_steps
+
+SOFT = {"plant": "mujoco", "period": 1e-3, "torque_limit": 150.0, "impacts": 2}
+PUSH = {"push": "pulse", "amplitude": 30.0, "pushed_step": 2, "onset": 0.1, "duration": 0.2}
+
+
+def walk(*humps, pushed=(2.0, 3.0)):
+    """Two steps of 0.5 s at nodes 1 ms apart, twice at touchdown: errors (time, size) and a push [s]."""
+    t = np.concatenate((np.arange(501), np.arange(500, 1001))) * 1e-3
+    step = np.repeat((1, 2), 501)
+    error = np.full((len(t), 2), 1e-6)
+    for at, size in humps:
+        node = np.flatnonzero(np.abs(t - at) < 1e-9)[-1]
+        error[node, 1] = -size
+    zeta = np.zeros((len(t), 3))
+    zeta[(t >= pushed[0] - 1e-9) & (t <= pushed[1] + 1e-9), 2] = -5.0
+    return SimpleNamespace(t=t, step=step, error=error, zeta=zeta)
+
+
+def test_each_error_is_looked_for_in_its_own_time():
+    humps = (0.03, 9.0), (0.2, 3.0), (0.53, 5.0), (0.7, 2.0), (0.845, 1.0), (0.9, 4.0)
+    found = contact_errors(walk(*humps, pushed=(0.6, 0.8)))
+    assert found.touchdown_error == 5.0  # not the first step's 9: there was no touchdown before it
+    assert found.pushed_error == 2.0  # not 4, which is 0.1 s after its end
+    assert found.settled_error == 4.0
+    squares = 9.0 + 4.0 + 1.0 + 16.0
+    nodes = 2 * (500 - 61)  # nodes that last, without 61 of each step
+    assert found.settled_rms == pytest.approx(np.sqrt(squares / (2 * nodes)), rel=1e-3)
+
+
+@pytest.mark.parametrize(("at", "counts"), [(0.849, 1), (0.851, 0), (0.599, 0), (0.6, 1)])
+def test_a_push_counts_from_its_onset_to_50_ms_after_its_end(at, counts):
+    found = contact_errors(walk((at, 7.0), pushed=(0.6, 0.8)))
+    assert found.pushed_error == (7.0 if counts else 1e-6)
+
+
+@pytest.mark.parametrize(("at", "settling"), [(0.559, True), (0.561, False)])
+def test_contact_settles_for_60_ms(at, settling):
+    found = contact_errors(walk((at, 7.0), pushed=(0.5, 0.8)))
+    assert found.touchdown_error == (7.0 if settling else 1e-6)
+    assert found.pushed_error == (1e-6 if settling else 7.0)
+
+
+def test_nothing_pushed_is_no_number():
+    assert contact_errors(walk()).pushed_error is None
+    assert run_trial({**SOFT, "controller": "NPD", "impacts": 1})["pushed_error"] is None
+    rigid = run_trial({"controller": "NPD", "period": 1e-3, "impacts": 2, **PUSH})
+    assert rigid["pushed_error"] is None
+    assert rigid["slip"] is None
+
+
+def test_a_row_has_what_signals_and_feet_say():
+    row = run_trial({**SOFT, **PUSH, "controller": "NPD"})
+    made = ba.walk_scenario(ba.Scenario("NPD", **SOFT, **PUSH))
+    x = made.signals
+    begin = x.t[x.step == 2][0]
+    window = (x.t >= begin + 0.0999) & (x.t <= begin + 0.3501) & (x.step == 2)
+    assert row["pushed_error"] == pytest.approx(np.max(np.abs(x.error[window])))
+    assert row["pushed_error"] == pytest.approx(7.6e-3, rel=0.05)
+    early = (x.step == 2) & (x.t <= begin + 0.0601)
+    assert row["touchdown_error"] == pytest.approx(np.max(np.abs(x.error[early])))
+    steps = recorded_steps(made.trajectory, 0.6, ground_axes(0.0))
+    assert row["slip"] == max(max(s.slip) for s in steps)
+    assert row["penetration"] == pytest.approx(4e-4, rel=0.3)
+    assert row["flight"] == row["double_support"] == 0.0
+
+
+def test_meters_of_recorded_nodes_are_those_of_readings_at_the_nodes(biped, gait):
+    plant = ba.MuJoCoPlant(biped)
+    npd, period = ba.NPDController(gait.constraint), ba.SampledTime(1e-3)
+    loop = SteppingLoop(plant, npd, biped, period, torque_limit=150.0)
+    x0 = loop.initial_state(*gait.start(biped))
+    run = loop.run(x0, RunOptions(1.0, stop_after=("foot_strike", 1)))
+    again = recorded_steps(with_readings(loop, run), 0.6, ground_axes(0.0))
+    assert again == soft_steps(loop, run, 1e-3)
+    assert sum(again[0].impulse) > 1.0

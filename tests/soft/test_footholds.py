@@ -1,0 +1,155 @@
+"""Steps of the ground in MuJoCo: where the foot comes down, when, and that nothing else changes."""
+
+from __future__ import annotations
+
+import pickle
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.errors import InputError
+from biped_adrc.ground import ground_axes
+from biped_adrc.soft.mujoco_plant import MuJoCoPlant
+from biped_adrc.soft.mujoco_robot import mujoco
+from biped_adrc.soft.walking import stepping_loop
+
+TICK = ba.SampledTime(1e-3)
+SOFT = {"plant": "mujoco", "period": 1e-3, "torque_limit": 150.0}
+
+
+def walker_on(biped, gait, *steps):
+    law = ba.NPDController(gait.constraint)
+    return ba.Walker(biped, law, timing=TICK, torque_limit=150.0, ground_steps=steps)
+
+
+def walked(walker, gait, impacts=3):
+    loop = stepping_loop(walker, MuJoCoPlant(walker.plant))
+    x0 = loop.initial_state(*gait.start(walker.plant))
+    return loop, loop.run(x0, ba.RunOptions(4.0, stop_after=("foot_strike", impacts)))
+
+
+def first(arc, k):
+    """The first k nodes of an arc, as its fields."""
+    read = {name: rows[:k] for name, rows in arc.read.items()}
+    return {"t": arc.t[:k], "x": arc.x[:k], "dx": arc.dx[:k], "read": read, "event": None}
+
+
+@pytest.fixture(scope="module")
+def level(biped, gait):
+    return walked(walker_on(biped, gait), gait)
+
+
+@pytest.mark.parametrize("step", [ba.StepDown(2, 5e-3), ba.StepUp(2, 5e-3)], ids=["down", "up"])
+def test_the_foot_comes_down_on_the_step_as_on_the_rigid_plant(biped, gait, level, step):
+    walker = walker_on(biped, gait, step)
+    loop, run = walked(walker, gait)
+    assert run.status is ba.Status.COMPLETED
+    foot = biped.swing_foot(run.arcs[1].x[-1, :5])[1]
+    assert foot == pytest.approx(-step.drop, abs=4e-4)  # penetration of both feet
+    # a longer or shorter single support, to the tick, and the next one is on level ground again
+    rigid = ba.walk(walker, gait, impacts=2).trajectory.events("foot_strike")
+    flat = ba.walk(replace(walker, ground_steps=()), gait, impacts=2).trajectory.events(
+        "foot_strike"
+    )
+    longer = rigid[1].t - flat[1].t
+    assert longer * step.drop > 0.0
+    found = run.events("foot_strike")[1].t - level[1].events("foot_strike")[1].t
+    assert found == pytest.approx(longer, abs=1.5e-3)
+    assert biped.swing_foot(run.arcs[2].x[-1, :5])[1] == pytest.approx(0.0, abs=4e-4)
+    after = replace(run, arcs=tuple(replace(arc, **first(arc, 40)) for arc in run.arcs[2:]))
+    (landing,) = ba.soft_steps(loop, after)
+    assert 0.2e-3 < landing.depth < 0.45e-3  # 0.41 mm on level ground
+
+
+def test_a_plane_that_moves_gives_no_kick(biped, gait, level):
+    """Until the foot is at the ground the motion is that on level ground, bit for bit."""
+    for step in (ba.StepDown(2, 5e-3), ba.StepUp(2, 5e-3)):
+        _, run = walked(walker_on(biped, gait, step), gait, 2)
+        ours, theirs = run.arcs[1], level[1].arcs[1]
+        low = [biped.swing_foot(x[:5])[1] < 5.5e-3 for x in theirs.x]
+        late = ours.mode.start + 0.2
+        until = next(k for k, t in enumerate(theirs.t) if low[k] and t > late)
+        assert theirs.t[until] - ours.mode.start > 0.35
+        np.testing.assert_array_equal(ours.x[:until, :10], theirs.x[:until, :10])
+        np.testing.assert_array_equal(run.arcs[0].x[:, :15], level[1].arcs[0].x[:, :15])
+        moved = ours.x[:until, 17] == -step.drop
+        ahead = np.array([biped.swing_foot(x[:5])[0] > 0.0 for x in ours.x[:until]])
+        np.testing.assert_array_equal(moved, ahead)  # the foot is high enough there
+
+
+def test_a_step_up_that_is_not_cleared_is_not_there(biped, gait, level):
+    """The foot strikes the level behind it, where it would without the step."""
+    _, run = walked(walker_on(biped, gait, ba.StepUp(1, 0.2)), gait, 1)
+    np.testing.assert_array_equal(run.arcs[0].x[:, :10], level[1].arcs[0].x[:, :10])
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.1])
+def test_each_foot_touches_its_own_level_along_the_vertical(biped, gait, slope):
+    """Also where the engine was elsewhere before, and in another process."""
+    ground = ba.SoftGround(foot_radius=5e-3)
+    plant = MuJoCoPlant(biped, ground, slope, ground_steps=(ba.StepDown(1, 0.01),))
+    q, out = gait.start(biped)[0], ground_axes(slope)[1]
+    q = q - [0.0, 0.0, 0.0, 0.6, 0.0]  # the swing foot in the air
+    state = plant.start(0.0, q, np.zeros(5))
+    foot = float(biped.swing_foot(q) @ out)
+    for levels in ((0.0, foot / out[1] + 1e-3), (2e-3, foot / out[1] + 3e-3)):
+        own = state.own.copy()
+        own[6:8] = levels
+        for p in (plant, pickle.loads(pickle.dumps(plant))):
+            p.engine.place(np.concatenate((q, np.zeros(5), own)))
+            mujoco().mj_forward(p.model, p.data)
+            depths = [-contact.dist for contact in p.data.contact]
+            expected = [x * out[1] for x in (levels[0], levels[1] - foot / out[1])]
+            np.testing.assert_allclose(depths, expected, rtol=0.0, atol=2e-6)
+
+
+@pytest.mark.parametrize("height", [-0.7, 0.7])
+def test_the_same_motion_on_ground_at_another_height(biped, gait, height):
+    """Nothing that ends a single support is counted from the level of the start."""
+    plant = MuJoCoPlant(biped, ground_steps=(ba.StepDown(1, 5e-3),))
+    row = np.concatenate(plant.start(0.0, *gait.start(biped))[1:])
+    moved = []
+    for raised in (0.0, height):
+        x, found = row.copy(), ()
+        x[[12, 16, 17]] += raised
+        for k in range(50):
+            x, contacts = plant.stride(k * 1e-3, x, np.zeros(4), None, (k + 1) * 1e-3)
+            found += contacts
+        moved.append(x - raised * np.isin(np.arange(len(x)), (12, 16, 17)))
+        assert found == ()
+    np.testing.assert_allclose(moved[0], moved[1], rtol=0.0, atol=1e-6)
+
+
+def test_uneven_ground_of_a_scenario_is_that_of_the_rigid_plant():
+    walk = ba.walk_scenario(ba.Scenario("NPD", **SOFT, impacts=3, ground_rms=2e-3, seed=4))
+    assert walk.trajectory.status is ba.Status.COMPLETED
+    feet = [arc.read["foot_place"][-1] for arc in walk.trajectory.arcs]
+    falls = [foot[1] - foot[3] for foot in feet]
+    np.testing.assert_allclose(falls, [walk.walker.drop(k) for k in (1, 2, 3)], atol=5e-4)
+    assert np.ptp(falls) > 2e-3
+    kept = walk.trajectory.settings["plant"]["ground_steps"]
+    assert kept[0]["height"] == walk.walker.ground_steps[0].height
+
+
+def test_steps_are_counted_from_the_first_step_of_the_walk():
+    one, other = (
+        ba.walk_scenario(
+            ba.Scenario("NPD", **SOFT, impacts=2, ground_step=5e-3, first_step=k, pushed_step=k + 1)
+        ).trajectory
+        for k in (1, 3)
+    )
+    assert [arc.mode.step for arc in other.arcs] == [3, 4]
+    np.testing.assert_array_equal(one.final_state, other.final_state)
+
+
+def test_what_does_not_fit_is_said(biped, gait):
+    steps = (ba.StepDown(2, 5e-3),)
+    plant = MuJoCoPlant(biped, ground_steps=steps)
+    with pytest.raises(InputError, match="give them to the walker alone"):
+        stepping_loop(walker_on(biped, gait), plant)
+    with pytest.raises(InputError, match="1 steps of the ground, and such a file has level ground"):
+        ba.write_mjcf(plant, "steps.xml")
+    with pytest.raises(InputError, match="begins in single support 0"):
+        MuJoCoPlant(biped, first_step=0)

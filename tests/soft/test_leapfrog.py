@@ -1,0 +1,144 @@
+"""Leapfrog around MuJoCo's Euler method, against closed forms and against RK4."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import biped_adrc as ba
+from biped_adrc.errors import InputError
+from biped_adrc.soft.mujoco_engine import leapfrog
+from biped_adrc.soft.mujoco_robot import mujoco
+
+LENGTH, GRAVITY = 0.7, 9.81
+
+
+def pendulum(h):
+    """A point mass on a rod without mass, horizontal at the angle 0."""
+    mj = mujoco()
+    spec = mj.MjSpec()
+    spec.option.timestep, spec.option.gravity = h, [0.0, 0.0, -GRAVITY]
+    spec.option.integrator = mj.mjtIntegrator.mjINT_EULER
+    body = spec.worldbody.add_body(
+        mass=1.3, ipos=[LENGTH, 0.0, 0.0], inertia=[1e-12] * 3, explicitinertial=True
+    )
+    body.add_joint(type=mj.mjtJoint.mjJNT_HINGE, axis=[0.0, -1.0, 0.0])
+    return spec.compile()
+
+
+def swung(move, h, duration):
+    model = pendulum(h)
+    data = mujoco().MjData(model)
+    data.qpos[:], data.qvel[:] = 0.3, -1.0
+    move(model, data, round(duration / h))
+    return np.array([data.qpos[0], data.qvel[0]])
+
+
+def test_a_pendulum_is_of_second_order_and_of_first_without_the_shifts():
+    exact = solve_ivp(
+        lambda t, x: (x[1], -GRAVITY / LENGTH * np.cos(x[0])),
+        (0.0, 0.8), (0.3, -1.0), method="DOP853", rtol=1e-12, atol=1e-12,
+    ).y[:, -1]  # fmt: skip
+    for move, order in ((leapfrog, 2), (mujoco().mj_step, 1)):
+        coarse, fine = (np.abs(swung(move, h, 0.8) - exact) for h in (2e-3, 1e-3))
+        np.testing.assert_allclose(coarse / fine, 2.0**order, rtol=0.02)
+
+
+def flown(biped, gait, h, integrator, u, scale):
+    """The row after 50 ms of flight under u (4,) [N m], at so many times the gait's rates."""
+    plant = ba.MuJoCoPlant(biped, h=h, integrator=integrator)
+    q, v = gait.start(biped)
+    state = plant.start(0.0, q, scale * v)
+    row = np.concatenate(state[1:])
+    row[12] += 9.0
+    for k in range(50):
+        row = plant.engine.moved(k * 1e-3, row, u, None, (k + 1) * 1e-3)
+    return row
+
+
+def test_free_fall_is_exact(biped, gait):
+    """z = z_0 - g t^2 / 2; without the shifts it would be off by g h t / 2."""
+    q, _ = gait.start(biped)
+    start = ba.MuJoCoPlant(biped).start(0.0, q, np.zeros(5)).own[2] + 9.0
+    fallen = flown(biped, gait, 1e-4, "leapfrog", np.zeros(4), 0.0)
+    g = biped.description.gravity
+    assert fallen[12] == pytest.approx(start - g * 0.05**2 / 2.0, abs=1e-12)
+    np.testing.assert_allclose(fallen[:5], q, rtol=0.0, atol=1e-12)
+
+
+def test_in_flight_what_depends_on_rates_leaves_a_first_order_of_two_hundredths_of_eulers(
+    biped, gait
+):
+    u = np.array([20.0, -10.0, 5.0, 8.0])
+    exact = flown(biped, gait, 2e-4, "rk4", u, 1.0)[:5]
+    coarse, fine = (flown(biped, gait, h, "leapfrog", u, 1.0)[:5] for h in (2e-4, 1e-4))
+    gap = np.max(np.abs(coarse - exact))
+    assert gap / np.max(np.abs(fine - exact)) == pytest.approx(2.0, rel=0.05)
+    plant = ba.MuJoCoPlant(biped, integrator="leapfrog")
+    plant.engine.step = mujoco().mj_step
+    q, v = gait.start(biped)
+    row = np.concatenate(plant.start(0.0, q, v)[1:])
+    row[12] += 9.0
+    for k in range(50):
+        row = plant.engine.moved(k * 1e-3, row, u, None, (k + 1) * 1e-3)
+    assert gap < 0.02 * np.max(np.abs(row[:5] - exact))
+
+
+def walked(biped, gait, controller, plant, impacts, push=None):
+    loop = ba.CompiledLoop(
+        plant, controller(gait.constraint), biped, ba.SampledTime(1e-3), push, 150.0
+    )
+    x0 = loop.initial_state(*gait.start(biped))
+    return loop.run(x0, ba.RunOptions(0.8 * impacts, stop_after=("foot_strike", impacts)))
+
+
+@pytest.mark.parametrize(
+    ("controller", "within"), [(ba.NPDController, 0.005), (ba.ADRCController, 0.1)]
+)
+def test_under_a_push_the_largest_error_is_that_of_rk4(biped, gait, controller, within):
+    """For ADRC a tenth: half the step changes that of either by 2 to 4 %."""
+    push, peaks = ba.TorquePulse([30.0, 30.0, 30.0, 30.0, 0.0], step=2, start=0.1, stop=0.3), []
+    for integrator in ("rk4", "leapfrog"):
+        plant = ba.MuJoCoPlant(biped, integrator=integrator)
+        arc = walked(biped, gait, controller, plant, 2, push).arcs[1]
+        late = arc.x[arc.t > arc.mode.start + 0.1]
+        errors = [np.abs(x[:4] - gait.constraint(0.0, x[:5], x[5:10]).q_d) for x in late]
+        peaks.append(np.max(errors))
+    assert peaks[1] == pytest.approx(peaks[0], rel=within)
+
+
+def test_table_1_walks_on_it_and_not_on_eulers_method(biped, gait):
+    plant = ba.MuJoCoPlant(biped, integrator="leapfrog")
+    run = walked(biped, gait, ba.ADRCController, plant, 5)
+    assert run.status is ba.Status.COMPLETED
+    periods = np.diff([event.t for event in run.events("foot_strike")])
+    np.testing.assert_allclose(periods, 0.422, atol=0.004)
+    plant.engine.step = mujoco().mj_step
+    assert walked(biped, gait, ba.ADRCController, plant, 5).status is ba.Status.ILLEGAL
+
+
+def test_through_a_touchdown(biped, gait):
+    """From the same state 8 ms before to 12 ms after it, against a 16th of the step: places of the foot within
+    0.3 mm and its depth within 10 %, where RK4 has 0.06 mm and 3 %.
+    """
+    first = walked(biped, gait, ba.NPDController, ba.MuJoCoPlant(biped), 1).arcs[0]
+    x = first.x[np.searchsorted(first.t, first.t[-1] - 8.5e-3)]
+
+    def feet(h, integrator):
+        engine, row, found = ba.MuJoCoPlant(biped, h=h, integrator=integrator).engine, x[:15], []
+        for k in range(20):
+            row = engine.moved(k * 1e-3, row, x[-4:], None, (k + 1) * 1e-3)
+            found.append(engine.points()[1])
+        return 1e3 * np.array(found)
+
+    exact = feet(1.25e-5, "rk4")
+    for integrator, place, depth in (("rk4", 0.06, 0.03), ("leapfrog", 0.3, 0.1)):
+        swing = feet(2e-4, integrator)
+        assert np.max(np.abs(swing - exact)) < place
+        assert np.min(swing[:, 2]) == pytest.approx(np.min(exact[:, 2]), rel=depth)
+
+
+def test_another_integrator_is_refused(biped):
+    with pytest.raises(InputError, match=r"integrator of the plant is 'euler', expected one of"):
+        ba.MuJoCoPlant(biped, integrator="euler")

@@ -1,0 +1,236 @@
+"""What the feet do on soft ground: forces against momentum, slip and penetration against closed forms."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.closed_loop.feet import Readings, readings, with_readings
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.closed_loop.stepping_plant import Load, PlantState
+from biped_adrc.errors import InputError
+from biped_adrc.hybrid.simulator import RunOptions
+from biped_adrc.hybrid.storage import load, save
+from biped_adrc.soft.meters import metered, soft_steps, weights
+from biped_adrc.soft.mujoco_plant import MuJoCoPlant
+from biped_adrc.soft.mujoco_robot import mujoco
+
+STILL = Load(np.zeros(5), np.zeros(2))
+FLAT = np.array([1.0, 0.0]), np.array([0.0, 1.0])
+
+
+def loop_on(plant, gait, **more):
+    npd, period = ba.NPDController(gait.constraint), ba.SampledTime(1e-3)
+    return SteppingLoop(plant, npd, plant.biped, period, torque_limit=150.0, **more)
+
+
+def walked(loop, gait, impacts):
+    x0 = loop.initial_state(*gait.start(loop.plant.biped))
+    return loop.run(x0, RunOptions(1.0 * impacts, stop_after=("foot_strike", impacts)))
+
+
+@pytest.fixture(scope="module")
+def walk(biped, gait):
+    """Two steps, pushed in the second."""
+    push = ba.TorquePulse([30.0, 30.0, 0.0, 0.0, 0.0], step=2, start=0.1004, stop=0.2)
+    loop = loop_on(MuJoCoPlant(biped), gait, disturbance=push)
+    return loop, walked(loop, gait, 2)
+
+
+def momentum(plant, r, k):
+    """Of the whole robot (x, z) [N s], by MuJoCo's own sum over its bodies."""
+    plant.footing(PlantState(r.t[k], r.q[k], r.v[k], r.own[k]), r.u[k], STILL)
+    mujoco().mj_subtreeVel(plant.model, plant.data)
+    return plant.model.body_subtreemass[0] * plant.data.subtree_linvel[0, [0, 2]]
+
+
+@pytest.mark.parametrize("force", [(0.0, 0.0), (60.0, 40.0)])
+def test_the_readings_carry_what_the_momentum_asks_for(biped, gait, force):
+    """Impulse of the ground = change of momentum + m g T - that of the force at the hip."""
+    plant = MuJoCoPlant(biped)
+    loop = loop_on(plant, gait, disturbance=ba.HipForce(biped, force))
+    run = loop.run(loop.initial_state(*gait.start(biped)), RunOptions(0.1))
+    r = readings(loop, run.arcs[0], plant.h)
+    a, b = 100, len(r.t) - 1
+    impulse = weights(r.t[a:]) @ r.force[a:].sum(axis=1)
+    outside = np.array([0.0, biped.weight]) - force
+    change = momentum(plant, r, b) - momentum(plant, r, a)
+    np.testing.assert_allclose(impulse, change + outside * (r.t[b] - r.t[a]), rtol=3e-3)
+
+
+def test_the_point_that_touches_moves_as_the_places_say(walk):
+    """v = d(place)/dt with a point for a foot, between the readings of one piece."""
+    loop, run = walk
+    r = readings(loop, run.arcs[1], loop.plant.h)
+    inside = np.flatnonzero(np.diff(r.t) > 0.0)
+    h = np.diff(r.t)[inside, np.newaxis, np.newaxis]
+    slope = (r.place[inside + 1] - r.place[inside]) / h
+    middle = 0.5 * (r.speed[inside + 1] + r.speed[inside])
+    rolling = 1e-3 * 8.0  # radius times the largest rate of a shin
+    assert np.quantile(np.abs(slope - middle), 0.99) < rolling
+    assert np.max(np.abs(r.speed)) > 1.0
+
+
+def test_a_large_foot_rolls_and_the_point_that_touches_rests(biped, gait):
+    plant = MuJoCoPlant(biped, ba.SoftGround(friction=1.0, foot_radius=0.05))
+    q, v = gait.start(biped)
+    state = plant.start(0.0, q, v)
+    pinned = plant.footing(state, np.zeros(4), STILL)
+    np.testing.assert_allclose(pinned.place[0], [0.0, 0.0], atol=1e-5)
+    shin = v @ [1.0, 0.0, 1.0, 0.0, 1.0]  # rate of the stance shin, counter-clockwise
+    centre = np.array([-shin * 0.05, 0.0])  # rolls forwards where it turns clockwise
+    rolling = state._replace(own=state.own + np.array([0.0, 0.0, 0.0, *centre]))
+    np.testing.assert_allclose(plant.footing(rolling, np.zeros(4), STILL).speed[0], 0.0, atol=1e-12)
+
+
+def test_a_block_that_slides_to_rest():
+    """With v' = -mu g: slip (v0^2 - s^2) / (2 mu g) until v = s, in the time (v0 - s) / (mu g)."""
+    mu, g, v0, mass, s = 0.3, 9.81, 0.4, 30.0, 5e-3
+    t = np.linspace(0.0, 0.5, 20001)
+    v = np.maximum(0.0, v0 - mu * g * t)
+    force, speed = np.zeros((len(t), 2, 2)), np.zeros((len(t), 2, 2))
+    force[:, 0, 1] = mass * g
+    force[:, 0, 0] = np.where(v > 0.0, -mu * mass * g, -0.5 * mu * mass * g)
+    speed[:, 0, 0] = v
+    place = np.full((len(t), 2, 2), -2e-4)
+    none = np.zeros((len(t), 1))
+    found = metered(Readings(t, none, none, none, none - 7.0, none, force, place, speed), mu, FLAT)
+    assert found.slip == pytest.approx(((v0**2 - s**2) / (2 * mu * g), 0.0), rel=1e-3)
+    assert found.slip_time == pytest.approx(((v0 - s) / (mu * g), 0.0), rel=1e-3)
+    assert found.creep[0] == pytest.approx(s**2 / (2 * mu * g), rel=0.1)
+    assert (found.friction_used, found.depth) == pytest.approx((mu, 2e-4))
+    assert (found.peak_torque, found.normal_force[0]) == pytest.approx((7.0, mass * g))
+    taken = -mass * v0 - 0.5 * mu * mass * g * (0.5 - v0 / (mu * g))
+    assert found.impulse == pytest.approx((taken, mass * g * 0.5), rel=1e-3)
+
+
+def test_creep_below_the_cone_is_no_slip_and_a_foot_in_the_air_neither():
+    t, none = np.linspace(0.0, 1.0, 5), np.zeros((5, 1))
+    force, speed = np.zeros((5, 2, 2)), np.ones((5, 2, 2))
+    force[:, 0], force[:, 1] = (0.5 * 0.6 * 300.0, 300.0), (0.0, 0.0)
+    found = metered(Readings(t, none, none, none, none, none, force, 0.0 * force, speed), 0.6, FLAT)
+    assert (found.slip, found.slip_time) == ((0.0, 0.0), (0.0, 0.0))
+    assert found.creep == (1.0, 0.0)
+    assert (found.double_support, found.flight, found.single_support) == (0.0, 0.0, 1.0)
+
+
+def test_less_friction_slips_and_flies(biped, gait):
+    """At 0.2 where 1.0 does not; single support, double support and flight are the whole step."""
+    rough = loop_on(MuJoCoPlant(biped, ba.SoftGround(1.0)), gait)
+    holds = soft_steps(rough, walked(rough, gait, 1))
+    smooth = loop_on(MuJoCoPlant(biped, ba.SoftGround(0.2)), gait)
+    slips = soft_steps(smooth, run := walked(smooth, gait, 1))
+    assert sum(holds[0].slip) == 0.0
+    assert slips[0].slip[0] > 3e-4
+    assert slips[0].friction_used == pytest.approx(0.2, rel=1e-3)
+    assert slips[0].flight > 5e-3 > holds[0].flight
+    for step, arc in zip(slips, run.arcs, strict=True):
+        assert step.duration == pytest.approx(arc.t[-1] - arc.t[0], abs=1e-15)
+        assert 0.0 < step.single_support < step.duration
+
+
+def standing(biped, time_constant):
+    """On both feet, with joints that static friction holds; no swing foot is ahead."""
+    d = biped.description
+    held = replace(
+        biped, description=replace(d, static=dict.fromkeys(d.actuated, 1e4)), friction=True
+    )
+    ground = ba.SoftGround(1.0, time_constant, impedance=(0.9, 0.9))
+    plant = MuJoCoPlant(held, ground, h=0.1 * time_constant, ahead=9.0)
+    loop = SteppingLoop(plant, ba.Passive(), held, ba.SampledTime(4e-3))
+    q = ba.load_gait("published", biped).start(biped)[0]
+    return loop, loop.run(loop.initial_state(q, np.zeros(5)), RunOptions(0.6))
+
+
+def test_penetration_at_rest_is_that_of_the_spring(biped):
+    """R F = k r with R = (1 - d) / d / m, k = 1 / (d T^2) for a constant d: r = (1 - d) T^2 F / m.
+
+    1 / m is MuJoCo's inverse effective mass of the foot. Two feet carry the weight.
+    """
+    for time_constant in (4e-3, 8e-3):
+        loop, run = standing(biped, time_constant)
+        r, plant = readings(loop, run.arcs[-1]), loop.plant
+        assert np.max(np.abs(r.speed[-1])) < 5e-4
+        assert r.force[-1, :, 1].sum() == pytest.approx(biped.weight, rel=1e-3)
+        per_mass = plant.model.body_invweight0[
+            [plant.model.body(f).id for f in biped.description.feet], 0
+        ]
+        depth = 0.1 * time_constant**2 * r.force[-1, :, 1] * per_mass
+        np.testing.assert_allclose(-r.place[-1, :, 1], depth, rtol=5e-3)
+        step = soft_steps(loop, run)[-1]
+        assert step.depth >= np.max(depth) * 0.99
+        assert step.double_support > 0.9 * step.duration
+
+
+def test_a_run_carries_its_readings_through_a_file(walk, tmp_path):
+    loop, run = walk
+    told = with_readings(loop, run)
+    back = load(save(told, tmp_path / "run.npz"))
+    for arc, other in zip(told.arcs, back.arcs, strict=True):
+        assert {"u", "zeta", "foot_force", "foot_place", "foot_speed"} <= set(other.read)
+        for name, rows in arc.read.items():
+            np.testing.assert_array_equal(other.read[name], rows)
+    r = readings(loop, run.arcs[1])
+    np.testing.assert_array_equal(told.arcs[1].read["foot_force"].reshape(-1, 2, 2), r.force)
+    np.testing.assert_array_equal(r.t, run.arcs[1].t)
+
+
+def test_the_leg_that_comes_down_is_the_next_that_stands(walk):
+    """The last force on the swing foot is the first on the stance foot, but for the torque after the tick."""
+    loop, run = walk
+    before, after = (readings(loop, arc) for arc in run.arcs)
+    np.testing.assert_allclose(after.place[0, 0], before.place[-1, 1], atol=1e-12)
+    np.testing.assert_allclose(after.speed[0, 0], before.speed[-1, 1], atol=1e-12)
+    assert after.force[0, 0, 1] == pytest.approx(before.force[-1, 1, 1], rel=0.1)
+
+
+def test_readings_of_another_walk_are_refused(walk, biped, gait):
+    loop, run = walk
+    other = replace(loop, plant=MuJoCoPlant(biped, ba.SoftGround(friction=0.3)))
+    with pytest.raises(InputError, match=r"differs by .* from the run's; give the loop that made"):
+        soft_steps(other, run)
+    with pytest.raises(InputError, match="give the loop that made"):
+        readings(loop, run.arcs[1], 0.7 * loop.plant.h)
+    with pytest.raises(InputError, match="apart, expected a positive number or None"):
+        readings(loop, run.arcs[1], 0.0)
+    with pytest.raises(InputError, match="expected a MuJoCoPlant"):
+        soft_steps(replace(loop, plant=Still()), run)
+    with pytest.raises(InputError, match="Still does not say what its feet do"):
+        readings(replace(loop, plant=Still()), run.arcs[0])
+    with pytest.raises(InputError, match="no torques at its nodes"):
+        readings(loop, replace(run.arcs[0], read={}))
+
+
+class Still:
+    """A plant without feet."""
+
+    n, p, swap = 5, 4, np.arange(4)
+
+    def start(self, t, q, v):
+        return PlantState(t, q, v, np.zeros(5))
+
+    def advance(self, *_):
+        raise NotImplementedError
+
+
+@pytest.mark.parametrize(("damping_ratio", "rebound"), [(1.0, np.exp(-2.0)), (4.0, 0.0)])
+def test_a_foot_rebounds_from_critically_damped_ground_however_stiff(damping_ratio, rebound):
+    """x = v0 t exp(-t / T) until the ground would have to pull, at t = 2 T: v = -v0 exp(-2).
+
+    A mass without weight, impedance nearly 1; with a damping ratio of 4 it hardly rebounds.
+    """
+    mj = mujoco()
+    for T in (2e-3, 4e-3):
+        model = mj.MjModel.from_xml_string(
+            f"""<mujoco><option gravity="0 0 0" timestep="{T / 400}"/><worldbody>
+            <geom name="g" type="plane" size="0 0 1"/><body pos="0 0 0.01"><joint type="slide" axis="0 0 1"/>
+            <geom name="f" size="0.01" mass="2"/></body></worldbody><contact><pair geom1="g" geom2="f"
+            condim="1" solref="{T} {damping_ratio}" solimp="0.9999 0.9999"/></contact></mujoco>"""
+        )
+        data = mj.MjData(model)
+        data.qvel[0] = -0.4
+        mj.mj_step(model, data, 400 * 100)
+        assert data.qvel[0] / 0.4 == pytest.approx(rebound, abs=0.02)

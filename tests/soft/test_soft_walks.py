@@ -1,0 +1,187 @@
+"""A scenario's walk on soft ground: the same controller, another plant, by one argument everywhere."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.bench.run import run_trial
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
+from biped_adrc.errors import InputError
+from biped_adrc.scenario.registry import find
+from biped_adrc.scenario.run import halved
+from biped_adrc.soft.walking import stepping_loop
+from biped_adrc.viz.placement import WalkScene, loads
+
+SOFT = {"plant": "mujoco", "period": 1e-3, "torque_limit": 150.0, "impacts": 2}
+
+
+@pytest.fixture(scope="module")
+def made():
+    return ba.walk_scenario(ba.Scenario("NPD", **SOFT))
+
+
+def test_it_is_the_walk_of_a_loop_around_the_plant(made, biped, gait):
+    plant = ba.MuJoCoPlant(biped)
+    loop = ba.SteppingLoop(
+        plant, ba.NPDController(gait.constraint), biped, ba.SampledTime(1e-3), torque_limit=150.0
+    )
+    run = loop.run(
+        loop.initial_state(*gait.start(biped)), ba.RunOptions(4.0, stop_after=(FOOT_STRIKE, 2))
+    )
+    plain = ba.walk_scenario(ba.Scenario("NPD", **SOFT, engine="pinocchio"))
+    assert plain.trajectory.settings["engine"] == "pinocchio"
+    assert made.trajectory.settings["engine"] == "compiled"
+    for walk, apart in ((plain, 0.0), (made, 1e-9)):
+        ends = [e.t for e in walk.trajectory.events(FOOT_STRIKE)]
+        assert ends == [e.t for e in run.events(FOOT_STRIKE)]
+        for ours, theirs in zip(walk.trajectory.arcs, run.arcs, strict=True):
+            assert np.allclose(ours.x[:, :10], theirs.x[:, :10], rtol=apart, atol=apart)
+            assert np.allclose(ours.x[:, -4:], theirs.x[:, -4:], rtol=1e3 * apart, atol=1e3 * apart)
+
+
+def test_ba_walk_takes_the_plant_by_name_or_itself(made, biped, gait):
+    walker = Walker(
+        biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3), torque_limit=150.0
+    )
+    for plant in ("mujoco", ba.MuJoCoPlant(biped)):
+        walk = ba.walk(walker, gait, impacts=2, plant=plant)
+        assert np.array_equal(walk.trajectory.final_state, made.trajectory.final_state)
+    stiffer = ba.MuJoCoPlant(biped, ba.SoftGround(friction=1.0))
+    walk = ba.walk(walker, gait, impacts=1, plant=stiffer)
+    assert walk.trajectory.settings["plant"]["ground"]["friction"] == 1.0
+
+
+def test_its_signals_are_of_the_plant_that_walked(made):
+    x, walker = made.signals, made.walker
+    # u is the torque held, xi = q_b'' - kappa u with the q'' of the plant, split as (12) says
+    assert np.allclose(x.xi, x.xi_external + x.xi_nominal, rtol=1e-9, atol=1e-7)
+    rows = np.flatnonzero(np.diff(x.t) > 0.0)[5:400:40]
+    for k in rows:
+        kappa = walker.plant.reduction(x.q[k], x.v[k]).kappa
+        dv = (x.v[k + 1, :4] - x.v[k, :4]) / (x.t[k + 1] - x.t[k])
+        assert np.allclose(x.xi[k], dv - kappa @ x.u[k], atol=1e-6)
+    late = (x.step == 2) & (x.t > x.t[x.step == 2][0] + 0.05) & (x.t < x.t[-1] - 2e-3)
+    F = x.ground_reaction[late]
+    assert np.min(F[:, 1]) > 0.0
+    assert np.max(np.abs(F[:, 0]) / F[:, 1]) <= 0.6 * (1.0 + 1e-6)
+    # the foot that stands does not move more than it creeps, and the next one is a step further
+    assert np.ptp(x.foothold[late]) < 2e-3
+    first = x.foothold[x.step == 1][-1]
+    assert x.foothold[late][0] - first == pytest.approx(0.31, abs=0.03)
+
+
+def test_what_a_finished_walk_offers(made, tmp_path):
+    assert made.certificates == ()
+    assert made.legality.legal_impacts == 2
+    assert "impulses" not in made.legality.text()
+    assert made.outcome.impacts == 2
+    again = ba.load_walk(made.save(tmp_path / "soft.npz"))
+    assert again.soft
+    assert np.array_equal(again.signals.ground_reaction, made.signals.ground_reaction)
+    assert again.legality.record() == made.legality.record()
+    made.animate(tmp_path / "soft.png")
+
+
+def test_a_row_of_a_study_says_what_the_walk_says(made):
+    row = run_trial({**SOFT, "controller": "NPD"})
+    x, ticks = made.signals, np.diff(made.signals.t) > 0.0
+    assert row["status"] == "COMPLETED"
+    assert row["impacts"] == 2
+    assert row["legal"] == 1
+    assert row["peak_error"] == pytest.approx(np.max(np.abs(x.error)))
+    assert row["rms_error"] == pytest.approx(np.sqrt(np.mean(x.error[:-1][ticks] ** 2)))
+    moved = np.diff(x.q[:, :4], axis=0)[ticks]
+    assert row["net_work"] == pytest.approx(np.sum(x.u[:-1][ticks] * moved))
+    assert row["distance"] == pytest.approx(0.62, abs=0.03)
+    assert run_trial({**SOFT, "controller": "NPD"}) == row
+
+
+def test_pushes_and_seeds_are_those_of_any_scenario():
+    push = {"push": "pulse", "on": "random joints", "amplitude": 40.0, "pushed_step": 2}
+    one, other = ({**SOFT, **push, "controller": "NPD", "seed": k} for k in (1, 2))
+    assert run_trial(one) == run_trial(one)
+    assert run_trial(one)["peak_error"] != run_trial(other)["peak_error"]
+    s = ba.Scenario("NPD", **SOFT, pushes="q1=30@2:0.1-0.2")
+    x = ba.walk_scenario(s).signals
+    inside = (x.step == 2) & (x.t - x.t[x.step == 2][0] > 0.11)
+    inside &= x.t - x.t[x.step == 2][0] < 0.19
+    assert np.all(x.zeta[inside, 0] == 30.0)
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"ground_friction": 0.5}, "ground_friction with the plant 'rigid'"),
+        ({**SOFT, "h": 1e-3}, "h with the plant 'mujoco'"),
+        ({**SOFT, "own": {"lag": 1e-3}}, "lag"),
+        ({**SOFT, "impact_error": 0.01}, "impact_error with the plant 'mujoco'"),
+        ({"plant": "mujocco"}, "did you mean 'mujoco'"),
+        ({"plant": "mujoco", "impacts": 1}, "period"),
+        ({**SOFT, "own": {"impratio": -1.0}}, "impratio of the ground is -1"),
+        ({**SOFT, "own": {"springs": 2.0}}, "springs"),
+    ],
+)
+def test_what_does_not_fit_is_refused(values, said):
+    with pytest.raises(InputError, match=said):
+        ba.walk_scenario(ba.Scenario("NPD", **values))
+
+
+def test_what_only_the_rigid_plant_has_is_named(biped, gait):
+    law, plant = ba.NPDController(gait.constraint), ba.MuJoCoPlant(biped)
+    walker = Walker(
+        biped,
+        law,
+        timing=ba.SampledTime(1e-3),
+        impact_gain=(0.01,) * 5,
+    )
+    with pytest.raises(InputError, match="an error of the impact map"):
+        stepping_loop(walker, plant)
+    with pytest.raises(InputError, match="the method on a plant"):
+        ba.walk(walker, gait, method=ba.RK4(), plant=plant)
+
+
+def test_values_of_ground_and_engine_come_from_the_scenario():
+    s = ba.Scenario(
+        "NPD", **{**SOFT, "impacts": 1}, ground_friction=0.9, time_constant=5e-3, plant_step=5e-4,
+        own={"impratio": 40.0, "touchdown_force": 20.0},
+    )  # fmt: skip
+    plant = ba.walk_scenario(s).trajectory.settings["plant"]
+    assert plant["ground"]["friction"] == 0.9
+    assert plant["ground"]["time_constant"] == 5e-3
+    assert plant["ground"]["impratio"] == 40.0
+    assert plant["h"] == 5e-4
+    assert plant["touchdown_force"] == 20.0
+    assert halved(s).plant_step == 2.5e-4
+
+
+@pytest.mark.parametrize(("time_constant", "h"), [(1e-3, 1e-4), (2e-3, 2e-4), (2e-2, 2e-4)])
+def test_the_step_of_the_engine_is_a_tenth_of_the_time_constant_and_at_most_one_fifth_of_a_ms(
+    time_constant, h
+):
+    s = ba.Scenario("NPD", **{**SOFT, "impacts": 1}, time_constant=time_constant)
+    made = ba.walk_scenario(s)
+    assert made.trajectory.settings["plant"]["h"] == pytest.approx(h)
+    assert halved(s).plant_step == pytest.approx(0.5 * h)
+    assert find("plant", "MuJoCo").words
+
+
+def test_a_drawing_stands_where_the_foot_is_and_says_when_it_slips(made):
+    slippery = ba.walk_scenario(ba.Scenario("NPD", **SOFT, ground_friction=0.2))
+    scene = WalkScene.of(slippery)
+    arc = slippery.trajectory.arcs[1]
+    place = arc.read["foot_place"]
+    moved = np.ptp(place[:, 0])
+    assert moved > 5e-3
+    at, other = (scene.foot(1, float(t)) for t in (arc.t[0], arc.t[-1]))
+    assert at == pytest.approx(tuple(place[0, :2]))
+    assert other == pytest.approx(tuple(place[-1, :2]))
+    F, v = arc.read["foot_force"], arc.read["foot_speed"]
+    k = int(np.argmax(np.abs(v[:, 0]) * (np.abs(F[:, 0]) >= 0.199 * F[:, 1]) * (F[:, 1] > 20.0)))
+    assert loads(scene, float(arc.t[k])).slips
+    assert np.array_equal(
+        loads(scene, float(arc.t[k])).ground_reaction, F[k + (arc.t[k + 1] == arc.t[k]), :2]
+    )
+    still = WalkScene.of(made)
+    assert not any(loads(still, t).slips for t in np.arange(0.1, 0.3, 0.01))

@@ -1,0 +1,104 @@
+"""Touchdowns that a controller has to notice on soft ground, in Python and compiled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.touchdowns import touchdowns
+from biped_adrc.errors import InputError
+from biped_adrc.hardware.touchdown_by_foot import ByForce, ByKinematics
+from biped_adrc.hardware.touchdown_told import Told
+
+pytest.importorskip("mujoco")
+T = 1e-3
+
+
+@pytest.fixture(scope="module")
+def plant(biped):
+    return ba.MuJoCoPlant(biped, integrator="leapfrog")
+
+
+def low_order(constraint):
+    return ba.ADRCController(constraint, observer=ba.GPIObserver.from_bandwidth(300.0, m=1))
+
+
+def walked(plant, gait, touchdown, kind=ba.CompiledLoop, t_end=0.43, controller=low_order, **more):
+    clock = ba.SampledTime(T, restart=False)
+    given = {"torque_limit": 150.0, "touchdown": touchdown} | more
+    loop = kind(plant, controller(gait.constraint), plant.biped, clock, **given)
+    return loop, loop.run(loop.initial_state(*gait.start(plant.biped)), ba.RunOptions(t_end))
+
+
+LEAVES = (
+    Told(late=3e-3),
+    ByForce(debounce=2e-3, delay=1e-3),
+    ByKinematics(height=3e-3),
+)
+
+
+@pytest.mark.parametrize("leaf", LEAVES, ids=lambda leaf: type(leaf).__name__)
+def test_compiled_as_in_python(plant, gait, leaf):
+    (loop, compiled), (_, python) = (
+        walked(plant, gait, leaf, kind) for kind in (ba.CompiledLoop, ba.SteppingLoop)
+    )
+    assert compiled.settings["engine"] == "compiled"
+    assert len(python.events("foot_strike")) == 1
+    scale = 1.0 + np.abs(python.final_state)
+    np.testing.assert_allclose(compiled.final_state / scale, python.final_state / scale, atol=1e-9)
+    for one, other in zip(python.arcs, compiled.arcs, strict=True):
+        xi = one.read["xi_estimate"], other.read["xi_estimate"]
+        np.testing.assert_allclose(xi[1], xi[0], atol=1e-6)
+    np.testing.assert_array_equal(touchdowns(loop, compiled).late, touchdowns(loop, python).late)
+
+
+def test_noticed_at_once_is_ideal_knowledge(plant, gait):
+    """Touchdowns on soft ground are at ticks, so the same tick that follows one notices it."""
+    (_, ideal), (_, told) = (walked(plant, gait, leaf, t_end=0.9) for leaf in (None, Told()))
+    assert len(ideal.events("foot_strike")) == 2
+    np.testing.assert_allclose(told.final_state[:10], ideal.final_state[:10], atol=1e-9)
+    np.testing.assert_allclose(told.final_state[-4:], ideal.final_state[-4:], atol=1e-6)
+
+
+def test_debounce_and_delay_add_up(plant, gait):
+    loop, run = walked(plant, gait, ByForce(debounce=2e-3, delay=3e-3), t_end=0.9)
+    found = touchdowns(loop, run)
+    assert len(found.t) == 2
+    np.testing.assert_allclose(found.late, 5e-3, atol=1e-9)
+
+
+def test_in_the_window_the_recorded_torque_is_the_old_law_s(plant, gait):
+    loop, run = walked(plant, gait, Told(late=4e-3), controller=ba.NPDController)
+    (event,) = run.events("foot_strike")
+    arc, biped = run.arcs[1], plant.biped
+    for k in np.flatnonzero(arc.t[:-1] < event.t + 3.5e-3):
+        if (
+            round(arc.t[k] / T) * T == pytest.approx(arc.t[k], abs=1e-12)
+            and arc.t[k + 1] > arc.t[k]
+        ):
+            q, v = biped.relabel(arc.x[k, :5]), biped.R @ arc.x[k, 5:10]
+            m = loop.measure(arc.t[k], q, v, ba.closed_loop.semantics.Mode())
+            u = loop.saturate(loop.law.output(np.zeros(0), m))
+            np.testing.assert_allclose(arc.read["u"][k], u[loop.swap], rtol=1e-8, atol=1e-8)
+
+
+def test_a_plant_that_does_not_say_what_its_feet_carry(plant, gait):
+    @dataclass(frozen=True)
+    class Mute:
+        inner: object
+        n, p, swap = plant.n, plant.p, plant.swap
+
+        def start(self, t, q, v):
+            return self.inner.start(t, q, v)
+
+        def advance(self, *given):
+            return self.inner.advance(*given)
+
+    clock = ba.SampledTime(T, restart=False)
+    npd = ba.NPDController(gait.constraint)
+    with pytest.raises(InputError, match="Mute does not say what its feet carry"):
+        ba.SteppingLoop(Mute(plant), npd, plant.biped, clock, touchdown=ByForce())
+    assert ba.SteppingLoop(Mute(plant), npd, plant.biped, clock, touchdown=ByKinematics()).held
