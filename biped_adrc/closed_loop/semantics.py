@@ -25,6 +25,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
+from biped_adrc.closed_loop.noticing import labelled, noticed, unnoticed
 from biped_adrc.control.base import Measurement
 from biped_adrc.hardware.meter import Hit, Outside, loads, metered
 from biped_adrc.hardware.motors import Line, acting, limited, mean_torque, sent
@@ -32,6 +33,7 @@ from biped_adrc.hardware.sample_hold import (
     Held,
     HeldParameters,
     after_impact,
+    as_seen,
     lagged,
     motor_torque,
     read,
@@ -176,6 +178,14 @@ class Loop(Protocol):
     def saturate(self, u: Array) -> Array:
         """u (p,) [N m] within the torque limit."""
 
+    def jumped(self, fires: float, s: Array, m: Measurement) -> Array:
+        """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
+
+    def foot_forces(
+        self, t: float, q: Array, v: Array, tail: Array, mode: Mode
+    ) -> tuple[float, float]:
+        """Vertical forces of the ground on stance and swing foot [N], under the torque held in `tail`."""
+
     def bounded(self, u: Array) -> Array:
         """u (p,) [N m] itself; ends the run where it is beyond anything that the motors have."""
 
@@ -289,25 +299,40 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     order; q and q' do not change.
 
     Behind sensors the controller sees the measured (q, q') of the sensors' state w in place of the
-    true ones. The meter always uses the true state.
+    true ones. The meter always uses the true state. A controller that has to notice touchdowns acts
+    in the labels that it believes in (`noticed`).
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     assert k is not None
     h = read(k.sizes, tail)
-    w = k.sensors.sense(k.sensors.parameters, h.w, q, v) if k.sizes.sensors > 0 else h.w
-    seen = as_seen(k, w, q, v)
-    m = loop.measure(t, *seen, mode)
-    (s, line), g = decided(loop, k, s, m, h.line), h.g
+    if k.sizes.told > 0:
+        m, s, w, b = noticed(loop, t, s, tail, q, v, mode)
+        s, line = decided(loop, k, s, m, labelled(loop, b, h.line))
+        line = labelled(loop, b, line)
+    else:
+        b = h.b
+        w = k.sensors.sense(k.sensors.parameters, h.w, q, v) if k.sizes.sensors > 0 else h.w
+        m = loop.measure(t, *as_seen(k, w, q, v), mode)
+        s, line = decided(loop, k, s, m, h.line)
+    g = h.g
     if k.sizes.meter > 0:
-        terms = loop.nominal.reduction(q, v) if k.sizes.sensors > 0 else m.terms
+        exact = k.sizes.sensors + k.sizes.told == 0
+        terms = m.terms if exact else loop.nominal.reduction(q, v)
         g = measured_by_meter(loop, t, g, q, v, line, terms, mode)
-    return np.concatenate((q, v, s, written(Held(w, g, line, h.own))))
+    return np.concatenate((q, v, s, written(Held(w, g, line, h.own, b))))
 
 
-def as_seen(k: HeldParameters, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
-    """(q, v) as the sensors in their state w show it, each (n,)."""
-    sight: tuple[Array, Array] = q, v
-    return k.sensors.seen(k.sensors.parameters, w, q, v) if k.sizes.sensors > 0 else sight
+def on_stance_foot(
+    loop: Loop, resultant: Array, t: float, q: Array, v: Array, tail: Array, mode: Mode
+) -> tuple[float, float]:
+    """Vertical forces of the ground on stance and swing foot [N] of a plant whose stance foot is pinned.
+
+    resultant (2,) [N]: of what acts from outside, which the ground does not carry.
+    """
+    assert loop.held is not None
+    force = applied(torque_held(loop.held, tail), loop.external(t, q, v, mode))
+    a = loop.plant.acceleration(q, v, force)
+    return loop.plant.ground_reaction(q, v, a)[1] - resultant[1], 0.0
 
 
 def asked(loop: Loop, s: Array, m: Measurement) -> tuple[Array, Array]:
@@ -390,17 +415,21 @@ def landed(
     Shared by plants with an impact map and by those that compute their own contacts. Controller
     state and held tail are relabelled. A rate that the sensors derive from differences is reset to
     what the nominal model's impact predicts, since no difference across an impact is a rate.
-    impulse (2,) [N s]: of the ground, for the meter.
+    impulse (2,) [N s]: of the ground, for the meter. A controller that has to notice touchdowns, and
+    its sensors, are told nothing here; its labels are then those of the other foot.
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     seen = q_plus, v_plus
     if k is not None:
         h, expected, hit = read(k.sizes, tail), v_plus, None
-        if k.sizes.sensors > 0:
+        if k.sizes.sensors > 0 and k.sizes.told == 0:
             expected = loop.nominal.impact(*as_seen(k, h.w, q, v)).v
         if k.sizes.meter > 0:
             hit = Hit(t, after.step - 1.0, loop.plant.momentum(q, v), impulse)
         h = after_impact(k, h, loop.swap, q, q_plus, v_plus, expected, hit)
+        if k.sizes.told > 0:
+            h = h._replace(b=unnoticed(k, h.b, t))
+            return np.concatenate((q_plus, v_plus, s, written(h)))
         seen = as_seen(k, h.w, q_plus, v_plus)
         tail = written(h)
     s = loop.calls.jump(s, loop.measure(t, *seen, after), loop.swap)

@@ -20,6 +20,7 @@ from typing import Generic, NamedTuple, TypeVar
 import numpy as np
 
 from biped_adrc.closed_loop import semantics
+from biped_adrc.closed_loop.noticing import estimated
 from biped_adrc.closed_loop.semantics import (
     ControlLaw,
     Instant,
@@ -27,6 +28,7 @@ from biped_adrc.closed_loop.semantics import (
     Mode,
     Plant,
     instant,
+    parts,
     unknown,
 )
 from biped_adrc.control.base import Controller, Measurement, check_state
@@ -39,6 +41,7 @@ from biped_adrc.hardware.meter import MeterParameters, Outside
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import Held, HeldParameters
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.system import Clock, HybridSystem, Relaxing
 from biped_adrc.model.reduction import disturbance_parts
 from biped_adrc.parts import check_fields, handing_out, returned
@@ -67,6 +70,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
     """Between plant and controller, in sampled time; None for exact measurements."""
     motors: Motors | None = None
     """Between controller and plant, in sampled time; None for ideal ones."""
+    touchdown: Touchdown | None = None
+    """How the controller is told of one, in sampled time; None for at once."""
     disturbance: Disturbance | None = None
     """What acts from outside; None for nothing."""
 
@@ -78,6 +83,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
             raise InputError(
                 f"the model has {self.nominal.n} coordinates, the plant {self.plant.n}; they must agree"
             )
+        if self.touchdown is not None:
+            check_noticing(self.timing, self.nominal)
 
     # -- parts -------------------------------------------------------------------------------------
     @cached_property
@@ -95,7 +102,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
         """The controller in this time base."""
         if isinstance(self.timing, SampledTime):
             return self.controller.sampled(self.timing.period)
-        return self.controller
+        return self.controller.continuous()
 
     @cached_property
     def calls(self) -> ControlLaw:
@@ -137,7 +144,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
         time, n, p = self.timing, self.plant.n, self.plant.p
         if not isinstance(time, SampledTime):
             return None
-        given = (self.sensors, self.motors, self.metering(time), self.own)
+        given = (self.sensors, self.motors, self.metering(time), self.own, self.touchdown)
         return held.held_parameters(n, p, time, *given)
 
     def __getstate__(self) -> dict[str, object]:
@@ -237,7 +244,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
             u = returned(self.law.output(s, m), self.torques, self.controller, "output")
             check_state(self.law, s, m, u)
             k = self.held
-            tail = np.zeros(0) if k is None else held.at_start(k, m.q, m.v, self.sensors)
+            given = (self.sensors, self.touchdown, mode)
+            tail = np.zeros(0) if k is None else held.at_start(k, m.q, m.v, *given)
         return np.concatenate((m.q, m.v, s, tail))
 
     # -- what it does --------------------------------------------------------------------------------
@@ -263,6 +271,16 @@ class ClosedLoop(HybridSystem, Generic[P]):
         if not math.isfinite(u.dot(u)):
             raise NotFiniteError(f"{type(self.controller).__name__}.output returned {u} N m")
         return u
+
+    def jumped(self, fires: float, s: Array, m: Measurement) -> Array:
+        """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
+        return self.calls.jump(s, m, self.swap) if fires > 0.5 else s
+
+    def foot_forces(
+        self, t: float, q: Array, v: Array, tail: Array, mode: Mode
+    ) -> tuple[float, float]:
+        """Vertical forces of the ground on stance and swing foot [N]; 0 where there is no ground."""
+        return 0.0, 0.0
 
     def bounded(self, u: Array) -> Array:
         """u (p,) [N m] itself, whatever it is; a subclass may have a bound."""
@@ -309,6 +327,20 @@ class ClosedLoop(HybridSystem, Generic[P]):
             return (control,)
         after = k.motors.fraction * time.period
         return (control, Clock("motors", time.period, self._release, time.restart, after))
+
+
+def check_noticing(timing: ContinuousTime | SampledTime, model: object) -> None:
+    """Raise InputError where a controller cannot be told of touchdowns by a part of its own."""
+    if not isinstance(timing, SampledTime) or timing.restart:
+        raise InputError(
+            f"touchdowns are noticed at ticks of a clock that knows none of them, found {timing}; give "
+            "timing=SampledTime(period, restart=False)"
+        )
+    if not all(hasattr(model, name) for name in ("R", "relabel", "swing_foot")):
+        raise InputError(
+            f"the model is a {type(model).__name__}, which has no feet; a controller that notices touchdowns "
+            "needs one with R, relabel and swing_foot, such as Biped.load('rabbit')"
+        )
 
 
 def _with_inner(controller: Controller | None) -> Iterator[Controller]:
@@ -390,8 +422,8 @@ def signals_at(
     """
     i = instant(loop, t, x, mode)
     m, plant, terms, p = i.measurement, loop.plant, i.measurement.terms, loop.plant.p
-    r, estimate = reference(i.s, m), loop.calls.estimate(i.s, m)
-    xi_estimate = np.full(p, np.nan) if estimate is None else estimate.disturbance
+    r, found = reference(i.s, m), estimated(loop, i.s, parts(loop, x)[3], m, mode)
+    xi_estimate = np.full(p, np.nan) if found is None else found
     matched, unmatched = disturbance_parts(terms, unknown(loop, terms, i.a, i.u, i.zeta))
     return InstantSignals(
         a=i.a,

@@ -18,18 +18,20 @@ from functools import cached_property
 import numpy as np
 
 from biped_adrc.closed_loop import semantics
+from biped_adrc.closed_loop.bounds import Bounds
 from biped_adrc.closed_loop.exponential_form import SplitLaws, error_laws, loop_laws, split_of
 from biped_adrc.closed_loop.semantics import Instant as Instant
 from biped_adrc.closed_loop.semantics import Mode as Mode
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.errors import InputError, RanAwayError
-from biped_adrc.ground import StepDown, StepUp, check_slope
+from biped_adrc.errors import InputError
+from biped_adrc.ground import StepDown, StepUp, check_slope, drop_of
 from biped_adrc.hardware.meter import Meter, MeterParameters, Outside
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import check_parts
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Guard, Split
 from biped_adrc.model.biped import Biped
@@ -57,6 +59,7 @@ class Walker(ClosedLoop[Biped]):
       asked for.
     - slope [rad]: of the ground, positive downhill. ground_steps: where it falls or rises by steps.
     - sensors, motors, meter: between controller and plant; in sampled time only.
+    - touchdown: how the controller is told of one, in sampled time with restart=False; None: at once.
     - impact_gain (n,) [1]: v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
     - fall_height [1]: the run ends as a fall when the hip is below this fraction of |p_hip| at q =
       0.
@@ -80,6 +83,7 @@ class Walker(ClosedLoop[Biped]):
     sensors: Sensor | None = None
     motors: Motors | None = None
     meter: Meter | None = None
+    touchdown: Touchdown | None = None
     impact_gain: tuple[float, ...] = ()
     runaway_speed: float = 20.0
     runaway_torque: float = 1000.0
@@ -110,30 +114,17 @@ class Walker(ClosedLoop[Biped]):
         return self.torque_limit
 
     @cached_property
-    def fastest(self) -> Array:
-        """Rates (n,) [rad/s] beyond which the run ends as run away; infinite for none."""
-        return self.runaway_speed * self.plant.speed_limits
-
-    @cached_property
-    def strongest(self) -> float:
-        """Torque [N m] beyond which the run ends as run away; infinite for none, and without motors."""
-        peak = self.plant.description.peak_torque if self.plant.p else math.inf
-        return self.runaway_torque * peak
+    def bounds(self) -> Bounds:
+        """Rates and torque beyond which the run ends as run away."""
+        return Bounds.of(self.plant, self.plant.n, self.runaway_speed, self.runaway_torque)
 
     def check_state(self, t: float, x: Array) -> None:
-        """Raise RanAwayError for x (nx,) at t [s] with a rate beyond `fastest`."""
-        v = np.abs(x[self.plant.n : 2 * self.plant.n])
-        if np.any(v > self.fastest):
-            i = int(np.argmax(v / self.fastest))
-            raise RanAwayError(
-                f"t = {t:.6g} s: |q{i + 1}'| is {v[i]:.3g} rad/s, above {self.fastest[i]:.3g} rad/s"
-            )
+        """Raise RanAwayError for x (nx,) at t [s] with a rate beyond the bounds."""
+        self.bounds.check_rates(t, x[self.plant.n : 2 * self.plant.n])
 
     def bounded(self, u: Array) -> Array:
-        """u (p,) [N m] itself. Raises RanAwayError for one beyond `strongest`."""
-        if self.strongest < math.inf and np.max(np.abs(u)) > self.strongest:
-            raise RanAwayError(f"torque {u} N m, above {self.strongest:.3g} N m")
-        return u
+        """u (p,) [N m] itself. Raises RanAwayError for one beyond the bounds."""
+        return self.bounds.bounded(u)
 
     @cached_property
     def gain(self) -> Array:
@@ -170,6 +161,12 @@ class Walker(ClosedLoop[Biped]):
         m = i.measurement
         return self.plant.ground_reaction(m.q, m.v, i.a) - self.resultant(m.t, mode)
 
+    def foot_forces(
+        self, t: float, q: Array, v: Array, tail: Array, mode: Mode
+    ) -> tuple[float, float]:
+        """Vertical forces of the ground on stance and swing foot [N]; the latter carries none."""
+        return semantics.on_stance_foot(self, self.resultant(t, mode), t, q, v, tail, mode)
+
     # -- impact and ground -------------------------------------------------------------------------
     def strike(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode] | None:
         """x+ (nx,) after impact and relabelling at t [s], with the mode that begins.
@@ -190,7 +187,7 @@ class Walker(ClosedLoop[Biped]):
 
     def drop(self, step: int) -> float:
         """How far the steps of the ground in single support `step` lower the ground where it ends [m]."""
-        return sum((d.drop for d in self.ground_steps if d.step == step), 0.0)
+        return drop_of(self.ground_steps, step)
 
     def clearance(self, q: Array, step: int | None = None) -> float:
         """Height of the swing foot above the ground [m] along the vertical, at q (n,) [rad].

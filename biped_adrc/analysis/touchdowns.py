@@ -1,0 +1,94 @@
+"""When each touchdown of a finished walk was noticed by its controller (`hardware.touchdown`).
+
+A touchdown and a notice each turn the labels, so the one that comes first waits for the other: a notice after
+its touchdown is late, one before it early. Two touchdowns without a notice between them are both missed, two
+notices without a touchdown both false.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from biped_adrc.closed_loop.system import ClosedLoop
+from biped_adrc.closed_loop.walker import FOOT_STRIKE
+from biped_adrc.errors import InputError
+from biped_adrc.hardware.touchdown import belief_of
+from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.shown import Shown
+from biped_adrc.types import Array
+
+
+@dataclass(frozen=True)
+class Noticed(Shown):
+    """The N touchdowns of a walk and the notices of its controller."""
+
+    t: Array
+    """Of the touchdowns (N,) [s]."""
+    late: Array
+    """How much later each was noticed (N,) [s], negative for early; NaN where it was missed, or waits."""
+    false: Array
+    """Times of the notices without a touchdown [s]."""
+    waits: bool = False
+    """Whether the walk ended before the last touchdown was noticed or missed; no share counts it."""
+
+    @property
+    def missed(self) -> float:
+        """Share of the touchdowns that was missed [1]; 0 without any."""
+        return self._share(np.isnan(self.late))
+
+    @property
+    def early(self) -> float:
+        """Share of the touchdowns that was noticed early [1]; 0 without any."""
+        return self._share(self.late < 0.0)
+
+    def _share(self, found: NDArray[np.bool_]) -> float:
+        """Of the touchdowns that are decided, of N."""
+        decided = found[: len(found) - self.waits]
+        return float(np.mean(decided)) if len(decided) else 0.0
+
+
+def touchdowns(loop: ClosedLoop[Any], run: Trajectory) -> Noticed:
+    """When each touchdown of a run of this loop was noticed.
+
+    loop: a `Walker` or `SteppingLoop` with a touchdown part; raises InputError without.
+    """
+    return matched(np.array([event.t for event in run.events(FOOT_STRIKE)]), notices(loop, run))
+
+
+def matched(struck: Array, found: Array) -> Noticed:
+    """Touchdowns at `struck` [s] and notices at `found` [s], both increasing, as the module says."""
+    late, false = np.full(len(struck), np.nan), []
+    events = [(t, 0, i) for i, t in enumerate(struck)] + [(t, 1, i) for i, t in enumerate(found)]
+    waits: tuple[int, int] | None = None
+    for t, kind, i in sorted(events):
+        if waits is None:
+            waits = kind, i
+        elif waits[0] != kind:
+            at = i if kind == 0 else waits[1]
+            late[at] = (found[waits[1]] if kind == 0 else t) - struck[at]
+            waits = None
+        else:
+            false += [found[waits[1]], t] if kind else []
+            waits = None
+    if waits is not None and waits[0] == 1:
+        false.append(found[waits[1]])
+    return Noticed(struck, late, np.array(false), waits is not None and waits[0] == 0)
+
+
+def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:
+    """Times [s] at which a controller took a touchdown for noticed, right or wrong. Raises as `touchdowns`."""
+    k = loop.held
+    if k is None or k.sizes.told == 0:
+        raise InputError(
+            "the controller of this walk is told of touchdowns at once; give touchdown=, such as Told(0.005)"
+        )
+    x = np.vstack([arc.x for arc in run.arcs])
+    first = x.shape[1] - loop.behind + k.sizes.own
+    began = belief_of(x[:, first : first + k.sizes.told].T)
+    new = np.diff(np.asarray(began.step, dtype=float)) > 0.0
+    times: Array = np.asarray(began.start)[1:][new]
+    return times

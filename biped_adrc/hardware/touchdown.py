@@ -1,0 +1,130 @@
+"""How a controller is told of a touchdown: late, early, not at all, or of one that was none.
+
+    d <- struck(k, d, other, t)               at a true touchdown
+    (d, fires) = notice(k, d, look)           at a tick, fires 0 or 1
+
+Without such a part a controller, its observer and the labels of its measurement change at the true touchdown.
+With one they change at the tick at which `notice` fires, and what the controller holds for true meanwhile, its
+belief, is a part of the walker's state:
+
+    b = (other, step, start, d)       other: 1 where its legs have the labels of the other foot, else 0
+
+A touchdown and a notice each turn `other`. So a notice before its touchdown is an early one, and a touchdown
+that is not noticed before the next one leaves the labels right again and the belief two steps behind. A leaf
+gives `laws`, pure functions that run in both engines, and `start`; randomness is a part of d.
+
+Leaves: `touchdown_told` has errors that are asked for; `touchdown_by_foot` goes by the measured angles, or
+by the force on the foot that the controller takes for the swing foot.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from biped_adrc.errors import InputError
+from biped_adrc.parts import Checked
+from biped_adrc.types import Array
+
+SAME_INSTANT = 1e-9
+"""[s]: a tick that is due but for round-off is due, in both engines."""
+HEAD = 3
+"""Numbers in b before d."""
+
+
+class Belief(NamedTuple):
+    """What a controller takes for the present single support, the parts of b."""
+
+    other: float
+    """1 where its labels differ from the plant's, else 0."""
+    step: int
+    """Single support, counted by notices."""
+    start: float
+    """Time of the last notice [s]."""
+    d: Array
+    """The leaf's own state (size,)."""
+
+
+class Look(NamedTuple):
+    """What a leaf may look at, at a tick."""
+
+    t: float
+    """[s]"""
+    t_step: float
+    """Since the last notice [s]."""
+    foot: Array
+    """The controller's swing foot (x, z) from its stance foot (2,) [m], by its model at the measured angles."""
+    force: float
+    """Vertical force of the ground on the controller's swing foot [N]; 0 unless `needs_force`."""
+    other: float
+    """1 where the controller's labels differ from the plant's; for errors that are asked for."""
+    step: float
+    """The plant's single support; for errors that are asked for."""
+    age: float
+    """Since the last true touchdown [s]; for errors that are asked for."""
+
+
+class TouchdownLaws(NamedTuple):
+    """The pure functions of a leaf, and how many numbers d (size,) has."""
+
+    parameters: Any
+    """k, a NamedTuple of numbers and float64 arrays."""
+    size: int
+    needs_force: int
+    """1 where `Look.force` is needed."""
+    struck: Callable[..., Array]
+    """struck(k, d, other, t) -> d at a true touchdown, `other` after it."""
+    notice: Callable[..., tuple[Array, float]]
+    """notice(k, d, look) -> d, and 1 where a touchdown is noticed, else 0."""
+
+    def traced(self, trace: Callable[[Callable[..., Any]], Callable[..., Any]]) -> TouchdownLaws:
+        """With other functions in place of these: those that the engine traces into machine code."""
+        return TouchdownLaws(*self[:3], *map(trace, self[3:]))
+
+
+class Touchdown(Checked, ABC):
+    """Base of all leaves: frozen parameters, with laws."""
+
+    @abstractmethod
+    def laws(self) -> TouchdownLaws:
+        """The pure functions with their parameters."""
+
+    @abstractmethod
+    def start(self) -> Array:
+        """d (size,) at the start of a run."""
+
+    @property
+    def noisy(self) -> bool:
+        """Whether anything is random."""
+        return False
+
+
+def belief_of(b: Array) -> Belief:
+    """The parts of b."""
+    return Belief(b[0], b[1], b[2], b[HEAD:])
+
+
+def numbers_of(belief: Belief) -> Array:
+    """b of its parts, the inverse of `belief_of`."""
+    return np.concatenate((np.array([belief.other, belief.step, belief.start]), belief.d))
+
+
+def unchanged(k: object, d: Array, other: float, t: float) -> Array:
+    """d (size,) as it is, of a leaf that a true touchdown says nothing."""
+    return d
+
+
+def check_finite(x: float, name: str) -> None:
+    """Raise InputError for a number that is not finite."""
+    if not math.isfinite(x):
+        raise InputError(f"{name} of the touchdown is {x}, expected a finite number")
+
+
+def check_time(x: float, name: str) -> None:
+    """Raise InputError for a time that is negative or not finite."""
+    if not (math.isfinite(x) and x >= 0.0):
+        raise InputError(f"{name} of the touchdown is {x} s, expected 0 or more seconds")

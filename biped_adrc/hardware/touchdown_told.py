@@ -1,0 +1,99 @@
+"""A touchdown that is told late, never, or where there was none, as asked for.
+
+    told at the first tick at t >= t_touchdown + late, with probability 1 - missed
+
+The state d is (waits, due, done, r): whether a touchdown waits to be told and when it is due [s], whether the
+false notice has been given, and the state r of the random numbers (`hardware.sensors`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.errors import InputError, check_whole
+from biped_adrc.hardware.sensors import SIZE, seeded, uniforms
+from biped_adrc.hardware.touchdown import SAME_INSTANT, Look, Touchdown, TouchdownLaws, check_time
+from biped_adrc.shown import Shown
+from biped_adrc.types import Array
+
+
+class ToldParameters(NamedTuple):
+    """late [s], missed [1], the step and the time in it [s] of a false notice; noisy: 1 with missed ones."""
+
+    late: float
+    missed: float
+    step: float
+    time: float
+    noisy: int
+
+
+def told_struck(k: ToldParameters, d: Array, other: float, t: float) -> Array:
+    """d = (waits, due, done, r): it is told late, if the labels differ now and it is not missed."""
+    missed, r = 0.0, d[3:]
+    if k.noisy > 0:
+        r, u = uniforms(r, 1)
+        missed = 1.0 * (u[0] < k.missed)
+    waits = np.where(other > 0.5, 1.0 - missed, 0.0)
+    return np.concatenate((np.array([waits, t + k.late, d[2]]), r))
+
+
+def told_notice(k: ToldParameters, d: Array, look: Look) -> tuple[Array, float]:
+    """When it is due and the labels still differ; and once at the false time."""
+    due = 1.0 * (d[0] * look.other > 0.5) * (look.t >= d[1] - SAME_INSTANT)
+    at_step = 1.0 * (abs(look.step - k.step) < 0.5) * (d[2] < 0.5)
+    false = at_step * (look.age >= k.time - SAME_INSTANT)
+    fires = np.maximum(due, false)
+    kept = np.array([d[0] * (1.0 - fires), d[1], np.maximum(d[2], false)])
+    return np.concatenate((kept, d[3:])), fires
+
+
+@dataclass(frozen=True)
+class Told(Shown, Touchdown):
+    """The true touchdown, told `late` seconds after it, and errors that are asked for.
+
+    missed [1]: probability that a touchdown is never told, by `seed`. false_at: (step, time [s]) of one notice
+    without a touchdown, at the first tick so long after the step began; shortly before its end it is an early
+    one. A touchdown that leaves the labels right, as after a missed or an early one, is not told. Raises
+    InputError for a time that is negative and a probability that is none.
+    """
+
+    late: float = 0.0
+    """[s]"""
+    missed: float = 0.0
+    """[1]"""
+    false_at: tuple[int, float] | None = None
+    """Step, and time in it [s]."""
+    seed: int = 0
+    """A whole number from 0."""
+
+    def __post_init__(self) -> None:
+        check_time(self.late, "late")
+        if not 0.0 <= self.missed <= 1.0:
+            raise InputError(
+                f"the probability of a missed touchdown is {self.missed}, expected 0 to 1"
+            )
+        check_whole(self.seed, f"the seed of missed touchdowns is {self.seed}", 0)
+        if self.false_at is not None:
+            if len(self.false_at) != 2:
+                raise InputError(
+                    f"false_at is {self.false_at}, expected a step and a time in it [s], such as (2, 0.3)"
+                )
+            check_whole(self.false_at[0], f"false_at has the step {self.false_at[0]}", 1)
+            check_time(self.false_at[1], "false_at")
+
+    @property
+    def noisy(self) -> bool:
+        return self.missed > 0.0
+
+    def laws(self) -> TouchdownLaws:
+        step, time = (0, 0.0) if self.false_at is None else self.false_at
+        given = float(self.late), float(self.missed), float(step), float(time)
+        k = ToldParameters(*given, int(self.noisy))
+        return TouchdownLaws(k, 3 + SIZE * k.noisy, 0, told_struck, told_notice)
+
+    def start(self) -> Array:
+        r = seeded(self.seed) if self.noisy else np.zeros(0)
+        return np.concatenate((np.zeros(2), [float(self.false_at is None)], r))

@@ -1,0 +1,343 @@
+"""A controller that has to notice touchdowns: what it believes meanwhile, in both engines."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.touchdowns import matched, touchdowns
+from biped_adrc.closed_loop import semantics
+from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.engine.simulate import run_compiled
+from biped_adrc.errors import InputError
+from biped_adrc.hardware.touchdown import Look, belief_of
+from biped_adrc.hardware.touchdown_by_foot import ByForce, ByKinematics
+from biped_adrc.hardware.touchdown_told import Told
+from biped_adrc.hybrid import simulator
+from biped_adrc.hybrid.simulator import RunOptions
+
+T = 1e-3
+CLOCK = ba.SampledTime(T, restart=False)
+
+
+def walker(biped, gait, touchdown, controller=ba.NPDController, **more):
+    more = {"timing": CLOCK, "torque_limit": 150.0} | more
+    return ba.Walker(biped, controller(gait.constraint), touchdown=touchdown, **more)
+
+
+def run(system, gait, t_end, engine=run_compiled, h=1e-3):
+    x0 = system.initial_state(*gait.start(system.plant))
+    return engine(system, x0, Mode(), ba.RK4(h), RunOptions(t_end))
+
+
+def low_order(constraint):
+    return ba.ADRCController(constraint, observer=ba.GPIObserver.from_bandwidth(300.0, m=1))
+
+
+def beliefs(system, x):
+    return belief_of(system.held_at(x).b)
+
+
+def ticks(arc):
+    """Nodes just before and just after each sample instant of an arc."""
+    before = np.flatnonzero(np.diff(arc.t) == 0.0)
+    return before, before + 1
+
+
+def by_hand(system, t, x):
+    """s and u at a sample instant at x, by the law at the relabelled state with the old single support."""
+    q, v, s = system.split_state(x)
+    plant, b = system.plant, beliefs(system, x)
+    m = system.measure(t, plant.relabel(q), plant.R @ v, Mode(int(b.step), b.start))
+    s, u = semantics.asked(system, s, m)
+    return system.calls.predict(s, m, u), u[system.swap]
+
+
+@pytest.mark.parametrize("controller", [ba.NPDController, low_order])
+def test_while_a_touchdown_is_unnoticed_the_law_acts_in_the_labels_before_it(
+    biped, gait, controller
+):
+    system = walker(biped, gait, Told(late=0.0065), controller)
+    walked = run(system, gait, 0.43)
+    (event,) = walked.events("foot_strike")
+    arc = walked.arcs[1]
+    count = 0
+    for before, after in zip(*ticks(arc), strict=True):
+        x, t = arc.x[before], arc.t[before]
+        if t < event.t + 0.0065:
+            s, u = by_hand(system, t, x)
+            np.testing.assert_allclose(arc.x[after][-4:], u, rtol=1e-9, atol=1e-9)
+            np.testing.assert_allclose(system.split_state(arc.x[after])[2], s, rtol=1e-9)
+            assert beliefs(system, arc.x[after])[:3] == (1.0, 1.0, 0.0)
+            count += 1
+    assert count == 6
+
+
+def test_noticed_at_the_first_tick_the_controller_jumps_and_acts_there(biped, gait):
+    system = walker(biped, gait, Told(), low_order)
+    walked = run(system, gait, 0.43)
+    (event,) = walked.events("foot_strike")
+    arc = walked.arcs[1]
+    before, after = ticks(arc)[0][0], ticks(arc)[1][0]
+    t, x = arc.t[before], arc.x[before]
+    assert 0.0 <= t - event.t < T
+    q, v, s = system.split_state(x)
+    m = system.measure(t, q, v, Mode(2, t))
+    s, u = semantics.asked(system, system.calls.jump(s, m, system.swap), m)
+    np.testing.assert_allclose(arc.x[after][-4:], u, rtol=1e-9, atol=1e-9)
+    s = system.calls.predict(s, m, u)
+    np.testing.assert_allclose(system.split_state(arc.x[after])[2], s, rtol=1e-9)
+    assert beliefs(system, arc.x[after])[:3] == (0.0, 2.0, t)
+
+
+def test_noticed_at_once_a_controller_without_memory_walks_as_with_ideal_knowledge(biped, gait):
+    ideal, told = (run(walker(biped, gait, leaf), gait, 1.0) for leaf in (None, Told()))
+    times = [[event.t for event in walked.events("foot_strike")] for walked in (ideal, told)]
+    assert len(times[0]) == 2
+    np.testing.assert_allclose(times[1], times[0], rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(told.final_state[:10], ideal.final_state[:10], atol=1e-10)
+
+
+SENSORS = ba.Sensors(counts=2**18)
+BOTH = {
+    "told": (Told(late=4e-3), ba.NPDController, {}),
+    "told by a seed": (Told(missed=0.5, seed=1), ba.NPDController, {}),
+    "false": (Told(false_at=(1, 0.395)), low_order, {}),
+    "kinematics": (ByKinematics(height=2e-3), low_order, {}),
+    "force": (ByForce(debounce=1e-3, delay=2e-3), low_order, {}),
+    "differences": (ByKinematics(), ba.NPDController, {"sensors": SENSORS}),
+    "lag": (Told(2e-3), ba.NPDController, {"motors": ba.Motors(lag=1e-3, rate_limit=1e5)}),
+    "delay": (
+        Told(2e-3),
+        ba.NPDController,
+        {"timing": ba.SampledTime(T, restart=False, delay=1.5e-3)},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BOTH)
+def test_both_engines_agree(biped, gait, name):
+    leaf, controller, more = BOTH[name]
+    system = walker(biped, gait, leaf, controller, **more)
+    compiled, python = (run(system, gait, 0.43, each) for each in (run_compiled, simulator.run))
+    assert compiled.settings["engine"] == "compiled"
+    assert len(python.events("foot_strike")) == len(compiled.events("foot_strike")) == 1
+    scale = 1.0 + np.abs(python.final_state)
+    np.testing.assert_allclose(compiled.final_state / scale, python.final_state / scale, atol=1e-8)
+    found, expected = touchdowns(system, compiled), touchdowns(system, python)
+    np.testing.assert_allclose(found.late, expected.late, atol=1e-12)
+    np.testing.assert_allclose(found.false, expected.false, atol=1e-12)
+
+
+def test_the_meter_sees_the_plant_whatever_its_controller_believes(biped, gait):
+    """It says the same of a walk of a controller without memory, told at once or by a part of its own."""
+    meter = ba.hardware.meter.Meter(gait.constraint)
+    systems = [walker(biped, gait, leaf, meter=meter) for leaf in (None, Told())]
+    ideal, told = (run(system, gait, 0.9) for system in systems)
+    assert len(ideal.events("foot_strike")) == 2
+    g = [s.held_at(x.final_state).g for s, x in zip(systems, (ideal, told), strict=True)]
+    np.testing.assert_allclose(g[1], g[0], rtol=1e-7, atol=1e-9)
+    late = walker(biped, gait, Told(5e-3), low_order, meter=meter)
+    runs = [run(late, gait, 0.43, each) for each in (run_compiled, simulator.run)]
+    g = [late.held_at(each.final_state).g for each in runs]
+    np.testing.assert_allclose(g[0], g[1], rtol=1e-6, atol=1e-8)
+
+
+def test_a_controller_in_plain_python_is_told_as_well(biped, gait):
+    class Plain(ba.NPDController):
+        """The same law, hidden from the engine."""
+
+        def output(self, s, m):
+            return super().output(s, m)
+
+    runs = [
+        run(walker(biped, gait, Told(4e-3), kind), gait, 0.43) for kind in (Plain, ba.NPDController)
+    ]
+    assert runs[0].settings["engine"] == "compiled plant"
+    np.testing.assert_allclose(runs[0].final_state, runs[1].final_state, atol=1e-8)
+
+
+def test_two_touchdowns_of_which_none_is_noticed_leave_the_labels_right(biped, gait):
+    system = walker(biped, gait, Told(missed=1.0))
+    walked = run(system, gait, 0.42)
+    (event,) = walked.events("foot_strike")
+    assert beliefs(system, event.x_minus)[:3] == (0.0, 1.0, 0.0)
+    assert beliefs(system, event.x_plus)[:3] == (1.0, 1.0, 0.0)
+    twice = semantics.struck(system, event.t, event.x_plus, Mode(3, event.t))
+    assert beliefs(system, twice)[:3] == (0.0, 1.0, 0.0)
+    u = twice[-4:]
+    np.testing.assert_array_equal(u, event.x_minus[-4:])
+    found = touchdowns(system, walked)
+    assert (found.waits, found.missed) == (True, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("struck", "notices", "late", "false", "waits"),
+    [
+        ([1.0, 2.0], [1.1, 1.8], [0.1, -0.2], [], False),
+        ([1.0, 2.0, 3.0], [3.1], [np.nan, np.nan, 0.1], [], False),
+        ([1.0, 2.0, 3.0], [2.9], [np.nan, np.nan, -0.1], [], False),
+        ([1.0], [], [np.nan], [], True),
+        ([1.0], [0.4, 0.6, 1.1], [0.1], [0.4, 0.6], False),
+        ([1.0], [1.1, 1.5], [0.1], [1.5], False),
+        ([], [], [], [], False),
+    ],
+)
+def test_late_early_missed_and_false_by_what_comes_first(struck, notices, late, false, waits):
+    found = matched(np.array(struck), np.array(notices))
+    np.testing.assert_allclose(found.late, late, atol=1e-12)
+    assert (found.false.tolist(), found.waits) == (false, waits)
+    decided = late[: len(late) - waits]
+    assert found.missed == (np.mean(np.isnan(decided)) if decided else 0.0)
+
+
+def test_lateness_is_reported_and_is_what_was_asked_for(biped, gait):
+    system = walker(biped, gait, Told(late=5e-3))
+    walked = run(system, gait, 1.3)
+    found = touchdowns(system, walked)
+    assert len(found.t) == 3
+    assert np.all((found.late >= 5e-3 - 1e-9) & (found.late < 5e-3 + T))
+    assert (found.missed, found.early, len(found.false), found.waits) == (0.0, 0.0, 0, False)
+    with pytest.raises(InputError, match="told of touchdowns at once"):
+        touchdowns(walker(biped, gait, None), walked)
+
+
+def test_a_false_notice_comes_once_and_an_early_one_is_counted_as_early(biped, gait):
+    early = walker(biped, gait, Told(false_at=(1, 0.4105)))
+    found = touchdowns(early, run(early, gait, 0.9))
+    assert found.early == 0.5
+    assert found.late[0] == pytest.approx(0.411 - found.t[0], abs=1e-9)
+    assert len(found.false) == 0
+    false = walker(biped, gait, Told(false_at=(1, 0.1)))
+    walked = run(false, gait, 0.12)
+    np.testing.assert_allclose(touchdowns(false, walked).false, [0.1], atol=1e-9)
+
+
+def test_missed_ones_come_with_their_probability():
+    leaf = Told(missed=0.2, seed=3)
+    laws, d, waits = leaf.laws(), leaf.start(), []
+    for k in range(2000):
+        d = laws.struck(laws.parameters, d, 1.0, float(k))
+        waits.append(d[0])
+    assert np.mean(waits) == pytest.approx(0.8, abs=4.0 * np.sqrt(0.16 / 2000))
+    assert laws.struck(laws.parameters, d, 0.0, 0.0)[0] == 0.0
+
+
+@pytest.mark.parametrize("height", [1e-3, 4e-3])
+def test_by_kinematics_a_height_is_early_by_height_over_speed(biped, gait, height):
+    system = walker(biped, gait, ByKinematics(height=height))
+    walked = run(system, gait, 0.43)
+    found = touchdowns(system, walked)
+    q, v = np.split(walked.events("foot_strike")[0].x_minus[:10], 2)
+    slip = 1e-7
+    speed = (biped.swing_foot(q - slip * v)[1] - biped.swing_foot(q + slip * v)[1]) / (2 * slip)
+    assert speed > 0.1
+    assert -height / speed - 1e-4 < found.late[0] < -height / speed + T + 2e-4
+    arc = walked.arcs[0]
+    z = np.array([biped.swing_foot(x[:5])[1] for x in arc.x])
+    at = np.flatnonzero(arc.t == found.t[0] + found.late[0])
+    assert len(at) == 2
+    assert z[at[0]] < height <= z[np.flatnonzero(arc.t < arc.t[at[0]] - 0.9 * T)[-1]]
+
+
+@pytest.mark.parametrize(
+    ("given", "later"),
+    [({}, 0.0), ({"debounce": 3e-3}, 3e-3), ({"delay": 2e-3, "debounce": 3e-3}, 5e-3)],
+)
+def test_by_force_debounce_and_delay_add_up_after_the_first_tick(biped, gait, given, later):
+    system = walker(biped, gait, ByForce(**given))
+    found = touchdowns(system, run(system, gait, 0.43))
+    first = np.ceil(found.t[0] / T) * T - found.t[0]
+    assert found.late[0] == pytest.approx(first + later, abs=1e-9)
+    assert len(found.late) == 1
+
+
+def notices(leaf, forces, foot=(0.3, 0.0), other=0.0, t_step=0.5):
+    """Times [ms] at which a row of forces, one a millisecond, is taken for a touchdown."""
+    laws, d, found = leaf.laws(), leaf.start(), []
+    for k, force in enumerate(forces):
+        look = Look(T * k, t_step, np.array(foot), force, other, 1.0, 0.0)
+        d, fires = laws.notice(laws.parameters, d, look)
+        found += [k] if fires > 0.5 else []
+    return found
+
+
+def test_by_force_has_hysteresis_debounce_and_a_gate():
+    up = [0.0, 60.0, 60.0, 60.0, 60.0]
+    assert notices(ByForce(), up) == [1]
+    assert notices(ByForce(debounce=2e-3), up) == [3]
+    assert notices(ByForce(delay=2e-3), [0.0, 60.0, 0.0, 0.0, 0.0]) == [3]
+    assert notices(ByForce(debounce=2e-3), [0.0, 60.0, 30.0, 30.0]) == [3]
+    assert notices(ByForce(debounce=2e-3), [0.0, 60.0, 10.0, 60.0, 60.0, 60.0]) == [5]
+    assert notices(ByForce(), [60.0, 30.0, 60.0, 10.0, 40.0, 60.0, 60.0]) == [5]
+    assert notices(ByForce(), [0.0, 60.0, 30.0, 60.0, 0.0, 60.0]) == [1, 5]
+    assert notices(ByForce(), up, foot=(0.05, 0.0)) == []
+    assert notices(ByForce(), up, t_step=0.05) == []
+
+
+def test_by_force_of_a_push_is_newton_s_law(biped, gait):
+    """The stance foot carries what the whole robot's motion asks for, less what pushes it up."""
+    push = ba.HipForce(biped, (0.0, 40.0))
+    system = walker(biped, gait, ByForce(), disturbance=push)
+    x = system.initial_state(*gait.start(biped))
+    q, v = x[:5], x[5:10]
+    x[-4:] = [10.0, -20.0, 5.0, 15.0]
+    stance, swing = system.foot_forces(0.1, q, v, x[10:], Mode())
+    a = system.flow(0.1, x, Mode())[5:10]
+    slip = 1e-5
+    pairs = [(q + s * v + 0.5 * s * s * a, v + s * a) for s in (slip, -slip)]
+    rate = np.subtract(*(biped.momentum(*pair)[1] for pair in pairs)) / (2.0 * slip)
+    weight = 9.81 * biped.body_terms(q, v).mass
+    assert stance == pytest.approx(rate + weight - 40.0, rel=1e-5)
+    assert swing == 0.0
+
+
+def test_encoders_go_through_a_late_notice_without_a_jump(biped, gait):
+    """What they show of an unnoticed touchdown is in the old labels, so the angles go on."""
+    system = walker(biped, gait, Told(late=5e-3), sensors=SENSORS)
+    walked = run(system, gait, 0.43)
+    (event,) = walked.events("foot_strike")
+    w = [system.held_at(x).w for x in (event.x_minus, event.x_plus)]
+    np.testing.assert_array_equal(w[1], w[0])
+    nodes = np.vstack([arc.x[ticks(arc)[1]] for arc in walked.arcs])
+    seen = np.array([system.held_at(x).w for x in nodes])
+    noticed = np.flatnonzero(np.diff([beliefs(system, x).step for x in nodes]) > 0.0) + 1
+    assert len(noticed) == 1
+    angles = seen[:, :5].copy()
+    angles[noticed[0] :] = angles[noticed[0] :] @ biped.R.T
+    fastest = np.max(np.abs(nodes[:, 5:10]))
+    assert np.max(np.abs(np.diff(angles, axis=0))) < 1.1 * fastest * T
+    k = noticed[0]
+    expected = biped.R @ ((angles[k] - angles[k - 1]) / T)
+    np.testing.assert_allclose(seen[k, 5:10], expected, atol=2.0 * 2.4e-5 / T)
+    np.testing.assert_array_equal(seen[k + 1, 5:10], seen[k, 5:10])
+
+
+def test_signals_give_the_estimate_in_the_labels_of_the_plant(biped, gait):
+    system = walker(biped, gait, Told(late=5e-3), low_order)
+    walked = run(system, gait, 0.43)
+    (event,) = walked.events("foot_strike")
+    x = event.x_minus, event.x_plus
+    xi = [
+        ba.closed_loop.system.signals_at(
+            system, event.t, each, mode, lambda s, m: gait.constraint(m.t, m.q, m.v)
+        ).xi_estimate
+        for each, mode in zip(x, (Mode(1, 0.0), Mode(2, event.t)), strict=True)
+    ]
+    np.testing.assert_allclose(xi[1], xi[0][system.swap], rtol=1e-12)
+
+
+def test_what_does_not_fit_is_refused(biped, gait):
+    for timing in (ba.SampledTime(T), ba.ContinuousTime()):
+        with pytest.raises(InputError, match="restart=False"):
+            walker(biped, gait, Told(), timing=timing)
+    for given in ({"late": -1e-3}, {"missed": 1.5}, {"false_at": (0, 0.1)}, {"seed": -1}):
+        with pytest.raises(InputError):
+            Told(**given)
+    for given in ({"on": 10.0}, {"off": -1.0}, {"debounce": -1e-3}, {"delay": np.nan}):
+        with pytest.raises(InputError):
+            ByForce(**given)
+    for given in ({"height": np.nan}, {"after": -0.1}, {"ahead": np.inf}):
+        with pytest.raises(InputError):
+            ByKinematics(**given)
