@@ -42,6 +42,11 @@ def joints_told(r: ReferencePoint, x: Estimate, m: Measurement) -> Estimate:
     return x
 
 
+def joints_struck(r: ReferencePoint, m: Measurement, a: Array) -> Array:
+    """What rates a (n, 2) change in q_b', (p, 2)."""
+    return a[: m.terms.kappa.shape[0]]
+
+
 @dataclass(frozen=True)
 class ADRCController(ObservingController):
     """(20) with an observer that is its whole state; Table I and Table II by default.
@@ -51,7 +56,7 @@ class ADRCController(ObservingController):
     reset: what happens to the observer at impact.
     """
 
-    sight = Sight(joints_seen, joints_fed, adrc_torque, joints_told, of_reference=False)
+    sight = Sight(joints_seen, joints_fed, adrc_torque, joints_told, joints_struck, False)
 
     reference: Reference
     observer: Observer = field(default_factory=GPIObserver.from_poles)

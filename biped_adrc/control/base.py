@@ -16,7 +16,7 @@ methods, and runs in Python. `closed_loop.semantics` calls either through `contr
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -94,6 +94,14 @@ class ControllerLaws(NamedTuple):
     """estimate(k, s, m) -> what an observer inside says."""
     obstacle: str = ""
     """The part that has no laws, so that these run in Python only; empty where all of them compile."""
+    freeze: Callable[..., Array] | None = None
+    """freeze(k, s, new) -> `new` with the disturbance, and its derivatives, that an observer has in s."""
+    blind: Callable[..., Any] | None = None
+    """blind(k, m, a) -> k with which no rates a (n, 2) change the rate error that `output` sees at m."""
+    correct_blind: Callable[..., Array] | None = None
+    """correct_blind(k, s, m, a) -> s as `correct` gives it, from the part of the innovation orthogonal to a."""
+    begin: Callable[..., Array] | None = None
+    """begin(k, m, w) -> s of an observer that starts at m, under a torque w (p,) [N m] from outside."""
 
     @property
     def functions(self) -> ControllerLaws:
@@ -153,10 +161,8 @@ class Controller(Composed):
         Raises InputError for a controller that was made for sampled time.
         """
         law = self._law("flow")
-        if law is None and self._law("predict") is not None:
-            raise InputError(
-                f"{type(self).__name__} works in sampled time only; give a SampledTime"
-            )
+        if law is None:
+            self.continuous()
         return np.zeros(0) if law is None else law(s, m, u)
 
     def correct(self, s: Array, m: Measurement) -> Array:
@@ -206,6 +212,15 @@ class Controller(Composed):
             )
         return self
 
+    def continuous(self) -> Controller:
+        """Itself, for continuous time. Raises InputError for a controller that was made for sampled time."""
+        written = type(self).flow is not Controller.flow
+        if not written and self._law("flow") is None and self._law("predict") is not None:
+            raise InputError(
+                f"{type(self).__name__} works in sampled time only; give timing=SampledTime(period)"
+            )
+        return self
+
     def error_system(self) -> ErrorSystem | None:
         """Linear error dynamics of an observer that is the whole state s; None otherwise."""
         return None
@@ -228,7 +243,7 @@ def controller_laws(controller: Controller) -> ControllerLaws:
         lambda k, s, m: controller.correct(s, m),
         lambda k, s, m, u: controller.predict(s, m, u),
         lambda k, s, m: controller.estimate(s, m),
-        controller._obstacle,
+        obstacle=controller._obstacle,
     )
 
 

@@ -76,6 +76,11 @@ def momentum_told(r: ReferencePoint, x: Estimate, m: Measurement) -> Estimate:
     return Estimate(joints.position, joints.velocity, pushed(m.terms, x.disturbance).xi)
 
 
+def momentum_struck(r: ReferencePoint, m: Measurement, a: Array) -> Array:
+    """What rates a (n, 2) change in pi, D a (n, 2)."""
+    return m.terms.D @ a
+
+
 @dataclass(frozen=True)
 class MomentumDOBController(ObservingController):
     """The module's equations with a momentum observer that is the whole state.
@@ -85,7 +90,7 @@ class MomentumDOBController(ObservingController):
     """
 
     needs_body: ClassVar[bool] = True
-    sight = Sight(momentum_seen, momentum_fed, dob_torque, momentum_told, of_reference=False)
+    sight = Sight(momentum_seen, momentum_fed, dob_torque, momentum_told, momentum_struck, False)
 
     reference: Reference
     observer: Observer = field(default_factory=lambda: MomentumObserver.from_bandwidth(200.0))

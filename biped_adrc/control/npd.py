@@ -19,6 +19,7 @@ from biped_adrc.control.tracking import (
     TABLE_II,
     Gains,
     TrackingParameters,
+    blind_tracking,
     tracked_laws,
     tracking_torque,
 )
@@ -46,4 +47,4 @@ class NPDController(Controller):
     @property
     def laws(self) -> ControllerLaws:
         k = self.gains.parameters(self.solve_theta)
-        return tracked_laws(self.reference, ControllerLaws(k, npd_torque))
+        return tracked_laws(self.reference, ControllerLaws(k, npd_torque, blind=blind_tracking))

@@ -21,7 +21,12 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 
 from biped_adrc.control.base import Controller, ControllerLaws, Measurement
-from biped_adrc.control.tracking import Gains, TrackingParameters
+from biped_adrc.control.tracking import (
+    Gains,
+    TrackingParameters,
+    blind_tracking,
+    orthogonal_to,
+)
 from biped_adrc.errors import check_count
 from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
 from biped_adrc.observers.base import (
@@ -48,7 +53,7 @@ class ObservingParameters(NamedTuple):
 class Sight(NamedTuple):
     """How a controller uses its observer: what the observer is given, and what is made of its estimates.
 
-    r is the reference's point; for `seen`, `fed` and `told` it is None where `of_reference` is False.
+    r is the reference's point; for all but `torque` it is None where `of_reference` is False.
     """
 
     seen: Callable[[ReferencePoint, Measurement], Estimate]
@@ -59,6 +64,8 @@ class Sight(NamedTuple):
     """torque(k, r, x, m) -> u (p,) [N m] for the estimates x."""
     told: Callable[[ReferencePoint, Estimate, Measurement], Estimate]
     """told(r, x, m) -> the estimates in words of the joints."""
+    struck: Callable[[ReferencePoint, Measurement, Array], Array]
+    """struck(r, m, a) -> what rates a (n, 2) change in the rate of y."""
     of_reference: bool
     """Whether the observer looks at the error of the reference."""
 
@@ -73,7 +80,7 @@ def observing_laws(
     asked for where it is used only, since each call of it evaluates the curve. Coordinates behind the p joints,
     such as the pitch of a momentum observer, keep their place at impact.
     """
-    seen, fed, torque, told, of_reference = sight
+    seen, fed, torque, told, _, of_reference = sight
 
     def at(k: ObservingParameters, m: Measurement) -> Any:
         return point(k.h, m.t, m.q, m.v) if of_reference else None
@@ -112,6 +119,48 @@ def observing_laws(
         laws = laws._replace(flow=flow)
     if o.correct is not None and o.predict is not None:
         laws = laws._replace(correct=correct, predict=predict)
+    return with_policies(laws, sight, point, o)
+
+
+def with_policies(
+    laws: ControllerLaws, sight: Sight, point: Callable[..., ReferencePoint], o: ObserverLaws
+) -> ControllerLaws:
+    """The laws of `observing_laws` with those that the policies across contact ask for.
+
+    A torque from outside enters as one of the motors does, so an observer that expects it begins with what its
+    input would be.
+    """
+    seen, fed, _, _, struck, of_reference = sight
+
+    def at(k: ObservingParameters, m: Measurement) -> Any:
+        return point(k.h, m.t, m.q, m.v) if of_reference else None
+
+    def begin(k: ObservingParameters, m: Measurement, w: Array) -> Array:
+        r = at(k, m)
+        x, none = seen(r, m), np.zeros(len(w))
+        felt = fed(r, m, w) - fed(r, m, none)
+        return np.ravel(o.state(k.observer, x._replace(disturbance=x.disturbance + felt)))
+
+    def freeze(k: ObservingParameters, s: Array, new: Array) -> Array:
+        assert o.freeze is not None
+        return np.ravel(o.freeze(k.observer, rows(k.observer, s), rows(k.observer, new)))
+
+    def blind(k: ObservingParameters, m: Measurement, a: Array) -> ObservingParameters:
+        r = point(k.h, m.t, m.q, m.v)
+        return k._replace(tracking=blind_tracking(k.tracking, r, a))
+
+    def correct_blind(k: ObservingParameters, s: Array, m: Measurement, a: Array) -> Array:
+        assert o.correct is not None
+        r, Z = at(k, m), rows(k.observer, s)
+        told, y = o.estimate(k.observer, Z).position, seen(r, m).position
+        P = orthogonal_to(struck(r, m, a))
+        return np.ravel(o.correct(k.observer, Z, told + P @ (y - told)))
+
+    laws = laws._replace(begin=begin, blind=blind)
+    if o.freeze is not None:
+        laws = laws._replace(freeze=freeze)
+    if o.correct is not None and o.predict is not None:
+        laws = laws._replace(correct_blind=correct_blind)
     return laws
 
 

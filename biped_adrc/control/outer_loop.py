@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -121,21 +122,39 @@ class OuterLoop(Controller):
         return self.inner.estimate(self.parts(s)[0], m)
 
 
-def tracked_constraint(controller: Controller) -> VirtualConstraint:
-    """h of the controller inside all outer loops. Raises InputError when it tracks none."""
-    if isinstance(controller, OuterLoop):
-        return tracked_constraint(controller.inner)
-    h = getattr(controller, "reference", None)
+OF_A_LOOP = "an outer loop corrects the virtual constraint of its inner controller"
+
+
+def tracked_constraint(controller: Controller, why: str = OF_A_LOOP) -> VirtualConstraint:
+    """h of the controller inside all outer loops. Raises InputError, with the reason why, if it tracks none."""
+    h = own_reference(controller)
     if isinstance(h, CorrectedConstraint):
         return h.constraint
     if not isinstance(h, VirtualConstraint):
         found = "no reference" if h is None else f"a reference of type {type(h).__name__}"
         raise InputError(
-            f"an outer loop corrects the virtual constraint of its inner controller, but "
-            f"{type(controller).__name__} has {found}; expected a field `reference` that holds a "
+            f"{why}, but {type(controller).__name__} has {found}; expected a field `reference` that holds a "
             "VirtualConstraint, as in NPDController(gait.constraint)"
         )
     return h
+
+
+def own_reference(controller: Controller | None) -> Any:
+    """The field `reference` of the controller inside all others (field `inner`); None where it has none."""
+    while controller is not None and not hasattr(controller, "reference"):
+        controller = getattr(controller, "inner", None)
+    return getattr(controller, "reference", None)
+
+
+def tracking(controller: Controller, reference: Constraint) -> Controller:
+    """A copy of the controller, or of that inside it (field `inner`), with another reference."""
+    here = hasattr(controller, "reference")
+    made: Controller = (
+        replace(controller, reference=reference)  # type: ignore[type-var]
+        if here
+        else replace(controller, inner=tracking(controller.inner, reference))  # type: ignore[attr-defined, type-var]
+    )
+    return made
 
 
 def reference_in_force(controller: Controller, s: Array) -> Constraint:
@@ -148,7 +167,7 @@ def reference_in_force(controller: Controller, s: Array) -> Constraint:
         return CorrectedConstraint(
             reference_in_force(controller.inner, z), controller.correction(w)
         )
-    return getattr(controller, "reference", None) or tracked_constraint(controller)
+    return own_reference(controller) or tracked_constraint(controller)
 
 
 def core_size(controller: Controller, s: Array) -> int:
@@ -167,10 +186,7 @@ def innermost(loop: OuterLoop, s: Array) -> Controller:
     core: Controller = loop
     while isinstance(core, OuterLoop):
         core = core.inner
-    if not hasattr(core, "reference"):
-        return core
-    made: Controller = replace(core, reference=reference_in_force(loop, s))  # type: ignore[type-var]
-    return made
+    return core if own_reference(core) is None else tracking(core, reference_in_force(loop, s))
 
 
 def with_correction(controller: Controller, correction: Correction) -> Controller:
@@ -180,6 +196,5 @@ def with_correction(controller: Controller, correction: Correction) -> Controlle
     """
     if isinstance(controller, OuterLoop):
         return replace(controller, inner=with_correction(controller.inner, correction))
-    h = getattr(controller, "reference", None) or tracked_constraint(controller)
-    corrected: Controller = replace(controller, reference=CorrectedConstraint(h, correction))  # type: ignore[type-var]
-    return corrected
+    h = own_reference(controller) or tracked_constraint(controller)
+    return tracking(controller, CorrectedConstraint(h, correction))

@@ -55,7 +55,8 @@ def output_torque(k: TrackingParameters, r: ReferencePoint, x: Estimate, m: Meas
 
     That is where a pivot of it is 0.0; near that u grows without bound and without an error.
     """
-    w = -k.K_p * x.position - k.K_d * x.velocity - x.disturbance
+    rate = x.velocity if len(k.P) == 0 else k.P @ x.velocity
+    w = -k.K_p * x.position - k.K_d * rate - x.disturbance
     a = solve(
         output_matrix(r, m.terms), w, "L of y'' = L u + xi_y, the output's decoupling matrix,"
     )
@@ -73,6 +74,11 @@ def output_told(r: ReferencePoint, x: Estimate, m: Measurement) -> Estimate:
     return Estimate(x.position + r.q_d, x.velocity + r.dq_d, xi)
 
 
+def output_struck(r: ReferencePoint, m: Measurement, a: Array) -> Array:
+    """What rates a (n, 2) change in y', (p, 2)."""
+    return a[: len(r.q_d)] - r.H @ a
+
+
 @dataclass(frozen=True)
 class OutputADRCController(ObservingController):
     """The module's equations with an observer of y that is the whole state.
@@ -82,7 +88,7 @@ class OutputADRCController(ObservingController):
     There is no form for the exponential method: in continuous time with Table I take RK4(5e-5).
     """
 
-    sight = Sight(output_seen, output_fed, output_torque, output_told, of_reference=True)
+    sight = Sight(output_seen, output_fed, output_torque, output_told, output_struck, True)
 
     reference: Reference
     observer: Observer = field(default_factory=GPIObserver.from_poles)

@@ -27,7 +27,7 @@ import numpy as np
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.errors import InputError
 from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
-from biped_adrc.linear import solve
+from biped_adrc.linear import solve, solve_positive
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate
 from biped_adrc.parts import numbers
@@ -42,11 +42,15 @@ HIGHEST = 1e15
 
 
 class TrackingParameters(NamedTuple):
-    """K_p [1/s^2] and K_d [1/s], (p,), or (1,) for one number; loop: 1 solves for Theta'', 0 drops it."""
+    """K_p [1/s^2] and K_d [1/s], (p,), or (1,) for one number; loop: 1 solves for Theta'', 0 drops it.
+
+    P (p, p): what of the rate error K_d sees; (0, 0) for all of it.
+    """
 
     K_p: Array
     K_d: Array
     loop: int
+    P: Array = np.zeros((0, 0))
 
 
 @dataclass(frozen=True)
@@ -95,7 +99,8 @@ def tracking_torque(
     k: TrackingParameters, r: ReferencePoint, x: Estimate, terms: Reduction
 ) -> Array:
     """u (p,) [N m] of (20) or (28), whichever x is. Raises SingularError as `solved_acceleration`."""
-    f = feedback(k, r, x.position, x.velocity)
+    x2 = x.velocity if len(k.P) == 0 else r.dq_d + k.P @ (x.velocity - r.dq_d)
+    f = feedback(k, r, x.position, x2)
     a = solved_acceleration(r, terms, f) if k.loop > 0 else printed_acceleration(r, f)
     return terms.kappa_inverse @ (a - x.disturbance)
 
@@ -125,6 +130,16 @@ def printed_acceleration(r: ReferencePoint, f: Array) -> Array:
     It saves the solution of a linear system; the error it leaves is a disturbance for the loop.
     """
     return r.drift + f
+
+
+def orthogonal_to(N: Array) -> Array:
+    """P = 1 - N (N' N)^-1 N' (k, k): the part of a vector that is orthogonal to the columns of N (k, 2)."""
+    return np.eye(len(N)) - N @ solve_positive(N.T @ N, N.T, "N' N of two impulses")
+
+
+def blind_tracking(k: TrackingParameters, r: ReferencePoint, a: Array) -> TrackingParameters:
+    """With a rate error that no rates a (n, 2) change: q_b' - q_d' changes by a_b - H a."""
+    return k._replace(P=orthogonal_to(a[: len(r.q_d)] - r.H @ a))
 
 
 class TrackedParameters(NamedTuple):
@@ -161,9 +176,14 @@ def _tracked(point: Callable[..., ReferencePoint], own: ControllerLaws) -> Contr
         assert own.initial_state is not None
         return own.initial_state(k.own, point(k.h, m.t, m.q, m.v), m)
 
+    def blind(k: TrackedParameters, m: Measurement, a: Array) -> TrackedParameters:
+        assert own.blind is not None
+        return k._replace(own=own.blind(k.own, point(k.h, m.t, m.q, m.v), a))
+
     given = {name: law for name, law in own._asdict().items() if callable(law)}
     tracked: dict[str, Any] = {name: about_the_point(law) for name, law in given.items()}
     laws = own._replace(**tracked)
+    laws = laws if own.blind is None else laws._replace(blind=blind)
     return laws if own.initial_state is None else laws._replace(initial_state=initial_state)
 
 

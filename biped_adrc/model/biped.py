@@ -238,14 +238,15 @@ class Biped(Shown):
         return reduce(D, Omega, self.p)
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
-        """Gravity G (n,) [N m], C' q' (n,) [N m], and the ground's force as F_a q'' + F_0 (2,) [N].
+        """Gravity G, C' q' (n,) [N m], the ground's force as F_a q'' + F_0 (2,) [N], J_2 (2, n) [m], mass [kg].
 
         For controllers that shape the momentum or bound the contact force; see `BodyTerms`.
         """
         q, v = self._angles(q), self._angles(v)
         F_0 = self.ground_reaction(q, v, np.zeros(self.n))
         turning = self.pinned.coriolis(q, v).T @ v
-        return BodyTerms(self.pinned.gravity(q), turning, self.pinned.mass_jacobian(q), F_0)
+        F_a, J_2 = self.pinned.mass_jacobian(q), self.pinned.jacobian(q, self.pinned.swing)
+        return BodyTerms(self.pinned.gravity(q), turning, F_a, F_0, J_2, self.mass)
 
     def friction_torque(self, v: Array) -> Array:
         """Joint friction (n,) [N m]: -viscous v - static tanh(v / STICTION_SPEED), at rates v (n,) [rad/s].

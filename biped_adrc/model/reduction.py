@@ -63,6 +63,10 @@ class BodyTerms(NamedTuple):
     """m dp_com/dq (2, n) [kg m], the part of (F_T, F_N) that is proportional to q''."""
     F_0: Array
     """(F_T, F_N) (2,) [N] at q'' = 0."""
+    J_2: Array
+    """dp_2/dq (2, n) [m] of the swing foot."""
+    mass: float
+    """Of the whole robot [kg]."""
 
     def __repr__(self) -> str:
         return one_line(self)

@@ -71,6 +71,11 @@ def chain_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) -> Ar
     return swapped
 
 
+def chain_freeze(k: Chain, Z: Array, new: Array) -> Array:
+    """`new` (m + 2, p) with the rows of xi^ and its derivatives from Z."""
+    return np.concatenate((new[:2], Z[2:]))
+
+
 def chain_laws(
     k: Chain,
     flow: Callable[..., Array] | None = None,
@@ -81,7 +86,8 @@ def chain_laws(
 
     They take and give Z (m + 2, p), as `ObserverLaws` says.
     """
-    return ObserverLaws(k, chain_state, chain_estimate, chain_reset, flow, correct, predict)
+    given = chain_state, chain_estimate, chain_reset, flow, correct, predict
+    return ObserverLaws(k, *given, freeze=chain_freeze)
 
 
 # -- what is asked of poles ----------------------------------------------------------------------

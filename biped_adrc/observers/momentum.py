@@ -104,6 +104,11 @@ def momentum_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) ->
     return swapped
 
 
+def momentum_freeze(k: Chain, Z: Array, new: Array) -> Array:
+    """`new` (k, n) with the rows of r and its derivatives from Z."""
+    return np.concatenate((new[:1], Z[1:]))
+
+
 @dataclass(frozen=True)
 class MomentumChain(Observer):
     """What both forms of the observer share: poles (k,) [rad/s] of the continuous form, scale [rad/s].
@@ -153,7 +158,12 @@ class MomentumObserver(MomentumChain):
     @property
     def laws(self) -> ObserverLaws:
         return ObserverLaws(
-            self.parameters, momentum_state, momentum_estimate, momentum_reset, flow=momentum_flow
+            self.parameters,
+            momentum_state,
+            momentum_estimate,
+            momentum_reset,
+            flow=momentum_flow,
+            freeze=momentum_freeze,
         )
 
     def sampled(self, period: float) -> SampledMomentumObserver:
@@ -197,6 +207,7 @@ class SampledMomentumObserver(MomentumChain):
             momentum_reset,
             correct=gpi_correct,
             predict=gpi_predict,
+            freeze=momentum_freeze,
         )
 
 

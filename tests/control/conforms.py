@@ -34,6 +34,7 @@ from biped_adrc.hardware import motors as torque_line
 from biped_adrc.hardware.meter import Meter
 from biped_adrc.hardware.motors import Line, Motors, whole_and_part
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hardware.touchdown import Look, Touchdown
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.observers.base import Estimate, observer_laws
 from biped_adrc.observers.momentum import MomentumChain
@@ -74,17 +75,20 @@ def conforms(thing):
 
 @conforms.register
 def _(controller: ba.Controller):
+    worked = 0
     for timing in (ba.ContinuousTime(), ba.SampledTime(PERIOD)):
         walker = ba.Walker(robot(), controller, timing=timing, runaway_torque=np.inf)
         law = unless("Time(", lambda: walker.law)  # noqa: B023
         if law is None:
-            assert walker.sampled
+            assert walker.sampled or controller._law("flow") is None
             continue
+        worked += 1
         for m, random in measurements(3):
             contract(law, m, random, walker.sampled)
         if not controller_laws(law).obstacle:
             laws_compile(law)
             loop_compiles(replace(walker, plant=heavy(), model=robot(), torque_limit=150.0))
+    assert worked
 
 
 @conforms.register
@@ -152,6 +156,30 @@ def _(sensor: Sensor):
     loop_compiles(replace(walker, model=robot()))
     assert walker.held.sizes.sensors == laws.size
     assert pickle.loads(pickle.dumps(walker)).sensors == sensor
+
+
+@conforms.register
+def _(touchdown: Touchdown):
+    """Pure, of the size that it says, at ticks and at touchdowns, in Python, as laws and in the loop."""
+    laws = touchdown.laws()
+    k, d, fired = laws.parameters, touchdown.start(), 0.0
+    for i in range(60):
+        assert d.shape == (laws.size,)
+        foot, kept = np.array([0.3, 0.02 * np.sin(0.5 * i)]), d.copy()
+        force = 80.0 * (np.sin(0.3 * i) > 0.0)
+        look = Look(PERIOD * i, 0.2, foot, force, float(i > 45), 1.0, PERIOD * i)
+        after, fires = agree(laws.notice, k, d, look)
+        assert fires in (0.0, 1.0)
+        assert np.array_equal(d, kept)
+        d, fired = np.asarray(after), fired + fires
+        if i == 45:
+            d = np.asarray(agree(laws.struck, k, d, 1.0, look.t))
+    assert fired
+    timing = ba.SampledTime(PERIOD, restart=False)
+    law = ba.NPDController(gait().constraint)
+    walker = ba.Walker(heavy(), law, timing=timing, touchdown=touchdown, runaway_torque=np.inf)
+    loop_compiles(replace(walker, model=robot()))
+    assert pickle.loads(pickle.dumps(walker)).touchdown == touchdown
 
 
 @conforms.register
@@ -341,6 +369,16 @@ def laws_compile(law):
                 assert np.array_equal(expected, getattr(law, name)(*rest))
         if laws.estimate is not None:
             agree(laws.estimate, k, s, m)
+        if laws.begin is not None:
+            none, w = np.zeros(4), 20.0 * random.normal(size=4)
+            assert agree(laws.begin, k, m, w).shape == s.shape
+            assert np.array_equal(laws.begin(k, m, none), law.initial_state(m))
+        if laws.freeze is not None:
+            agree(laws.freeze, k, s, random.normal(size=len(s)))
+        if laws.blind is not None:
+            agree(laws.output, laws.blind(k, m, 0.1 * random.normal(size=(5, 2))), s, m)
+        if laws.correct_blind is not None:
+            agree(laws.correct_blind, k, s, m, 0.1 * random.normal(size=(5, 2)))
 
 
 def loop_compiles(walker, states=60, ticks=0):
@@ -405,6 +443,11 @@ def estimator(observer, steps):
     assert np.array_equal(agree(laws.state, k, Estimate(y, dy, xi)).ravel(), z)
     for one, other in zip(agree(laws.estimate, k, Z), observer.estimate(Z.ravel()), strict=True):
         assert np.array_equal(one, other)
+    if laws.freeze is not None:
+        new = np.random.default_rng(5).normal(size=Z.shape)
+        mixed = laws.estimate(k, agree(laws.freeze, k, Z, new))
+        assert np.array_equal(mixed.disturbance, laws.estimate(k, Z).disturbance)
+        assert all(map(np.array_equal, mixed[:2], laws.estimate(k, new)[:2]))
     for policy in ba.ResetPolicy:
         expected = agree(laws.reset, k, policy.code, Z, SWAP, Estimate(y, dy, xi))
         assert np.array_equal(expected.ravel(), observer.reset(Z.ravel(), policy, SWAP, y, dy, xi))

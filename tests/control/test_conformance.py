@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN
@@ -22,6 +23,7 @@ from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.outputs import FunctionOutputs, Outputs
 from biped_adrc.hardware.motors import IDEAL, Motors
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.observers.base import Estimate
 from biped_adrc.observers.high_gain import HighGainObserver
@@ -62,6 +64,16 @@ ROWS = {
         "delayed": lambda make, h: [make(ba.ADRCController(h, SLOW), 2e-3)],
         "passive": lambda make, h: [make()],
     },
+    "contact": {
+        "hold": lambda make, h: [make(ba.ADRCController(h, SLOW), 0.2), make(ba.NPDController(h))],
+        "fade": lambda make, h: [make(MomentumDOBController(h), 0.2)],
+        "freeze": lambda make, h: [make(OutputADRCController(h, SLOW), 0.07)],
+        "keep torque": lambda make, h: [make(ba.ADRCController(h, SLOW))],
+        "impact invariant": lambda make, h: [
+            make(ba.NPDController(h), 0.07),
+            make(MomentumDOBController(h), 0.2, innovation=True),
+        ],
+    },
     "observer": {
         "GPI": lambda make: [make.from_poles(), make.from_bandwidth(300.0, 0)],
         "high gain": lambda make: [make.from_epsilon(0.002), make.from_epsilon(0.01, m=2)],
@@ -80,6 +92,11 @@ ROWS = {
             make(8192.0, noise=5e-5, rate_noise=0.01, filter_time=2e-3, seed=3),
             make(64.0, velocity="gyro") + make(velocity="measured", pitch_noise=1e-3, seed=4),
         ],
+    },
+    "touchdown": {
+        "told": lambda make: [make(4e-3), make(missed=0.5, seed=2), make(false_at=(1, 0.2))],
+        "force": lambda make: [make(), make(debounce=2e-3, delay=1e-3, on=30.0)],
+        "kinematics": lambda make: [make(), make(height=5e-3, ahead=0.0, slope=0.01)],
     },
     "disturbance": {
         "pulse": lambda make: [
@@ -126,14 +143,17 @@ ABSOLUTE = np.array([[1, 0, 0, 0, 1], [0, 1, 0, 0, 1], [1, 0, 1, 0, 1], [0, 1, 0
 IN_PYTHON = {"CLF-QP", "output NPD", "finite time", "stride PI", "reference reset"}
 """Controllers that are methods; all other things of the registry compile."""
 EACH = [(kind, name) for kind, rows in ROWS.items() for name in rows]
+PARTS_OF_CONTROL = {"OuterLoop", "ObservingController", "AbsentController"}
+PARTS_OF_CONTROL |= {"AcrossContact", "ContactWindow"}
 BASES = {
-    ba.Controller: ("control", {"OuterLoop", "ObservingController", "AbsentController"}),
+    ba.Controller: ("control", PARTS_OF_CONTROL),
     ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
     ba.Disturbance: ("disturbances", {"Windowed", "WindowedTorque", "AbsentDisturbance"}),
     ba.Reference: ("gait", set()),
     Outputs: ("gait", set()),
     OneStepMethod: ("hybrid", {"_SciPy"}),
     Sensor: ("hardware", set()),
+    Touchdown: ("hardware", {"Gated"}),
     Curve: ("gait", {"ControlledCurve"}),
 }
 """Where leaves are, and what is only a part of them or stands for one that is not there."""
@@ -162,14 +182,14 @@ def bent(q):
 
 def made(kind, name):
     """The things of a row."""
-    given = (gait().constraint,) if kind == "controller" else ()
+    given = (gait().constraint,) if kind in ("controller", "contact") else ()
     return ROWS[kind][name](find(kind, name).load(), *given)
 
 
 @pytest.mark.parametrize(("kind", "name"), EACH)
 def test_every_leaf(kind, name):
     for thing in made(kind, name):
-        if kind in ("controller", "observer", "disturbance"):
+        if kind in ("controller", "contact", "observer", "disturbance"):
             said = (
                 thing._obstacle or "it has laws: give it a row of laws alone, and none of IN_PYTHON"
             )

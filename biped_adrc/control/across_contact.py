@@ -1,0 +1,199 @@
+"""Controllers across a touchdown: a policy around any controller, for the time in which contact settles.
+
+    hold    s <- initial_state(m)                      at each tick with t_step < T, then s <- correct(s, m)
+    fade    u = u_0 + w(t_step / T) (u - u_0)          u_0 = output(initial_state(m), m)
+            w(x) = x^2 (3 - 2 x)
+
+t_step is the time since the touchdown that the controller was told of; the start of a run counts as one. A
+contact that takes time moves the joints by forces that no observer is told of, and an observer takes them for
+a disturbance. While it is held the torque is that of the model on measured rates, as NPD's for ADRC; it is told
+the torque of the last such tick, so that from there on it runs as from a start. Faded, it runs all the time,
+and what it says counts little by little.
+
+Policies act at ticks, so they work in sampled time alone. T = 0 is the controller itself, bit for bit. Around
+an outer loop they would begin that loop anew; put the outer loop around the policy.
+
+`AcrossContact` is the base of all policies; `ContactWindow` of those with a T. Others: `frozen_disturbance`,
+`kept_torque`, `impact_invariant`. What an observer does at the instant of the touchdown itself is its
+`ResetPolicy`.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+
+from biped_adrc.control.base import Controller, ControllerLaws, Measurement, controller_laws
+from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+
+SAME_INSTANT = 1e-9
+"""[s]: a tick that is T after touchdown but for round-off is outside of the window, in both engines."""
+
+
+class ContactParameters(NamedTuple):
+    """Of the controller inside, and of the policy."""
+
+    inner: Any
+    own: Any
+
+
+class SettlingParameters(NamedTuple):
+    """until: T less round-off [s]. rate: 1 / T [1/s], 0 for T = 0."""
+
+    until: float
+    rate: float
+
+
+def nothing(k: object, m: Measurement) -> Array:
+    """The state (0,) of a controller without one."""
+    return m.q[:0]
+
+
+def unchanged(k: object, s: Array, *given: object) -> Array:
+    """The state s (size,) as it is."""
+    return s
+
+
+def not_sampled(k: object, s: Array, *given: object) -> Array:
+    """Raises InputError: the controller inside is still that of continuous time."""
+    raise InputError("a policy across contact works at ticks; call sampled(period)")
+
+
+def filled(laws: ControllerLaws) -> ControllerLaws:
+    """The laws in sampled time, with one that changes nothing in place of each that is missing."""
+    at_ticks = unchanged if laws.flow is None else not_sampled
+    usual: dict[str, Any] = {
+        "initial_state": nothing,
+        "jump": unchanged,
+        "correct": at_ticks,
+        "predict": at_ticks,
+    }
+    missing = {name: law for name, law in usual.items() if getattr(laws, name) is None}
+    return laws._replace(**missing, flow=None)
+
+
+@dataclass(frozen=True)
+class AcrossContact(Controller):
+    """Base of the policies around `inner`: a leaf says how its laws are made of those inside."""
+
+    inner: Controller
+
+    @abstractmethod
+    def around(self, inner: ControllerLaws) -> ControllerLaws:
+        """The laws, without parameters, around those of `inner`, none of which is missing but `estimate`.
+
+        Their k is a `ContactParameters`. Cached by `inner`, so that equal laws share their machine code.
+        """
+
+    @property
+    def own(self) -> Any:
+        """The policy's own numbers, `ContactParameters.own`."""
+        return ()
+
+    @property
+    def needs_body(self) -> bool:  # type: ignore[override]
+        """As the controller inside."""
+        return self.inner.needs_body
+
+    @property
+    def laws(self) -> ControllerLaws:
+        inner = controller_laws(self.inner)
+        k = ContactParameters(inner.parameters, self.own)
+        return self.around(filled(inner.functions))._replace(parameters=k, obstacle=inner.obstacle)
+
+    def sampled(self, period: float) -> Self:
+        return replace(self, inner=self.inner.sampled(period))
+
+
+@lru_cache(maxsize=64)
+def passed_on(inner: ControllerLaws) -> ControllerLaws:
+    """The laws inside for the parameters of a policy, with the same state."""
+
+    def inside(law: Callable[..., Any]) -> Callable[..., Any]:
+        def passed(k: ContactParameters, *given: object) -> Any:
+            return law(k.inner, *given)
+
+        return passed
+
+    def blind(k: ContactParameters, m: Measurement, a: Array) -> ContactParameters:
+        assert inner.blind is not None
+        return k._replace(inner=inner.blind(k.inner, m, a))
+
+    given = {name: law for name, law in inner._asdict().items() if callable(law)}
+    passed: dict[str, Any] = {name: inside(law) for name, law in given.items()}
+    return inner._replace(**passed | ({} if inner.blind is None else {"blind": blind}))
+
+
+@dataclass(frozen=True)
+class ContactWindow(AcrossContact):
+    """Base of the policies that act for `window` seconds T after touchdown. Raises InputError unless T >= 0."""
+
+    window: float = 0.015
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.window) and self.window >= 0.0):
+            raise InputError(
+                f"the window after touchdown is {self.window} s, expected 0 or more seconds, such as 0.015"
+            )
+
+    @property
+    def own(self) -> SettlingParameters:
+        rate = 1.0 / self.window if self.window > 0.0 else 0.0
+        return SettlingParameters(float(self.window - SAME_INSTANT), rate)
+
+
+@lru_cache(maxsize=64)
+def holding(inner: ControllerLaws) -> ControllerLaws:
+    """The laws of `Hold` around these."""
+    passed = passed_on(inner)
+
+    def correct(k: ContactParameters, s: Array, m: Measurement) -> Array:
+        assert inner.initial_state is not None
+        assert inner.correct is not None
+        fresh, run = inner.initial_state(k.inner, m), inner.correct(k.inner, s, m)
+        return np.where(m.t_step < k.own.until, fresh, run)
+
+    return passed._replace(correct=correct)
+
+
+@dataclass(frozen=True)
+class Hold(ContactWindow):
+    """The observer of `inner` begins anew at each tick for `window` seconds after touchdown, then runs."""
+
+    def around(self, inner: ControllerLaws) -> ControllerLaws:
+        return holding(inner)
+
+
+def ramp(x: float) -> float:
+    """w (1,) of the module: from 0 at x = 0 to 1 at x = 1, both without slope."""
+    return x * x * (3.0 - 2.0 * x)
+
+
+@lru_cache(maxsize=64)
+def fading(inner: ControllerLaws) -> ControllerLaws:
+    """The laws of `Fade` around these."""
+    passed = passed_on(inner)
+
+    def output(k: ContactParameters, s: Array, m: Measurement) -> Array:
+        assert inner.initial_state is not None
+        u = inner.output(k.inner, s, m)
+        fresh = inner.output(k.inner, inner.initial_state(k.inner, m), m)
+        part = ramp(k.own.rate * m.t_step)
+        return np.where(m.t_step < k.own.until, fresh + part * (u - fresh), u)
+
+    return passed._replace(output=output)
+
+
+@dataclass(frozen=True)
+class Fade(ContactWindow):
+    """The observer of `inner` runs, and its part of the torque grows from none for `window` seconds."""
+
+    def around(self, inner: ControllerLaws) -> ControllerLaws:
+        return fading(inner)
