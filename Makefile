@@ -8,11 +8,11 @@ OUT ?= out
 ARGS ?=
 BIN := .venv/bin
 BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine/batches engine/growth \
-  engine/compiling engine/continued peers/plant peers/closed_loop bench/studies bench/metering \
+  engine/compiling engine/continued engine/soft peers/plant peers/closed_loop bench/studies bench/metering \
   pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
-.PHONY: reproduce test fuzz docs pictures comparison results verification attacks dev lint format types imports bench mutants faults clean
+.PHONY: reproduce test fuzz docs pictures comparison soft results verification attacks soft-limit dev lint format types imports bench mutants faults clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -40,6 +40,12 @@ comparison: .venv/.core
 	$(BIN)/biped-adrc compare --out $(OUT)/comparison
 	$(BIN)/python docs/write_comparison.py $(OUT)/comparison
 
+# docs/soft_walk.md with its pictures, from the study of soft ground in $(OUT)/soft, which is made or finished first
+soft: .venv/.core
+	$(BIN)/biped-adrc sweep examples/soft_ground.toml --out $(OUT)/soft
+	$(BIN)/python docs/write_soft_walk.py $(OUT)/soft
+	$(BIN)/python docs/make_soft_pictures.py
+
 # the reproduction's results in docs/ and README.md, from its summary
 results: .venv/.core
 	$(BIN)/python docs/write_results.py $(OUT)
@@ -54,6 +60,12 @@ attacks: .venv/.test
 	mkdir -p $(OUT)/attacks
 	for attack in engines steps; do \
 	  $(BIN)/python -m tests.robustness $$attack --out $(OUT)/attacks/$$attack.jsonl --page docs/robustness.md; done
+
+# the rigid walk as limit of the soft one, and walks that the rigid model calls legal, in MuJoCo: about an hour on one
+# core; tables in docs/soft_limit.md. What was found is kept in $(OUT)/soft-limit, from where an interrupted run goes on
+soft-limit: .venv/.test
+	for study in limit legality; do \
+	  $(BIN)/python -W ignore benchmarks/soft/$$study.py $(OUT)/soft-limit --page docs/soft_limit.md; done
 
 dev: .venv/.dev
 

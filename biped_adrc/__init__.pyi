@@ -35,6 +35,7 @@ from biped_adrc.disturbances.sine import TorqueSine as TorqueSine
 from biped_adrc.disturbances.step import TorqueStep as TorqueStep
 from biped_adrc.engine.batch import Case as Case
 from biped_adrc.engine.batch import simulate_many as simulate_many
+from biped_adrc.engine.compiled_loop import CompiledLoop as CompiledLoop
 from biped_adrc.errors import BipedError as BipedError
 from biped_adrc.gait.constraint import VirtualConstraint as VirtualConstraint
 from biped_adrc.gait.constraint import continued as continued
@@ -65,6 +66,10 @@ from biped_adrc.ground import StepUp as StepUp
 from biped_adrc.ground import uneven_ground as uneven_ground
 from biped_adrc.hardware.motors import Motors as Motors
 from biped_adrc.hardware.sensors import Sensors as Sensors
+from biped_adrc.hardware.touchdown import Touchdown as Touchdown
+from biped_adrc.hardware.touchdown_by_foot import ByForce as ByForce
+from biped_adrc.hardware.touchdown_by_foot import ByKinematics as ByKinematics
+from biped_adrc.hardware.touchdown_told import Told as Told
 from biped_adrc.hybrid.integrators import RK4 as RK4
 from biped_adrc.hybrid.integrators import Adaptive as Adaptive
 from biped_adrc.hybrid.integrators import Exponential as Exponential
@@ -96,6 +101,8 @@ from biped_adrc.scenario.scenario import Scenario as Scenario
 from biped_adrc.scenario.stored import load_walk as load_walk
 from biped_adrc.scenario.walk import walk as walk
 from biped_adrc.soft.ground import SoftGround as SoftGround
+from biped_adrc.soft.meters import soft_steps as soft_steps
+from biped_adrc.soft.mjcf import write_mjcf as write_mjcf
 from biped_adrc.soft.mujoco_plant import MuJoCoPlant as MuJoCoPlant
 from biped_adrc.studies.cycle_stability import cycle_stability as cycle_stability
 from biped_adrc.studies.cycle_stability import find_cycle as find_cycle

@@ -90,6 +90,8 @@ class Legality(Shown):
     """Largest |F_T| / F_N of the impacts, 0 without one; it makes no step illegal."""
     limits: KnownLimits
     """The limits that `reasons` refers to."""
+    touchdowns: int | None = None
+    """How many of the supports ended in one; None: those that are certificates."""
 
     @property
     def reasons(self) -> dict[str, str]:
@@ -108,12 +110,11 @@ class Legality(Shown):
     @property
     def legal_impacts(self) -> int:
         """Number of impacts before the first step that is not legal."""
-        legal = 0
-        for s in self.supports:
-            if s.illegal() or not isinstance(s, Certificate):
-                return legal
-            legal += 1
-        return legal
+        ended = self.touchdowns
+        if ended is None:
+            ended = sum(isinstance(s, Certificate) for s in self.supports)
+        broken = (k for k, s in enumerate(self.supports[:ended]) if s.illegal())
+        return next(broken, ended)
 
     least_normal_force = _over_steps(np.min, "least_normal_force", "F_N at any instant [N].")
     friction = _over_steps(
@@ -146,6 +147,8 @@ class Legality(Shown):
         """The outcome in words, with the reasons and the impulse ratio."""
         words = f"{OUTCOMES[self.outcome]} ({self.outcome})"
         reasons = "; ".join(self.reasons.values())
+        if self.touchdowns is not None:
+            return f"{words}: {reasons}" if reasons else words
         ratio = self.impulse_ratio
         impulse = f"{ratio:.2f}" if math.isfinite(ratio) else "no contact"
         beside = f"impulses at impact ask for friction {impulse}, limit {self.limits.friction:g}"

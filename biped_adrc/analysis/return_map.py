@@ -90,8 +90,12 @@ class ReturnMap(Shown):
         check_engine(self.engine)
         w = self.walker
         noisy = w.sensors is not None and w.sensors.noisy
-        if w.meter is not None or noisy:
-            what = "a meter, which counts on" if w.meter is not None else "noise in its sensors"
+        counts = {
+            "a meter, which counts on": w.meter is not None,
+            "noise in its sensors": noisy,
+            "a controller that has to notice touchdowns and counts them": w.touchdown is not None,
+        }
+        if what := " and ".join(name for name, is_so in counts.items() if is_so):
             raise InputError(
                 f"the walker has {what}, so its state never returns; expected one without it for a return map"
             )

@@ -14,6 +14,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from biped_adrc.analysis.quadrature import largest
+from biped_adrc.analysis.recorded_signals import PLACE, as_recorded, recorded
 from biped_adrc.closed_loop.system import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
@@ -141,9 +142,12 @@ def readings(walker: Walker, trajectory: Trajectory, reference: Reference) -> In
 def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Signals:
     """The signals from the readings at the nodes: adds what follows from the states and the footholds."""
     arcs, n, p = trajectory.arcs, walker.plant.n, walker.plant.p
+    r = as_recorded(walker, trajectory, r)
     x = np.vstack([arc.x for arc in arcs])
     q, v = x[:, :n], x[:, n : 2 * n]
-    foot = np.vstack([np.tile(at, (len(arc.t), 1)) for arc, at in _footholds(walker, arcs)])
+    foot = recorded(trajectory, PLACE)
+    if foot is None:
+        foot = np.vstack([np.tile(at, (len(arc.t), 1)) for arc, at in _footholds(walker, arcs)])
     outside = [walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen]
     return Signals(
         t=np.concatenate([arc.t for arc in arcs]),

@@ -22,7 +22,7 @@ from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.engine.batch import Case
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import InputError
-from biped_adrc.scenario.build import RobotAndGait, build, start
+from biped_adrc.scenario.build import RIGID, RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own, source_hash
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
@@ -32,7 +32,7 @@ SUFFIXES = {"robot": ".toml", "gait": ".json"}
 
 OWN = {name: name for name in ("controller", "observer", "robot", "gait")}
 """Parameters that may name a class of the user as module:Class, and the registry's kind of it."""
-OWN |= {"own.inner": "controller", "push": "disturbance"}
+OWN |= {"own.inner": "controller", "push": "disturbance", "plant": "plant"}
 """Parameters that may name a class of the user's own, and its kind."""
 
 
@@ -45,6 +45,18 @@ def own_of_study(study: Study) -> dict[str, str]:
     """Hashes of the source of the user's classes that any point names, by "source name". Raises InputError."""
     named = {(OWN[name], str(x)) for name, x in study.given() if name in OWN and is_own(str(x))}
     return {f"source {x}": source_hash(find(kind, x).load()) for kind, x in sorted(named)}
+
+
+def plants_of_study(study: Study) -> dict[str, str]:
+    """Versions of the engines of the plants that any point names, by "engine of PLANT". Raises InputError."""
+    return engines_of({str(x) for name, x in study.given() if name == "plant"})
+
+
+def engines_of(plants: Iterable[str]) -> dict[str, str]:
+    """Versions of the engines of these plants, by "engine of PLANT". Raises InputError."""
+    made = {name: find("plant", name).load() for name in sorted(plants)}
+    told = {f"engine of {x}": getattr(plant, "engine_version", None) for x, plant in made.items()}
+    return {what: str(version()) for what, version in told.items() if version is not None}
 
 
 def files_of(name: str, value: object) -> tuple[Path, ...]:
@@ -114,5 +126,7 @@ def case(s: Scenario) -> Case:
         )
     scene = scene_of(s)
     q, v = start(s, scene)
-    walker = build(s, scene, metered=True)
+    walker = build(s, scene, metered=s.plant == RIGID)
+    if s.plant != RIGID:
+        soft_loop(s, walker)
     return Case(walker, q, v, method_of(s, walker), s.impacts, Mode(s.first_step))

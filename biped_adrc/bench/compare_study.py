@@ -13,13 +13,13 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
 
-from biped_adrc.bench.build import scene_of
+from biped_adrc.bench.build import engines_of, scene_of
 from biped_adrc.bench.cell import IMPULSE, is_legal, number
 from biped_adrc.bench.comparison import NOMINAL, Comparison, check, compare
 from biped_adrc.bench.conditions import BASE, COMPARED, CONDITIONS, NOT_ALIKE, OWN
@@ -34,6 +34,7 @@ from biped_adrc.campaign.store_open import open_store
 from biped_adrc.campaign.workers import Workers, workers_of
 from biped_adrc.files import write_text
 from biped_adrc.robots.robot_toml import Limits
+from biped_adrc.scenario.build import RIGID
 from biped_adrc.scenario.registry import find, is_own, source_hash, words
 from biped_adrc.versions import numerical_versions
 from biped_adrc.viz.comparison_text import NEEDS, REASONS
@@ -63,12 +64,14 @@ class Stored:
     """Who walks, as of `campaign.workers.workers_of`."""
     progress: Callable[[Progress], None] | None
     """Called now and then; None for nobody."""
+    shared: Record = field(default_factory=dict)
+    """Values that all trials get besides."""
     walks: int = 0
     """Trials asked for so far, walked now or found in the store."""
 
     def __call__(self, records: Sequence[Record]) -> list[Row]:
         """The row of each trial, in order."""
-        points = [_point(record) for record in records]
+        points = [_point({**self.shared, **record}) for record in records]
         keys = [key_of(text_of(point.record)) for point in points]
         run_study(
             run_trials,
@@ -101,36 +104,42 @@ def run_comparison(
     workers: Workers | Executor | int | None = None,
     progress: Callable[[Progress], None] | None = None,
     other_versions: bool = False,
+    plant: str = RIGID,
 ) -> dict[str, Any]:
     """Walk everything that is not in `out` yet and write figures, page and summary; returns the summary.
 
     command: as typed, for the page. seeds: per controller and condition. pushes: search the largest pushes too.
+    plant: of the registry, on which all walk; "wrong impact" is a condition of the rigid one alone.
     Raises InputError for unknown names or a file of another comparison, OutputError.
     """
     check(controllers, conditions, seeds)
+    shared = {} if plant == RIGID else {"plant": plant}
     asked = {
         "controllers": list(controllers),
         "conditions": {name: dict(CONDITIONS[name].values) for name in conditions},
-        "base": dict(BASE),
+        "base": {**BASE, **shared},
         "seeds": seeds,
         "pushes": pushes,
     }
     sources = {
         f"source {c}": source_hash(find("controller", c).load()) for c in controllers if is_own(c)
     }
+    sources |= engines_of((plant,))
     about = About("comparison", key_of(text_of(asked)), asked, {**numerical_versions(), **sources})
     check_folder(out)
     workers_of(workers).prepare()
     with open_store(out / RESULTS, about, other_versions) as store:
-        carry = Stored(store, workers, progress)
+        carry = Stored(store, workers, progress, shared)
         found = compare(carry, controllers, conditions, seeds, pushes)
-    return write(found, out, command, carry.walks)
+    return write(found, out, command, carry.walks, shared)
 
 
-def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, Any]:
+def write(
+    found: Comparison, out: Path, command: str, walks: int, shared: Record | None = None
+) -> dict[str, Any]:
     """Draw and write what was found to `out`; returns what summary.json holds. Raises OutputError.
 
-    walks: how many trials it took, for the page.
+    walks: how many trials it took, for the page. shared: values of all trials besides `BASE`.
     """
     found_out = answers(found)
     summary = {
@@ -150,7 +159,7 @@ def write(found: Comparison, out: Path, command: str, walks: int) -> dict[str, A
         ],
         "pushes": [push.row() for push in found.pushes],
         "tests": [answer.row() for answer in found_out],
-        "base": dict(BASE),
+        "base": {**BASE, **(shared or {})},
         "versions": dict(numerical_versions()),
     }
     texts = {name: svg.decode("utf-8") for name, svg in draw(summary).items()}

@@ -20,7 +20,9 @@ from typing import NamedTuple
 from biped_adrc.campaign.chunk import Record
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.resources import packaged
+from biped_adrc.scenario.build import RIGID
 from biped_adrc.scenario.registry import find
+from biped_adrc.scenario.scenario import OF_RIGID
 
 
 class ComparisonCondition(NamedTuple):
@@ -56,6 +58,12 @@ ORDER = dict.fromkeys(("ADRC", "ADRC output"), len(TABLE_I) - 2)
 """m, the number of extended states, of the GPI observers: a bandwidth alone would not say it."""
 NOT_ALIKE: str = SAID["texts"]["settings"].format(**OWN)
 """The warning of the page that settings are not tuned alike, with the bandwidths in it."""
+
+
+def conditions_on(plant: str) -> tuple[str, ...]:
+    """Those of the conditions that walks on a plant can have."""
+    alone = set() if plant == RIGID else set(OF_RIGID)
+    return tuple(name for name, known in CONDITIONS.items() if not alone & known.values.keys())
 
 
 def record(condition: str, controller: str, seed: int) -> dict[str, object]:

@@ -20,12 +20,14 @@ import numpy as np
 from biped_adrc.analysis.legality import outcome_of
 from biped_adrc.bench.build import case, scene_of
 from biped_adrc.bench.parameters import trial
+from biped_adrc.bench.soft_row import counted, soft_walk
 from biped_adrc.campaign.chunk import NO_WALK, REFUSED, Record
 from biped_adrc.engine.batch import BatchWalk, Case, run_case
 from biped_adrc.errors import BipedError
 from biped_adrc.hardware.meter import LARGEST_RATIO, Reading, reading
 from biped_adrc.hybrid.status import Status
 from biped_adrc.resources import packaged
+from biped_adrc.scenario.build import RIGID
 from biped_adrc.scenario.scenario import Scenario
 
 WalkRow = dict[str, float | int | str | None]
@@ -54,10 +56,28 @@ def run_trial(record: Record) -> WalkRow:
         s = trial(record)
         with _PREPARING:
             made = case(s)
-            run = run_case(made)
+            run = None if s.plant != RIGID else run_case(made)
+        if run is None:
+            return _row(soft_row(s, made))
     except BipedError as error:
         return _row({"status": REFUSED, "detail": str(error), "impacts": 0})
     return _row(measured(s, made, run()))
+
+
+def soft_row(s: Scenario, made: Case) -> WalkRow:
+    """The row of a walk on another plant. Raises InputError for values that do not fit together."""
+    try:
+        walk, walked = soft_walk(s)
+    except BipedError:
+        raise
+    except Exception as error:  # whatever a controller in plain Python may raise
+        return {
+            "status": Status.RAISED.name,
+            "detail": f"{type(error).__name__}: {error}",
+            "impacts": 0,
+        }
+    row = ended(s, made, walked)
+    return row | counted(walk, float(row.get("distance") or 0.0))
 
 
 def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
@@ -65,6 +85,14 @@ def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
 
     s: its scenario; made: the walker and its start; walked: final state, impacts and status.
     """
+    row = ended(s, made, walked)
+    if len(walked.final_state) > 2 * made.walker.plant.n + made.walker.behind - 1:
+        row |= _meter(made, walked, row)
+    return row
+
+
+def ended(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
+    """How a walk ended, and how fast it was."""
     status = walked.status.name
     row: WalkRow = {
         "status": status,
@@ -78,8 +106,6 @@ def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
         row |= {"outcome": outcome_of(walked.status, legal=False), "legal": 0}
     with _PREPARING:
         row |= _pace(s, made, walked)
-    if len(walked.final_state) > 2 * made.walker.plant.n + made.walker.behind - 1:
-        row |= _meter(made, walked, row)
     return row
 
 

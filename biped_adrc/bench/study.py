@@ -1,8 +1,10 @@
-"""A study: trials that share some values (`fixed`) and differ in others (`grid`, `draw`, `seeds`, `cases`).
+"""A study: trials that share some values (`fixed`) and differ in others (`grid`, `draw`, `seeds`, `cases`,
+`conditions`).
 
 What is varied is declared once, as a `Study`, and the number of trials may be too large for memory: `points`
-therefore is a generator. It takes the Cartesian product of cases, levels of the grid, samples and seeds, in
-that order, the seeds varying fastest. Samples of a range come from a random generator or a Sobol sequence:
+therefore is a generator. It takes the Cartesian product of cases, conditions, levels of the grid, samples and
+seeds, in that order, the seeds varying fastest. Samples of a range come from a random generator or a Sobol
+sequence:
 
     p = low + (high - low) w,   or   p = low (high / low)^w on a logarithmic scale,   w in [0, 1)
 
@@ -124,14 +126,16 @@ class Draw(Part):
             yield from sobol.random(BLOCK)
 
 
-CASE, SEED = "case", "seed"
-"""Names under which the case and the seed of a point stand beside its parameters."""
+CASE, CONDITION, SEED = "case", "condition", "seed"
+"""Names under which the case, the condition and the seed of a point stand beside its parameters."""
+NAMES = (CASE, CONDITION)
+"""Those of them that are words."""
 MOST_POINTS = 10**9
 """Largest number of points that a study may have; more is taken for a mistake in the file."""
 
 
 class Named(Part):
-    """A case: values by parameter under a name, such as {"counts": 8192} as "encoders".
+    """A case or a condition: values by parameter under a name, such as {"counts": 8192} as "encoders".
 
     They take precedence over the fixed values of the study.
     """
@@ -159,27 +163,34 @@ class Study(Part):
     """Seeds of the scenario, run for each combination; empty: the scenario's own seed."""
     cases: tuple[Named, ...] = ()
     """Sets of values, each run over the whole grid and all samples; empty: the fixed values alone."""
+    conditions: tuple[Named, ...] = ()
+    """More sets of other values, each combined with each case; empty: none."""
 
     @property
     def count(self) -> int:
-        """The number of its points: levels x samples x cases x seeds."""
+        """The number of its points: levels x samples x cases x conditions x seeds."""
         levels = math.prod(len(levels) for levels in self.grid.values())
         samples = 1 if self.draw is None else self.draw.count
-        return levels * samples * max(len(self.cases), 1) * max(len(self.seeds), 1)
+        return levels * samples * self.sets * max(len(self.seeds), 1)
+
+    @property
+    def sets(self) -> int:
+        """The number of combinations of a case and a condition, at least 1."""
+        return max(len(self.cases), 1) * max(len(self.conditions), 1)
 
     @property
     def varied(self) -> tuple[str, ...]:
-        """The names by which two points differ, in the order of the columns: the case, the parameters, the
-        seed.
+        """The names by which two points differ, in the order of the columns: the case, the condition, the
+        parameters, the seed.
         """
         drawn = () if self.draw is None else tuple(self.draw.ranges)
-        case = (CASE,) if self.cases else ()
-        return (*case, *self.grid, *drawn, *((SEED,) if self.seeds else ()))
+        named = (*((CASE,) if self.cases else ()), *((CONDITION,) if self.conditions else ()))
+        return (*named, *self.grid, *drawn, *((SEED,) if self.seeds else ()))
 
     def levels(self, name: str) -> int:
         """How many values the axis `name` of `varied` takes at most; 1 for a name that is not varied."""
-        if name == CASE:
-            return len(self.cases)
+        if name in NAMES:
+            return len(self.cases if name == CASE else self.conditions)
         if name in self.grid:
             return len(self.grid[name])
         if name == SEED and self.seeds:
@@ -194,8 +205,8 @@ class Study(Part):
         named.
         """
         yield from self.fixed.items()
-        for case in self.cases:
-            yield from case.values.items()
+        for named in (*self.cases, *self.conditions):
+            yield from named.values.items()
         yield from ((name, x) for name, levels in self.grid.items() for x in levels)
 
     def configuration(self) -> dict[str, object]:
@@ -207,7 +218,18 @@ class Study(Part):
         """A hash of everything but the description: results of a study with another hash are never mixed with
         these.
         """
-        return key_of(text_of(self.model_dump(mode="json", exclude={"description"})))
+        apart = {"description"} if self.conditions else {"description", "conditions"}
+        return key_of(text_of(self.model_dump(mode="json", exclude=apart)))
+
+    def named(self) -> Iterator[tuple[dict[str, Value], dict[str, Value]]]:
+        """For each case under each condition: the values that all of its points share, and its names."""
+        for case, condition in itertools.product(self.cases or (None,), self.conditions or (None,)):
+            values, names = dict(self.fixed), dict[str, Value]()
+            for kind, one in zip(NAMES, (case, condition), strict=True):
+                if one is not None:
+                    values |= one.values
+                    names[kind] = one.name
+            yield values, names
 
     def points(self) -> Iterator[Point]:
         """All points, one after the other: the record of the trial, and the varied values that locate it.
@@ -215,9 +237,7 @@ class Study(Part):
         Values that do not fit together (a rate limit without sampling, say) still make a point. Its record has
         the values as they are, and its run becomes a row with the status REFUSED.
         """
-        for case in self.cases or (None,):
-            values = self.fixed | ({} if case is None else case.values)
-            named: dict[str, Value] = {} if case is None else {CASE: case.name}
+        for values, named in self.named():
             for levels in itertools.product(*self.grid.values()):
                 level = dict(zip(self.grid, levels, strict=True))
                 for sample in self.samples():
@@ -273,8 +293,8 @@ def rehearse(study: Study, spread: int = 100) -> None:
                 seen.add(s.key)
                 case(s)
         except BipedError as error:
-            name = f", case '{at[CASE]}'" if CASE in at else ""
-            rest = {k: x for k, x in at.items() if k != CASE}
+            name = "".join(f", {kind} '{at[kind]}'" for kind in NAMES if kind in at)
+            rest = {k: x for k, x in at.items() if k not in NAMES}
             where = f"study '{study.name}'{name}" + (f", at {rest}" if rest else "")
             raise InputError(f"{where}: {error}") from error
 
@@ -282,17 +302,16 @@ def rehearse(study: Study, spread: int = 100) -> None:
 def some_points(study: Study, spread: int) -> Iterator[tuple[At, At]]:
     """Points that stand for all: (values of the trial by name, values that locate the point).
 
-    Case by case; first the extremes of each axis, then combinations of text, then about `spread` points in all
-    that lie evenly over the study.
+    Case by case under each condition; first the extremes of each axis, then combinations of text, then about
+    `spread` points in all that lie evenly over the study.
     """
-    for named in study.cases or (Named(name=""),):
-        told: At = {CASE: named.name} if named.name else {}
-        for at in _some_of_a_case(study, spread // max(len(study.cases), 1) + 1):
-            yield study.fixed | named.values | at, told | at
+    for values, named in study.named():
+        for at in _some_of_a_case(study, spread // study.sets + 1):
+            yield values | at, named | at
 
 
 def _some_of_a_case(study: Study, spread: int) -> Iterator[At]:
-    """The points of `some_points` for one case, as values by axis."""
+    """The points of `some_points` for one case under one condition, as values by axis."""
     axes: dict[str, Sequence[Value]] = dict(study.grid)
     if study.seeds:
         axes[SEED] = study.seeds

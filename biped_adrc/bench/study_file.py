@@ -5,6 +5,7 @@
     [grid]             p = [..] or p = {from, to, count, scale = "linear" | "log"}: all combinations
     [random], [sobol]  count, seed, p = {from, to, scale}: samples, of all p together
     [[cases]]          name, parameters: each set is crossed with grid and samples
+    [[conditions]]     name, parameters: as cases, and each condition is crossed with each case
 
 Values are numbers in the SI unit, or text such as "1.5 ms"; "none" for no value.
 
@@ -37,7 +38,7 @@ An example of 50 points, 2 cases x 5 delays x 5 seeds:
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import partial
@@ -74,8 +75,10 @@ from biped_adrc.scenario.values import reason
 T = TypeVar("T")
 """What is read of one value."""
 
-TABLES = ("study", "fixed", "grid", "random", "sobol", "cases")
+TABLES = ("study", "fixed", "grid", "random", "sobol", "cases", "conditions")
 """The tables that a study file may have."""
+SETS = ("cases", "conditions")
+"""Those that are lists of named sets of values."""
 MOST = 1_000_000
 """Most levels of one parameter, and most seeds."""
 SPREAD = 3000
@@ -122,7 +125,7 @@ def read_study(tables: Mapping[str, object], where: str = "the study") -> Study:
         "name": r.text(head, "name", "study."),
         "description": r.text(head, "description", "study.", ""),
         "seeds": _seeds(r, head.get("seeds")),
-        "cases": _cases(r, tables.get("cases", [])),
+        **{name: _sets(r, name, tables.get(name, [])) for name in SETS},
     }
     if not r.problems:
         study = Study.model_validate(made)
@@ -273,47 +276,58 @@ def _seeds(r: _Reader, given: object) -> tuple[int, ...]:
     return tuple(found)
 
 
-def _cases(r: _Reader, given: object) -> tuple[Named, ...]:
-    """The cases [[cases]], with different names."""
-    if not isinstance(given, list) or not all(isinstance(case, Mapping) for case in given):
-        r.wrong("cases", f"found {given!r}, expected tables [[cases]]")
+def _sets(r: _Reader, kind: str, given: object) -> tuple[Named, ...]:
+    """The sets [[cases]] or [[conditions]], with different names."""
+    if not isinstance(given, list) or not all(isinstance(one, Mapping) for one in given):
+        r.wrong(kind, f"found {given!r}, expected tables [[{kind}]]")
         return ()
-    cases = []
-    for i, case in enumerate(given, 1):
-        where = f"cases[{i}]."
-        name = r.text(case, "name", where)
-        rest = flat({key: x for key, x in case.items() if key != "name"})
-        cases.append(Named(name=name, values=r.each(rest, where, read)))
-    names = [case.name for case in cases]
+    found = []
+    for i, one in enumerate(given, 1):
+        where = f"{kind}[{i}]."
+        name = r.text(one, "name", where)
+        rest = flat({key: x for key, x in one.items() if key != "name"})
+        found.append(Named(name=name, values=r.each(rest, where, read)))
+    names = [one.name for one in found]
     if len(set(names)) < len(names):
-        r.wrong("cases", f"have the names {names}, expected different ones")
-    return tuple(cases)
+        r.wrong(kind, f"have the names {names}, expected different ones")
+    return tuple(found)
 
 
 def _check_together(r: _Reader, study: Study) -> None:
     """What no single entry shows: a parameter given in two places, too many points, values that do not fit.
 
-    A case may give again what is fixed or what other cases give; the grid and the samples may not. The first
-    point of each case whose scenario cannot be built is reported.
+    A case may give again what is fixed or what other cases give, and so may a condition; the grid and the
+    samples may not. The first point of each of them whose scenario cannot be built is reported.
     """
     drawn = () if study.draw is None else study.draw.ranges
     places: dict[str, Iterable[str]] = {"fixed": study.fixed, "grid": study.grid, "samples": drawn}
-    places |= {f"cases[{i}]": case.values for i, case in enumerate(study.cases, 1)}
+    for kind, sets in zip(SETS, (study.cases, study.conditions), strict=True):
+        places |= {f"{kind}[{i}]": one.values for i, one in enumerate(sets, 1)}
     seeds = {"study.seeds": {SEED}} if study.seeds else {}
-    seen: dict[str, str] = {}
+    seen: dict[str, list[str]] = {}
     for place, names in (places | seeds).items():
+        kind = place.partition("[")[0]
+        beside = ("fixed", kind) if kind in SETS else ()
         for name in names:
-            if name not in seen:
-                seen[name] = place
-            elif not (place.startswith("cases") and seen[name].startswith(("fixed", "cases"))):
-                r.wrong(f"{place}.{name}", f"is given in '{seen[name]}' too; expected one place")
+            earlier = seen.setdefault(name, [])
+            if taken := [one for one in earlier if one.partition("[")[0] not in beside]:
+                r.wrong(f"{place}.{name}", f"is given in '{taken[0]}' too; expected one place")
+            earlier.append(place)
     if not r.problems and study.count > MOST_POINTS:
         r.wrong("study", too_many(study))
-    for case in () if r.problems else study.cases or (None,):
-        alone = study.model_copy(update={"cases": () if case is None else (case,)})
-        for values, at in some_points(alone, SPREAD // max(len(study.cases), 1)):
+    for alone in () if r.problems else _alone(study):
+        for values, at in some_points(alone, SPREAD // study.sets):
             try:
                 trial(values)
             except InputError as error:
                 r.wrong(f"at {at}", error)
                 break
+
+
+def _alone(study: Study) -> Iterator[Study]:
+    """The study with one of its cases and one of its conditions, for each of both."""
+    for case in [study.cases[i : i + 1] for i in range(max(len(study.cases), 1))]:
+        for condition in [
+            study.conditions[i : i + 1] for i in range(max(len(study.conditions), 1))
+        ]:
+            yield study.model_copy(update={"cases": case, "conditions": condition})

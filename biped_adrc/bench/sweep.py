@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from biped_adrc.bench.build import files_of_study, hashes, own_of_study
+from biped_adrc.bench.build import files_of_study, hashes, own_of_study, plants_of_study
 from biped_adrc.bench.study import MOST_POINTS, Study, rehearse, too_many
 from biped_adrc.bench.study_file import load_study
 from biped_adrc.campaign.chunk import Function
@@ -205,7 +205,8 @@ def about_study(study: Study, crew: Workers) -> About:
             f"study '{study.name}' names the files {[str(path) for path in files]}, which workers elsewhere "
             "may not have, or have others; run it with processes or threads of this machine"
         )
-    versions = {**numerical_versions(), **hashes(files), **own_of_study(study)}
+    of_parts = own_of_study(study) | plants_of_study(study)
+    versions = {**numerical_versions(), **hashes(files), **of_parts}
     return About(study.name, study.hash, study.configuration(), versions, study.count)
 
 

@@ -25,6 +25,7 @@ def compare(
     conditions: str | None = None,
     seeds: int = 20,
     pushes: bool = True,
+    plant: str = "rigid",
     workers: int | None = None,
     threads: bool = False,
     scheduler: str | None = None,
@@ -32,14 +33,14 @@ def compare(
 ) -> None:
     """Which controller walks legally under what: controllers x conditions x seeds, with intervals and tests."""
     from biped_adrc.bench.compare_study import RESULTS, run_comparison
-    from biped_adrc.bench.conditions import COMPARED, CONDITIONS
+    from biped_adrc.bench.conditions import COMPARED, conditions_on
 
     crew = study_workers(workers, threads, scheduler)
-    asked = _names(controllers, COMPARED), _names(conditions, tuple(CONDITIONS)), seeds, pushes
+    asked = _names(controllers, COMPARED), _names(conditions, conditions_on(plant)), seeds, pushes
     with carried_out(
         "walking", out / RESULTS, None, "{:.0f} s left in this round".format
     ) as progress:
-        summary = run_comparison(out, command(), *asked, crew, progress, other_versions)
+        summary = run_comparison(out, command(), *asked, crew, progress, other_versions, plant)
     _print(summary)
     say(f"written to {out}: comparison.html, summary.json, figures, {RESULTS}")
 

@@ -2,7 +2,7 @@
 
 `check` and `new` derive a biped from a URDF (`robot_import.derive`): what the file does not say is
 guessed, each guess is printed, and the model is checked against laws of mechanics. `list` and
-`show` print the records (robot.toml).
+`show` print the records (robot.toml), `export` writes a robot for MuJoCo's own viewer (`soft.mjcf`).
 """
 
 from __future__ import annotations
@@ -13,9 +13,18 @@ from typing import TYPE_CHECKING
 import typer
 from rich.table import Table
 
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, complain, console, say
+from biped_adrc.cli.app import (
+    EXIT_CHECK_FAILED,
+    app,
+    complain,
+    console,
+    inputs,
+    say,
+    say_written,
+)
 from biped_adrc.cli.options import texts
 from biped_adrc.errors import InputError, ModelError
+from biped_adrc.files import keep_inputs, output_path
 from biped_adrc.robots.robot_toml import GRAVITY
 
 if TYPE_CHECKING:
@@ -113,6 +122,35 @@ def robot_show(robot: str, preset: str | None = None) -> None:
     d = biped.description
     say(f"{d.name}, preset {biped.preset}: {d.preset(biped.preset).source}")
     _describe(biped)
+
+
+@robot_app.command("export")
+@texts("robot.export")
+def robot_export(
+    robot: str,
+    mjcf: Path,
+    preset: str | None = None,
+    joint_friction: bool = False,
+    friction: float = 0.6,
+    time_constant: float = 2e-3,
+    foot_radius: float = 1e-3,
+    slope: float = 0.0,
+    gait: str | None = None,
+) -> None:
+    """Write a robot with feet and motors on soft ground as MJCF, for MuJoCo's own viewer."""
+    from biped_adrc.gait.gait import load_gait
+    from biped_adrc.model.biped import Biped
+    from biped_adrc.soft.ground import SoftGround
+    from biped_adrc.soft.mjcf import write_mjcf
+    from biped_adrc.soft.mujoco_plant import MuJoCoPlant
+
+    path = output_path(mjcf, (".xml",), default=True)
+    keep_inputs((path,), inputs(robot, *(() if gait is None else (gait,))))
+    biped = Biped.load(robot, preset, joint_friction)
+    ground = SoftGround(friction, time_constant, foot_radius=foot_radius)
+    start = None if gait is None else load_gait(gait, biped)
+    plant = MuJoCoPlant(biped, ground, slope, h=min(MuJoCoPlant.h, 0.1 * time_constant))
+    say_written(write_mjcf(plant, path, start))
 
 
 # -- parts -----------------------------------------------------------------------------------------

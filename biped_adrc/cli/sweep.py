@@ -162,7 +162,7 @@ def _maps(text: str, study: Study) -> Maps:
     Raises InputError for what the study does not vary or have as a result, before any walk.
     """
     from biped_adrc.bench.parameters import unit
-    from biped_adrc.bench.study import CASE
+    from biped_adrc.bench.study import NAMES
     from biped_adrc.viz.plots.sweep_maps import Maps
 
     axes, _, value = text.partition(":")
@@ -176,7 +176,7 @@ def _maps(text: str, study: Study) -> Maps:
             )
     value = value.strip() or "survived"
     _check_map(text, study, value, names[2:])
-    units = {name: unit(name) for name in study.varied if name != CASE}
+    units = {name: unit(name) for name in study.varied if name not in NAMES}
     ranges = {} if study.draw is None else study.draw.ranges
     log = frozenset(name for name, r in ranges.items() if r.scale == "log")
     panel = names[2] if len(names) == 3 else None
@@ -187,11 +187,11 @@ def _check_map(text: str, study: Study, value: str, panels: list[str]) -> None:
     """Raises InputError for a result that there will not be, or too many panels."""
     from biped_adrc.bench.parameters import is_number
     from biped_adrc.bench.run import COLUMNS, WORDS
-    from biped_adrc.bench.study import CASE
+    from biped_adrc.bench.study import NAMES
     from biped_adrc.viz.plots.sweep_maps import MOST_PANELS
 
     shown = [name for name in COLUMNS if name not in WORDS]
-    shown += [name for name in study.varied if name != CASE and is_number(name)]
+    shown += [name for name in study.varied if name not in NAMES and is_number(name)]
     if value not in shown:
         raise InputError(f"--plot is '{text}': '{value}' is no result; choose from {shown}")
     for name in panels:

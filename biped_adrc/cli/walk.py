@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from biped_adrc.scenario.outcome import Outcome
     from biped_adrc.scenario.recording import Walk
     from biped_adrc.scenario.scenario import Scenario
+    from biped_adrc.soft.meters import SoftStep
 
 WHY = {
     "compiled": "generated from Pinocchio's model and checked against it",
@@ -36,12 +37,14 @@ COMMON = ("controller", "gait", "robot", "preset", "impacts", "seed", "hardware"
 """Fields of a scenario that are options of `simulate`: what walks."""
 LAW = ("torque_limit", "K_p", "K_d", "observer", "poles", "bandwidth", "order", "reset")
 """Those of the controller."""
-NUMERICS = ("friction", "slope", "method", "engine", "friction_limit", "force_window")
-"""Those of ground, method and limits."""
+GROUND = ("friction", "slope", "plant", "ground_friction", "time_constant")
+"""Those of joint friction, plant and ground."""
+NUMERICS = ("method", "engine", "friction_limit", "force_window")
+"""Those of method and limits."""
 
 
 @app.command()
-@of_scenario(*COMMON, *LAW, *NUMERICS, h="--step")
+@of_scenario(*COMMON, *LAW, *GROUND, *NUMERICS, h="--step")
 @texts("simulate")
 def simulate(
     given: PlainRecord,
@@ -94,6 +97,7 @@ def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> N
     if half is None:
         _print_passive(full, limits)
     else:
+        _print_on_ground(full.soft_steps)
         _print_steps(replace(full.outcome, half=half.outcome), full.legal_within(limits))
     settings = full.trajectory.settings
     console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
@@ -134,6 +138,26 @@ def _print_steps(o: Outcome, legality: Legality) -> None:
     stays = [c.step for c in o.certificates if not c.old_foot_velocity > 0.0]
     if stays:
         console.print(f"the old stance foot does not lift off after steps {stays}")
+
+
+def _print_on_ground(steps: tuple[SoftStep, ...]) -> None:
+    """Print what the feet did on soft ground, a row for each single support; nothing without."""
+    if not steps:
+        return
+    table = Table(
+        "step", "slip [mm]", "in the air [ms]", "on both feet [ms]", "depth [mm]", "friction"
+    )
+    for k, s in enumerate(steps, 1):
+        times = (1e3 * s.flight, 1e3 * s.double_support)
+        slip, depth = 1e3 * max(s.slip), 1e3 * s.depth
+        row = (
+            f"{slip:.2g}",
+            *(f"{x:.1f}" for x in times),
+            f"{depth:.2g}",
+            f"{s.friction_used:.3f}",
+        )
+        table.add_row(f"{k}", *row)
+    console.print(table)
 
 
 def _print_passive(walk: Walk, limits: Limits) -> None:

@@ -10,10 +10,13 @@ model errors. Called by `run`, by studies, and by worker processes, which receiv
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.closed_loop.stepping_plant import SteppingPlant
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.errors import InputError
@@ -25,6 +28,7 @@ from biped_adrc.hardware.meter import Meter
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.robots.robot_toml import ENDS, Limits
@@ -32,13 +36,30 @@ from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances, taken
 from biped_adrc.scenario.registry import construct, find, own, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
+from biped_adrc.soft.ground import SoftGround
+from biped_adrc.soft.walking import stepping_loop
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array
 
 WALKED = ("robot", "preset", "controller", "impacts", "slope", "friction_limit", "force_window")
+RIGID = "rigid"
+"""Name of the plant that is the walker's own."""
+LONGEST_PLANT_STEP = 2e-4
+"""Default step of an engine with soft ground, where the ground is soft enough [s]."""
+RESOLVED = 0.1
+"""Of the ground's time constant: the longest step that resolves contact."""
+OF_GROUND = ("friction", "time_constant", "damping_ratio")
+"""What soft ground takes from the scenario's fields."""
 OF_SENSOR = "sensor_"
 """Before the name of an own value it says that it is the named sensor's: sensor_noise, where noise is the
 encoders'."""
+OF_TOUCHDOWN = "touchdown_"
+"""The same of the part that notices touchdowns: touchdown_delay, where delay is the clock's."""
+OF_WALKER = (
+    *("biped", "slope", "h", "ground", "lag", "ground_steps", "first_step"),
+    *("max_step_time", "fall_height", *OF_GROUND),
+)
+"""What a plant takes from the walker and the scenario's fields, and never from own values."""
 WITHOUT_MOTORS = (*WALKED, "method", "h", "tolerance", "engine", "runaway_speed")
 """Fields of a scenario that have an effect for a robot without motors."""
 
@@ -115,11 +136,11 @@ def build(s: Scenario, scene: RobotAndGait | None = None, metered: bool = False)
     gain = impact_error(drawn(s, "impact"), s.impact_error, biped.n if s.impact_error else 0)
     return Walker(
         plant,
-        controller(s, gait, biped, taken(s) | taken_by_sensor(s)),
+        controller(s, gait, biped, taken(s) | taken_by_hardware(s) | taken_by_plant(s)),
         disturbances(s, biped, gait, plant),
         ContinuousTime()
         if s.period is None
-        else SampledTime(s.period, delay=s.delay, delay_known=s.delay_known),
+        else SampledTime(s.period, s.touchdown is None, s.delay, s.delay_known),
         model=None if plant is biped else biped,
         torque_limit=s.torque_limit,
         max_step_time=s.max_step_time,
@@ -127,6 +148,7 @@ def build(s: Scenario, scene: RobotAndGait | None = None, metered: bool = False)
         ground_steps=ground(s),
         sensors=sensors(s),
         motors=Motors(s.rate_limit, s.lag) if s.rate_limit or s.lag else None,
+        touchdown=touchdown(s, gait),
         meter=Meter(gait.constraint, limits(s), ENDS * gait.period) if metered else None,
         impact_gain=tuple(gain.tolist()),
         runaway_speed=s.runaway_speed,
@@ -208,8 +230,7 @@ def sensors(s: Scenario) -> Sensor | None:
     if s.sensor is None:
         return encoders
     entry = find("sensor", s.sensor)
-    own = {name.removeprefix(OF_SENSOR): x for name, x in s.own.items()}
-    given = {**own, "seed": drawn(s, "sensor"), **entry.defaults}
+    given = {**_of(OF_SENSOR, s), "seed": drawn(s, "sensor"), **entry.defaults}
     what = f"sensor '{s.sensor}'"
     named = construct(what, entry.load(), given, Sensor)  # type: ignore[type-abstract]
     return named if encoders is None else encoders + named
@@ -228,12 +249,85 @@ def _encoders(s: Scenario) -> Sensors | None:
     return Sensors(s.counts, None, *noise, s.velocity, s.filter_time, drawn(s, "sensors"))
 
 
-def taken_by_sensor(s: Scenario) -> set[str]:
-    """Names of own values that the sensor takes, with and without `OF_SENSOR` before them."""
-    if s.sensor is None:
+def touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
+    """How the controller of a scenario is told of touchdowns; None for at once.
+
+    The slope that it takes is the gait's: what the scenario adds it does not know.
+    """
+    if s.touchdown is None:
+        return None
+    entry, what = find("touchdown", s.touchdown), f"touchdown '{s.touchdown}'"
+    given = {"slope": gait.slope, **_of(OF_TOUCHDOWN, s), "seed": drawn(s, "touchdown")}
+    values = {**given, **entry.defaults}
+    return construct(what, entry.load(), values, Touchdown)  # type: ignore[type-abstract]
+
+
+def _of(prefix: str, s: Scenario) -> dict[str, object]:
+    """Own values of a scenario, the prefix taken off; what has it goes before what has not."""
+    mine = {x.removeprefix(prefix): y for x, y in s.own.items() if x.startswith(prefix)}
+    return {**s.own, **mine}
+
+
+def taken_by_hardware(s: Scenario) -> set[str]:
+    """Names of own values that sensor and touchdown take, with and without their prefix."""
+    taken = set[str]()
+    for kind, name, prefix in (
+        ("sensor", s.sensor, OF_SENSOR),
+        ("touchdown", s.touchdown, OF_TOUCHDOWN),
+    ):
+        if name is not None:
+            names = set(takes(find(kind, name).load())) - {"seed"}
+            taken |= names | {f"{prefix}{each}" for each in names}
+    return taken
+
+
+def plant_step(s: Scenario) -> float:
+    """Step of the engine of another plant than the rigid one [s]; by default contact is resolved."""
+    if s.plant_step is not None:
+        return s.plant_step
+    return min(LONGEST_PLANT_STEP, RESOLVED * s.time_constant)
+
+
+def soft_plant(s: Scenario, walker: Walker) -> SteppingPlant | None:
+    """The plant of a scenario in whose place the walker's controller is put; None for the rigid one.
+
+    It is made with those of the walker's and the scenario's values that its constructor takes. Raises
+    InputError for one that cannot be made.
+    """
+    if s.plant == RIGID:
+        return None
+    given = {"friction": s.ground_friction, "time_constant": s.time_constant}
+    given |= {"damping_ratio": s.damping_ratio}
+    ground = construct(f"the ground of plant '{s.plant}'", SoftGround, s.own | given, SoftGround)
+    return plant_around(s.plant, walker, s.own | {"ground": ground, "h": plant_step(s)})
+
+
+def plant_around(name: str, walker: Walker, given: Mapping[str, object]) -> SteppingPlant:
+    """A plant of the registry for a walker's robot on its slope. given: more values by name.
+
+    Raises InputError for one that there is not, or that cannot be made.
+    """
+    values = {
+        "biped": walker.plant,
+        "slope": walker.slope,
+        "max_step_time": walker.max_step_time,
+        "fall_height": walker.fall_height,
+    }
+    what, entry = f"plant '{name}'", find("plant", name)
+    return construct(what, entry.load(), {**given, **values}, SteppingPlant)  # type: ignore[type-abstract]
+
+
+def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
+    """The walker's controller around the plant of a scenario; None for the rigid one. Raises InputError."""
+    plant = soft_plant(s, walker)
+    return None if plant is None else stepping_loop(walker, plant, s.engine, s.first_step)
+
+
+def taken_by_plant(s: Scenario) -> set[str]:
+    """Names of own values that the plant or its ground takes."""
+    if s.plant == RIGID:
         return set()
-    names = set(takes(find("sensor", s.sensor).load())) - {"seed"}
-    return names | {f"{OF_SENSOR}{name}" for name in names}
+    return {*takes(find("plant", s.plant).load()), *takes(SoftGround)} - set(OF_WALKER)
 
 
 def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:

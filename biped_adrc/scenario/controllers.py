@@ -6,6 +6,7 @@ Where each argument comes from, by its name:
     gains                                           from K_p and K_d
     observer                                        from the observer's name, poles, bandwidth and order
     reset, solve_theta, torque_limit                the scenario's values of these names
+    inner, window                                   of a policy across contact: the controller, contact_window
     everything else                                 from `Scenario.own`
 
 "Own values" are those in `Scenario.own`: what a controller or observer takes beside the scenario's fields. An
@@ -22,6 +23,7 @@ from dataclasses import dataclass, field, fields, is_dataclass, replace
 
 import numpy as np
 
+from biped_adrc.control.across_contact import AcrossContact
 from biped_adrc.control.base import Controller
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.errors import InputError
@@ -40,6 +42,8 @@ OF_OBSERVER = ("observer", "poles", "bandwidth", "order")
 """Fields of a scenario from which `observer` is made."""
 OF_CONTROLLER = (*GAINS, *OF_OBSERVER, "reset", "solve_theta")
 """Fields of a scenario that are for the controller alone; a value that it does not take is an error."""
+OF_CONTACT = ("inner", "window")
+"""Arguments of a policy across contact that are the controller, and `contact_window`."""
 CONTEXT = ("reference", "gait", "biped", "outputs")
 """Names of the arguments that are made of gait and robot."""
 BY_ITSELF = (*CONTEXT, *OF_CONTROLLER, "gains", "torque_limit")
@@ -51,6 +55,7 @@ SOURCES = {name: name for name in FIELDS} | {
     "outputs": "gait",
     "biped": "robot",
     "gains": "K_p and K_d",
+    "window": "contact_window",
     "step": "pushed_step",
     "start": "onset",
     "stop": "duration",
@@ -87,7 +92,24 @@ class ControllerMaker:
         mine = self._own((*CONTEXT, "inner") if outer else BY_ITSELF)
         made = construct(what, make, values | mine, Controller)
         self._seen(make, (), (*mine, "inner") if outer else mine)
-        return made
+        return made if outer else self._across_contact(made)
+
+    def _across_contact(self, inner: Controller) -> Controller:
+        """The policy across contact around a controller that is no outer loop; itself where there is none.
+
+        So outer loops go around the policy: their states do not begin anew at a touchdown.
+        """
+        if self.s.contact is None:
+            return inner
+        make = find("contact", self.s.contact).load()
+        window, own = self.s.contact_window, self._own((*CONTEXT, *OF_CONTACT))
+        given = {**self._context(), "inner": inner, **own}
+        if window is not None:
+            given["window"] = window
+            self.used |= {"contact_window"} if "window" in takes(make) else set()
+        self._seen(make, (), own)
+        what = f"contact '{self.s.contact}'"
+        return construct(what, make, given, AcrossContact)  # type: ignore[type-abstract]
 
     def _own(self, given: Container[str]) -> dict[str, object]:
         """Own values by name, without those whose names are in `given`."""
@@ -181,6 +203,7 @@ def _takers(name: str) -> str:
     for kind, chosen_by in (
         ("observer", "observer"),
         ("sensor", "sensor"),
+        ("touchdown", "touchdown"),
         ("disturbance", "push"),
     ):
         for known, entry in REGISTRY[kind].items():
@@ -207,7 +230,7 @@ def _default(make: Callable[..., object]) -> Observer:
 def controller(s: Scenario, gait: Gait, biped: Biped, others: set[str] | None = None) -> Controller:
     """Make the controller of a scenario on this gait, which knows the robot as the model `biped`.
 
-    others: names of own values that the scenario's push or sensor takes, and so the controller need not.
+    others: names of own values that push, plant or hardware take, and so the controller need not.
     Raises InputError for a class that is not there or lacks something, an own value that nothing takes, and a
     value of the scenario that would have no effect.
     """
@@ -217,7 +240,7 @@ def controller(s: Scenario, gait: Gait, biped: Biped, others: set[str] | None = 
         raise InputError(
             f"controller '{s.controller}' has neither a method output(s, m) nor laws; write one of them"
         )
-    known = sorted(maker.known - {*BY_ITSELF, "m"})
+    known = sorted(maker.known - {*BY_ITSELF, "m", "window"})
     for name in s.own:
         if name not in maker.mine and name not in (others or ()):
             found = (
@@ -228,7 +251,7 @@ def controller(s: Scenario, gait: Gait, biped: Biped, others: set[str] | None = 
             raise InputError(f"own value '{name}' of controller '{s.controller}': {found}")
     idle = [
         name
-        for name in OF_CONTROLLER
+        for name in (*OF_CONTROLLER, "contact_window")
         if getattr(s, name) != DEFAULTS[name] and name not in maker.used
     ]
     if idle:

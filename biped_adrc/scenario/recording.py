@@ -10,7 +10,9 @@ reproduction of the paper read it.
 
     walk.signals         arrays over time: q, v, u, errors, estimates, ground reaction
     walk.certificates    per step: friction, torque, clearance, energy
+    walk.soft_steps      per step on soft ground: slip, flight, double support, penetration
     walk.legality        could ground and motors have carried it? until_illegal cuts it where not
+    walk.touchdowns      when each was noticed, where the controller has to
     walk.remarks         sentences on what was not as it was asked for
     walk.plot, animate   figures and pictures
     walk.save, export    .npz to read it again, .mat for MATLAB
@@ -28,10 +30,13 @@ import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate, certificates, supports
 from biped_adrc.analysis.legality import Legality, until_illegal
+from biped_adrc.analysis.recorded_signals import PLACE, recorded
 from biped_adrc.analysis.signals import Signals, signals
+from biped_adrc.analysis.touchdowns import Noticed, touchdowns
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference, TimeReference
+from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.columns import columns_of, data_frame, write_csv
@@ -39,6 +44,7 @@ from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
 from biped_adrc.scenario.walker_record import MissingPart
 from biped_adrc.shown import Shown
+from biped_adrc.soft.meters import SoftStep, recorded_steps
 from biped_adrc.types import Array
 
 if TYPE_CHECKING:
@@ -102,8 +108,30 @@ class Walk(Shown):
         """What each finished step would have asked of a real robot: friction, torque, clearance, energy."""
         return self.certified()
 
+    @property
+    def soft(self) -> bool:
+        """Whether it was made on another plant than the rigid one, with contact that takes time."""
+        return "plant" in self.trajectory.settings
+
+    @cached_property
+    def soft_steps(self) -> tuple[SoftStep, ...]:
+        """Slip, flight, double support and penetration of each single support, read at the sample instants.
+
+        Empty for a walk on the rigid plant, and on one that does not say what its feet do.
+        """
+        run = self.trajectory
+        ground = run.settings.get("plant", {}).get("ground")
+        if ground is None or recorded(run, PLACE) is None:
+            return ()
+        return recorded_steps(run, ground["friction"], ground_axes(self.walker.slope))
+
     def certified(self, limits: Limits | None = None) -> tuple[Certificate, ...]:
-        """The certificates for other limits, or with forces averaged over another window [s]."""
+        """The certificates for other limits, or with forces averaged over another window [s].
+
+        None for a soft walk: what an impact in no time would need does not apply there.
+        """
+        if self.soft:
+            return ()
         return certificates(self.walker, self.trajectory, self.signals, limits)
 
     @cached_property
@@ -120,7 +148,13 @@ class Walk(Shown):
             (*finished, *supports(self.walker, rest, self.signals, limits)),
             float(np.max([c.impulse_ratio for c in finished], initial=0.0)),
             limits.of(self.walker.plant.description),
+            len(self.trajectory.events(FOOT_STRIKE)) if self.soft else None,
         )
+
+    @cached_property
+    def touchdowns(self) -> Noticed:
+        """When the controller noticed each touchdown. Raises InputError where it is told at once."""
+        return touchdowns(self.walker, self.trajectory)
 
     @cached_property
     def outcome(self) -> Outcome:

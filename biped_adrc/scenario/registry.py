@@ -66,10 +66,13 @@ class Entry:
 
 BASES = {
     "controller": "biped_adrc.control.base:Controller",
+    "contact": "biped_adrc.control.across_contact:AcrossContact",
     "observer": "biped_adrc.observers.base:Observer",
     "curve": "biped_adrc.gait.curves:Curve",
     "sensor": "biped_adrc.hardware.sensing:Sensor",
+    "touchdown": "biped_adrc.hardware.touchdown:Touchdown",
     "disturbance": "biped_adrc.disturbances.base:Disturbance",
+    "plant": "biped_adrc.closed_loop.stepping_plant:SteppingPlant",
     "robot": "biped_adrc.model.biped:Biped",
     "gait": "biped_adrc.gait.gait:Gait",
 }
@@ -100,9 +103,10 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
         ba.register("controller", "my law", MyController, "PD with my feedforward")
         ba.walk_scenario(ba.Scenario("my law", own={"stiffness": 300.0}))
 
-    kind: "controller", "observer", "sensor", "disturbance", "curve", "robot" or "gait". words: for a reader.
-    Records of scenarios write it as `module:Class`, so that other processes find it. Raises InputError for an
-    unknown kind, a thing of another kind, and for a name that is taken or reads as `module:Class`.
+    kind: "controller", "contact", "observer", "sensor", "touchdown", "disturbance", "plant", "curve", "robot"
+    or "gait". words: for a reader. Records of scenarios write it as `module:Class`, so that other processes
+    find it. Raises InputError for an unknown kind, a thing of another kind, and for a name that is taken or
+    reads as `module:Class`.
     """
     if kind not in REGISTRY:
         raise InputError(f"there is no kind '{kind}' of things; choose one of {list(REGISTRY)}")
@@ -111,7 +115,7 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
         raise InputError(f"'{name}' is registered as {thing!r}, expected a class or a function")
     base = _imported(BASES[kind])
     assert isinstance(base, type)
-    if isinstance(thing, type) and not issubclass(thing, base):
+    if isinstance(thing, type) and kind != "plant" and not issubclass(thing, base):
         raise InputError(
             f"the {kind} '{name}' is registered as the class {thing.__name__}, expected a class below "
             f"{base.__name__}, or a function that makes one"

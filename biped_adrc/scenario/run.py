@@ -27,9 +27,9 @@ from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMet
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
-from biped_adrc.scenario.build import RobotAndGait, build, start
+from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_step, soft_loop, start
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.scenario import FREE, Scenario, idle
 from biped_adrc.scenario.walk import (
     FINE_STEP,
@@ -40,6 +40,7 @@ from biped_adrc.scenario.walk import (
     walk_in_parts,
 )
 from biped_adrc.shown import Shown
+from biped_adrc.soft.walking import walk_on
 from biped_adrc.types import Array
 
 METHODS: dict[str, Callable[..., OneStepMethod]] = {
@@ -84,6 +85,8 @@ def halved(s: Scenario, walker: Walker | None = None) -> Scenario:
 
     A method that chooses its own step becomes the explicit adaptive one with a hundredth of the tolerance.
     """
+    if s.plant != RIGID:
+        return replace(s, plant_step=0.5 * plant_step(s))
     if s.method in FREE:
         return replace(s, method="adaptive", tolerance=1e-2 * s.tolerance)
     h, fine = s.h, s.fine
@@ -142,11 +145,15 @@ def walk_scenario(
     check_part(s, "what is to walk", Scenario)
     scene = RobotAndGait.of(s)
     walker = build(s, scene)
+    begin = start(s, scene) if scene.gait else cycle_start(scene.biped, walker.slope)
+    if (loop := soft_loop(s, walker)) is not None:
+        run = walk_on(loop, walker, begin, Mode(s.first_step), s.impacts, progress)
+        return watched(walker, scene.gait, run, s).saying(idle(s))
     return walk_in_parts(
         walker,
         scene.gait,
         parts_of(s, walker) if method is None else (Part(s.impacts, method),),
-        start=start(s, scene) if scene.gait else cycle_start(scene.biped, walker.slope),
+        start=begin,
         first_step=s.first_step,
         progress=progress,
         engine=s.engine,

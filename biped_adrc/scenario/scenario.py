@@ -63,15 +63,23 @@ model.
 NAMED = {
     "controller": "controller",
     "observer": "observer",
+    "contact": "contact",
     "sensor": "sensor",
+    "touchdown": "touchdown",
     "push": "disturbance",
+    "plant": "plant",
 }
 """Fields whose value is a name of the registry, and its kind there."""
 OF_PUSH = ("on", "direction", "onset", "duration", "frequency")
 """Fields that describe the push named by `push`, without which they have no effect."""
+OF_PLANT = ("ground_friction", "time_constant", "damping_ratio", "plant_step")
+"""Fields of a plant other than the rigid one."""
+OF_RIGID = ("method", "h", "fine", "impact_error")
+"""Fields that have an effect on the rigid plant alone."""
 OF_SAMPLING = (
     *("delay", "delay_known", "counts", "noise", "pitch_noise", "rate_noise"),
-    *("velocity", "filter_time", "sensor", "rate_limit", "lag"),
+    *("velocity", "filter_time", "sensor", "rate_limit", "lag", "contact"),
+    "touchdown",
 )
 """Fields that have an effect in sampled time only."""
 FREE = ("adaptive", "stiff")
@@ -115,6 +123,8 @@ class Scenario(Shown):
     bandwidth: float | None = None
     order: int | None = None
     reset: str = "model"
+    contact: str | None = None
+    contact_window: float | None = None
     solve_theta: bool = True
     own: dict[str, object] = field(default_factory=dict)
     # sampling, sensors, motors
@@ -129,6 +139,7 @@ class Scenario(Shown):
     velocity: str = "measured"
     filter_time: float = 0.0
     sensor: str | None = None
+    touchdown: str | None = None
     torque_limit: float | None = None
     rate_limit: float | None = None
     lag: float = 0.0
@@ -154,6 +165,11 @@ class Scenario(Shown):
     trunk_load: float = 0.0
     impact_error: float = 0.0
     # ground
+    plant: str = "rigid"
+    ground_friction: float = 0.6
+    time_constant: float = 2e-3
+    damping_ratio: float = 1.0
+    plant_step: float | None = None
     slope: float = 0.0
     ground_step: float = 0.0
     ground_rms: float = 0.0
@@ -222,8 +238,8 @@ class Scenario(Shown):
         """
         if name is None or name == "none":
             return name
-        if info.field_name == "push":
-            find("disturbance", name)
+        if info.field_name in ("push", "plant"):
+            find(NAMED[info.field_name], name)
         return spelled(NAMED[str(info.field_name)], name)
 
     @model_validator(mode="after")
@@ -250,6 +266,14 @@ class Scenario(Shown):
                 f"{name} without a period": self.period is None and self._given(name)
                 for name in OF_SAMPLING
             },
+            **{
+                f"{name} with the plant 'rigid'": self.plant == "rigid" and self._given(name)
+                for name in OF_PLANT
+            },
+            **{
+                f"{name} with the plant '{self.plant}'": self.plant != "rigid" and self._given(name)
+                for name in OF_RIGID
+            },
             "friction_error without friction": self.friction_error > 0.0 and not self.friction,
             "filter_time with rates that are measured": self.filter_time > 0.0
             and self.velocity == "measured",
@@ -261,6 +285,9 @@ class Scenario(Shown):
                 self.pushed_step < self.first_step
                 and (self.push == "pulse" or self.ground_step != 0.0)
             ),
+            "fine with a touchdown": self.touchdown is not None and self.fine is not None,
+            "a contact_window without contact": self.contact is None
+            and self.contact_window is not None,
             "poles and an order": self.poles is not None and self.order is not None,
             "poles and a bandwidth": self.poles is not None and self.bandwidth is not None,
             "a tolerance without the method adaptive or stiff": self.tolerance != 1e-9
@@ -294,13 +321,16 @@ class Scenario(Shown):
         return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
-DRAWN = ("start", "onset", "joints", "noise", "sensors", "model", "impact", "ground", "sensor")
+DRAWN = (
+    *("start", "onset", "joints", "noise", "sensors", "model", "impact", "ground", "sensor"),
+    "touchdown",
+)
 """What is random in a walk. The place in this list selects the stream, so new names go to its end.
 
 start: offsets of coordinates and speed. onset: time of the push. joints: factors of a push on random joints.
 noise: the push that is noise. sensors: noise of measurements. model: errors of masses, centres, inertias and
 friction. impact: error of the impact map. ground: heights of uneven ground. sensor: noise of the one that is
-named by `sensor`, apart from that of the encoders.
+named by `sensor`, apart from that of the encoders. touchdown: which ones are missed.
 """
 
 
@@ -334,8 +364,9 @@ def idle(s: Scenario) -> tuple[str, ...]:
     """
     pushed = s.push != "none"
     drawn_push = pushed and (s.onset is None or s.push == "noise" or s.on == "random joints")
+    own = "seed" in s.own or "touchdown_missed" in s.own or "missed" in s.own
     found = {
-        "seed": not drawn_push and not any(map(s._given, RANDOM)) and "seed" not in s.own,
+        "seed": not drawn_push and not any(map(s._given, RANDOM)) and not own,
         "pushed_step": not pushed and s.ground_step == 0.0,
         "fine": not pushed and not s.pushes,
     }

@@ -28,14 +28,18 @@ from itertools import pairwise
 from typing import NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
+from biped_adrc.analysis.recorded_signals import FORCE, PLACE, SPEED
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.errors import InputError
-from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.ground import ground_axes
+from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.robots.symmetry import twins
 from biped_adrc.robots.urdf import Joint, Tree
+from biped_adrc.soft.meters import AT_CONE, CARRYING, SLIP_SPEED
 from biped_adrc.types import Array
 
 MOST_FRAMES = 200_000
@@ -226,7 +230,7 @@ class WalkScene:
         """
         foot, feet, plant = np.zeros(2), [], walk.walker.plant
         for arc in walk.trajectory.arcs:
-            feet.append(foot)
+            feet.append(arc.read[PLACE][0, :2] if PLACE in arc.read else foot)
             if arc.event is not None and arc.event.x_plus is not None:
                 foot = foot + plant.swing_foot(arc.event.x_minus[: plant.n])
         x, z = np.array(feet).T
@@ -238,8 +242,16 @@ class WalkScene:
         return self.walker.plant
 
     def foothold(self, i: int) -> tuple[float, float]:
-        """x and z [m] of the stance foot in arc i, counted from 0."""
+        """x and z [m] of the stance foot at the start of arc i, counted from 0."""
         return float(self.footholds[i]), float(self.heights[i])
+
+    def foot(self, i: int, t: float) -> tuple[float, float]:
+        """x and z [m] of the stance foot in arc i at t [s]: its foothold, but where it slips on soft ground."""
+        arc = self.trajectory.arcs[i]
+        if PLACE not in arc.read:
+            return self.foothold(i)
+        x, z = (float(np.interp(t, arc.t, arc.read[PLACE][:, k])) for k in (0, 1))
+        return x, z
 
     @cached_property
     def surface(self) -> Surface:
@@ -272,8 +284,7 @@ class WalkScene:
         q = arc(t)[: self.biped.n]
         if change is not None:
             q = np.concatenate((q[: len(change)] + change, q[len(change) :]))
-        x, z = self.foothold(i)
-        return joint_values(self.biped, q, arc.mode.step, x, z)
+        return joint_values(self.biped, q, arc.mode.step, *self.foot(i, t))
 
 
 class DrawnLoads(NamedTuple):
@@ -283,6 +294,10 @@ class DrawnLoads(NamedTuple):
     """(2,), F_T and F_N on the stance foot [N], along x and z of the world."""
     zeta: Array
     """(n,) external torque on the drawn joints of q1..qn [N m]."""
+    other: Array = np.zeros(2)
+    """(2,) of the ground on the other foot [N], where both touch soft ground."""
+    slips: bool = False
+    """Whether a foot slides with its force at the friction cone."""
 
 
 def loads(scene: WalkScene, t: float) -> DrawnLoads:
@@ -294,16 +309,29 @@ def loads(scene: WalkScene, t: float) -> DrawnLoads:
     arcs, at = scene.trajectory.arcs, scene.arc_at(t)
     arc, known = arcs[at], scene.recorded
     k = min(max(int(np.searchsorted(arc.t, t, side="right")) - 1, 0), len(arc.t) - 1)
-    if known is None:
+    other, slips = np.zeros(2), False
+    if FORCE in arc.read:
+        force, other = arc.read[FORCE][k, :2], arc.read[FORCE][k, 2:]
+        zeta, slips = arc.read["zeta"][k], bool(slipping(scene, arc)[k])
+    elif known is None:
         i = scene.walker.instant(float(arc.t[k]), arc.x[k], arc.mode)
         force, zeta = scene.walker.ground_reaction(i, arc.mode), i.zeta
     else:
         row = k + sum(len(before.t) for before in arcs[:at])
         force, zeta = known.ground_reaction[row], known.zeta[row]
     # with q drawn as R q, power zeta' q' is that of R^-T zeta, and R is its own inverse
-    return DrawnLoads(
-        force, scene.biped.R.T @ zeta if exchanged(scene.biped, arc.mode.step) else zeta
-    )
+    drawn = scene.biped.R.T @ zeta if exchanged(scene.biped, arc.mode.step) else zeta
+    return DrawnLoads(force, drawn, other, slips)
+
+
+def slipping(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
+    """Whether a foot slips at each node of an arc on soft ground (K,), as `soft.meters` counts it."""
+    mu = scene.trajectory.settings["plant"]["ground"]["friction"]
+    axes = np.array(ground_axes(scene.walker.slope))
+    F, v = (arc.read[name].reshape(-1, 2, 2) @ axes.T for name in (FORCE, SPEED))
+    at_cone = np.abs(F[..., 0]) >= AT_CONE * mu * F[..., 1]
+    slips = (F[..., 1] > CARRYING) & at_cone & (np.abs(v[..., 0]) > SLIP_SPEED)
+    return np.asarray(np.any(slips, axis=1))
 
 
 def check_frames(count: float) -> None:

@@ -174,6 +174,8 @@ class Footprints:
 class Forces:
     """The arrow of the ground reaction at the stance foot, and a ring around every joint that is pushed.
 
+    On soft ground an arrow at the other foot too where both carry, and the word where one slips.
+
     Scales: the robot's weight gives an arrow of `WEIGHT_LENGTH` [m], and rings are the same for all
     robots. order: number of the layer; arrows are in front of the links of the same walk.
     """
@@ -190,16 +192,19 @@ class Forces:
         """Draw the forces at t [s]; an arrow that would leave the picture is cut and says how large
         the force is [N].
         """
-        scene = self.view.scene
-        acting = loads(scene, t)
-        start = np.array(scene.foothold(scene.arc_at(t)))
-        force = self.view.metres_per_newton * acting.ground_reaction
-        drawn = cut(start, force, self.axes.get_xlim(), self.axes.get_ylim())
-        self.reaction.set_verts([arrow(start, drawn)])
-        whole = np.array_equal(drawn, force)
+        scene, scale = self.view.scene, self.view.metres_per_newton
+        acting, limits = loads(scene, t), (self.axes.get_xlim(), self.axes.get_ylim())
+        start, force = np.array(scene.foot(scene.arc_at(t), t)), scale * acting.ground_reaction
+        drawn = cut(start, force, *limits)
+        arrows = [arrow(start, drawn)]
+        if acting.other.any():
+            other = self.view.points(t)[2:]
+            arrows.append(arrow(other, cut(other, scale * acting.other, *limits)))
+        self.reaction.set_verts(arrows)
         size = float(np.hypot(*acting.ground_reaction))
         amount = f"{size:.3g} N" if math.isfinite(size) else "no finite force"
-        self.text.set_text("" if whole else f"{amount}, arrow cut")
+        said = "slips" if acting.slips else ""
+        self.text.set_text(said if np.array_equal(drawn, force) else f"{amount}, arrow cut")
         self.text.set_position((start[0] + 0.05, max(start[1] + 0.5 * drawn[1], start[1] + 0.05)))
         self.torques.set_verts(self._rings(t, acting.zeta))
 

@@ -166,7 +166,7 @@ class SideView:
         i = self.scene.arc_at(t)
         q = trajectory.arcs[i](t)[: biped.n]
         points = np.concatenate((biped.hip(q), biped.swing_foot(q)))
-        return points + np.tile(self.scene.foothold(i), 2)
+        return points + np.tile(self.scene.foot(i, t), 2)
 
     @cached_property
     def _about_foot(self) -> Array:

@@ -76,7 +76,7 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
     At the end of the arc it is the state before the impact: the arc after it has one of its own for
     that time.
     """
-    arc, biped, foothold = scene.trajectory.arcs[i], scene.biped, scene.foothold(i)
+    arc, biped, foothold = scene.trajectory.arcs[i], scene.biped, scene.foot(i, t)
     n, step = biped.n, arc.mode.step
     x = arc(t, "left" if t == arc.t[-1] else "right")
     q, v = x[:n], x[n : 2 * n]
@@ -90,7 +90,7 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
     return Pose(
         np.array([at[name] for name in moving]),
         np.array(rates),
-        np.concatenate(acting),
+        np.concatenate((acting.ground_reaction, acting.zeta)),
         points,
     )
 

@@ -1,0 +1,73 @@
+"""The error that a touchdown leaves and the error that a push causes, kept apart.
+
+    settling   t - start of the single support <= SETTLING
+    pushed     t - last time at which zeta != 0 <= AFTER, and not settling
+
+Contact that takes time moves the joints at every touchdown, whatever the controller. The largest error of a
+step is then often this transient, and hides what a push has done.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.types import Array
+
+SETTLING = 0.06
+"""How long after a touchdown an error is the transient of contact [s]."""
+AFTER = 0.05
+"""How long after its end a push counts as the cause of an error [s]."""
+SAME_INSTANT = 1e-9
+"""Times that differ by less are one [s]."""
+
+
+class ContactErrors(NamedTuple):
+    """Largest absolute errors and root mean squares over the joints [rad]; None of nothing."""
+
+    touchdown_error: float | None
+    """While contact settles, from the second single support on."""
+    pushed_error: float | None
+    """From the onset of a push to `AFTER` its end, where contact has settled."""
+    settled_error: float | None
+    """Where contact has settled."""
+    settled_rms: float | None
+    """Over time, where contact has settled."""
+
+
+def contact_errors(x: Signals) -> ContactErrors:
+    """The errors of a walk, at its nodes."""
+    since = x.t - starts(x)
+    settling = since <= SETTLING + SAME_INSTANT
+    pushed = since_pushed(x) <= AFTER + SAME_INSTANT
+    lasts = np.append(np.diff(x.t) > 0.0, False)
+    return ContactErrors(
+        _largest(x.error[settling & (x.step > x.step[0])]),
+        _largest(x.error[pushed & ~settling]),
+        _largest(x.error[~settling]),
+        _rms(x.error[lasts & ~settling]),
+    )
+
+
+def starts(x: Signals) -> Array:
+    """Start of the single support of each node (K,) [s]."""
+    _, first, places = np.unique(x.step, return_index=True, return_inverse=True)
+    begins: Array = x.t[first][places]
+    return begins
+
+
+def since_pushed(x: Signals) -> Array:
+    """Time since anything acted from outside (K,) [s]: 0 while it does, infinite before it ever has."""
+    times = np.where(np.any(x.zeta != 0.0, axis=1), x.t, -np.inf)
+    return x.t - np.maximum.accumulate(times)
+
+
+def _largest(error: Array) -> float | None:
+    return float(np.max(np.abs(error))) if error.size else None
+
+
+def _rms(error: Array) -> float | None:
+    return math.sqrt(float(np.mean(error**2))) if error.size else None

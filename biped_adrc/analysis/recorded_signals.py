@@ -1,0 +1,57 @@
+"""Signals of a walk on another plant, where motion and forces of the ground are recorded and not computed.
+
+    q'' by differences from tick to tick,   F of the ground as recorded,   xi = q_b'' - kappa u
+
+What the controller is given and does follows from the states as on the rigid plant. xi~ = D q'' + Omega - B_s u
+then holds all that the pinned model does not know: the touchdown's force, a foot that gives way.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from biped_adrc.closed_loop.feet import NAMES
+from biped_adrc.closed_loop.system import InstantSignals
+from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.model.reduction import disturbance_parts, unknown_force
+from biped_adrc.types import Array
+
+FORCE, PLACE, SPEED = NAMES
+"""What an arc has `read` of the feet, (K, 4) each."""
+
+
+def recorded(trajectory: Trajectory, name: str) -> Array | None:
+    """What was recorded of the feet at all K nodes of a walk (K, 4); None for a walk on the rigid plant."""
+    if any(name not in arc.read for arc in trajectory.arcs):
+        return None
+    return np.vstack([arc.read[name] for arc in trajectory.arcs])
+
+
+def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -> InstantSignals:
+    """The readings at all nodes with q'', ground force and xi of the plant that walked in place of the rigid
+    one's.
+
+    Forces from outside are added to that of the ground, as `InstantSignals` has it.
+    """
+    force = recorded(trajectory, FORCE)
+    if force is None:
+        return found
+    n, p, arcs = walker.plant.n, walker.plant.p, trajectory.arcs
+    x, a = (np.vstack([getattr(arc, name) for arc in arcs]) for name in ("x", "dx"))
+    a = a[:, n : 2 * n]
+    outside = [walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen]
+    rows = []
+    for x_k, a_k, u in zip(x, a, found.u, strict=True):
+        terms = walker.nominal.reduction(x_k[:n], x_k[n : 2 * n])
+        matched, unmatched = disturbance_parts(terms, unknown_force(terms, a_k, u))
+        rows.append((a_k[:p] - terms.kappa @ u, matched + unmatched, matched, terms.xi))
+    xi, external, matched, nominal = map(np.array, zip(*rows, strict=True))
+    return found._replace(
+        a=a,
+        xi=xi,
+        xi_external=external,
+        xi_matched=matched,
+        xi_nominal=nominal,
+        ground_reaction=force[:, :2] + np.array(outside),
+    )
