@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -304,6 +305,11 @@ def running(tmp_path, started):
             one.kill()
 
 
+def before_the_end_of_the_interpreter(err):
+    """What was printed until Python waited for its threads and handlers, where a late Ctrl-C is its own affair."""
+    return re.split(r"Exception ignored in(?: atexit callback|: <module 'threading')", err)[0]
+
+
 def test_ctrl_c_ends_all_processes_and_keeps_what_was_finished(running):
     process, path, below = running
     os.killpg(process.pid, signal.SIGINT)
@@ -324,10 +330,7 @@ def test_ctrl_c_twice_is_as_once(running):
         os.killpg(process.pid, signal.SIGINT)
         time.sleep(0.02)
     _, err = process.communicate(timeout=20)
-    ours, _, _ = err.partition(
-        "Exception ignored in atexit callback"
-    )  # of the interpreter's own end
-    assert ours.count("Traceback") == 1, err
+    assert before_the_end_of_the_interpreter(err).count("Traceback") == 1, err
     _, alive = psutil.wait_procs(below, 3)
     assert not alive
     with read_store(path) as store:
