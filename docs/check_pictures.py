@@ -20,6 +20,7 @@ from typing import NamedTuple
 
 import make_maps
 import make_pictures
+import make_soft_pictures
 import write_comparison
 import write_critical_phase
 import write_results
@@ -71,6 +72,16 @@ def pictures(out: Path, docs: Path = DOCS) -> list[Picture]:
             )
             for n in make_maps.PICTURES
         ),
+    ]
+
+
+def soft() -> list[Picture]:
+    """The pictures of walks on soft ground, which are walked again."""
+    folder, command = make_soft_pictures.FOLDER, "python docs/make_soft_pictures.py"
+    suffix = {"walk": ".gif"}
+    return [
+        Picture(folder / f"{n}{suffix.get(n, '.svg')}", command, lambda _, found=found: found)
+        for n, found in make_soft_pictures.numbers().items()
     ]
 
 
@@ -131,7 +142,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path, help="folder of 'biped-adrc reproduce'")
     try:
-        shown = [*pictures(parser.parse_args().out), *kept()]
+        shown = [*pictures(parser.parse_args().out), *soft(), *kept()]
         folders = dict.fromkeys(picture.path.parent for picture in shown)
         lines = complaints(shown) + without_numbers(folders, shown)
     except (BipedError, OSError) as error:

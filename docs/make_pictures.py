@@ -62,12 +62,12 @@ def zero_picture() -> Figure:
 def numbers(walks: Walks) -> dict[str, Numbers]:
     """What the pictures show, by name."""
     drawn = {name: numbers_of(figure) for name, figure in figures(walks).items()}
-    return {"walk": animated(walks), **drawn}
+    return {"walk": animated(walks, part(walks), MOTION), **drawn}
 
 
-def animated(walks: Walks) -> Numbers:
-    """What the animation shows: its part and speed; error, hip and push over time."""
-    start, stop = part(walks)
+def animated(walks: Walks, part: tuple[float, float], motion: Motion) -> Numbers:
+    """What an animation shows: its part [s] and speed; error, hip and push over time."""
+    start, stop = part
     times = start + np.array(SHARES) * (stop - start)
     error, hip, push = {}, {}, {}
     for name, walk in walks.items():
@@ -78,9 +78,9 @@ def animated(walks: Walks) -> Numbers:
         error[name] = {"y": rounded([sizes.min(), sizes.max()]), "samples": rounded(found)}
         hip[name] = rounded([view.points(float(t))[:2] for t in times])
         push[name] = rounded(np.max(np.abs(s.zeta[rows]), axis=0))
-    shown = {"start": start, "stop": stop, "magnified": MOTION.magnify, "slower": MOTION.slower}
+    shown = {"start": start, "stop": stop, "magnified": motion.magnify, "slower": motion.slower}
     return {
-        "clip": {**shown, "frames per second": MOTION.fps, "width": MOTION.width},
+        "clip": {**shown, "frames per second": motion.fps, "width": motion.width},
         "largest error [rad]": {"lines": error},
         "hip, x and z [m]": hip,
         "largest push on each joint [N m]": push,

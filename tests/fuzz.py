@@ -255,6 +255,7 @@ LINES = (
     "gait design --speed 0.6",
     "observer",
     "robot show rabbit",
+    "robot export rabbit --mjcf a.xml",
     "robot check a.urdf",
     "robot new a.urdf -o own",
     "plot a.npz",

@@ -170,6 +170,13 @@ SIMULATE = {
     "reset": Row("--reset measured", scenario_field("reset"), "measured"),
     "friction": Row("--friction", scenario_field("friction"), True),
     "slope": Row("--slope 0.02", scenario_field("slope"), 0.02),
+    "plant": Row("--plant mujoco", scenario_field("plant"), "mujoco"),
+    "ground_friction": Row(
+        "--plant mujoco --ground-friction 0.7", scenario_field("ground_friction"), 0.7
+    ),
+    "time_constant": Row(
+        "--plant mujoco --time-constant 0.004", scenario_field("time_constant"), 0.004
+    ),
     "method": Row("--method stiff", scenario_field("method"), "stiff"),
     "engine": Row("--engine pinocchio", scenario_field("engine"), "pinocchio"),
     "friction_limit": Row("--friction-limit 0.4", same("limits.friction"), 0.4),
@@ -275,6 +282,7 @@ COMPARE = {
     "conditions": Row("--conditions nothing", same("conditions"), ("nothing",)),
     "seeds": Row("--seeds 4", same("seeds"), 4),
     "pushes": Row("--no-pushes", same("pushes"), False),
+    "plant": Row("--plant mujoco", same("plant"), "mujoco"),
 }
 SWEEP_FILE = """
 [study]
@@ -381,6 +389,27 @@ def saved(words: str, stub: str) -> dict[str, tuple[str, str]]:
     return {"cli.gait:_save": (words, stub)}
 
 
+def ground(name: str) -> Callable[[Any], object]:
+    """A value of the ground that the robot stands on."""
+    return lambda a: getattr(a.plant.ground, name)
+
+
+def stiffness(a: Any) -> tuple[float, float]:
+    """Time constant of the ground, and the step of the engine, which follows it."""
+    return a.plant.ground.time_constant, a.plant.h
+
+
+MJCF = {
+    "robot": Row("", lambda a: a.plant.biped.description.name, "three_link"),
+    "mjcf": Row("", same("path"), Path("a.xml")),
+    "preset": Row("--preset tac2003", lambda a: a.plant.biped.preset, "tac2003", "soft.mjcf:mjcf"),
+    "joint_friction": Row("--joint-friction", lambda a: a.plant.biped.friction, True),
+    "friction": Row("--friction 0.3", ground("friction"), 0.3),
+    "time_constant": Row("--time-constant 0.001", stiffness, (1e-3, 1e-4)),
+    "foot_radius": Row("--foot-radius 0.002", ground("foot_radius"), 2e-3),
+    "slope": Row("--slope 0.05", lambda a: a.plant.slope, 0.05),
+    "gait": Row("--gait v0.7", lambda a: a.gait and a.gait.name, "v0.7", "soft.mjcf:mjcf"),
+}  # fmt: skip
 COMMANDS = {
     "simulate": Command("simulate", "cli.walk:_walk", SIMULATE),
     "poincare": Command(
@@ -407,6 +436,10 @@ COMMANDS = {
     ),
     "robot check": Command("robot check own.urdf", DERIVE, HINTS),
     "robot new": Command("robot new own.urdf -o folder", DERIVE, HINTS),
+    "robot export": Command(
+        "robot export three_link --mjcf a.xml", "soft.mjcf:write_mjcf", MJCF,
+        others={"soft.mjcf:mjcf": ("robot export rabbit --mjcf a.xml", "")},
+    ),
     "robot show": Command("robot show rabbit", "model.biped:Biped.load", {}),
     "observer": Command(
         "observer", "observer_design.observer_report:observer_report", OBSERVER,

@@ -81,6 +81,8 @@ def contents(folder: Path) -> dict[Path, bytes]:
         ("plot run.npz -o run.npz", ["run.npz", ".png or .svg"]),
         ("gait zero keep.json --plot keep.json", ["keep.json", ".png or .svg"]),
         ("observer -o keep.json", ["keep.json", ".png or .svg"]),
+        ("robot export own/robot.toml --mjcf own/robot.toml", ["robot.toml", ".xml"]),
+        ("robot export own/own.xml --mjcf own/own.xml", ["own/own.xml"]),
         ("robot new own/floating.urdf -o own", ["own/floating.urdf", "exists already"]),
         ("sweep keep.json --out keep.json", ["keep.json"]),
         ("compare --out keep.json", ["keep.json"]),

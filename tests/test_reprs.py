@@ -86,6 +86,7 @@ def things(biped, gait):
             ba.SampledTime(1e-3),
             ba.Motors(),
             ba.Sensors(counts=4096),
+            *(ba.Told(), ba.ByForce(), ba.ByKinematics()),
             ba.ModelErrors(),
             ba.Limits(),
         ),
@@ -93,7 +94,8 @@ def things(biped, gait):
     ]
     soft = ba.MuJoCoPlant(biped, ba.SoftGround())
     period = ba.SampledTime(1e-3)
-    found += [soft, soft.ground, ba.SteppingLoop(soft, npd, biped, period), ba.RunOptions(1.0)]
+    loops = [kind(soft, npd, biped, period) for kind in (ba.SteppingLoop, ba.CompiledLoop)]
+    found += [soft, soft.ground, *loops, ba.RunOptions(1.0)]
     record = ba.GaitRecord(
         "paper", h.curve.coefficients, h.theta_plus, h.theta_minus, phase=h.phase
     )
@@ -125,7 +127,7 @@ def test_no_public_class_is_left_out(things):
     seen = {type(thing).__name__ for thing in things}
     classes = {name for name in ba.__all__ if inspect.isclass(getattr(ba, name))}
     bases = {"Controller", "Disturbance", "Observer", "Outputs", "Reference"}
-    bases |= {"ObservingController", "WindowedTorque"}
+    bases |= {"ObservingController", "WindowedTorque", "Touchdown"}
     assert classes - bases - ELSEWHERE <= seen
     assert all(
         issubclass(getattr(ba, name), Shown) for name in ("Arm", "ArmSystem", "DesignedGait")

@@ -46,6 +46,64 @@ def written(tmp_path, text):
     return path
 
 
+TWO_SETS = """
+[study]
+name = "pushes"
+[fixed]
+amplitude = "30 N m"
+push = "pulse"
+[grid]
+gait = ["published", "v0.5"]
+[[cases]]
+name = "NPD"
+controller = "NPD"
+[[cases]]
+name = "ADRC"
+[[conditions]]
+name = "none"
+push = "none"
+amplitude = 0
+[[conditions]]
+name = "paper"
+onset = 0.1
+"""
+
+
+def test_conditions_are_crossed_with_cases(tmp_path):
+    study = load_study(written(tmp_path, TWO_SETS))
+    points = list(study.points())
+    assert study.varied == ("case", "condition", "gait")
+    assert [study.levels(name) for name in study.varied] == [2, 2, 2]
+    assert len(points) == study.count == 8
+    at = {(p.at["case"], p.at["condition"]): p.record for p in points if p.at["gait"] == "v0.5"}
+    assert len(at) == 4
+    assert "push" not in at["NPD", "none"]
+    assert at["NPD", "paper"]["controller"] == "NPD"
+    assert at["ADRC", "paper"]["onset"] == 0.1
+    assert Study.model_validate(study.configuration()) == study
+
+
+def test_a_study_without_conditions_has_the_hash_that_it_had(tmp_path):
+    study = load_study(written(tmp_path, TWO_SETS.partition("[[conditions]]")[0]))
+    assert study.hash == "40bcef94fffe2483b64d374cee8ccada"
+    assert study.hash != load_study(written(tmp_path, TWO_SETS)).hash
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (TWO_SETS.replace("onset = 0.1", 'controller = "PD"'), "conditions.2..controller.*cases.1"),
+        (TWO_SETS.replace("onset = 0.1", 'gait = "v0.5"'), "conditions.2..gait.*'grid'"),
+        (TWO_SETS.replace("onset = 0.1", "onset = -1"), "conditions.2..onset"),
+        (TWO_SETS.replace('"paper"', '"none"'), "conditions: have the names"),
+        (TWO_SETS.replace("amplitude = 0", ""), "'condition': 'none'.*without a push"),
+    ],
+)
+def test_a_condition_that_does_not_fit_is_named(tmp_path, text, said):
+    with pytest.raises(InputError, match=said):
+        load_study(written(tmp_path, text))
+
+
 def test_points_are_all_combinations_in_si_units(tmp_path):
     study = load_study(written(tmp_path, STUDY))
     points = list(study.points())
