@@ -306,7 +306,7 @@ def running(tmp_path, started):
 
 
 def before_the_end_of_the_interpreter(err):
-    """What was printed until Python waited for its threads and handlers, where a late Ctrl-C is its own affair."""
+    """What was printed until Python waited for its threads, where a late Ctrl-C is its own affair."""
     return re.split(r"Exception ignored in(?: atexit callback|: <module 'threading')", err)[0]
 
 
