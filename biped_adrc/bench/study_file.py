@@ -1,6 +1,6 @@
 """A study read from a TOML file, and checked as a whole: every mistake is reported in one error.
 
-    [study]            name, description, seeds (a number of them, or a list)
+    [study]            name, description, seeds (a number of them, or a list), scenario (a file)
     [fixed]            parameters of every trial
     [grid]             p = [..] or p = {from, to, count, scale = "linear" | "log"}: all combinations
     [random], [sobol]  count, seed, p = {from, to, scale}: samples, of all p together
@@ -40,7 +40,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 from biped_adrc.bench.parameters import Refused, Value, check_name, read, trial
 from biped_adrc.bench.study import (
@@ -55,6 +55,7 @@ from biped_adrc.bench.study import (
 from biped_adrc.bench.table_reader import (
     MOST,
     TableReader,
+    read_base,
     read_range,
     read_seeds,
     read_sets,
@@ -91,8 +92,9 @@ def read_study(tables: Mapping[str, object], where: str = "the study") -> Study:
         r.known(table, TABLES, "")
     head = r.table(tables, "study")
     for key in head:
-        r.known(key, ("name", "description", "seeds"), "study.")
-    made = {
+        r.known(key, ("name", "description", "seeds", "scenario"), "study.")
+    base = read_base(r, head)
+    made: dict[str, Any] = {
         "fixed": r.each(r.table(tables, "fixed"), "fixed.", read),
         "grid": r.each(r.table(tables, "grid"), "grid.", _levels),
         "draw": _draw(r, tables),
@@ -102,6 +104,8 @@ def read_study(tables: Mapping[str, object], where: str = "the study") -> Study:
         **{name: read_sets(r, name, tables.get(name, [])) for name in SETS},
     }
     r.check(where)
+    varied = Study.model_validate(made).varied
+    made["fixed"] = {k: x for k, x in base.items() if k not in varied} | made["fixed"]
     study = Study.model_validate(made)
     _check_together(r, study)
     r.check(where)

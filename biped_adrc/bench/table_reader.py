@@ -15,7 +15,16 @@ from typing import TypeVar
 
 from pydantic import ValidationError
 
-from biped_adrc.bench.parameters import Refused, check_name, flat, is_number, is_whole, read
+from biped_adrc.bench.parameters import (
+    Refused,
+    Value,
+    check_name,
+    flat,
+    is_number,
+    is_whole,
+    read,
+)
+from biped_adrc.bench.scenario_file import read_scenario
 from biped_adrc.bench.study import Named, Range
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.scenario import MOST_SEED
@@ -110,6 +119,17 @@ class TableReader:
             raise InputError(
                 "\n  ".join([f"{where} has {len(self.problems)} problems:", *self.problems])
             )
+
+
+def read_base(r: TableReader, head: Mapping[str, object]) -> dict[str, Value]:
+    """The values of the scenario file that [study] names, over which other values go; empty without one."""
+    if "scenario" not in head:
+        return {}
+    try:
+        return read_scenario(Path(r.text(head, "scenario", "study.")))
+    except InputError as error:
+        r.wrong("study.scenario", error)
+        return {}
 
 
 def read_range(name: str, given: object, keys: tuple[str, ...]) -> Range:

@@ -21,11 +21,11 @@ from pydantic import ValidationError
 
 from biped_adrc.bench.parameters import Refused, Value, check_name, read
 from biped_adrc.bench.run import COLUMNS, WORDS
-from biped_adrc.bench.scenario_file import read_scenario
 from biped_adrc.bench.study import SEED, Range
 from biped_adrc.bench.table_reader import (
     MOST,
     TableReader,
+    read_base,
     read_range,
     read_seeds,
     read_sets,
@@ -86,7 +86,7 @@ def read_tuning(
         "generation": r.natural(head, "generation", "study.", 1),
         "seed": r.natural(head, "seed", "study.", 0),
         "finalists": r.natural({"finalists": FINALISTS, **head}, "finalists", "study.", 1),
-        "fixed": _scenario(r, head) | r.each(r.table(tables, "fixed"), "fixed.", read),
+        "fixed": read_base(r, head) | r.each(r.table(tables, "fixed"), "fixed.", read),
         "variables": r.each(r.table(tables, "variables"), "variables.", _variable),
         "objectives": _measures(r, tables, "objectives", Objective),
         "limits": _measures(r, tables, "limits", Limit),
@@ -100,17 +100,6 @@ def read_tuning(
     _check_together(r, study, walk_columns() if columns is None else columns)
     r.check(where)
     return study
-
-
-def _scenario(r: TableReader, head: Mapping[str, object]) -> dict[str, Value]:
-    """The values of the scenario file that [study] names, over which [fixed] goes; empty without one."""
-    if "scenario" not in head:
-        return {}
-    try:
-        return read_scenario(Path(r.text(head, "scenario", "study.")))
-    except InputError as error:
-        r.wrong("study.scenario", error)
-        return {}
 
 
 def _variable(name: str, given: object) -> Variable:

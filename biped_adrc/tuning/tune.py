@@ -166,13 +166,15 @@ def rehearse(study: TuningStudy) -> None:
     """Build the walkers of settings that stand for all, without walking them.
 
     These are the as-published setting under each condition, and under the first condition of the training set
-    each end and choice of every variable, with the others in the middle. Raises InputError with the place.
+    the middle of all variables, and each end and choice of each with the others in the middle.
+    Raises InputError with the place.
     """
     for kind in SETS:
         for one in study.walks(kind).named:
             _build(study, {**study.values({}), **one.values}, f"{kind} set, condition '{one.name}'")
     condition = study.training.named[0].values
     middle = {name: v.middle for name, v in study.variables.items()}
+    _build(study, {**study.values(middle), **condition}, "all variables in the middle")
     for name, variable in study.variables.items():
         for x in variable.ends:
             values = study.values(middle | {name: x})
