@@ -111,5 +111,6 @@ from biped_adrc.studies.gait_design import GaitLibrary as GaitLibrary
 from biped_adrc.studies.gait_design import design_gait as design_gait
 from biped_adrc.timing import ContinuousTime as ContinuousTime
 from biped_adrc.timing import SampledTime as SampledTime
+from biped_adrc.tuning.tune import tune as tune
 
 __version__: str
