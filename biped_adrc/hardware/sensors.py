@@ -149,8 +149,8 @@ class Sensors(Shown, Sensor):
         return seeded(self.seed) if self.noisy else np.zeros(0)
 
     def smooth(self) -> Sensors:
-        exact = {"noise": 0.0, "pitch_noise": 0.0, "rate_noise": 0.0}
-        return replace(self, counts=None, pitch_resolution=None, **exact)
+        exact = replace(self, noise=0.0, pitch_noise=0.0, rate_noise=0.0)
+        return replace(exact, counts=None, pitch_resolution=None)
 
     def errors(self, n: int, p: int, before: Array) -> Array:
         k = self.parameters(n, p, 1.0)

@@ -17,7 +17,7 @@ which is mu itself for up to three motors, and on the safe side beyond.
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import schur
+from scipy.linalg import matrix_balance, schur
 from scipy.optimize import minimize
 
 from biped_adrc.errors import InputError
@@ -33,20 +33,23 @@ singular values meet, sigma_max has no gradient."""
 def response(M: Array, B: Array, C: Array, D: Array, angles: Array) -> ComplexArray:
     """C (z - M)^-1 B + D (F, k, p) at z = exp(i angle), angles (F,) [rad] a sample.
 
-    M (s, s) is brought to its triangular form once, and all frequencies are solved for at once.
+    M (s, s) is balanced, since its states have units far apart, and brought to its triangular form once; then
+    all frequencies are solved for at once.
     """
-    T, U = schur(M, output="complex")
-    z, b, c = np.exp(1j * np.asarray(angles)), U.conj().T @ B, C @ U
+    balanced, (scale, _) = matrix_balance(M, permute=False, separate=True)
+    T, U = schur(balanced, output="complex")
+    z: ComplexArray = np.exp(1j * np.asarray(angles))
+    b, c = U.conj().T @ (B.T / scale).T, (C * scale) @ U
     X = np.zeros((len(M), len(z), B.shape[1]), dtype=complex)
     for i in range(len(M) - 1, -1, -1):
         rest = b[i] + np.tensordot(T[i, i + 1 :], X[i + 1 :], 1)
         X[i] = rest / (z - T[i, i])[:, np.newaxis]
-    found: ComplexArray = np.tensordot(X, c, (0, 1)).transpose(0, 2, 1) + D
-    return found
+    found = np.tensordot(X, c, (0, 1)).transpose(0, 2, 1) + D
+    return np.asarray(found, dtype=complex)
 
 
 def balanced_bound(M: ComplexArray) -> Array:
-    """Upper bounds of mu (F,) of matrices M (F, p, p), by Osborne's scaling, which is quick but not the least."""
+    """Upper bounds of mu (F,) of matrices M (F, p, p), by Osborne's scaling: quick, not the least ones."""
     a = np.abs(M) ** 2
     p = M.shape[-1]
     for i in [*range(p)] * BALANCED:

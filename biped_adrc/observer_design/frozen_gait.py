@@ -78,11 +78,11 @@ class FrozenGait(Shown):
         time = np.cumsum(orbit.time_weights) - 0.5 * orbit.time_weights
         robots = tuple(_robots(plant, spread))
         nodes = [int(np.argmin(np.abs(time - phase * orbit.period))) for phase in phases]
-        points = (
-            _point(robots, float(time[k]), orbit.q[k], orbit.v[k], orbit.a[k]) for k in nodes
-        )
+        points = (_point(robots, float(time[k]), orbit.q[k], orbit.v[k], orbit.a[k]) for k in nodes)
         height = float(plant.hip(orbit.q[nodes[0]])[1])
-        return cls(gait, tuple(points), orbit.period, float(np.sqrt(plant.description.gravity / height)))
+        return cls(
+            gait, tuple(points), orbit.period, float(np.sqrt(plant.description.gravity / height))
+        )
 
 
 def _robots(plant: Biped, spread: float) -> Iterator[Biped]:

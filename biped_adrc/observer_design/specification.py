@@ -66,6 +66,8 @@ class Specification(Shown):
     """By phase, then by robot; the first robot is the plant."""
     shares: tuple[float, ...]
     """Of the phases: time since the step began, over that of a step [1]."""
+    period: float
+    """Of the gait: time of a step [s]."""
     errors: Array
     """Standard deviations (2 n,) [rad, rad/s] of the sensors' errors of (q, q')."""
 
@@ -147,10 +149,14 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
     T, delay, slow = twin.timing.period, twin.timing.delay, OWN * gait.falling
     lag = 0.0 if walker.motors is None else walker.motors.lag
     loops = tuple(
-        tuple(WalkerLoop(tick, *robot, T, delay, lag, slow) for robot in zip(at.A, at.B, strict=True))
+        tuple(
+            WalkerLoop(tick, *robot, T, delay, lag, slow) for robot in zip(at.A, at.B, strict=True)
+        )
         for tick, at in zip(tick_matrices(twin, gait.points), gait.points, strict=True)
     )
     n, exact = walker.plant.n, np.zeros(2 * walker.plant.n)
     sensors = walker.sensors
     errors = exact if sensors is None else sensors.errors(n, walker.plant.p, exact)
-    return Specification(loops, tuple(at.t / gait.period for at in gait.points), errors)
+    return Specification(
+        loops, tuple(at.t / gait.period for at in gait.points), gait.period, errors
+    )

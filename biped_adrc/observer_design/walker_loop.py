@@ -86,7 +86,10 @@ def linear_twin(walker: Walker) -> Walker:
     return replace(
         walker,
         sensors=None if walker.sensors is None else walker.sensors.smooth(),
-        **dict.fromkeys(("torque_limit", "motors", "meter", "disturbance")),
+        torque_limit=None,
+        motors=None,
+        meter=None,
+        disturbance=None,
     )
 
 
@@ -97,7 +100,7 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> list[TickMatri
     n, T, sizes, mode = twin.plant.n, twin.timing.period, twin.held.sizes, Mode()
     found, ticked = [], None
     for point in points:
-        x, J = twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode), None
+        x, J = twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode), np.zeros((0, 0))
         ticked = ticked or tick_derivative(twin, len(x))
         for before in range(TICKS_BEFORE, -1, -1):
             x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v
@@ -205,7 +208,8 @@ class WalkerLoop:
 
     def _rates(self, values: ComplexArray) -> ComplexArray:
         """log(lambda) / T [1/s] of eigenvalues; very negative for those that are gone within a period."""
-        return np.log(np.where(np.abs(values) > TINY, values, TINY)) / self.period
+        kept = np.where(np.abs(values) > TINY, values, TINY)
+        return np.asarray(np.log(kept) / self.period, dtype=complex)
 
     def delay_margin(self, most: float) -> float:
         """The smallest hidden delay [s] with which a mode grows, `most` [s] where none up to it does.
