@@ -187,6 +187,7 @@ def test_a_hidden_delay_is_as_one_of_the_clock_that_the_controller_does_not_know
     assert loop.growth(1.7e-3) == pytest.approx(later.growth(), rel=1e-6)
     margin = loop.delay_margin(0.05)
     assert loop.growth(0.999 * margin) < 0.0 < loop.growth(1.001 * margin)
+    assert loop.delay_margin(0.5 * margin) == 0.5 * margin  # looked for up to there
 
 
 def test_what_nothing_depends_on_is_left_out(walks):
