@@ -1,9 +1,10 @@
 """What is counted in a walk, as columns of a row: of the meter of a rigid walk, of the signals of a soft one.
 
-On the rigid plant the meter counts at sample instants while the robot walks (`hardware.meter`), so that nothing
-is stored. On another plant the row is read off the signals, which are recorded from tick to tick. There a
-friction is what the ground gave, so it is never above that of the ground; what a walk asked in vain is in
-`slip`, `flight` and how it ended; and impulses of an impact are not told apart from the forces after it.
+On the rigid plant the meter counts at sample instants while the robot walks (`hardware.meter`), so that a
+trajectory is stored only where touchdowns have to be noticed. On another plant the row is read off the signals,
+which are recorded from tick to tick. There a friction is what the ground gave, so it is never above that of the
+ground; what a walk asked in vain is in `slip`, `flight` and how it ended; and impulses of an impact are not
+told apart from the forces after it.
 
 A number may be infinite or NaN here; `bench.run` leaves out what is not finite.
 """
@@ -79,7 +80,7 @@ def _broken(made: Case, g: Reading) -> dict[str, bool]:
 
 
 def by_signals(made: Walk) -> WalkRow:
-    """The same of the signals of a walk, and what its feet did on the ground."""
+    """The same of the signals of a walk, and what its feet did and when touchdowns were noticed."""
     x, found = made.signals, made.legality
     ticks = np.flatnonzero(np.diff(x.t) > 0.0)
     u, turned = x.u[ticks], np.diff(x.q[:, : x.u.shape[1]], axis=0)[ticks]
@@ -95,6 +96,7 @@ def by_signals(made: Walk) -> WalkRow:
         "peak_unmatched": _largest(x.xi_unmatched),
         **contact_errors(x)._asdict(),
         **_on_the_ground(made),
+        **({} if made.walker.touchdown is None else made.touchdowns.rates._asdict()),
         **_judged(found.status, not any(broken.values()), found.legal_impacts, broken),
         **{name: getattr(found, name) for name in OF_LEGALITY},
     }

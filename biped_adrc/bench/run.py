@@ -17,6 +17,7 @@ from threading import Lock
 import numpy as np
 
 from biped_adrc.analysis.legality import outcome_of
+from biped_adrc.analysis.touchdowns import touchdowns
 from biped_adrc.bench.build import case, scene_of
 from biped_adrc.bench.counted import WalkRow, by_meter, by_signals
 from biped_adrc.bench.parameters import trial
@@ -83,6 +84,8 @@ def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
     row = ended(s, made, walked)
     if len(walked.final_state) > 2 * made.walker.plant.n + made.walker.behind - 1:
         row |= _with_cost(made, row, by_meter(made, walked))
+    if walked.trajectory is not None:
+        row |= touchdowns(made.walker, walked.trajectory).rates._asdict()
     return row
 
 
