@@ -105,7 +105,9 @@ def test_the_whole_page_is_written_from_a_summary(script):
     fresh = {name: summary[name] for name in ("command", "columns")}
     walked = [{"rows": [list(row.values()) for row in those]} for those in (rows, study("hold"))]
     text = page.page(summary | walked[0], fresh | walked[1])
-    assert "`sweep` walks 24 others: friction\n0.4, 1, and 1 fresh draws" in text
+    assert "walks 24 others: friction 0.4, 1, no push, the paper's and 1 fresh draws" in " ".join(
+        text.split()
+    )
     assert "24 walks of RABBIT" in text
     assert (
         "NPD makes all steps in 12 of 12 cells, in 12 without slip. In 0 cells nobody walks."
@@ -144,11 +146,13 @@ def test_shares_on_cells_that_chose_nothing_are_beside_those_of_the_study(script
     rows, fresh = study("hold"), study("hold", 0.3, 1.2, [(0.4, 2e-3)])
     _, told, table = section.held_out(rows, fresh, "sweep")
     assert "The goal is met there by no case." in told
+    assert "without slip in 12 of 12 cells (12 of 12 cells in the study)" in " ".join(told.split())
+    assert "is one of 2 pushes" in told
     assert "The goal is met there by hold." in section.held_out(fresh, rows, "sweep")[1]
     assert section.beside("hold", rows, fresh) == [
-        *("hold", "8 of 8 (100 %)", "0 of 8 (0 %)"),
+        *("hold", "8 of 8 (100 %)", "0 of 8 (0 %)", "4 of 4 (100 %)", "0 of 4 (0 %)"),
         *("12 of 12 (100 %; largest 1)", "0 of 12 (0 %; largest 1.2)"),
         *("12 of 12", "9 of 12"),
     ]
-    assert table.splitlines()[0].count("held out") == 3
+    assert table.splitlines()[0].count("held out") == 4
     assert "| NPD |" not in table

@@ -11,7 +11,7 @@ The observer begins anew at the start of each walk, so that (q, q') at the secti
 policy that holds it makes it begin anew after every touchdown too. Two parts, rows of which are kept in
 OUT/soft_multipliers.jsonl, from where an interrupted run goes on. About 10 minutes.
 
-    study      ground and motors of docs/soft_walk.md, at two sampling periods and two sizes of the distance
+    study      ground of docs/soft_walk.md, at two sampling periods and two sizes of the distance
     path       the path of limit.py, from soft to stiff
 """
 
@@ -61,6 +61,8 @@ PITCH = 4
 """The coordinate that follows from Theta on the section."""
 PAIRS, PLACEBO = 40, 20
 SEED = 17_002
+TORQUE = 150.0
+"""Of every motor [N m]: without a limit the torque that takes 50 mrad/s away lifts the stance foot."""
 REACH = 0.8
 """Longest time [s] of a walk to its section."""
 Walked = tuple[ba.CompiledLoop, Arc]
@@ -120,15 +122,14 @@ def cycle(point: Row) -> tuple[ba.CompiledLoop, Arc | None, float]:
     walk that does not make its steps.
     """
     biped, gait, _ = limit.walker()
-    along = "time_constant" in point
-    ground = limit.ground_at(point) if along else ba.SoftGround()
+    ground = limit.ground_at(point) if "time_constant" in point else ba.SoftGround()
     plant = ba.MuJoCoPlant(biped, ground, h=point.get("h", 2e-4))
     loop = ba.CompiledLoop(
         plant,
         controlled(point["controller"], point["period"]),
         biped,
         ba.SampledTime(point["period"]),
-        torque_limit=None if along else 150.0,
+        torque_limit=TORQUE,
     )
     x0 = loop.initial_state(*gait.start(biped))
     run = loop.run(x0, ba.RunOptions(1.0 * STEPS, stop_after=(FOOT_STRIKE, STEPS)))
