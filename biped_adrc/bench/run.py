@@ -3,7 +3,7 @@
 Nothing raises: values that do not fit give a row with the status REFUSED, a controller that raises one with
 RAISED, so that one bad trial of a study spoils no other. A number that does not exist is None and never NaN,
 which JSON and SQL do not have. What is reported is counted during the walk at sample instants by the meter
-(`hardware.meter`), so that no trajectory has to be stored.
+(`hardware.meter`), so that a trajectory is stored only where touchdowns have to be noticed.
 
 `run_trials` is the function that `sweep` and the comparison hand to `campaign.execute`; it runs in worker
 processes or threads. The meaning of the columns is in columns.toml.
@@ -18,6 +18,7 @@ from threading import Lock
 import numpy as np
 
 from biped_adrc.analysis.legality import outcome_of
+from biped_adrc.analysis.touchdowns import touchdowns
 from biped_adrc.bench.build import case, scene_of
 from biped_adrc.bench.parameters import trial
 from biped_adrc.bench.soft_row import counted, soft_walk
@@ -88,6 +89,8 @@ def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
     row = ended(s, made, walked)
     if len(walked.final_state) > 2 * made.walker.plant.n + made.walker.behind - 1:
         row |= _meter(made, walked, row)
+    if walked.trajectory is not None:
+        row |= touchdowns(made.walker, walked.trajectory).rates._asdict()
     return row
 
 

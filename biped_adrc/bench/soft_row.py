@@ -44,7 +44,7 @@ def soft_walk(s: Scenario) -> tuple[Walk, BatchWalk]:
 
 
 def counted(made: Walk, distance: float) -> SoftRow:
-    """Errors, torques, work and legality of a walk; distance [m]."""
+    """Errors, torques, work, legality and touchdowns of a walk; distance [m]."""
     x = made.signals
     ticks = np.flatnonzero(np.diff(x.t) > 0.0)
     moved = np.abs(np.diff(x.q[:, : x.u.shape[1]], axis=0))[ticks]
@@ -63,6 +63,7 @@ def counted(made: Walk, distance: float) -> SoftRow:
         "cost_of_transport": work / (weight * distance) if distance > 0.0 else None,
         **contact_errors(x)._asdict(),
         **_on_the_ground(made),
+        **({} if made.walker.touchdown is None else made.touchdowns.rates._asdict()),
         **_legality(made.legality, x),
     }
 

@@ -190,6 +190,12 @@ def test_late_early_missed_and_false_by_what_comes_first(struck, notices, late, 
     assert (found.false.tolist(), found.waits) == (false, waits)
     decided = late[: len(late) - waits]
     assert found.missed == (np.mean(np.isnan(decided)) if decided else 0.0)
+    behind = [x for x in late if x >= 0.0]
+    expected = (np.mean(behind), max(behind)) if behind else (None, None)
+    assert found.rates[:2] == pytest.approx(expected)
+    assert found.rates.missed_share == (found.missed if decided else None)
+    assert found.rates.early_share == (found.early if decided else None)
+    assert found.rates.false_notices == len(false)
 
 
 def test_lateness_is_reported_and_is_what_was_asked_for(biped, gait):
