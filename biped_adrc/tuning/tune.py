@@ -166,8 +166,8 @@ def rehearse(study: TuningStudy) -> None:
     """Build the walkers of settings that stand for all, without walking them.
 
     These are the as-published setting under each condition, and under the first condition of the training set
-    the middle of all variables, and each end and choice of each with the others in the middle.
-    Raises InputError with the place.
+    the middle of all variables, and each choice with the others in the middle. Corners of ranges may be
+    refused, as gains that do not go together are: their walks rank worst. Raises InputError with the place.
     """
     for kind in SETS:
         for one in study.walks(kind).named:
@@ -176,7 +176,7 @@ def rehearse(study: TuningStudy) -> None:
     middle = {name: v.middle for name, v in study.variables.items()}
     _build(study, {**study.values(middle), **condition}, "all variables in the middle")
     for name, variable in study.variables.items():
-        for x in variable.ends:
+        for x in variable.choices:
             values = study.values(middle | {name: x})
             _build(study, {**values, **condition}, f"variable {name} = {x}")
 

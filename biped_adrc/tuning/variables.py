@@ -36,14 +36,6 @@ class Variable(Part):
     """By name of another value: those of its values with which this variable has an effect. Empty: always."""
 
     @property
-    def ends(self) -> tuple[Value, ...]:
-        """The choices, or the two ends of the range."""
-        r = self.range
-        if r is None:
-            return self.choices
-        return (int(r.low), int(r.high)) if r.whole else (r.low, r.high)
-
-    @property
     def middle(self) -> Value:
         """A value for where the variable is idle: the first choice, or the middle of the range."""
         return self.choices[0] if self.range is None else self.range.at(0.5)
