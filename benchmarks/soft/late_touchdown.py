@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 import biped_adrc as ba
-from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.engine.simulate import run_compiled
 from biped_adrc.hybrid.simulator import RunOptions

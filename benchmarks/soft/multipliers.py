@@ -34,7 +34,7 @@ from soft.noisy_map import Pairs, fitted, magnitudes, multipliers
 from soft.rows import Row, found, markdown, write_between
 
 import biped_adrc as ba
-from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping_plant import PlantState
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.hybrid.trajectory import Arc

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from biped_adrc.closed_loop.feet import NAMES
-from biped_adrc.closed_loop.system import InstantSignals
+from biped_adrc.closed_loop.instant_signals import InstantSignals
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.reduction import disturbance_parts, unknown_force

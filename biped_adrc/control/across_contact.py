@@ -31,10 +31,8 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, ControllerLaws, Measurement, controller_laws
 from biped_adrc.errors import InputError
+from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
-
-SAME_INSTANT = 1e-9
-"""[s]: a tick that is T after touchdown but for round-off is outside of the window, in both engines."""
 
 
 class ContactParameters(NamedTuple):

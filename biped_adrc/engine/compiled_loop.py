@@ -15,7 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from typing import NamedTuple
 
-from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import StridingPlant
 from biped_adrc.engine.compiled_biped import CompiledBiped

@@ -16,7 +16,7 @@ from functools import partial
 import casadi as ca
 import numpy as np
 
-from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.equations import Equations, WalkerNumbers, WalkerStructure
 from biped_adrc.engine.kernels.layout import OUTSIDE

@@ -1,4 +1,4 @@
-"""Design aid: what an observer, or a whole candidate, demands of encoders, sampling and motors, before any walk.
+"""Design aid: what an observer, or a whole walker, demands of encoders, sampling and motors, before any walk.
 
 - `observer_loop`    one joint under ADRC as a linear loop in continuous time, with a delay
 - `observer_sampled` the same loop in sampled time: eigenvalues, and noise of the encoder

@@ -114,13 +114,13 @@ class Specification(Shown):
         return float(np.sqrt(np.max(np.mean(squares, axis=0))))
 
     def columns(self) -> dict[str, float]:
-        """All of it as numbers by name, none of them NaN; units in the names."""
+        """All of it as numbers by name, none of them NaN: growth [1/s], delay_margin [s], ripple [N m]."""
         return {
             "stable": float(self.stable),
-            "growth [1/s]": self.worst.growth,
-            "delay margin [s]": self.delay_margin,
-            "disk margin": self.disk_margin,
-            "ripple [N m]": self.ripple,
+            "growth": self.worst.growth,
+            "delay_margin": self.delay_margin,
+            "disk_margin": self.disk_margin,
+            "ripple": self.ripple,
         }
 
     def __str__(self) -> str:

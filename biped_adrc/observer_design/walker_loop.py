@@ -100,7 +100,10 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> list[TickMatri
     n, T, sizes, mode = twin.plant.n, twin.timing.period, twin.held.sizes, Mode()
     found, ticked = [], None
     for point in points:
-        x, J = twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode), np.zeros((0, 0))
+        x, J = (
+            twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode),
+            np.zeros((0, 0)),
+        )
         ticked = ticked or tick_derivative(twin, len(x))
         for before in range(TICKS_BEFORE, -1, -1):
             x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v

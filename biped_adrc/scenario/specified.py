@@ -2,7 +2,7 @@
 
     ba.specified(ba.Scenario("LESO", hardware="rabbit", bandwidth=160.0, order=2))
 
-gives `stable`, `growth [1/s]`, `delay margin [s]`, `disk margin`, `ripple [N m]` by name, each a number. An
+gives `stable`, `growth` [1/s], `delay_margin` [s], `disk_margin`, `ripple` [N m] by name, each a number. An
 unstable loop has margins 0 and an infinite ripple. What the scenario does to the walk, such as pushes,
 ground and start, has no part in it; what it does to the robot has, as plant beside the model.
 """

@@ -1,4 +1,4 @@
-"""Columns of a candidate that need no walk: numbers of its linear loop, which cost microseconds.
+"""Columns of a candidate that need no walk: numbers of its linear loop, which cost a tenth of a second.
 
 A limit on such a column is asked before any walk: a candidate that misses it is never walked. A function is
 given the candidate's scenario, without seed and without the values of a condition, and returns the number, or
@@ -7,18 +7,37 @@ None where this scenario has none, which ranks worst. A new column is one line o
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Iterable
+from functools import lru_cache
 
+from biped_adrc.bench.build import scene_of
 from biped_adrc.bench.parameters import trial
 from biped_adrc.errors import BipedError
+from biped_adrc.observer_design.specification import Specification
 from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.specified import specification_of
 from biped_adrc.tuning.variables import Values
 
 Linear = Callable[[Scenario], float | None]
 """What a column without a walk is computed by."""
 
-WITHOUT_WALK: dict[str, Linear] = {}
+
+@lru_cache(maxsize=1)
+def _specification(text: str) -> Specification:
+    """Of a scenario as text, kept for its other columns. Raises InputError as `specification_of`."""
+    s = Scenario(**json.loads(text))
+    return specification_of(s, scene_of(s))
+
+
+def _number(name: str) -> Linear:
+    return lambda s: float(getattr(_specification(json.dumps(s.record())), name))
+
+
+WITHOUT_WALK: dict[str, Linear] = {
+    name: _number(name) for name in ("stable", "delay_margin", "disk_margin", "ripple")
+}
 """The function of each such column, by the column's name."""
 
 

@@ -50,6 +50,10 @@ ROWS = {
         ],
         "ADRC output": lambda make, h: [make(h, SLOW, reset=ba.ResetPolicy.MEASURED)],
         "LESO": lambda make, h: [make(h, ba.GPIObserver.from_bandwidth(500.0))],
+        "ADRC assisted": lambda make, h: [
+            make(h),
+            make(h, ba.GPIObserver.from_bandwidth(300.0, 0)),
+        ],
         "DOB": lambda make, h: [
             make(h),
             make(h, MomentumObserver.from_poles(THREE), solve_theta=False),

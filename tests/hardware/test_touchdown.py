@@ -8,7 +8,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.touchdowns import matched, touchdowns
 from biped_adrc.closed_loop import semantics
-from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.engine.simulate import run_compiled
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.touchdown import Look, belief_of
@@ -326,7 +326,7 @@ def test_signals_give_the_estimate_in_the_labels_of_the_plant(biped, gait):
     (event,) = walked.events("foot_strike")
     x = event.x_minus, event.x_plus
     xi = [
-        ba.closed_loop.system.signals_at(
+        ba.closed_loop.instant_signals.signals_at(
             system, event.t, each, mode, lambda s, m: gait.constraint(m.t, m.q, m.v)
         ).xi_estimate
         for each, mode in zip(x, (Mode(1, 0.0), Mode(2, event.t)), strict=True)

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+import biped_adrc as ba
 from biped_adrc.analysis.statistics import over_seeds
 from biped_adrc.bench.study import Range
 from biped_adrc.tuning.candidate import Candidate, finalists, front, ranked
@@ -12,6 +13,7 @@ from biped_adrc.tuning.held_out import held_out
 from biped_adrc.tuning.measure import Limit, Objective
 from biped_adrc.tuning.study_file import read_tuning
 from biped_adrc.tuning.variables import Variable, published_place, scenario_values
+from biped_adrc.tuning.without_walk import numbers_without_walk
 
 INF = math.inf
 
@@ -171,3 +173,15 @@ def test_held_out_numbers_are_paired_by_seed():
     assert (fell.published.value, fell.ratio) == (INF, None)
     linear = held_out(study, (chosen, {"rms_error": 2.0}), (published, {"rms_error": 4.0}))[0]
     assert linear.ratio == (0.5, 0.5, 0.5)
+
+
+def test_columns_without_a_walk_are_those_of_the_specification():
+    """Numbers of a candidate's loop, margins 0 where it is unstable, none for what has no linear loop."""
+    names = ("stable", "delay_margin", "disk_margin", "ripple")
+    values = {"controller": "NPD", "period": 1e-3, "delay": 1e-3, "impacts": 2}
+    told = ba.specified(ba.Scenario(**values))
+    assert numbers_without_walk(names, values) == {name: told[name] for name in names}
+    late = numbers_without_walk(names, values | {"delay": 0.03})
+    assert late == {"stable": 0.0, "delay_margin": 0.0, "disk_margin": 0.0, "ripple": None}
+    soft = numbers_without_walk(names, values | {"plant": "mujoco"})
+    assert soft == dict.fromkeys(names)

@@ -1,0 +1,129 @@
+"""Controllers tuned alike: one study of `biped-adrc tune` for each place, gait, contestant and optimiser seed.
+
+    python benchmarks/tuned/alike.py out/tuned [--share 1/2] [--only "RABBIT, 1 ms"]
+
+What may be chosen, the sets of walks and the limits are the same for all and stand in contest.toml; the budget
+grows with the number of free parameters. A candidate has to bear a delay margin, and its walks have to be
+legal. A share k/n carries out every n-th study, so that several processes share the work; what was
+interrupted goes on. docs/write_tuned.py makes the page of what is in the folder.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from biped_adrc.campaign.workers import Threads
+from biped_adrc.errors import BipedError
+from biped_adrc.tuning.study_file import read_tuning
+from biped_adrc.tuning.tune import tune
+
+HERE = Path(__file__).parent
+LEGAL = 0.97
+"""Share of legal walks that a candidate needs; with fewer than 34 walks, all of them."""
+
+
+class Entry(NamedTuple):
+    """One search: where, on which gait, of whom, with which seed of the optimiser."""
+
+    place: str
+    gait: str
+    contestant: str
+    seed: int
+
+    @property
+    def folder(self) -> str:
+        """Its folder below that of all."""
+        named = "/".join((self.place, self.gait, self.contestant, str(self.seed)))
+        return named.replace(" ", "_").replace(",", "").replace("'", "").replace("=", "")
+
+
+def contest(path: Path = HERE / "contest.toml") -> dict[str, dict]:
+    """The tables of contest.toml."""
+    return tomllib.loads(path.read_text(encoding="utf-8"))
+
+
+def entries(c: dict[str, dict]) -> Iterator[Entry]:
+    """All searches, those of the first optimiser seed and of the place with most seeds first."""
+    found = [
+        Entry(place, gait, name, seed)
+        for place, p in c["places"].items()
+        for gait, seeds in c["gaits"].items()
+        for name in c["contestants"]
+        for seed in p["seeds"]
+        if seed in seeds
+    ]
+    order = {place: -len(p["seeds"]) for place, p in c["places"].items()}
+    gaits = list(c["gaits"])
+    return iter(sorted(found, key=lambda e: (e.seed, order[e.place], gaits.index(e.gait))))
+
+
+def tables(c: dict[str, dict], e: Entry) -> dict[str, object]:
+    """The study of one search, as plain tables."""
+    place, who = c["places"][e.place], c["contestants"][e.contestant]
+    leaves = place["leaves"] if who.get("filtered", True) else {}
+    variables = {**c["gains"], **who.get("own", {}), **leaves}
+    search = c["search"]
+
+    def walks(kind: str) -> dict[str, object]:
+        given = [{"name": f"{a:g} N m", "amplitude": a} for a in c[kind]["amplitudes"]]
+        return {"seeds": c[kind]["seeds"], "conditions": given}
+
+    return {
+        "study": {
+            "name": f"{e.contestant}: {e.place}, {e.gait}",
+            "budget": search["per_variable"] * len(variables),
+            "generation": search["generation"],
+            "finalists": search["finalists"],
+            "seed": e.seed,
+        },
+        "fixed": {**c["walk"], **place["values"], **who["values"], "gait": e.gait},
+        "variables": variables,
+        "objectives": [{"column": "rms_error"}],
+        "limits": [
+            {"column": "delay_margin", "least": place["margin"]},
+            {"column": "legal", "least": LEGAL},
+        ],
+        "training": walks("training"),
+        "selection": walks("selection"),
+        "test": walks("test"),
+    }
+
+
+def carry_out(c: dict[str, dict], e: Entry, out: Path) -> dict[str, object]:
+    """Search for one entry. The note says what came of it, or why nothing did."""
+    folder = out / e.folder
+    folder.mkdir(parents=True, exist_ok=True)
+    told = folder / "entry.json"
+    if told.is_file():
+        return json.loads(told.read_text(encoding="utf-8"))
+    note: dict[str, object] = e._asdict()
+    try:
+        tuned = tune(read_tuning(tables(c, e), e.folder), folder, Threads(1))
+        note |= {"chosen": tuned.chosen.chosen, "found": True}
+    except BipedError as error:
+        note |= {"found": False, "why": str(error)}
+    told.write_text(json.dumps(note, indent=1) + "\n", encoding="utf-8")
+    return note
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--share", default="1/1", help="k/n: every n-th search, from the k-th")
+    parser.add_argument("--only", help="name of one place")
+    given = parser.parse_args()
+    k, n = (int(x) for x in given.share.split("/"))
+    c = contest()
+    mine = [e for e in entries(c) if given.only in (None, e.place)][k - 1 :: n]
+    for i, e in enumerate(mine, 1):
+        note = carry_out(c, e, given.out)
+        print(f"{i}/{len(mine)} {e.folder}: {note.get('chosen', note.get('why'))}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
