@@ -23,8 +23,6 @@ from biped_adrc.tuning.study_file import read_tuning
 from biped_adrc.tuning.tune import tune
 
 HERE = Path(__file__).parent
-LEGAL = 0.97
-"""Share of legal walks that a candidate needs; with fewer than 34 walks, all of them."""
 
 
 class Entry(NamedTuple):
@@ -86,7 +84,13 @@ def tables(c: dict[str, dict], e: Entry) -> dict[str, object]:
         "objectives": [{"column": "rms_error"}],
         "limits": [
             {"column": "delay_margin", "least": place["margin"]},
-            {"column": "legal", "least": LEGAL},
+            {"column": "legal", "least": c["limits"]["legal"]},
+            {
+                "column": "mean_friction",
+                "over": "worst",
+                "most": c["limits"]["friction"],
+                "counts": "made",
+            },
         ],
         "training": walks("training"),
         "selection": walks("selection"),

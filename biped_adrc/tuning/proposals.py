@@ -7,7 +7,7 @@ makes a fresh study in memory, adds what is finished in the order of numbers, an
 
 so that what is proposed depends on these and on finished candidates alone, and no sampler is ever stored.
 
-For one objective the sampler is TPE (Bergstra et al., NeurIPS 2011; multivariate, with constraints). It takes
+For one objective the sampler is TPE (Bergstra et al., NeurIPS 2011; with constraints). It takes
 ranges, whole numbers and choices together, uses only the order of results, so that an infinite one does no
 harm, and needs no more than NumPy; Optuna's Gaussian processes need torch, and its CMA-ES knows neither choices
 nor limits. For several objectives it is NSGA-II (Deb et al., IEEE Trans. Evol. Comp. 6, 2002): on a linear
@@ -28,6 +28,9 @@ from biped_adrc.tuning.candidate import Candidate
 from biped_adrc.tuning.study import TuningStudy
 from biped_adrc.tuning.variables import Variable
 
+NOT_WALKED = 1.0
+"""By how much a candidate without walks counts as missing a limit on them: as much as one without any legal
+walk misses a share of them. With 0 a search stays with candidates that are not worth a walk."""
 STARTUP = 10
 """Candidates that are drawn at random before TPE begins."""
 GENERATION = "generation"
@@ -82,12 +85,18 @@ def optuna_study(
             distributions=space,
             values=c.objectives,
             user_attrs={"candidate": c.number, GENERATION: c.generation, "walked": c.walked},
-            constraints={m.sentence: x for m, x in zip(study.limits, c.excess, strict=True)},
+            constraints=_missed(study, c),
         )
         for c in found
         if (place := c.chosen or study.place) is not None
     )
     return made
+
+
+def _missed(study: TuningStudy, c: Candidate) -> dict[str, float]:
+    """By how much the candidate misses each limit, as the sampler is told; `NOT_WALKED` where it is unknown."""
+    each = zip(study.limits, c.limits, c.excess, strict=True)
+    return {m.sentence: NOT_WALKED if x is None else excess for m, x, excess in each}
 
 
 def importances(study: TuningStudy, found: Sequence[Candidate]) -> dict[str, float]:

@@ -15,7 +15,7 @@ from biped_adrc.campaign.workers import Processes, Threads
 from biped_adrc.errors import InputError
 from biped_adrc.tuning import without_walk
 from biped_adrc.tuning.candidate import front, ranked
-from biped_adrc.tuning.proposals import proposed
+from biped_adrc.tuning.proposals import optuna_quiet, optuna_study, proposed
 from biped_adrc.tuning.search import search
 from biped_adrc.tuning.study_file import read_tuning
 from biped_adrc.tuning.tune import tune
@@ -179,3 +179,19 @@ def test_an_objective_that_no_run_yields_is_named():
         InputError, match=r"'of_ground', of which none of \d walks has a number; .*'cost'"
     ):
         search(study, walked)
+
+
+def test_the_sampler_is_not_drawn_to_what_was_not_worth_a_walk(monkeypatch):
+    """A candidate that misses a limit before its walks counts as worse than one that misses it by as much."""
+    monkeypatch.setitem(without_walk.WITHOUT_WALK, "k1", lambda s: float(s.own["k1"]))
+    limits = [{"column": "k1", "most": 20.0}, {"column": "legal", "least": 0.5}]
+    tables = {**plant.tables(budget=8, generation=4), "limits": limits}
+    study = read_tuning(tables, columns=(*plant.COLUMNS, "k1"))
+    found = search(study, walked)
+    with optuna_quiet() as optuna:
+        told = optuna_study(optuna, study, found).trials
+    missed = {t.user_attrs["candidate"]: sum(t.constraints.values()) for t in told}
+    assert any(not c.walked for c in found)
+    for c in found:
+        if c.number in missed:
+            assert missed[c.number] == pytest.approx(c.total_excess + (not c.walked))
