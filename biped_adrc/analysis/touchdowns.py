@@ -89,6 +89,7 @@ def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:
     x = np.vstack([arc.x for arc in run.arcs])
     first = x.shape[1] - loop.behind + k.sizes.own
     began = belief_of(x[:, first : first + k.sizes.told].T)
-    new = np.diff(np.asarray(began.step, dtype=float)) > 0.0
-    times: Array = np.asarray(began.start)[1:][new]
+    step, start = np.asarray(began.step, dtype=float), np.asarray(began.start)
+    at_once = step[0] > run.arcs[0].mode.step and start[0] == run.arcs[0].t[0]
+    times: Array = start[np.append(at_once, np.diff(step) > 0.0)]
     return times

@@ -115,7 +115,8 @@ def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
         seen = _readings(loop, _at_nodes(loop, arc))
         kept = (seen.force, seen.place, seen.speed)
         read = {name: x.reshape(len(x), -1) for name, x in zip(NAMES, kept, strict=True)}
-        arcs.append(replace(arc, read={**arc.read, **read}))
+        acting = {"u": seen.u, "zeta": seen.zeta}  # which an arc that failed at once has not
+        arcs.append(replace(arc, read={**acting, **arc.read, **read}))
     return replace(run, arcs=tuple(arcs))
 
 
@@ -139,15 +140,15 @@ def _passed(
 
 
 def _at_nodes(loop: SteppingLoop, arc: Arc) -> Iterator[tuple[PlantState, Array, Load]]:
-    """The nodes of `_passed`, as the run has them."""
+    """The nodes of `_passed`, as the run has them; one behind the last piece is where the plant was lost."""
     states = [_state(loop, t, x) for t, x in zip(arc.t, arc.x, strict=True)]
     u, pieces = arc.x[:, -loop.plant.p :], np.flatnonzero(np.diff(arc.t) > 0.0)
-    if len(pieces) == 0:
-        yield states[0], u[0], _load(loop, states[0].t, states[0], arc.mode)
     for k in pieces:
         load = _load(loop, 0.5 * (states[k].t + states[k + 1].t), states[k], arc.mode)
         yield states[k], u[k], load
         yield states[k + 1], u[k], load
+    if len(states) > 2 * len(pieces):
+        yield states[-1], u[-1], _load(loop, states[-1].t, states[-1], arc.mode)
 
 
 def _between(begin: float, end: float, apart: float | None) -> list[float]:

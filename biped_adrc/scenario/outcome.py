@@ -18,6 +18,7 @@ from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
+from biped_adrc.errors import InputError
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
@@ -68,9 +69,14 @@ class Outcome(Shown):
 def outcome_of(made: Walk) -> Outcome:
     """The outcome of a scenario's walk.
 
-    The mean of squared errors is over time, by quadrature between nodes.
+    The mean of squared errors is over time, by quadrature between nodes. Raises InputError for a walk that is
+    not of a scenario.
     """
-    assert made.scenario is not None
+    if made.scenario is None:
+        raise InputError(
+            "this walk was made of a walker, and an outcome is a scenario's; take its trajectory, signals and "
+            "legality, or walk with biped_adrc.walk_scenario"
+        )
     trajectory, s = made.trajectory, made.signals
     events = trajectory.events(FOOT_STRIKE)
     times = np.array([0.0, *(event.t for event in events)])
