@@ -40,10 +40,12 @@ comparison: .venv/.core
 	$(BIN)/biped-adrc compare --out $(OUT)/comparison
 	$(BIN)/python docs/write_comparison.py $(OUT)/comparison
 
-# docs/soft_walk.md with its pictures, from the study of soft ground in $(OUT)/soft, which is made or finished first
+# docs/soft_walk.md with its pictures, from the two studies of soft ground in $(OUT)/soft and $(OUT)/soft-held-out,
+# which are made or finished first
 soft: .venv/.core
 	$(BIN)/biped-adrc sweep examples/soft_ground.toml --out $(OUT)/soft
-	$(BIN)/python docs/write_soft_walk.py $(OUT)/soft
+	$(BIN)/biped-adrc sweep examples/soft_ground_held_out.toml --out $(OUT)/soft-held-out
+	$(BIN)/python docs/write_soft_walk.py $(OUT)/soft $(OUT)/soft-held-out
 	$(BIN)/python docs/make_soft_pictures.py
 
 # the reproduction's results in docs/ and README.md, from its summary
@@ -61,10 +63,11 @@ attacks: .venv/.test
 	for attack in engines contact steps; do \
 	  $(BIN)/python -m tests.robustness $$attack --out $(OUT)/attacks/$$attack.jsonl --page docs/robustness.md; done
 
-# the rigid walk as limit of the soft one, and walks that the rigid model calls legal, in MuJoCo: about an hour on one
-# core; tables in docs/soft_limit.md. What was found is kept in $(OUT)/soft-limit, from where an interrupted run goes on
+# the rigid walk as limit of the soft one, its multipliers, and walks that the rigid model calls legal, in MuJoCo: an
+# hour and a half on one core; tables in docs/soft_limit.md. What was found is kept in $(OUT)/soft-limit, from where
+# an interrupted run goes on
 soft-limit: .venv/.test
-	for study in limit legality; do \
+	for study in limit multipliers legality; do \
 	  $(BIN)/python -W ignore benchmarks/soft/$$study.py $(OUT)/soft-limit --page docs/soft_limit.md; done
 
 dev: .venv/.dev

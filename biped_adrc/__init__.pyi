@@ -4,7 +4,7 @@ from biped_adrc.analysis.return_map import ReturnMap as ReturnMap
 from biped_adrc.analysis.stride_gain import stride_response as stride_response
 from biped_adrc.analysis.zero_report import zero_report as zero_report
 from biped_adrc.closed_loop.arm import ArmSystem as ArmSystem
-from biped_adrc.closed_loop.semantics import Mode as Mode
+from biped_adrc.closed_loop.protocols import Mode as Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop as SteppingLoop
 from biped_adrc.closed_loop.walker import Walker as Walker
 from biped_adrc.control.adrc import ADRCController as ADRCController
@@ -84,6 +84,9 @@ from biped_adrc.model.biped import Biped as Biped
 from biped_adrc.model.model_errors import ModelErrors as ModelErrors
 from biped_adrc.model.pinned import reroot as reroot
 from biped_adrc.model.reduction import Reduction as Reduction
+from biped_adrc.observer_design.frozen_gait import FrozenGait as FrozenGait
+from biped_adrc.observer_design.specification import Specification as Specification
+from biped_adrc.observer_design.specification import specification as specification
 from biped_adrc.observer_design.to_ss import to_ss as to_ss
 from biped_adrc.observers.base import Observer as Observer
 from biped_adrc.observers.base import ResetPolicy as ResetPolicy
@@ -98,6 +101,7 @@ from biped_adrc.scenario.registry import register as register
 from biped_adrc.scenario.run import passive_walk as passive_walk
 from biped_adrc.scenario.run import walk_scenario as walk_scenario
 from biped_adrc.scenario.scenario import Scenario as Scenario
+from biped_adrc.scenario.specified import specified as specified
 from biped_adrc.scenario.stored import load_walk as load_walk
 from biped_adrc.scenario.walk import walk as walk
 from biped_adrc.soft.ground import SoftGround as SoftGround
@@ -111,5 +115,6 @@ from biped_adrc.studies.gait_design import GaitLibrary as GaitLibrary
 from biped_adrc.studies.gait_design import design_gait as design_gait
 from biped_adrc.timing import ContinuousTime as ContinuousTime
 from biped_adrc.timing import SampledTime as SampledTime
+from biped_adrc.tuning.tune import tune as tune
 
 __version__: str

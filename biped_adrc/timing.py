@@ -23,6 +23,8 @@ of units.
 """
 LONGEST_DELAY = 100
 """Largest computation delay accepted, in periods; more torques on their way are a mistake of units."""
+SAME_INSTANT = 1e-9
+"""[s]: times that differ by less are one but for round-off, in both engines."""
 
 
 @dataclass(frozen=True)

@@ -44,6 +44,7 @@ NEVER_TRACED = (
     "scenario",
     "soft",
     "studies",
+    "tuning",
     "viz",
 )
 """Folders whose source has no part in compiled code, as the engine can reach nothing in them.

@@ -18,6 +18,7 @@ WORDS = {
     "cli": "the commands",
     "paper": "the reproduction",
     "bench": "sweeps and comparisons",
+    "tuning": "the best setting, held-out walks",
     "studies": "stability, design, observer of one gait",
     "scenario": "one walk in plain values, the registry",
     "viz": "figures, pages, Meshcat",

@@ -8,6 +8,8 @@ from typing import Any
 
 import soft_cells as cells
 from soft_cells import NPD, Pair, Row
+from soft_held_out import held_out
+from soft_text import bullets, number, out_of, percent, rows_of
 from write_results import table
 
 from biped_adrc.viz.pages import captions
@@ -15,11 +17,6 @@ from biped_adrc.viz.pages import captions
 PICTURES = {"walk": "walk.gif", "touchdown": "touchdown.svg"}
 MRAD = 1e3
 """mrad in a rad, and mm in a m."""
-
-
-def rows_of(summary: Mapping[str, Any]) -> list[Row]:
-    """The walks by column name."""
-    return [dict(zip(summary["columns"], row, strict=True)) for row in summary["rows"]]
 
 
 INTRODUCTION = """Written by `python docs/write_soft_walk.py` from `{command}`: {walks} walks of RABBIT in
@@ -43,8 +40,8 @@ were chosen by looking at cells of this study, and **no claim is made here again
 alike**: NPD with other gains, or a filter of the rates, would be another row."""
 
 
-def page(summary: Mapping[str, Any]) -> str:
-    """The text of docs/soft_walk.md."""
+def page(summary: Mapping[str, Any], fresh: Mapping[str, Any]) -> str:
+    """The text of docs/soft_walk.md; fresh: of the study on cells that chose nothing."""
     rows = rows_of(summary)
     near = cells.nearest(rows)
     parts = [
@@ -53,6 +50,7 @@ def page(summary: Mapping[str, Any]) -> str:
         "## The goal",
         bullets(verdicts(rows, near)),
         table(list(GOAL), [goal_texts(rows, case) for case in cells.cases(rows) if case != NPD]),
+        *held_out(rows, rows_of(fresh), fresh["command"]),
         f"## What stands in the way of {near}",
         bullets([*obstacles(rows, near), *by_difference(summary["caused"])]),
         "Pushed cells in which it keeps within a quarter:",
@@ -225,11 +223,6 @@ def shares(rows: Sequence[Row], case: str) -> list[list[str]]:
     return table_rows
 
 
-def bullets(items: Sequence[str]) -> str:
-    """A list of Markdown, of texts that are Markdown."""
-    return "\n".join(f"- {item}" for item in items)
-
-
 def walkers(rows: Sequence[Row]) -> list[str]:
     """In how many cells NPD walks, and nobody."""
     npd = cells.of(rows, case=NPD)
@@ -338,15 +331,3 @@ def _changes(factors: Sequence[float]) -> str:
     """Factors near 1 in words."""
     sizes = sorted(abs(x - 1.0) for x in factors)
     return f"{100 * median(sizes):.2g} % in the median and {100 * sizes[-1]:.2g} % at most"
-
-
-def percent(part: int, whole: int) -> str:
-    return f"{100.0 * part / whole:.0f} %" if whole else "–"
-
-
-def out_of(part: int, whole: int) -> str:
-    return f"{part} of {whole}" if whole else "–"
-
-
-def number(x: float | None) -> str:
-    return "–" if x is None else f"{x:.3g}"

@@ -1,11 +1,12 @@
 """Write docs/soft_walk.md: which controller and which policy across contact survive on soft ground.
 
-Run: python docs/write_soft_walk.py OUT
+Run: python docs/write_soft_walk.py OUT HELD_OUT
 
-OUT: folder of `biped-adrc sweep examples/soft_ground.toml --out OUT`, or docs/soft_walk, whose summary.json has
-all that the page says. From a sweep some walks are walked again at half the engine's step, and some
-up to the end of the push, ten minutes in all. Sentences follow from the numbers (`soft_page`); pictures are
-made by make_soft_pictures.py.
+OUT, HELD_OUT: folders of `biped-adrc sweep examples/soft_ground.toml --out OUT` and of the same with
+examples/soft_ground_held_out.toml, or docs/soft_walk, where summary.json and held_out.json have all that the
+page says of them. From OUT some walks are walked again at half the engine's step, and some up to the end of
+the push, ten minutes in all. Sentences follow from the numbers (`soft_page`); pictures are made by
+make_soft_pictures.py.
 """
 
 from __future__ import annotations
@@ -37,7 +38,9 @@ from biped_adrc.scenario.run import walk_scenario
 DOCS = Path(__file__).resolve().parent
 PAGE, FOLDER = DOCS / "soft_walk.md", DOCS / "soft_walk"
 STUDY = "examples/soft_ground.toml"
+HELD_OUT = "examples/soft_ground_held_out.toml"
 COMMAND = f"biped-adrc sweep {STUDY} --out out/soft"
+HELD_OUT_COMMAND = f"biped-adrc sweep {HELD_OUT} --out out/soft-held-out"
 ERRORS = ("peak_error", "rms_error", "settled_error", "settled_rms")
 FEET = ("slip", "flight", "double_support", "penetration")
 NUMBERS = ("pushed_error", "touchdown_error", *ERRORS, *FEET, "peak_torque")
@@ -50,14 +53,8 @@ FELT = 1e-3
 
 
 def summarised(out: Path) -> dict[str, Any]:
-    """What the page is written from, of a finished sweep. Raises InputError for an unfinished one."""
-    done = load_sweep(out)
-    rows = [{name: row.get(name) for name in KEPT} for row in done.rows()]
-    if len(rows) < done.study.count:
-        raise InputError(
-            f"'{out}' has {len(rows)} of {done.study.count} walks; run '{COMMAND}' to its end first"
-        )
-    rows = [{name: _short(x) for name, x in row.items()} for row in rows]
+    """What the page is written from, of the finished study. Raises InputError for an unfinished one."""
+    rows = finished(out, COMMAND)
     return {
         "command": COMMAND,
         "columns": list(KEPT),
@@ -65,6 +62,27 @@ def summarised(out: Path) -> dict[str, Any]:
         "caused": caused(rows),
         "rows": [list(row.values()) for row in rows],
     }
+
+
+def held_out(out: Path) -> dict[str, Any]:
+    """The same of the finished study of cells that chose nothing: its walks alone."""
+    rows = finished(out, HELD_OUT_COMMAND)
+    return {
+        "command": HELD_OUT_COMMAND,
+        "columns": list(KEPT),
+        "rows": [list(row.values()) for row in rows],
+    }
+
+
+def finished(out: Path, command: str) -> list[dict[str, Any]]:
+    """All walks of a sweep, what is kept of them. Raises InputError for an unfinished one."""
+    done = load_sweep(out)
+    rows = [{name: _short(row.get(name)) for name in KEPT} for row in done.rows()]
+    if len(rows) < done.study.count:
+        raise InputError(
+            f"'{out}' has {len(rows)} of {done.study.count} walks; run '{command}' to its end first"
+        )
+    return rows
 
 
 def _short(x: Any) -> Any:
@@ -143,10 +161,15 @@ def main() -> None:
     """Read, walk, write."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
-    out = parser.parse_args().out
-    if out.resolve() != FOLDER:
-        write_text(FOLDER / "summary.json", compact(summarised(out)))
-    write_text(PAGE, page(read(FOLDER / "summary.json")))
+    parser.add_argument("held_out", type=Path)
+    given = parser.parse_args()
+    for out, name, made in (
+        (given.out, "summary.json", summarised),
+        (given.held_out, "held_out.json", held_out),
+    ):
+        if out.resolve() != FOLDER:
+            write_text(FOLDER / name, compact(made(out)))
+    write_text(PAGE, page(read(FOLDER / "summary.json"), read(FOLDER / "held_out.json")))
 
 
 if __name__ == "__main__":

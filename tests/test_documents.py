@@ -319,7 +319,9 @@ def test_what_is_said_of_an_example_is_so(document):
             assert tomllib.loads((ROOT / name).read_text())["fixed"]["order"] == int(m), sentence
 
 
-@pytest.mark.parametrize("name", ["sweep.toml", "robustness.toml", "soft_ground.toml"])
+@pytest.mark.parametrize(
+    "name", ["sweep.toml", "robustness.toml", "soft_ground.toml", "soft_ground_held_out.toml"]
+)
 def test_a_study_has_as_many_walks_as_it_says(name):
     path = ROOT / "examples" / name
     said = re.search(r"(\d+) walks\.", path.read_text())[1]

@@ -150,6 +150,7 @@ HINTS = {
     "tip": Row("--tip 0,0,0.5", same("hints.tip"), (0.0, 0.0, 0.5)),
 }
 SIMULATE = {
+    "scenario": Row("--scenario best.toml", scenario_field("K_d"), 33.0),
     "controller": Row("--controller npd", scenario_field("controller"), "NPD"),
     "gait": Row("--gait recipe", scenario_field("gait"), "recipe"),
     "robot": Row("--robot compass", scenario_field("robot"), "compass"),
@@ -191,6 +192,7 @@ SIMULATE = {
     "out": Row("-o own.csv", same("out"), Path("own.csv")),
 }
 POINCARE = {
+    "scenario": Row("--scenario best.toml", scenario_field("K_d"), 33.0),
     "robot": Row("--robot compass", scenario_field("robot"), "compass"),
     "preset": Row("--preset tac2003", scenario_field("preset"), "tac2003"),
     "gait": Row("--gait recipe", scenario_field("gait"), "recipe"),
@@ -291,6 +293,20 @@ name = "own"
 bandwidth = [100, 200]
 period = [0.001, 0.002]
 """
+TUNED_FILE = """
+study = { name = "own", budget = 4, generation = 2, seed = 0 }
+variables = { bandwidth = { from = 100, to = 200 } }
+objectives = [{ column = "rms_error" }]
+training = { seeds = [0] }
+selection = { seeds = [1] }
+test = { seeds = [2] }
+"""
+TUNE = {
+    **CREW,
+    "study": Row("", same("study.name"), "own"),
+    "out": Row("", same("out"), Path("folder")),
+    "dry_run": Row("--dry-run", same("study.name"), "own", "tuning.tune:rehearse"),
+}
 SWEEP = {
     **CREW,
     "study": Row("", same("study.name"), "own"),
@@ -454,6 +470,10 @@ COMMANDS = {
         "sweep own.toml -o folder", "bench.sweep:sweep", SWEEP,
         others=dict.fromkeys(BESIDE_SWEEP, ("sweep own.toml -o folder", "bench.sweep:sweep")),
     ),
+    "tune": Command(
+        "tune tuned.toml -o folder", "tuning.tune:tune", TUNE,
+        others={"tuning.tune:rehearse": ("tune tuned.toml -o folder", "tuning.tune:tune")},
+    ),
     "animate": Command(
         "animate run.npz", "viz.export:export", ANIMATE, LOAD,
         {LOAD: ("animate run.npz", ""), "viz.meshcat.live:play": ("animate run.npz --live", LOAD)},
@@ -483,9 +503,11 @@ def parameters_of_commands() -> dict[str, dict[str, Any]]:
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    """A folder with the study of `sweep`."""
+    """A folder with the studies of `sweep` and `tune`, and a file of a scenario."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "own.toml").write_text(SWEEP_FILE)
+    (tmp_path / "tuned.toml").write_text(TUNED_FILE)
+    (tmp_path / "best.toml").write_text("K_d = 33.0\n")
     return tmp_path
 
 

@@ -147,12 +147,22 @@ def test_the_guide_to_sweeps_says_how_many_walks_of_its_maps_are_legal():
 def test_the_page_of_soft_ground_is_that_of_its_summary(script):
     module, pictures = script("write_soft_walk"), script("soft_page").PICTURES
     summary = module.read(module.FOLDER / "summary.json")
-    assert read("soft_walk.md") == module.page(summary)
-    assert module.compact(summary) == read("soft_walk/summary.json")
-    study = load_study(ROOT / module.STUDY)
-    assert [row[0] for row in summary["rows"]] == [point.at["case"] for point in study.points()]
+    fresh = module.read(module.FOLDER / "held_out.json")
+    assert read("soft_walk.md") == module.page(summary, fresh)
+    for name, kept, file in (
+        ("summary", summary, module.STUDY),
+        ("held_out", fresh, module.HELD_OUT),
+    ):
+        assert module.compact(kept) == read(f"soft_walk/{name}.json")
+        points = load_study(ROOT / file).points()
+        assert [row[0] for row in kept["rows"]] == [point.at["case"] for point in points]
     kept = {path.name for path in (DOCS / "soft_walk").iterdir()}
-    assert kept == {"summary.json", *pictures.values(), *(f"{name}.json" for name in pictures)}
+    assert kept == {
+        "summary.json",
+        "held_out.json",
+        *pictures.values(),
+        *(f"{name}.json" for name in pictures),
+    }
 
 
 def test_what_the_walk_needs_is_read_off_the_table_of_runs(script):

@@ -77,6 +77,34 @@ def test_a_fall_of_the_polynomial_is_none_of_the_robot():
     assert found.npd.word != "legal"
 
 
+def test_the_map_of_soft_ground_halves_the_step_of_its_engine(monkeypatch):
+    pytest.importorskip("mujoco")
+    monkeypatch.setattr("biped_adrc.paper.push_map.IMPACTS", 1)
+    base = Scenario(plant="mujoco", period=1e-3, contact="hold", own={"integrator": "leapfrog"})
+    tried = Tried(0.1, 30.0, "all +", 150.0)
+    run = tried.run(base, "LESO")
+    assert (run.h, run.plant, run.first_step) == (None, "mujoco", 19)
+    (found,) = push_map(base, [tried], controllers=("NPD", "LESO"))
+    assert (found.npd.word, found.adrc.word) == ("legal", "legal")
+    expected = execute(run).legality.mean_normal_force
+    assert found.adrc.mean_normal_force == expected
+    assert found.npd.mean_normal_force != expected
+
+
+@pytest.mark.parametrize(
+    ("slip", "word", "why"),
+    [(None, "legal", ()), (4.9e-3, "legal", ()), (5.1e-3, "made", ("slip",))],
+)
+def test_a_walk_whose_foot_slips_is_not_legal(slip, word, why):
+    made = execute(Scenario("NPD", period=1e-3, h=1e-3, impacts=1))
+    assert made.slip is None
+    made = replace(made, slip=slip)
+    fate = Fate.of(replace(made, half=made))
+    assert (fate.word, fate.reasons) == (word, why)
+    marginal = Fate.of(replace(made, half=replace(made, slip=1.0))).marginal
+    assert marginal == (word == "legal")
+
+
 def test_the_map_is_drawn_of_every_word():
     fates = [LEGAL, MADE, PULLED, FELL, ENDED, replace(LEGAL, marginal=True)]
     rows = [cell(f, LEGAL, onset=0.05 * k).row() for k, f in enumerate(fates)]

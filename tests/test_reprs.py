@@ -96,6 +96,8 @@ def things(biped, gait):
     period = ba.SampledTime(1e-3)
     loops = [kind(soft, npd, biped, period) for kind in (ba.SteppingLoop, ba.CompiledLoop)]
     found += [soft, soft.ground, *loops, ba.RunOptions(1.0)]
+    frozen = ba.FrozenGait.of(biped, gait)
+    found += [frozen, ba.specification(ba.Walker(biped, npd, timing=period), frozen)]
     record = ba.GaitRecord(
         "paper", h.curve.coefficients, h.theta_plus, h.theta_minus, phase=h.phase
     )

@@ -102,7 +102,12 @@ def test_the_whole_page_is_written_from_a_summary(script):
     half = {"survived": 1, "pushed_error": 1.02e-2, "touchdown_error": 4.9e-3}
     halved = [{**row, "half": half} for row in rows if row["case"] == "NPD"][1:3]
     summary = {"command": "sweep", "columns": list(rows[0]), "halved": halved, "caused": []}
-    text = page.page(summary | {"rows": [list(row.values()) for row in rows]})
+    fresh = {name: summary[name] for name in ("command", "columns")}
+    walked = [{"rows": [list(row.values()) for row in those]} for those in (rows, study("hold"))]
+    text = page.page(summary | walked[0], fresh | walked[1])
+    assert "walks 24 others: friction 0.4, 1, no push, the paper's and 1 fresh draws" in " ".join(
+        text.split()
+    )
     assert "24 walks of RABBIT" in text
     assert (
         "NPD makes all steps in 12 of 12 cells, in 12 without slip. In 0 cells nobody walks."
@@ -134,3 +139,20 @@ def test_what_the_push_alone_causes_is_counted(script):
     assert "within a quarter of NPD's in 1 of 2 cells (50 %)" in said
     assert "the median is 0.25, the largest 0.375." in said
     assert page.by_difference([]) == []
+
+
+def test_shares_on_cells_that_chose_nothing_are_beside_those_of_the_study(script):
+    section = script("soft_held_out")
+    rows, fresh = study("hold"), study("hold", 0.3, 1.2, [(0.4, 2e-3)])
+    _, told, table = section.held_out(rows, fresh, "sweep")
+    assert "The goal is met there by no case." in told
+    assert "without slip in 12 of 12 cells (12 of 12 cells in the study)" in " ".join(told.split())
+    assert "is one of 2 pushes" in told
+    assert "The goal is met there by hold." in section.held_out(fresh, rows, "sweep")[1]
+    assert section.beside("hold", rows, fresh) == [
+        *("hold", "8 of 8 (100 %)", "0 of 8 (0 %)", "4 of 4 (100 %)", "0 of 4 (0 %)"),
+        *("12 of 12 (100 %; largest 1)", "0 of 12 (0 %; largest 1.2)"),
+        *("12 of 12", "9 of 12"),
+    ]
+    assert table.splitlines()[0].count("held out") == 4
+    assert "| NPD |" not in table

@@ -97,12 +97,7 @@ def rigid(period: float) -> tuple[float, Array]:
 def soft(**point: float) -> Row:
     """The walk on soft ground beside the rigid one: period, and state before impact."""
     biped, gait, npd = walker()
-    d = 1.0 - point["slack"]
-    ground = ba.SoftGround(
-        FRICTION, point["time_constant"], impedance=(d, d), impratio=1.0 / point["slip"],
-        foot_radius=point["foot_radius"], damping_ratio=1.0 / point.get("spring", 1.0),
-    )  # fmt: skip
-    plant = ba.MuJoCoPlant(biped, ground, h=point["h"])
+    plant = ba.MuJoCoPlant(biped, ground_at(point), h=point["h"])
     loop = ba.SteppingLoop(plant, npd, biped, ba.SampledTime(point["period"]))
     x0 = loop.initial_state(*gait.start(biped))
     run = loop.run(x0, ba.RunOptions(20.0, stop_after=("foot_strike", STEPS)))
@@ -119,6 +114,15 @@ def soft(**point: float) -> Row:
         "angle gap": float(np.max(np.abs((x - x_r)[:5]))),
         "rate gap": float(np.linalg.norm((x - x_r)[5:]) / np.linalg.norm(x_r[5:])),
     }
+
+
+def ground_at(point: Row) -> ba.SoftGround:
+    """The ground of a point."""
+    d = 1.0 - point["slack"]
+    return ba.SoftGround(
+        FRICTION, point["time_constant"], impedance=(d, d), impratio=1.0 / point["slip"],
+        foot_radius=point["foot_radius"], damping_ratio=1.0 / point.get("spring", 1.0),
+    )  # fmt: skip
 
 
 def crossing(loop: ba.SteppingLoop, arc: Arc) -> tuple[float, Array]:

@@ -15,14 +15,13 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.analysis.signals import Signals
+from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
 
 SETTLING = 0.06
 """How long after a touchdown an error is the transient of contact [s]."""
 AFTER = 0.05
 """How long after its end a push counts as the cause of an error [s]."""
-SAME_INSTANT = 1e-9
-"""Times that differ by less are one [s]."""
 
 
 class ContactErrors(NamedTuple):

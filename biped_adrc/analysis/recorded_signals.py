@@ -11,16 +11,15 @@ from __future__ import annotations
 import numpy as np
 
 from biped_adrc.closed_loop.feet import NAMES
-from biped_adrc.closed_loop.system import InstantSignals
+from biped_adrc.closed_loop.instant_signals import InstantSignals
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.reduction import disturbance_parts, unknown_force
+from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
 
 FORCE, PLACE, SPEED = NAMES
 """What an arc has `read` of the feet, (K, 4) each."""
-SAME_INSTANT = 1e-9
-"""[s]: over less than that a difference of rates is round-off, as where a push ends at a tick but for that."""
 
 
 def recorded(trajectory: Trajectory, name: str) -> Array | None:
@@ -59,8 +58,10 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
 
 
 def accelerations(arc: Arc, n: int) -> Array:
-    """q'' (K, n) [rad/s^2] at the nodes of an arc; in a stretch that is no longer than round-off, that before
-    it, or after it at the start.
+    """q'' (K, n) [rad/s^2] at the nodes of an arc, by differences of rates.
+
+    In a stretch of less than SAME_INSTANT, as where a push ends at a tick but for round-off, a difference is
+    round-off too: there it is that of the stretch before, or after it at the start.
     """
     ways = np.diff(arc.t)
     short = (ways > 0.0) & (ways < SAME_INSTANT)

@@ -15,7 +15,7 @@ import numpy as np
 
 from biped_adrc.analysis.quadrature import largest
 from biped_adrc.analysis.recorded_signals import PLACE, as_recorded, recorded
-from biped_adrc.closed_loop.system import InstantSignals, signals_at
+from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import OuterLoop, reference_in_force

@@ -10,11 +10,13 @@ be harder than another for all of them. The comparison study in `bench` calls th
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from scipy import stats
+
+from biped_adrc.types import Array
 
 CONFIDENCE = 0.95
 """Of every interval."""
@@ -86,6 +88,20 @@ def paired_equal(a: Sequence[float], b: Sequence[float], margin: float) -> Teste
     if found is None:
         return None
     return Tested(len(differences), found, _more_than_half([abs(x) < margin for x in differences]))
+
+
+def over_seeds(x: Array, statistic: Callable[[Array], Array]) -> Interval:
+    """A statistic of walks with its bootstrap interval; seeds are drawn, each with all of its conditions.
+
+    x: a number of each walk (conditions, seeds), which may be infinite. statistic: from B sets of walks (B, N)
+    to their B numbers. The draws are the same for the same number of seeds.
+    """
+    seeds = x.shape[1]
+    drawn = np.random.default_rng(0).integers(0, seeds, (RESAMPLES, seeds))
+    sets = np.moveaxis(x[:, drawn], 0, 1).reshape(RESAMPLES, -1)
+    edges = [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2]
+    low, high = np.quantile(statistic(sets), edges, method="inverted_cdf")
+    return Interval(float(statistic(x.reshape(1, -1))[0]), float(low), float(high))
 
 
 def _more_than_half(so: Sequence[bool]) -> float:

@@ -8,7 +8,7 @@ notices without a touchdown both false.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,21 @@ from biped_adrc.hardware.touchdown import belief_of
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
+
+
+class TouchdownRates(NamedTuple):
+    """How well the touchdowns of a walk were noticed, in plain numbers; None of nothing."""
+
+    late_mean: float | None
+    """Mean lateness of those that were noticed, and not early [s]."""
+    late_max: float | None
+    """The largest of it [s]."""
+    early_share: float | None
+    """Share of the touchdowns that were noticed early [1]."""
+    missed_share: float | None
+    """Share of the touchdowns that were missed [1]."""
+    false_notices: int
+    """How many notices had no touchdown."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +59,18 @@ class Noticed(Shown):
     def early(self) -> float:
         """Share of the touchdowns that was noticed early [1]; 0 without any."""
         return self._share(self.late < 0.0)
+
+    @property
+    def rates(self) -> TouchdownRates:
+        """Lateness, shares and the number of false notices, without a touchdown that waits."""
+        late, known = self.late[self.late >= 0.0], len(self.t) > self.waits
+        return TouchdownRates(
+            float(np.mean(late)) if len(late) else None,
+            float(np.max(late)) if len(late) else None,
+            self.early if known else None,
+            self.missed if known else None,
+            len(self.false),
+        )
 
     def _share(self, found: NDArray[np.bool_]) -> float:
         """Of the touchdowns that are decided, of N."""

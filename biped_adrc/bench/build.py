@@ -108,7 +108,7 @@ def _scene(
 
 
 def case(s: Scenario) -> Case:
-    """The walk of a scenario, metered, with its start and method.
+    """The walk of a scenario, metered, with its start and method; recorded where it has to notice touchdowns.
 
     The meter counts at sample instants and takes one integration step per period, which is why a study asks for
     a period. Raises InputError for values that do not fit together, or that a study cannot use: continuous
@@ -129,4 +129,5 @@ def case(s: Scenario) -> Case:
     walker = build(s, scene, metered=s.plant == RIGID)
     if s.plant != RIGID:
         soft_loop(s, walker)
-    return Case(walker, q, v, method_of(s, walker), s.impacts, Mode(s.first_step))
+    mode, recorded = Mode(s.first_step), s.plant == RIGID and s.touchdown is not None
+    return Case(walker, q, v, method_of(s, walker), s.impacts, mode, recorded)

@@ -2,8 +2,7 @@
 
 Nothing raises: values that do not fit give a row with the status REFUSED, a controller that raises one with
 RAISED, so that one bad trial of a study spoils no other. A number that does not exist is None and never NaN,
-which JSON and SQL do not have. What is reported is counted during the walk at sample instants by the meter
-(`hardware.meter`), so that no trajectory has to be stored.
+which JSON and SQL do not have. What is counted in a walk is in `bench.counted`.
 
 `run_trials` is the function that `sweep` and the comparison hand to `campaign.execute`; it runs in worker
 processes or threads. The meaning of the columns is in columns.toml.
@@ -18,28 +17,25 @@ from threading import Lock
 import numpy as np
 
 from biped_adrc.analysis.legality import outcome_of
+from biped_adrc.analysis.touchdowns import touchdowns
 from biped_adrc.bench.build import case, scene_of
+from biped_adrc.bench.counted import WalkRow, by_meter, by_signals
 from biped_adrc.bench.parameters import trial
-from biped_adrc.bench.soft_row import counted, soft_walk
 from biped_adrc.campaign.chunk import NO_WALK, REFUSED, Record
+from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.engine.batch import BatchWalk, Case, run_case
 from biped_adrc.errors import BipedError
-from biped_adrc.hardware.meter import LARGEST_RATIO, Reading, reading
 from biped_adrc.hybrid.status import Status
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.build import RIGID
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
-
-WalkRow = dict[str, float | int | str | None]
-"""Results by column name."""
 
 COLUMNS: Mapping[str, str] = packaged("biped_adrc.bench", "columns.toml")
 """The columns of a row and what each means, with units."""
 WORDS = ("status", "detail", "outcome", "engine")
 """Columns that hold text."""
-
-COUNTED = ("peak_error", "peak_torque", "work", "net_work", "peak_matched", "peak_unmatched")
-"""Columns that the meter counts under the same names: errors [rad], torques [N m], work [J], xi [rad/s^2]."""
 
 _PREPARING = Lock()
 """Held while a walker is built or its plant is used: threads of a process share robots and compiled code."""
@@ -58,16 +54,16 @@ def run_trial(record: Record) -> WalkRow:
             made = case(s)
             run = None if s.plant != RIGID else run_case(made)
         if run is None:
-            return _row(soft_row(s, made))
+            return _row(_recorded(s, made))
     except BipedError as error:
         return _row({"status": REFUSED, "detail": str(error), "impacts": 0})
     return _row(measured(s, made, run()))
 
 
-def soft_row(s: Scenario, made: Case) -> WalkRow:
+def _recorded(s: Scenario, made: Case) -> WalkRow:
     """The row of a walk on another plant. Raises InputError for values that do not fit together."""
     try:
-        walk, walked = soft_walk(s)
+        walk = walk_scenario(s)
     except BipedError:
         raise
     except Exception as error:  # whatever a controller in plain Python may raise
@@ -76,8 +72,8 @@ def soft_row(s: Scenario, made: Case) -> WalkRow:
             "detail": f"{type(error).__name__}: {error}",
             "impacts": 0,
         }
-    row = ended(s, made, walked)
-    return row | counted(walk, float(row.get("distance") or 0.0))
+    row = ended(s, made, ends_of(walk))
+    return row | _with_cost(made, row, by_signals(walk))
 
 
 def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
@@ -87,8 +83,28 @@ def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
     """
     row = ended(s, made, walked)
     if len(walked.final_state) > 2 * made.walker.plant.n + made.walker.behind - 1:
-        row |= _meter(made, walked, row)
+        row |= _with_cost(made, row, by_meter(made, walked))
+    if walked.trajectory is not None:
+        row |= touchdowns(made.walker, walked.trajectory).rates._asdict()
     return row
+
+
+def _with_cost(made: Case, row: WalkRow, counted: WalkRow) -> WalkRow:
+    """What was counted, and the cost of transport work / (weight x distance), None without forward motion."""
+    distance, work = row.get("distance"), counted["work"]
+    assert isinstance(work, float)
+    forward = isinstance(distance, float) and distance > 0.0
+    cost = work / (made.walker.plant.weight * distance) if forward else None  # type: ignore[operator]
+    return counted | {"cost_of_transport": cost}
+
+
+def ends_of(made: Walk) -> BatchWalk:
+    """Status, impacts and end of a walk that was recorded."""
+    run = made.trajectory
+    times = np.array([event.t for event in run.events(FOOT_STRIKE)])
+    end, engine = run.final_state, str(run.settings["engine"])
+    before = run.before(FOOT_STRIKE)
+    return BatchWalk(run.status, run.detail, times, before, end, run.t_end, engine)
 
 
 def ended(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
@@ -127,56 +143,6 @@ def _pace(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
         "speed": speed,
         "speed_change": speed / usual - 1.0,
         "last_speed": last,
-    }
-
-
-def _meter(made: Case, walked: BatchWalk, row: WalkRow) -> WalkRow:
-    """What the meter counted: root mean squares over ticks and joints, cost of transport, and legality.
-
-    The cost is work / (weight x distance), None without forward motion.
-    """
-    w = made.walker
-    g, distance = reading(w.held_at(walked.final_state).g), row["distance"]
-    ticks = max(g.ticks, 1.0) * w.plant.p
-    forward = isinstance(distance, float) and distance > 0.0
-    cost = g.work / (w.plant.weight * distance) if forward else None  # type: ignore[operator]
-    return {
-        **{name: getattr(g, name) for name in COUNTED},
-        "rms_error": math.sqrt(g.square_error / ticks),
-        "rms_torque": math.sqrt(g.square_torque / ticks),
-        "cost_of_transport": cost,
-        **_legality(made, walked, g),
-    }
-
-
-def _legality(made: Case, walked: BatchWalk, g: Reading) -> WalkRow:
-    """What the walk asked of ground and motors, whether that is possible, and which limit it broke.
-
-    Forces averaged over the window of `Limits` decide; peaks at single ticks are reported beside them. A ratio
-    F_T / F_N without a positive normal force has no number.
-    """
-    k = made.walker.meter.limits.of(made.walker.plant.description)  # type: ignore[union-attr]
-    legal, known = g.illegal_step == 0.0, g.windows > 0.0
-    before = g.illegal_step - made.mode.step
-    pushed = g.friction < LARGEST_RATIO and g.friction > 0.0
-    impulse = walked.impacts > 0 and g.impulse_ratio < LARGEST_RATIO
-    outcome = outcome_of(walked.status, legal)
-    return {
-        "outcome": outcome,
-        "legal": int(outcome == "legal"),
-        "legal_impacts": walked.impacts if legal else int(min(before, walked.impacts)),
-        "least_normal_force": g.least_normal_force if g.ticks > 0.0 else None,
-        "friction": g.friction if pushed else None,
-        "share_outside": g.outside / max(g.ticks, 1.0),
-        "mean_normal_force": g.mean_normal_force if known else None,
-        "mean_friction": g.mean_friction if known and g.mean_friction > 0.0 else None,
-        "scuffing": g.scuffing,
-        "impulse_ratio": g.impulse_ratio if impulse else None,
-        "bad_normal_force": int(known and not g.mean_normal_force > 0.0),
-        "bad_friction": int(not g.mean_friction <= k.friction),
-        "bad_torque": int(not g.peak_torque <= k.torque),
-        "bad_scuffing": int(not g.scuffing <= 0.0),
-        "bad_impulse": int(not g.impulse_ratio <= k.friction),
     }
 
 

@@ -40,6 +40,8 @@ CREATE TABLE runs (key TEXT PRIMARY KEY, record TEXT NOT NULL, seed INTEGER, eng
 CREATE TABLE points (position INTEGER PRIMARY KEY, key TEXT NOT NULL, at TEXT NOT NULL);
 """
 """The tables, as described in `campaign.store`."""
+LOCKED = 5.0
+"""For how long another program that is writing is waited for [s]."""
 
 
 def open_store(path: Path, about: About, other_versions: bool = False) -> Store:
@@ -100,9 +102,9 @@ def read_store(path: Path) -> Store:
 
 
 def _connected(path: Path, mode: str) -> sqlite3.Connection:
-    """A connection without implicit transactions; waits up to 5 s for another process that is writing."""
+    """A connection without implicit transactions; waits for `LOCKED` where another process is writing."""
     uri = f"{path.absolute().as_uri()}?mode={mode}"
-    db = sqlite3.connect(uri, uri=True, isolation_level=None, timeout=5.0)
+    db = sqlite3.connect(uri, uri=True, isolation_level=None, timeout=LOCKED)
     db.create_function("checksum", -1, checksum, deterministic=True)
     return db
 

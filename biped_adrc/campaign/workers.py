@@ -251,6 +251,48 @@ class Given(Workers):
         return False
 
 
+@dataclass
+class Kept(Workers):
+    """Workers that stay between the rounds of a study, which would otherwise start anew in each of them.
+
+    They are started by the first round and ended by `close`, or where a round fails.
+    """
+
+    crew: Workers
+    """Who they are."""
+    executor: Executor | None = None
+    """The one in use."""
+
+    def count(self, executor: Executor) -> int:
+        return self.crew.count(executor)
+
+    def prepare(self) -> None:
+        self.crew.prepare()
+
+    def start(self) -> Executor:
+        if self.executor is None:
+            self.executor = self.crew.start()
+        return self.executor
+
+    def stop(self, executor: Executor, now: bool) -> None:
+        """Leave them for the next round; `now`: end them."""
+        if now:
+            self.executor = None
+            self.crew.stop(executor, True)
+
+    def broken(self, error: BaseException) -> bool:
+        return self.crew.broken(error)
+
+    def check(self, executor: Executor, idle: float) -> None:
+        self.crew.check(executor, idle)
+
+    def close(self) -> None:
+        """End them, where there are any."""
+        if self.executor is not None:
+            executor, self.executor = self.executor, None
+            self.crew.stop(executor, False)
+
+
 def workers_of(given: Workers | Executor | int | None) -> Workers:
     """`Workers` as they are, the user's executor, or this many processes (None: one per core)."""
     if isinstance(given, Workers):

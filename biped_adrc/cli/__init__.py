@@ -29,7 +29,18 @@ if TYPE_CHECKING:
 
 __all__ = ["app", "gait_app", "main"]
 
-COMMANDS = ("compare", "design", "gait", "look", "observer", "reproduce", "robot", "sweep", "walk")
+COMMANDS = (
+    "compare",
+    "design",
+    "gait",
+    "look",
+    "observer",
+    "reproduce",
+    "robot",
+    "sweep",
+    "tune",
+    "walk",
+)
 """Modules, each of which adds its commands to the app, in the order of the help."""
 for _module in COMMANDS:
     import_module(f"biped_adrc.cli.{_module}")

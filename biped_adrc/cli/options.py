@@ -17,6 +17,7 @@ import json
 from collections.abc import Callable
 from functools import reduce, wraps
 from inspect import Parameter, signature
+from pathlib import Path
 from typing import Annotated, Any, get_args
 
 import typer
@@ -123,13 +124,20 @@ def _told(context: typer.Context, name: str) -> bool:
     return source is not None and source.name == "COMMANDLINE"
 
 
-def values_of(given: PlainRecord, push: list[str] | None, sets: list[str] | None) -> PlainRecord:
+def values_of(
+    given: PlainRecord,
+    push: list[str] | None,
+    sets: list[str] | None,
+    scenario: Path | None = None,
+) -> PlainRecord:
     """The values of a scenario that options, pushes and --set name, as its constructor takes them.
 
-    A name that is no field goes to the controller's own parameters. Raises InputError for a text
-    that cannot be read, and for a value that is given twice.
+    scenario: a file of values that they go before. A name that is no field goes to the controller's
+    own parameters. Raises InputError for a text or a file that cannot be read, and for a value that
+    is given twice.
     """
     from biped_adrc.bench.parameters import TABLES, Refused, nested, read
+    from biped_adrc.bench.scenario_file import read_scenario
 
     values = dict(given)
     if push:
@@ -147,7 +155,7 @@ def values_of(given: PlainRecord, push: list[str] | None, sets: list[str] | None
             values[name] = read(name, _plain(name, said))
         except Refused as error:
             raise InputError(f"--set {text}: {error}") from None
-    return nested(values)
+    return nested(({} if scenario is None else read_scenario(scenario)) | values)
 
 
 def _plain(name: str, text: str) -> object:

@@ -63,7 +63,7 @@ def sweep(
         from biped_adrc.bench.sweep import RESULTS
         from biped_adrc.bench.sweep import sweep as run
 
-        with carried_out(found.name, out / RESULTS, found.count, _clock) as progress:
+        with carried_out(found.name, out / RESULTS, found.count, clock) as progress:
             done = run(found, out, crew, progress=progress, other_versions=other_versions)
     _print_statuses(done)
     for kind in export or []:
@@ -133,7 +133,7 @@ def carried_out(
             raise stop from None
 
 
-def _clock(seconds: float) -> str:
+def clock(seconds: float) -> str:
     """Seconds to go as "h:mm:ss left"."""
     minutes, rest = divmod(round(seconds), 60)
     return f"{minutes // 60}:{minutes % 60:02}:{rest:02} left"

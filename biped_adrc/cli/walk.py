@@ -50,6 +50,7 @@ def simulate(
     given: PlainRecord,
     push: list[str] | None = None,
     sets: list[str] | None = None,
+    scenario: Path | None = None,
     as_printed: bool = False,
     end_illegal: bool = False,
     out: Path | None = None,
@@ -59,7 +60,7 @@ def simulate(
     from biped_adrc.scenario.scenario import Scenario
 
     printed = {"solve_theta": False} if as_printed else {}
-    values = {"controller": usual(given), **values_of(given, push, sets), **printed}
+    values = {"controller": usual(given), **values_of(given, push, sets, scenario), **printed}
     s = Scenario(**values)
     read = inputs(s.robot, s.gait)
     _walk(s, limits(s), end_illegal, run_path(out, read))
@@ -218,6 +219,7 @@ def poincare(
     given: PlainRecord,
     slope: float | None = None,
     sets: list[str] | None = None,
+    scenario: Path | None = None,
     observer_states: bool = True,
     samples: int = 25,
 ) -> None:
@@ -230,7 +232,7 @@ def poincare(
         nominal_step,
     )
 
-    s = Scenario(**{"controller": usual(given, "NPD"), **values_of(given, None, sets)})
+    s = Scenario(**{"controller": usual(given, "NPD"), **values_of(given, None, sets, scenario)})
     cycle = cycle_of(s, observer_states, slope)
     with console.status("Newton on the return map"):
         found = cycle_stability(cycle, samples)

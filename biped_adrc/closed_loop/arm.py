@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.errors import InputError

@@ -39,7 +39,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.closed_loop.semantics import Instant, Loop, Mode, instant
+from biped_adrc.closed_loop.protocols import Loop, Mode
+from biped_adrc.closed_loop.semantics import Instant, instant
 from biped_adrc.control.base import Controller
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, path

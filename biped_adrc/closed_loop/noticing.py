@@ -11,18 +11,16 @@ on a real number, since both engines run these lines.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.control.base import Measurement
 from biped_adrc.hardware.motors import Line, relabelled
 from biped_adrc.hardware.sample_hold import HeldParameters, as_seen, read
 from biped_adrc.hardware.touchdown import Belief, Look, belief_of, numbers_of
 from biped_adrc.types import Array
-
-if TYPE_CHECKING:
-    from biped_adrc.closed_loop.semantics import Loop, Mode
 
 
 def noticed(

@@ -14,20 +14,19 @@ These pure functions are the only place where the closed loop is defined. On Num
 real number: only integers of the structure (sizes, whether a part exists) decide, because a branch
 on a symbol cannot be traced.
 
-The protocols say what a loop and its plant must offer. They are satisfied by `model.biped.Biped`,
-`model.arm.Arm`, `engine.mechanics.PlanarRobot` and any plant of the user's own.
+What a loop and its plant must offer is in `closed_loop.protocols`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.closed_loop.noticing import labelled, noticed, unnoticed
+from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.control.base import Measurement
-from biped_adrc.hardware.meter import Hit, Outside, loads, metered
+from biped_adrc.hardware.meter import Hit, loads, metered
 from biped_adrc.hardware.motors import Line, acting, limited, mean_torque, sent
 from biped_adrc.hardware.sample_hold import (
     Held,
@@ -40,162 +39,8 @@ from biped_adrc.hardware.sample_hold import (
     written,
 )
 from biped_adrc.linear import solve_positive
-from biped_adrc.model.reduction import BodyTerms, Reduction, unknown_force
-from biped_adrc.observers.base import Estimate
-from biped_adrc.types import Array, Indices, frozen
-
-
-class Mode(NamedTuple):
-    """The discrete state of a walk: single support `step` (from 1), which began at `start` [s]."""
-
-    step: int = 1
-    start: float = 0.0
-
-
-class Plant(Protocol):
-    """What moves: n coordinates, of which the first p have motors. q [rad], v [rad/s] and forces
-    [N m] are (n,).
-
-    Enough for a plant without ground, such as an arm; a walker needs a `WalkingPlant`.
-    """
-
-    @property
-    def n(self) -> int:
-        """Number of coordinates."""
-
-    @property
-    def p(self) -> int:
-        """Number of motors; they act on the first p coordinates."""
-
-    def reduction(self, q: Array, v: Array) -> Reduction:
-        """The terms of (11)-(15) at q (n,) [rad] and v (n,) [rad/s]."""
-
-    def acceleration(self, q: Array, v: Array, force: Array) -> Array:
-        """q'' (n,) [rad/s^2] under the generalised force B_s u + zeta (n,) [N m]; joint friction included."""
-
-
-class AfterImpact(Protocol):
-    """What an impact leaves behind; `model.contact.Impact` is one, its symbolic twin another."""
-
-    @property
-    def q(self) -> Array:
-        """Angles after relabelling (n,) [rad]."""
-
-    @property
-    def v(self) -> Array:
-        """Rates after impact and relabelling (n,) [rad/s]."""
-
-    @property
-    def impulse(self) -> Array:
-        """Of the ground on the foot that strikes (2,) [N s]."""
-
-
-class WalkingPlant(Plant, Protocol):
-    """A plant that stands on the ground with one foot (pinned) and strikes it with the other.
-
-    Points and forces are (x, z): x along the horizontal in the direction of walking, z up.
-    """
-
-    def body_terms(self, q: Array, v: Array) -> BodyTerms:
-        """G, C' q' (n,) [N m], and the ground's force as F_a q'' + F_0 (2,) [N]."""
-
-    def impact(self, q: Array, v: Array) -> AfterImpact:
-        """The plastic impact (7) from q (n,) [rad], v (n,) [rad/s], then the relabelling (8)."""
-
-    def momentum(self, q: Array, v: Array) -> Array:
-        """Linear momentum m v_com (2,) [N s] of the whole robot."""
-
-    def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
-        """Force of the ground on the stance foot (2,) [N] for q'' = a, without forces from outside."""
-
-    def swing_foot(self, q: Array) -> Array:
-        """Position (x, z) of the swing foot from the stance foot (2,) [m]."""
-
-    def hip(self, q: Array) -> Array:
-        """Position (x, z) of the hip from the stance foot (2,) [m]."""
-
-
-class ControlLaw(NamedTuple):
-    """The functions of a controller in its time base that a closed loop calls, parameters filled in.
-
-    On arrays the methods of `control.base.Controller`, and what they give is checked; on symbols its laws.
-    """
-
-    output: Callable[[Array, Measurement], Array]
-    """output(s, m) -> torque asked for (p,) [N m], before saturation."""
-    flow: Callable[[Array, Measurement, Array], Array]
-    """flow(s, m, u) -> s' in continuous time, u (p,) [N m] the torque applied."""
-    jump: Callable[..., Array]
-    """jump(s, m, swap) -> s after an impact; m is the measurement after it."""
-    correct: Callable[[Array, Measurement], Array]
-    """correct(s, m) -> s at a sample instant, with the new measurement."""
-    predict: Callable[[Array, Measurement, Array], Array]
-    """predict(s, m, u) -> s at the next sample instant, u (p,) [N m] the torque that will act."""
-    estimate: Callable[[Array, Measurement], Estimate | None]
-    """estimate(s, m) -> what an observer inside says, None without one."""
-
-
-class Loop(Protocol):
-    """The parts of a closed loop, and what acts on it from outside: all that these functions ask for.
-
-    Arrays of NumPy in `ClosedLoop`, symbols in `engine.equations.SymbolicLoop`.
-    """
-
-    @property
-    def plant(self) -> Any:
-        """What moves: a `Plant`; a `WalkingPlant` where there are impacts or a meter."""
-
-    @property
-    def nominal(self) -> Any:
-        """The controller's model: a plant of the same kind, or the plant itself."""
-
-    @property
-    def exact(self) -> bool:
-        """Whether the nominal model is the whole plant: no other model and no friction that it ignores.
-
-        Then D_s and Omega are computed once for controller and motion.
-        """
-
-    @property
-    def calls(self) -> ControlLaw:
-        """The functions of the controller in its time base."""
-
-    @property
-    def held(self) -> HeldParameters | None:
-        """Parameters of what is held between sample instants; None in continuous time."""
-
-    @property
-    def swap(self) -> Indices:
-        """Relabelling of the actuated joints at an impact (p,), dtype int: new joint i is old joint swap[i]."""
-
-    @property
-    def gain(self) -> Array:
-        """Relative errors of the impact map: v+ = (1 + gain) v+, (n,) [1], or empty for none."""
-
-    def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s]: `measurement`."""
-
-    def saturate(self, u: Array) -> Array:
-        """u (p,) [N m] within the torque limit."""
-
-    def jumped(self, fires: float, s: Array, m: Measurement) -> Array:
-        """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
-
-    def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Array, mode: Mode
-    ) -> tuple[float, float]:
-        """Vertical forces of the ground on stance and swing foot [N], under the torque held in `tail`."""
-
-    def bounded(self, u: Array) -> Array:
-        """u (p,) [N m] itself; ends the run where it is beyond anything that the motors have."""
-
-    def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
-        """The disturbance zeta (n,) [N m] at t [s]."""
-
-    def outside(self, t: float, mode: Mode) -> Outside:
-        """For the meter at a sample instant t [s]: force from outside now, its impulse since the
-        last sample instant, and how far the ground drops.
-        """
+from biped_adrc.model.reduction import Reduction, unknown_force
+from biped_adrc.types import Array, frozen
 
 
 class Instant(NamedTuple):

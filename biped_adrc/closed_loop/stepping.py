@@ -20,7 +20,8 @@ import numpy as np
 
 from biped_adrc.closed_loop.bounds import Bounds
 from biped_adrc.closed_loop.noticing import estimated
-from biped_adrc.closed_loop.semantics import Mode, Plant, landed, parts, torque_held
+from biped_adrc.closed_loop.protocols import Mode, Plant
+from biped_adrc.closed_loop.semantics import landed, parts, torque_held
 from biped_adrc.closed_loop.stepping_plant import (
     Advanced,
     Contact,
@@ -52,7 +53,7 @@ from biped_adrc.types import Array, Indices, frozen
 class SteppingLoop(ClosedLoop[Any]):
     """A `SteppingPlant` under a controller at sample instants.
 
-    - plant: what moves. model: what the controller knows of it, a `semantics.Plant`.
+    - plant: what moves. model: what the controller knows of it, a `protocols.Plant`.
     - timing: sampled, since between sample instants the plant is given one torque.
     - disturbance: zeta (n,) [N m] and its resultant, asked for by the plant as often as it likes.
     - torque_limit [N m]: saturates every motor; None for no limit.

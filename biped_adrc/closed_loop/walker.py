@@ -20,8 +20,8 @@ import numpy as np
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.bounds import Bounds
 from biped_adrc.closed_loop.exponential_form import SplitLaws, error_laws, loop_laws, split_of
+from biped_adrc.closed_loop.protocols import Mode as Mode
 from biped_adrc.closed_loop.semantics import Instant as Instant
-from biped_adrc.closed_loop.semantics import Mode as Mode
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance

@@ -14,8 +14,8 @@ Policies act at ticks, so they work in sampled time alone. T = 0 is the controll
 an outer loop they would begin that loop anew; put the outer loop around the policy.
 
 `AcrossContact` is the base of all policies; `ContactWindow` of those with a T. Others: `frozen_disturbance`,
-`kept_torque`, `impact_invariant`. What an observer does at the instant of the touchdown itself is its
-`ResetPolicy`.
+`kept_torque`, `impact_invariant`, `double_support`. What an observer does at the instant of the touchdown
+itself is its `ResetPolicy`.
 """
 
 from __future__ import annotations
@@ -31,10 +31,8 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, ControllerLaws, Measurement, controller_laws
 from biped_adrc.errors import InputError
+from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
-
-SAME_INSTANT = 1e-9
-"""[s]: a tick that is T after touchdown but for round-off is outside of the window, in both engines."""
 
 
 class ContactParameters(NamedTuple):

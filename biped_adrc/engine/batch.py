@@ -27,12 +27,13 @@ from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.run import COMPILED, COMPILED_PLANT, PINOCCHIO
-from biped_adrc.engine.simulate import on_compiled_plant
+from biped_adrc.engine.simulate import on_compiled_plant, run_made
 from biped_adrc.errors import BipedError, InputError, ModelError, NotFiniteError, SingularError
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.parts import check_fields
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
@@ -61,6 +62,8 @@ class Case(Shown):
     """End after so many."""
     mode: Mode = Mode()  # noqa: RUF009
     """Single support in which it starts."""
+    recorded: bool = False
+    """Whether all its nodes are kept, as `BatchWalk.trajectory`."""
 
     def __post_init__(self) -> None:
         """Raises InputError for a part that is none."""
@@ -75,9 +78,9 @@ class Case(Shown):
 
     @property
     def options(self) -> RunOptions:
-        """Of its run in Python, where it cannot be compiled; the ends of the arcs are kept."""
-        strikes = FOOT_STRIKE, self.impacts
-        return RunOptions(self.t_end, self.mode.start, strikes, store_every=STORE)
+        """Of its run arc by arc; unless it is recorded the ends of the arcs alone are kept."""
+        strikes, every = (FOOT_STRIKE, self.impacts), 1 if self.recorded else STORE
+        return RunOptions(self.t_end, self.mode.start, strikes, store_every=every)
 
 
 @dataclass(frozen=True)
@@ -100,6 +103,8 @@ class BatchWalk(Shown):
     """What ran: compiled, compiled plant, or pinocchio."""
     t_start: float = 0.0
     """Start of the walk [s]."""
+    trajectory: Trajectory | None = None
+    """All nodes, of a case that is recorded and began."""
 
     @property
     def impacts(self) -> int:
@@ -197,6 +202,10 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
         except InputError as error:  # what a user's code gives later on than at the start
             return _ended(case, Status.RAISED, str(error))
         return lambda: walked
+    if case.recorded:
+        return lambda: _left_by(
+            case, run_made(compiled, x, case.mode, case.method, case.options), COMPILED
+        )
     return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
 
 
@@ -234,16 +243,21 @@ def _in_python(case: Case, x: Array, reason: BipedError) -> BatchWalk:
     """The walk on the compiled plant, or on Pinocchio's where there is none; reason: why it is not compiled."""
     run = on_compiled_plant if isinstance(reason, NotCompiled) else simulator.run
     made = run(case.walker, x, case.mode, case.method, case.options)
-    events = made.events(FOOT_STRIKE)
+    return _left_by(case, made, COMPILED_PLANT if isinstance(reason, NotCompiled) else PINOCCHIO)
+
+
+def _left_by(case: Case, run: Trajectory, engine: str) -> BatchWalk:
+    """What the run of a case leaves, and the run itself where it is recorded."""
     return BatchWalk(
-        made.status,
-        made.detail,
-        np.array([event.t for event in events]),
-        made.before(FOOT_STRIKE).reshape(-1, len(x)),
-        made.final_state,
-        made.t_end,
-        COMPILED_PLANT if isinstance(reason, NotCompiled) else PINOCCHIO,
+        run.status,
+        run.detail,
+        np.array([event.t for event in run.events(FOOT_STRIKE)]),
+        run.before(FOOT_STRIKE).reshape(-1, len(run.final_state)),
+        run.final_state,
+        run.t_end,
+        engine,
         case.mode.start,
+        run if case.recorded else None,
     )
 
 

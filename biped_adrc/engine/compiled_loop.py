@@ -16,7 +16,7 @@ from dataclasses import dataclass, fields, replace
 from threading import get_ident
 from typing import NamedTuple
 
-from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import StridingPlant
 from biped_adrc.engine.compiled_biped import CompiledBiped

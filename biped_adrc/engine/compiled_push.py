@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.disturbances.base import Disturbance, disturbance_laws

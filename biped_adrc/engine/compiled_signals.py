@@ -1,4 +1,4 @@
-"""`closed_loop.system.signals_at` in compiled code, at every node of a run.
+"""`closed_loop.instant_signals.signals_at` in compiled code, at every node of a run.
 
     observe (t, step, t_start, x, zeta) -> the parts of an `InstantSignals`, in its order
 
@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.closed_loop.system import InstantSignals, signals_at
+from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call

@@ -14,7 +14,8 @@ import math
 
 import numpy as np
 
-from biped_adrc.closed_loop.semantics import Mode, parts
+from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
 from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text

@@ -61,14 +61,7 @@ class Program:
         floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part without laws,
         or ModelError for a robot that is no planar tree.
         """
-        plant, laws = robot_of(walker.plant), laws_of(walker.law)
-        model = None if walker.model is None else robot_of(walker.model)
-        sizes = None if walker.held is None else walker.held.sizes
-        gained = bool(walker.impact_gain)
-        make = WalkerStructure(
-            _common(plant, model), laws._replace(parameters=None), size, sizes, split, gained
-        )
-        numbers = _numbers(walker, plant, model, laws, split)
+        make, numbers = structure_of(walker, size, split)
         K = np.array([*floats(numbers), 0.0])
         if np.any(np.isnan(K)):
             raise NotCompiled(
@@ -87,6 +80,27 @@ class Program:
         if name == "turn" and split is not None:
             return product(len(split.A), self.make.robot.p).addresses[name]
         return self.machine.addresses.get(name, 0)
+
+
+def structure_of(
+    walker: Walker, size: int, split: SplitLaws | None = None
+) -> tuple[WalkerStructure, WalkerNumbers]:
+    """What decides the code of a walker whose controller has `size` states, and its numbers.
+
+    Raises NotCompiled for a part without laws, or ModelError for a robot that is no planar tree.
+    """
+    plant, laws = robot_of(walker.plant), laws_of(walker.law)
+    model = None if walker.model is None else robot_of(walker.model)
+    sizes = None if walker.held is None else walker.held.sizes
+    make = WalkerStructure(
+        _common(plant, model),
+        laws._replace(parameters=None),
+        size,
+        sizes,
+        split,
+        bool(walker.impact_gain),
+    )
+    return make, _numbers(walker, plant, model, laws, split)
 
 
 def laws_of(controller: Controller) -> ControllerLaws:
@@ -154,12 +168,12 @@ def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
 
     functions = {name: partial(traced, name) for name in Equations.names(make)}
     try:
-        return generated(_key(make, numbers), functions)
+        return generated(structure_key(make, numbers), functions)
     except InputError as reason:
         raise NotCompiled(f"{reason}; it runs in Python on the compiled plant") from reason
 
 
-def _key(make: WalkerStructure, numbers: WalkerNumbers) -> str:
+def structure_key(make: WalkerStructure, numbers: WalkerNumbers) -> str:
     """Hash of all that decides the code: laws, structure, versions; no float is in it.
 
     Parameters count by their names and shapes alone.

@@ -53,10 +53,17 @@ def run_compiled(
         run = on_compiled_plant(walker, x0, mode, method, options)
         why = {"engine": COMPILED_PLANT, "why": str(reason)}
         return replace(run, settings={**run.settings, **why})
-    run = run_arcs(_Arcs(made, options).fly, x0, mode, method.label, options)
+    run = run_made(made, x0, mode, method, options)
     return replace(
         run, detail=detail_of(walker, method, run), settings={**run.settings, "engine": COMPILED}
     )
+
+
+def run_made(
+    made: CompiledWalker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
+) -> Trajectory:
+    """The run of a walker that is compiled already, from x0 (nx,), in any thread."""
+    return run_arcs(_Arcs(made, options).fly, x0, mode, method.label, options)
 
 
 def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:

@@ -158,7 +158,7 @@ class Outside(NamedTuple):
 class LoadedPlant(Protocol):
     """What is asked of a plant for its loads, with forces and points as (x, z).
 
-    `closed_loop.semantics.WalkingPlant` has it.
+    `closed_loop.protocols.WalkingPlant` has it.
     """
 
     def momentum(self, q: Array, v: Array) -> Array:

@@ -15,7 +15,7 @@ shifts the whole step in phase, and a drift of the angle goes on doing so from s
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -82,6 +82,14 @@ class PitchSensor(Sensor):
     @property
     def noisy(self) -> bool:
         return self.noise > 0.0
+
+    def smooth(self) -> PitchSensor:
+        return replace(self, noise=0.0)
+
+    def errors(self, n: int, p: int, before: Array) -> Array:
+        own = before.copy()
+        own[n - 1], own[-1] = self.noise, 0.0
+        return own
 
     def laws(self, n: int, p: int, period: float) -> SensorLaws:
         d, b, noise = float(self.drift), float(self.bias), float(self.noise)

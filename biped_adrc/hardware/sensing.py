@@ -62,6 +62,16 @@ class Sensor(Checked, ABC):
         """Whether anything is random: a walk with it has no orbit, and so no return map."""
         return False
 
+    def smooth(self) -> Sensor:
+        """The same sensor without counts and noise, which a linear loop takes in its place."""
+        return self
+
+    def errors(self, n: int, p: int, before: Array) -> Array:
+        """Standard deviations (2 n,) [rad, rad/s] of what this sensor adds to (q, q') at every tick,
+        independent from tick to tick; counts as errors spread evenly. before: of the sensors before it.
+        """
+        return before
+
     def __add__(self, other: Sensor) -> Sensor:
         check_part(other, f"what is added to {type(self).__name__}", Sensor)
         return Sensing((*_parts(self), *_parts(other)))
@@ -91,6 +101,14 @@ class Sensing(Sensor):
     @property
     def noisy(self) -> bool:
         return any(part.noisy for part in self.parts)
+
+    def smooth(self) -> Sensor:
+        return Sensing(tuple(part.smooth() for part in self.parts))
+
+    def errors(self, n: int, p: int, before: Array) -> Array:
+        for part in self.parts:
+            before = part.errors(n, p, before)
+        return before
 
 
 @lru_cache(maxsize=64)

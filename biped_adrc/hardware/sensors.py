@@ -22,7 +22,7 @@ that a run is repeated by repeating its seed, and a tick may be taken again.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -147,6 +147,16 @@ class Sensors(Shown, Sensor):
     def random(self) -> Array:
         """r at the start of a run: (6,), or none without noise."""
         return seeded(self.seed) if self.noisy else np.zeros(0)
+
+    def smooth(self) -> Sensors:
+        exact = replace(self, noise=0.0, pitch_noise=0.0, rate_noise=0.0)
+        return replace(exact, counts=None, pitch_resolution=None)
+
+    def errors(self, n: int, p: int, before: Array) -> Array:
+        k = self.parameters(n, p, 1.0)
+        counts = np.where(k.rounds > 0, k.resolution, 0.0)
+        rates = np.where(k.differences > 0, 0.0, k.rate_noise)
+        return np.concatenate((np.hypot(k.noise, counts / math.sqrt(12.0)), rates))
 
     def start(self, k: SensorParameters, q: Array, v: Array) -> Array:
         return sensor_state(k, q, v, self.random)

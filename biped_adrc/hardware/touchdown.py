@@ -30,8 +30,6 @@ from biped_adrc.errors import InputError
 from biped_adrc.parts import Checked
 from biped_adrc.types import Array
 
-SAME_INSTANT = 1e-9
-"""[s]: a tick that is due but for round-off is due, in both engines."""
 HEAD = 3
 """Numbers in b before d."""
 

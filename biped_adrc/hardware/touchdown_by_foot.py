@@ -16,7 +16,6 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.touchdown import (
-    SAME_INSTANT,
     Look,
     Touchdown,
     TouchdownLaws,
@@ -25,6 +24,7 @@ from biped_adrc.hardware.touchdown import (
     unchanged,
 )
 from biped_adrc.shown import Shown
+from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
 
 

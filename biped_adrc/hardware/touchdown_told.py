@@ -15,9 +15,10 @@ import numpy as np
 
 from biped_adrc.errors import InputError, check_whole
 from biped_adrc.hardware.sensors import SIZE, seeded, uniforms
-from biped_adrc.hardware.touchdown import SAME_INSTANT, Look, Touchdown, TouchdownLaws, check_time
+from biped_adrc.hardware.touchdown import Look, Touchdown, TouchdownLaws, check_time
 from biped_adrc.parts import check_part
 from biped_adrc.shown import Shown
+from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
 
 

@@ -8,7 +8,7 @@ joint i it makes a torque of
     rms u_i = sigma_a sqrt(sum_j (kappa^-1)_ij^2)
 
 with sigma_a [rad/s^2] from the sampled loop. The encoders' part in Theta and in the rates of the
-reference, which no observer filters, is not included.
+reference, which no observer filters, is not included; `specification` has it.
 
 An observer is allowed on the `Hardware` if its sampled loop is stable for kappa 20 % off, and if
 the torque noise ("ripple") of one count stays below a share of the torque limit. `observer_report`

@@ -8,10 +8,14 @@ polynomial outside of its range.
 Every walk is computed at two integration steps. A cell in which they end differently is marginal, and no claim
 rests on it. Tasks of `paper.plan`; read by `paper.tables`, the claims, and `viz.plots.push_map`.
 
+A base scenario on soft ground makes the same map there; the step that is halved is then that of its engine,
+and a walk in which a foot slips is not legal.
+
 What a walk can be:
 
     legal      makes all steps within friction, torque limits and without scuffing
-    pulled     makes all steps; the mean normal force was negative, a real foot would have left the ground
+    pulled     makes all steps; the mean normal force was negative, a real foot would have left the ground (on
+               soft ground it was zero: the foot has left it)
     made       makes all steps, and breaks another limit
     fell       the robot fell
     ended      ended otherwise, such as a step that takes too long
@@ -27,6 +31,7 @@ from dataclasses import asdict, dataclass, replace
 
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.scenario.build import RIGID
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.run import execute_twice
@@ -53,7 +58,9 @@ PUSHED_STEP = 19
 DURATION = 0.2
 """Of a push [s]."""
 MAP_STEP = 1e-3
-"""Integration step [s]; each walk is repeated at half of it."""
+"""Integration step on the rigid plant [s]; each walk is repeated at half of it."""
+SLIPS = 5e-3
+"""Distance that a foot may slip in a step of a legal walk on soft ground [m]."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +80,7 @@ class Fate:
     impulse_ratio: float | None
     """The largest |F_T| / F_N of the impacts; it makes no walk illegal."""
     reasons: tuple[str, ...] = ()
-    """Why the walk is not legal, by the names of `Legality.reasons`."""
+    """Why the walk is not legal, by the names of `Legality.reasons`, and "slip"."""
     marginal: bool = False
     """Whether its word or its status is another at half of the step."""
 
@@ -92,7 +99,10 @@ class Fate:
             x if math.isfinite(x) else None
             for x in (found.mean_normal_force, found.mean_friction, found.impulse_ratio)
         )
-        return cls(found.outcome, o.status, normal, friction, impulse, tuple(found.reasons))
+        slips = o.slip is not None and o.slip > SLIPS
+        outcome = "made" if slips and found.outcome == "legal" else found.outcome
+        reasons = (*found.reasons, "slip") if slips else tuple(found.reasons)
+        return cls(outcome, o.status, normal, friction, impulse, reasons)
 
     @property
     def word(self) -> str:
@@ -119,6 +129,7 @@ class PushCell:
     """[N m], None for unlimited."""
     npd: Fate
     adrc: Fate
+    """Of the second controller of the map."""
 
     def row(self) -> dict[str, object]:
         """In plain values, for the figure and the summary."""
@@ -156,18 +167,25 @@ class Tried:
             continued=True,
             first_step=PUSHED_STEP,
             impacts=IMPACTS,
-            h=MAP_STEP,
+            h=MAP_STEP if base.plant == RIGID else None,
             engine=COMPILED,
         )
 
 
 def push_map(
-    base: Scenario, tried: Sequence[Tried], progress: Callable[[int], None] | None = None
+    base: Scenario,
+    tried: Sequence[Tried],
+    progress: Callable[[int], None] | None = None,
+    controllers: tuple[str, str] = CONTROLLERS,
 ) -> list[PushCell]:
-    """Both controllers under every push, each at two steps; progress: called with the number of pushes done."""
+    """Both controllers under every push, each at two steps.
+
+    base: robot, plant and all else. progress: called with the number of pushes done. controllers: their names
+    in a scenario; the second stands for ADRC.
+    """
     cells: list[PushCell] = []
     for found in tried:
-        npd, adrc = (Fate.of(execute_twice(found.run(base, c))) for c in CONTROLLERS)
+        npd, adrc = (Fate.of(execute_twice(found.run(base, c))) for c in controllers)
         place = (found.onset, found.amplitude, found.pattern, found.torque_limit)
         cells.append(PushCell(str(base.preset), *place, npd, adrc))
         if progress is not None:

@@ -7,6 +7,7 @@ Where each argument comes from, by its name:
     observer                                        from the observer's name, poles, bandwidth and order
     reset, solve_theta, torque_limit                the scenario's values of these names
     inner, window                                   of a policy across contact: the controller, contact_window
+                                                    or double_support_window
     everything else                                 from `Scenario.own`
 
 "Own values" are those in `Scenario.own`: what a controller or observer takes beside the scenario's fields. An
@@ -42,6 +43,8 @@ OF_OBSERVER = ("observer", "poles", "bandwidth", "order")
 """Fields of a scenario from which `observer` is made."""
 OF_CONTROLLER = (*GAINS, *OF_OBSERVER, "reset", "solve_theta")
 """Fields of a scenario that are for the controller alone; a value that it does not take is an error."""
+POLICIES = ("contact", "double_support")
+"""Fields that name a policy across contact, the inner one first."""
 OF_CONTACT = ("inner", "window")
 """Arguments of a policy across contact that are the controller, and `contact_window`."""
 CONTEXT = ("reference", "gait", "biped", "outputs")
@@ -92,23 +95,25 @@ class ControllerMaker:
         mine = self._own((*CONTEXT, "inner") if outer else BY_ITSELF)
         made = construct(what, make, values | mine, Controller)
         self._seen(make, (), (*mine, "inner") if outer else mine)
-        return made if outer else self._across_contact(made)
+        if (
+            not outer
+        ):  # an outer loop goes around the policies: its state does not begin anew at a touchdown
+            for chosen_by in POLICIES:
+                made = self._across_contact(chosen_by, made)
+        return made
 
-    def _across_contact(self, inner: Controller) -> Controller:
-        """The policy across contact around a controller that is no outer loop; itself where there is none.
-
-        So outer loops go around the policy: their states do not begin anew at a touchdown.
-        """
-        if self.s.contact is None:
+    def _across_contact(self, chosen_by: str, inner: Controller) -> Controller:
+        """The policy across contact that this field names, around a controller; itself where there is none."""
+        name, window = getattr(self.s, chosen_by), getattr(self.s, f"{chosen_by}_window")
+        if name is None:
             return inner
-        make = find("contact", self.s.contact).load()
-        window, own = self.s.contact_window, self._own((*CONTEXT, *OF_CONTACT))
+        make, own = find("contact", name).load(), self._own((*CONTEXT, *OF_CONTACT))
         given = {**self._context(), "inner": inner, **own}
         if window is not None:
             given["window"] = window
-            self.used |= {"contact_window"} if "window" in takes(make) else set()
+            self.used |= {f"{chosen_by}_window"} if "window" in takes(make) else set()
         self._seen(make, (), own)
-        what = f"contact '{self.s.contact}'"
+        what = f"{chosen_by} '{name}'"
         return construct(what, make, given, AcrossContact)  # type: ignore[type-abstract]
 
     def _own(self, given: Container[str]) -> dict[str, object]:
@@ -251,7 +256,7 @@ def controller(s: Scenario, gait: Gait, biped: Biped, others: set[str] | None = 
             raise InputError(f"own value '{name}' of controller '{s.controller}': {found}")
     idle = [
         name
-        for name in (*OF_CONTROLLER, "contact_window")
+        for name in (*OF_CONTROLLER, *(f"{policy}_window" for policy in POLICIES))
         if getattr(s, name) != DEFAULTS[name] and name not in maker.used
     ]
     if idle:

@@ -59,6 +59,8 @@ class Outcome(Shown):
     """The engine that ran, "compiled" or "pinocchio"; "unknown" in runs of version 0.1."""
     half: Outcome | None = None
     """The same run with every step half as long; its own half is None."""
+    slip: float | None = None
+    """Largest distance that a foot slips in a step [m]; None on the rigid plant."""
 
     @property
     def walked(self) -> bool:
@@ -97,4 +99,5 @@ def outcome_of(made: Walk) -> Outcome:
         made.legality,
         str(trajectory.settings["method"]),
         str(trajectory.settings.get("engine", "unknown")),
+        slip=max((x for step in made.soft_steps for x in step.slip), default=None),
     )

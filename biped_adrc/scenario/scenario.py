@@ -64,6 +64,7 @@ NAMED = {
     "controller": "controller",
     "observer": "observer",
     "contact": "contact",
+    "double_support": "contact",
     "sensor": "sensor",
     "touchdown": "touchdown",
     "push": "disturbance",
@@ -79,7 +80,7 @@ OF_RIGID = ("method", "h", "fine", "impact_error")
 OF_SAMPLING = (
     *("delay", "delay_known", "counts", "noise", "pitch_noise", "rate_noise"),
     *("velocity", "filter_time", "sensor", "rate_limit", "lag", "contact"),
-    "touchdown",
+    *("double_support", "touchdown"),
 )
 """Fields that have an effect in sampled time only."""
 FREE = ("adaptive", "stiff")
@@ -125,6 +126,8 @@ class Scenario(Shown):
     reset: str = "model"
     contact: str | None = None
     contact_window: float | None = None
+    double_support: str | None = None
+    double_support_window: float | None = None
     solve_theta: bool = True
     own: dict[str, object] = field(default_factory=dict)
     # sampling, sensors, motors
@@ -288,6 +291,8 @@ class Scenario(Shown):
             "fine with a touchdown": self.touchdown is not None and self.fine is not None,
             "a contact_window without contact": self.contact is None
             and self.contact_window is not None,
+            "a double_support_window without double_support": self.double_support is None
+            and self.double_support_window is not None,
             "poles and an order": self.poles is not None and self.order is not None,
             "poles and a bandwidth": self.poles is not None and self.bandwidth is not None,
             "a tolerance without the method adaptive or stiff": self.tolerance != 1e-9

@@ -100,10 +100,14 @@ def recorded_steps(
 
 
 def _recorded(arc: Arc) -> Readings:
-    """The readings that an arc carries; angles, rates and the plant's own are left out."""
+    """The readings that an arc carries; angles, rates and the plant's own are left out.
+
+    An arc that failed at once has one node, and no torque yet.
+    """
     force, place, speed = (arc.read[name].reshape(-1, 2, 2) for name in NAMES)
     none = np.zeros((len(arc.t), 0))
-    return Readings(arc.t, none, none, none, arc.read["u"], arc.read["zeta"], force, place, speed)
+    u, zeta = (arc.read.get(name, none) for name in ("u", "zeta"))
+    return Readings(arc.t, none, none, none, u, zeta, force, place, speed)
 
 
 def metered(

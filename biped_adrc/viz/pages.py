@@ -1,7 +1,7 @@
 """HTML pages from Jinja2 templates: each is one offline file that holds all it needs.
 
-The pages are the report of a reproduction, a comparison of controllers, the player of animated
-walks, and a walk inside a notebook; their templates are in the folder `templates`. Figures go in as
+The pages are the report of a reproduction, a comparison of controllers, a tuning study, the player of
+animated walks, and a walk inside a notebook; their templates are in the folder `templates`. Figures go in as
 data URIs, scripts and styles as text, and a content security policy makes the browser refuse every
 load from a network. All values are escaped, unless they are `Markup` made here. The same values
 give the same text, byte for byte.
@@ -25,6 +25,7 @@ from biped_adrc.files import write_text
 from biped_adrc.resources import packaged
 from biped_adrc.types import PlainRecord
 from biped_adrc.viz import comparison_text as t
+from biped_adrc.viz import tuning_text
 from biped_adrc.viz.style import render
 
 POLICY = (
@@ -178,6 +179,24 @@ def comparison_html(summary: PlainRecord, figures: Mapping[str, str]) -> str:
         shares=[t.share_texts(cell) for cell in cells],
         medians=[t.median_texts(cell) for cell in cells],
         pushed=[t.push_texts(push) for push in t.by_direction(summary["pushes"])],
+    )
+
+
+def tuning_html(summary: PlainRecord, figures: Mapping[str, str]) -> str:
+    """The text of the page of a tuning study.
+
+    summary: as `tuning.page.summary` makes it. figures: name -> text of an SVG.
+    """
+    shown, goals = captions("tuning").items(), summary["objectives"]
+    return rendered(
+        "tuning",
+        s=summary,
+        figures=[(*said, data_uri(said[0], figures[n])) for n, said in shown if n in figures],
+        questions=[*(f"{of['goal']} {of['words']}" for of in goals), *summary["limits"]],
+        columns=("candidate", "setting", *(of["words"] for of in goals), "limits"),
+        held=[tuning_text.held_out_texts(row) for row in summary["held_out"]],
+        selected=[tuning_text.candidate_texts(c) for c in summary["selected"]],
+        candidates=[tuning_text.candidate_texts(c) for c in summary["candidates"]],
     )
 
 

@@ -334,6 +334,15 @@ def slipping(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
     return np.asarray(np.any(slips, axis=1))
 
 
+def contact_changes(scene: WalkScene, arc: Arc) -> Array:
+    """Times (K,) [s] from which on the other foot touches soft ground or does not, or one slips or does not."""
+    if FORCE not in arc.read:
+        return np.zeros(0)
+    seen = np.column_stack((slipping(scene, arc), np.any(arc.read[FORCE][:, 2:], axis=1)))
+    times: Array = arc.t[1:][np.any(seen[1:] != seen[:-1], axis=1)]
+    return times
+
+
 def check_frames(count: float) -> None:
     """Raise InputError for more frames than a picture can have."""
     if not count <= MOST_FRAMES:

@@ -41,15 +41,36 @@ class Trace {
   }
 }
 
+class Arrow {
+  constructor(path, walk) {
+    this.whole = node(path);
+    this.shaft = node(path + "/shaft");
+    this.head = node(path + "/head");
+    this.walk = walk;
+  }
+  // a force [N] on the foot at x, z [m]; its size [N] where the arrow is cut, else 0
+  show(x, z, tangent, normal) {
+    const w = this.walk, size = Math.hypot(tangent, normal);
+    const whole = w.metres_per_newton * size;
+    const length = Math.min(w.longest, whole), tip = Math.min(w.head, length);
+    this.whole.visible = length > 0 && Number.isFinite(whole); // a walk that diverges may overflow
+    this.whole.position.set(x, 0, z + w.ground);
+    const half = 0.5 * Math.atan2(tangent, normal);
+    this.whole.quaternion.set(0, Math.sin(half), 0, Math.cos(half));
+    this.shaft.scale.set(1, 1, Math.max(length - tip, 1e-6));
+    this.head.position.set(0, 0, length - tip);
+    this.head.scale.setScalar(Math.max(tip / w.head, 1e-6));
+    return whole > w.longest ? size : 0;
+  }
+}
+
 class Robot {
   constructor(walk) {
     this.walk = walk;
     this.joints = walk.joints.map((j) => ({ ...j, object: node(j.path) }));
     this.legs = walk.legs.map((leg) => leg.map((path) => node(path + "/<object>").material));
     this.rings = walk.rings.map(node);
-    this.arrow = node(walk.arrow);
-    this.shaft = node(walk.arrow + "/shaft");
-    this.head = node(walk.arrow + "/head");
+    this.arrows = walk.arrows.map((path) => new Arrow(path, walk));
     this.hip = new Trace(walk.traces[0], false);
     this.foot = new Trace(walk.traces[1], true);
     this.footprints = walk.footprints.map(node);
@@ -58,7 +79,7 @@ class Robot {
   }
   unpack(data) {
     const all = { t: new Float64Array(bytes(data.t).buffer) };
-    for (const name of ["arc", "joints", "rates", "loads", "points"]) {
+    for (const name of ["arc", "joints", "rates", "loads", "points", "contact"]) {
       const flat = new Float32Array(bytes(data[name]).buffer);
       const width = flat.length / all.t.length;
       all[name] = Array.from(all.t, (_, k) => flat.subarray(k * width, (k + 1) * width));
@@ -82,7 +103,7 @@ class Robot {
         + h * s * r * (r * d.rates[i][j] - s * d.rates[k][j]));
     const points = Array.from(d.points[i], (a, j) => r * a + s * d.points[k][j]);
     this.passed = d.points.slice(0, i + 1).map((p, j) => ({ p, arc: d.arc[j][0] }));
-    return { t, joints, loads: d.loads[i], points, arc: d.arc[i][0] };
+    return { t, joints, loads: d.loads[i], points, contact: d.contact[i], arc: d.arc[i][0] };
   }
   show(pose) {
     const w = this.walk, support = w.supports[pose.arc];
@@ -98,25 +119,18 @@ class Robot {
     this.legs.forEach((leg, k) => leg.forEach((material) =>
       material.color.setHex(k === support.stance ? w.colours[0] : w.colours[1])));
     this.footprints.forEach((print, k) => { print.visible = k <= pose.arc; });
-    this.push(pose, support);
+    this.push(pose);
     const here = [...this.passed, { p: pose.points, arc: pose.arc }];
     this.hip.fill(here.map(({ p, arc }) => ({ x: p[0], z: p[1], arc })));
     this.foot.fill(here.map(({ p, arc }) => ({ x: p[2], z: p[3], arc })));
   }
-  // arrows: the ground reaction at the stance foot, a ring around every joint that is pushed
-  push(pose, support) {
+  // arrows: the ground's forces on both feet, a ring around every joint that is pushed
+  push(pose) {
     const w = this.walk, [tangent, normal, ...zeta] = pose.loads;
-    const whole = w.metres_per_newton * Math.hypot(tangent, normal);
-    const length = Math.min(w.longest, whole);
-    const tip = Math.min(w.head, length);
-    this.cut = whole > w.longest ? Math.hypot(tangent, normal) : 0;
-    this.arrow.visible = length > 0 && Number.isFinite(whole); // a walk that diverges may overflow
-    this.arrow.position.set(support.x, 0, support.z + w.ground);
-    const half = 0.5 * Math.atan2(tangent, normal);
-    this.arrow.quaternion.set(0, Math.sin(half), 0, Math.cos(half));
-    this.shaft.scale.set(1, 1, Math.max(length - tip, 1e-6));
-    this.head.position.set(0, 0, length - tip);
-    this.head.scale.setScalar(Math.max(tip / w.head, 1e-6));
+    const [x, z, otherTangent, otherNormal, slips] = pose.contact;
+    this.slips = slips > 0;
+    this.cut = this.arrows[0].show(x, z, tangent, normal);
+    this.arrows[1].show(pose.points[2], pose.points[3], otherTangent, otherNormal);
     this.rings.forEach((ring, k) => {
       const radius = w.metres_per_newton_metre * Math.abs(zeta[k]);
       ring.visible = radius > 0;
@@ -181,6 +195,9 @@ function describe(t, pose) {
   for (const robot of robots.filter((r) => r.cut > 0)) {
     const whose = robots.length > 1 ? " of " + robot.walk.name : "";
     now.push(", ground reaction" + whose + " " + robot.cut.toPrecision(3) + " N (arrow cut)");
+  }
+  for (const robot of robots.filter((r) => r.slips)) {
+    now.push(robots.length > 1 ? ", " + robot.walk.name + " slips" : ", slips");
   }
   element("clock").textContent = "t = " + t.toFixed(2) + " s, step " + support.number + now.join("");
   if (!told) tell(robots.filter((robot) => over(robot, t)).map((r) => r.walk.name + " " + r.walk.ending));

@@ -8,10 +8,8 @@ import os
 import signal
 import sys
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
-import biped_adrc as ba
 from biped_adrc.campaign.execute import run_study
 from biped_adrc.campaign.store import About
 from biped_adrc.campaign.store_open import open_store
@@ -22,18 +20,6 @@ from biped_adrc.versions import numerical_versions
 def rows(records):
     """A row of each record; `raise` raises, `kill` ends the process, `once` does so the first time."""
     return [_row(record) for record in records]
-
-
-@dataclass(frozen=True)
-class StandinController(ba.Controller):
-    """A controller of one's own that workers find by its name."""
-
-    reference: ba.Reference
-    gain: float = 1.0
-
-    def output(self, s, m):
-        gains = ba.Gains(5000.0 * self.gain, 50.0)
-        return ba.NPDController(self.reference, gains).output(s, m)
 
 
 def _row(record):

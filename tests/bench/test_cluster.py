@@ -29,6 +29,9 @@ from biped_adrc.versions import numerical_versions
 pytestmark = pytest.mark.filterwarnings("ignore")
 FOLDER = Path(standin.__file__).parent
 
+SOON = 20.0
+"""[s] In which what is not there is given up; Dask itself would wait for 30 s or more."""
+
 SCHEDULER = """
 import sys, time
 sys.path.insert(0, sys.argv[1])
@@ -81,7 +84,7 @@ def test_what_is_submitted_twice_runs_twice(address):
     crew = Cluster(address)
     executor = crew.start()
     given = [executor.submit(os.urandom, 8) for _ in range(2)]
-    one, other = [future.result(timeout=10.0) for future in given]
+    one, other = [future.result(timeout=SOON) for future in given]
     crew.stop(executor, True)
     assert one != other
 
@@ -101,7 +104,7 @@ def test_walks_are_the_same_as_in_threads(tmp_path, address):
 
 
 def test_a_controller_of_ones_own_is_found_by_its_name(tmp_path, address):
-    fixed = {"controller": "standin:StandinController", "impacts": 1}
+    fixed = {"controller": "standin_controller:StandinController", "impacts": 1}
     study = read_study({"study": {"name": "own"}, "fixed": fixed, "grid": {"own.gain": [0.5, 1.0]}})
     here = sweep(study, tmp_path / "here", Threads(1))
     there = sweep(study, tmp_path / "there", Cluster(address), chunk=1)
@@ -163,7 +166,7 @@ def test_a_worker_that_dies_with_a_result_that_nobody_has_fetched(address):
         def submit(self, *args, **kwargs):
             return Lost()
 
-    assert _Checked(Client(), {}).submit(len, "four").result(timeout=5.0) == [1, 2, 3, 4]
+    assert _Checked(Client(), {}).submit(len, "four").result(timeout=SOON) == [1, 2, 3, 4]
 
 
 def test_a_scheduler_that_goes_away_ends_the_study_and_keeps_what_was_finished(tmp_path):
@@ -212,7 +215,7 @@ def test_a_scheduler_that_does_not_answer(address):
         assert not [x for x in gc.get_objects() if type(x) is Client and x.status != "closed"]
     finally:
         gc.enable()
-    assert time.monotonic() - begin < 5.0
+    assert time.monotonic() - begin < SOON
 
 
 def test_a_scheduler_without_workers():

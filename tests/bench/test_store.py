@@ -16,6 +16,7 @@ import pytest
 import standin
 from standin import about, records, results, rows
 
+from biped_adrc.campaign import store_open
 from biped_adrc.campaign.chunk import key_of, made, text_of
 from biped_adrc.campaign.execute import run_study
 from biped_adrc.campaign.store import Placed, Ran
@@ -70,10 +71,9 @@ def test_killed_at_random_moments_no_finished_run_is_lost(tmp_path):
     before, in_the_middle = 0, 0
     for k in range(KILLS):
         process = child(path, N, pause)
-        first = (
-            process.stdout.readline() if k % 4 else ""
-        )  # each fourth while it still opens the file
-        time.sleep(random.uniform(0.0, 0.12 if first else 0.25))
+        lines = random.randint(1, 12) if k % 4 else 0  # each fourth while it still opens the file
+        first = "".join(process.stdout.readline() for _ in range(lines))
+        time.sleep(random.uniform(0.0, 0.01 if lines else 0.25))
         process.send_signal(signal.SIGKILL)
         said = (first + process.communicate()[0]).split()
         told = [int(line) for line in said if line.isdigit()]
@@ -386,14 +386,16 @@ def test_what_is_a_link_to_another_folder_is_not_written_to(beside, tmp_path):
     assert target.read_bytes() == before
 
 
-def test_a_lock_of_another_program_is_named_soon(tmp_path):
+def test_a_lock_of_another_program_is_named_soon(tmp_path, monkeypatch):
+    assert store_open.LOCKED < 9.0
+    monkeypatch.setattr(store_open, "LOCKED", 0.1)
     path = filled(tmp_path / "r.sqlite", 3)
     other = sqlite3.connect(path, isolation_level=None)
     other.execute("BEGIN EXCLUSIVE")
     began = time.monotonic()
     with pytest.raises(OutputError, match="another program has locked it"):
         open_store(path, about())
-    assert time.monotonic() - began < 9.0
+    assert 0.1 < time.monotonic() - began < 4.0
     other.close()
 
 

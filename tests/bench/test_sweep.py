@@ -430,7 +430,7 @@ def test_ctrl_c_says_how_to_go_on(tmp_path, command):
             except InputError:
                 kept = 0
     os.killpg(process.pid, signal.SIGINT)
-    text, err = process.communicate(timeout=20)
+    text, err = process.communicate(timeout=60)
     assert process.returncode == 130
     assert "the same command goes on" in " ".join(text.split())
     assert "Traceback" not in err

@@ -50,6 +50,10 @@ ROWS = {
         ],
         "ADRC output": lambda make, h: [make(h, SLOW, reset=ba.ResetPolicy.MEASURED)],
         "LESO": lambda make, h: [make(h, ba.GPIObserver.from_bandwidth(500.0))],
+        "ADRC assisted": lambda make, h: [
+            make(h),
+            make(h, ba.GPIObserver.from_bandwidth(300.0, 0)),
+        ],
         "DOB": lambda make, h: [
             make(h),
             make(h, MomentumObserver.from_poles(THREE), solve_theta=False),
@@ -73,6 +77,9 @@ ROWS = {
             make(ba.NPDController(h), 0.07),
             make(MomentumDOBController(h), 0.2, innovation=True),
         ],
+        "last torque": lambda make, h: [make(ba.NPDController(h), 0.07)],
+        "ramp torque": lambda make, h: [make(ba.ADRCController(h, SLOW), 0.2)],
+        "damping": lambda make, h: [make(MomentumDOBController(h), 0.2, damping=5.0)],
     },
     "observer": {
         "GPI": lambda make: [make.from_poles(), make.from_bandwidth(300.0, 0)],
@@ -144,7 +151,7 @@ IN_PYTHON = {"CLF-QP", "output NPD", "finite time", "stride PI", "reference rese
 """Controllers that are methods; all other things of the registry compile."""
 EACH = [(kind, name) for kind, rows in ROWS.items() for name in rows]
 PARTS_OF_CONTROL = {"OuterLoop", "ObservingController", "AbsentController"}
-PARTS_OF_CONTROL |= {"AcrossContact", "ContactWindow"}
+PARTS_OF_CONTROL |= {"AcrossContact", "ContactWindow", "DoubleSupport"}
 BASES = {
     ba.Controller: ("control", PARTS_OF_CONTROL),
     ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),

@@ -8,7 +8,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.touchdowns import matched, touchdowns
 from biped_adrc.closed_loop import semantics
-from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.engine.simulate import run_compiled
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.touchdown import Look, belief_of
@@ -190,6 +190,12 @@ def test_late_early_missed_and_false_by_what_comes_first(struck, notices, late, 
     assert (found.false.tolist(), found.waits) == (false, waits)
     decided = late[: len(late) - waits]
     assert found.missed == (np.mean(np.isnan(decided)) if decided else 0.0)
+    behind = [x for x in late if x >= 0.0]
+    expected = (np.mean(behind), max(behind)) if behind else (None, None)
+    assert found.rates[:2] == pytest.approx(expected)
+    assert found.rates.missed_share == (found.missed if decided else None)
+    assert found.rates.early_share == (found.early if decided else None)
+    assert found.rates.false_notices == len(false)
 
 
 def test_lateness_is_reported_and_is_what_was_asked_for(biped, gait):
@@ -322,7 +328,7 @@ def test_signals_give_the_estimate_in_the_labels_of_the_plant(biped, gait):
     (event,) = walked.events("foot_strike")
     x = event.x_minus, event.x_plus
     xi = [
-        ba.closed_loop.system.signals_at(
+        ba.closed_loop.instant_signals.signals_at(
             system, event.t, each, mode, lambda s, m: gait.constraint(m.t, m.q, m.v)
         ).xi_estimate
         for each, mode in zip(x, (Mode(1, 0.0), Mode(2, event.t)), strict=True)

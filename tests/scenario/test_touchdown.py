@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.analysis.touchdowns import TouchdownRates
+from biped_adrc.bench.build import case
+from biped_adrc.bench.run import measured, run_trial
+from biped_adrc.engine.batch import run_case
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.touchdown_by_foot import ByForce, ByKinematics
 from biped_adrc.hardware.touchdown_told import Told
@@ -59,6 +63,33 @@ def test_a_walk_says_when_its_controller_noticed(plant, tmp_path):
     again = ba.load_walk(walk.save(tmp_path / "walk.npz"))
     np.testing.assert_array_equal(again.touchdowns.late, found.late)
     assert again.walker.touchdown == walk.walker.touchdown
+
+
+@pytest.mark.parametrize("plant", ["rigid", "mujoco"])
+def test_a_row_of_a_study_says_how_touchdowns_were_noticed(plant):
+    """Step 1 is noticed early, step 2 late by 4 ms to the next tick, step 3 waits when the walk ends."""
+    if plant == "mujoco":
+        pytest.importorskip("mujoco")
+    own = {"late": 4e-3, "false_at": [1, 0.4105]}
+    values = {**USUAL, "impacts": 3, "touchdown": "told", "plant": plant, "torque_limit": 150.0}
+    row = run_trial({**values, **{f"own.{name}": x for name, x in own.items()}})
+    assert row["status"] == "COMPLETED"
+    assert (row["early_share"], row["missed_share"], row["false_notices"]) == (0.5, 0.0, 0)
+    assert 4e-3 - 1e-9 < row["late_mean"] == row["late_max"] < 5e-3
+    rates = ba.walk_scenario(ba.Scenario(**values, own=own)).touchdowns.rates
+    assert {name: row[name] for name in rates._fields} == pytest.approx(rates._asdict(), abs=1e-9)
+    assert run_trial({**values, "touchdown": None})["false_notices"] is None
+
+
+def test_a_row_of_a_walk_that_is_recorded_is_that_of_one_that_is_not():
+    s = ba.Scenario(**USUAL, touchdown="told", own={"late": 4e-3})
+    made = case(s)
+    walks = [run_case(replace(made, recorded=recorded))() for recorded in (True, False)]
+    rows = [measured(s, made, walked) for walked in walks]
+    assert made.recorded
+    assert not case(replace(s, touchdown=None, own={})).recorded
+    assert {**rows[1], **rows[0]} == rows[0]
+    assert set(rows[0]) - set(rows[1]) == set(TouchdownRates._fields)
 
 
 @dataclass(frozen=True)

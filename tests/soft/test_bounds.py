@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.bench.run import run_trial
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.errors import InputError
@@ -81,6 +82,9 @@ def test_fields_of_a_scenario_apply_and_a_walk_that_fails_at_once_can_be_read():
         walk = ba.walk_scenario(s)
         assert walk.trajectory.status is ba.Status.RAN_AWAY
         assert walk.signals.ground_reaction.shape == (1, 2)
+        assert walk.soft_steps[0].duration == 0.0
+    row = run_trial({**soft, "controller": "NPD", "runaway_torque": 0.05})
+    assert (row["status"], row["slip"], row["peak_torque"]) == ("RAN_AWAY", 0.0, 0.0)
 
 
 @pytest.mark.parametrize("engine", ["compiled", "pinocchio"])

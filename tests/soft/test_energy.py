@@ -9,7 +9,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.feet import readings
-from biped_adrc.closed_loop.semantics import Mode
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping_plant import Load, PlantState
 from biped_adrc.soft.mujoco_robot import mujoco
 

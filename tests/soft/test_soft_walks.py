@@ -79,6 +79,7 @@ def test_what_a_finished_walk_offers(made, tmp_path):
     assert made.legality.legal_impacts == 2
     assert "impulses" not in made.legality.text()
     assert made.outcome.impacts == 2
+    assert made.outcome.slip == max(max(step.slip) for step in made.soft_steps)
     again = ba.load_walk(made.save(tmp_path / "soft.npz"))
     assert again.soft
     assert np.array_equal(again.signals.ground_reaction, made.signals.ground_reaction)

@@ -10,7 +10,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 
-from soft import legality, limit, rows
+from soft import legality, limit, multipliers, policies, rows
 
 
 def test_rows_that_are_kept_are_not_computed_again(tmp_path):
@@ -61,3 +61,38 @@ def test_what_slips_is_counted():
     assert "cone too | 1 | 1 | 1 | 100 % | 1.00, 1.00, 1.00 mm |" in told
     assert "| illegal by friction | 1 | 1 | 0 | 0 % |" in told
     assert "Of 4 walks drawn, 1 fell" in told
+
+
+def test_a_table_of_policies_says_what_moves_at_half_the_step():
+    """Of three grounds: 10 % of a touchdown's error and 2 % of a push's, and a walk that is lost."""
+    found = []
+    for point in policies.points(quick=True):
+        half = point["h"] < policies.STEP
+        first = (point["policy"], point["time_constant"]) == ("–", 5e-3)
+        row = {"touchdown": 2.2e-3 if half and first else 2e-3, "push": 4.9e-3 if half else 5e-3}
+        if (point["policy"] != "–") and point["time_constant"] == 10e-3:
+            row = {"touchdown": None, "push": None}
+        found.append({"point": point, **row})
+    *_, npd, lost = policies.policy_table(found).splitlines()
+    assert npd == "| NPD | – | 2 | 5 | 2 | 5 | 2 | 5 | 10.0 % | 2.0 % |"
+    assert lost == (
+        "|  | `impact invariant`, rate error, 15 ms | 2 | 5 | 2 | 5 | lost | lost | 0.0 % | 2.0 % |"
+    )
+    found[-1].update(touchdown=1e-3, push=1e-3)
+    assert policies.policy_table(found).count("other walks are lost") == 2
+
+
+def test_a_table_of_multipliers_says_what_is_below_the_floor():
+    row = {"point": {"controller": "NPD", "period": 1e-3, "size": 0.25, "time_constant": 2e-3},
+           "status": "cycle", "magnitudes": [0.7, 0.002], "low": 0.6, "high": 0.8, "floor": 0.01, "rigid": 0.71,
+           "nearby": 0.72, "left": 1.0, "scatter": 1e-5}  # fmt: skip
+    (line,) = multipliers.study_table([row]).splitlines()[2:]
+    assert line == (
+        "| NPD | 1 ms | 1.25 mrad | 0.7000 | 0.6000 to 0.8000 | 0.7100 | 0.7200 | 0.0100 | 0.0020 (below) | "
+        "1.0 | 0.01 mrad/s |"
+    )
+    lost = {"point": row["point"], "status": "no cycle", "rigid": 0.71, "nearby": 0.72}
+    assert (
+        multipliers.path_table([lost]).splitlines()[2].startswith("| NPD | 2 ms | no cycle | – |")
+    )
+    assert "0.0020 |" in multipliers.study_table([row | {"floor": 0.001}])

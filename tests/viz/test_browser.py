@@ -21,7 +21,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.export import export
 from biped_adrc.viz.meshcat.objects import joint_path
-from biped_adrc.viz.placement import WalkScene
+from biped_adrc.viz.placement import WalkScene, loads, slipping
 
 from .browser import chromium, console, needs_chromium, requested, seek, world
 from .pinocchio_view import floating
@@ -169,6 +169,33 @@ def test_legs_change_colour_at_impact(opened: tuple[Chrome, Path], walks: dict[s
     assert len(set(colours[0])) == 2
 
 
+def test_the_second_foot_has_an_arrow_and_the_clock_says_slips(
+    browser: Chrome, slippery: Walk, tmp_path: Path
+) -> None:
+    path = tmp_path / "soft.html"
+    export(path, {"NPD": slippery})
+    browser.get(path.as_uri())
+    laid_out = WalkScene.of(slippery)
+    arc = slippery.trajectory.arcs[1]
+    other, slips = arc.read["foot_force"][:, 3], slipping(laid_out, arc)
+    kinds = set()
+    for k in (*np.flatnonzero(other[:-1] > 0.0)[:4:3], *np.flatnonzero(slips[:-1])[:9:4], 200):
+        t = float(arc.t[k]) + 1e-6
+        seek(browser, t)
+        acting = loads(laid_out, t)
+        shown, clock = browser.execute_script(
+            "return [leader.arrows.map((arrow) => arrow.whole.visible), "
+            "document.getElementById('clock').value];"
+        )
+        assert shown == [True, bool(acting.other.any())]
+        assert clock.endswith(", slips") == acting.slips
+        kinds.add((shown[1], acting.slips))
+        x = world(browser, "meshcat/robots/NPD/ground_reaction")[0, 3]
+        assert abs(x - laid_out.foot(1, t)[0]) < 1e-3
+    assert kinds >= {(True, True), (False, False)}
+    assert console(browser) == []
+
+
 def test_a_walk_that_fell_says_so_and_its_arrow_is_cut(
     browser: Chrome, walks: dict[str, Walk], tmp_path: Path
 ) -> None:
@@ -190,7 +217,7 @@ def test_a_walk_that_fell_says_so_and_its_arrow_is_cut(
     length, clock = browser.execute_script(
         "const pose = leader.at(0.1); pose.loads = [0, 1e15, 0, 0, 0, 0, 0];"
         "show(0.1, robots.map((robot) => robot === leader ? pose : robot.at(0.1)));"
-        "return [leader.head.position.z + leader.walk.head, document.getElementById('clock').value];"
+        "return [leader.arrows[0].head.position.z + leader.walk.head, document.getElementById('clock').value];"
     )
     assert length == pytest.approx(1.2)
     assert "ground reaction of ADRC 1.00e+15 N (arrow cut)" in clock

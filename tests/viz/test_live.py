@@ -28,8 +28,8 @@ from biped_adrc.viz.meshcat.view import Look
 
 from .browser import chromium, console, needs_chromium
 
-SOON = 5.0
-"""[s] within which a session ends once its browser or its server is gone."""
+SOON = 30.0
+"""[s] within which a session, which would go on for ever, ends once its browser or its server is gone."""
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +62,7 @@ class Live:
         for line in self.process.stdout:
             self.lines.put(line)
 
-    def line(self, timeout: float = 30.0) -> str:
+    def line(self, timeout: float = 2 * SOON) -> str:
         try:
             return self.lines.get(timeout=timeout)
         except Empty:

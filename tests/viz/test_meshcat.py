@@ -23,7 +23,7 @@ from biped_adrc.scenario.walk import walk as walk_of
 from biped_adrc.viz.export import Clip, export
 from biped_adrc.viz.meshcat.objects import ring_mesh, visual_transform
 from biped_adrc.viz.meshcat.view import Look, animation_html, node_names
-from biped_adrc.viz.placement import WalkScene
+from biped_adrc.viz.placement import WalkScene, slipping
 
 from .pinocchio_view import floating
 
@@ -48,13 +48,13 @@ def data(walk: dict) -> dict[str, np.ndarray]:
     t = np.frombuffer(base64.b64decode(walk["data"]["t"]), dtype=np.float64)
     flat = {
         name: np.frombuffer(base64.b64decode(walk["data"][name]), dtype=np.float32)
-        for name in ("arc", "joints", "rates", "loads", "points")
+        for name in ("arc", "joints", "rates", "loads", "points", "contact")
     }
     return {"t": t, **{name: values.reshape(len(t), -1) for name, values in flat.items()}}
 
 
 def robot_of(settings: dict, name: str) -> dict:
-    return next(w for w in settings["walks"] if f"/robots/{name}/" in w["arrow"])
+    return next(w for w in settings["walks"] if f"/robots/{name}/" in w["arrows"][0])
 
 
 def placed(biped: Biped, walk: dict, values: np.ndarray) -> dict[str, np.ndarray]:
@@ -112,6 +112,33 @@ def test_arrows_are_the_loads(walks: dict[str, Walk], page: str) -> None:
             expected = np.interp(d["t"][mine], s.t[theirs], s.ground_reaction[theirs][:, column])
             np.testing.assert_allclose(d["loads"][mine][:, column], expected, rtol=0.02, atol=2.0)
     assert not d["loads"][:, 2:].any()  # nobody pushed
+
+
+def test_slips_and_the_force_on_the_other_foot_are_those_of_the_ground(slippery: Walk) -> None:
+    """At every node, which are also where either begins or ends."""
+    d = data(scene(animation_html({"soft": slippery}, Look(fps=FPS)))[0]["walks"][0])
+    laid_out, slips = WalkScene.of(slippery), 0
+    for i, arc in enumerate(slippery.trajectory.arcs):
+        mine = d["arc"][:, 0] == i
+        ends = np.searchsorted(arc.t, d["t"][mine], side="right") - 1
+        rows = np.minimum(ends, len(arc.t) - 2)
+        force, place = arc.read["foot_force"][rows, 2:], arc.read["foot_place"]
+        np.testing.assert_allclose(d["contact"][mine][:, 2:4], force, rtol=1e-6)
+        x = np.interp(d["t"][mine], arc.t, place[:, 0])
+        np.testing.assert_allclose(d["contact"][mine][:, 0], x, atol=1e-6)
+        told = slipping(laid_out, arc)
+        assert np.array_equal(d["contact"][mine][:, 4] > 0.0, told[rows])
+        lasting = np.flatnonzero(np.diff(arc.t) > 0.0)
+        drawn = np.searchsorted(d["t"][mine], arc.t[lasting], side="right") - 1
+        assert np.array_equal(d["contact"][mine][drawn, 4] > 0.0, told[lasting])
+        slips += np.count_nonzero(told)
+    assert slips > 10
+    assert np.any(d["contact"][:, 3] > 0.0)
+
+
+def test_on_the_rigid_plant_no_foot_slips_and_one_carries(page: str) -> None:
+    contact = data(robot_of(scene(page)[0], "NPD"))["contact"]
+    assert not contact[:, 2:].any()
 
 
 def test_a_push_is_drawn_on_the_joint_that_is_pushed(biped: Biped) -> None:

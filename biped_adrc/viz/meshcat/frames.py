@@ -1,6 +1,7 @@
 """A walk sampled for a player that draws it at any time, by cubic Hermite interpolation between nodes.
 
-Nodes are the frames, both ends of every single support and the edges of pushes; where that is not
+Nodes are the frames, both ends of every single support, the edges of pushes, and on soft ground the times at
+which the other foot touches or leaves it, or a foot begins or ends to slip; where that is not
 enough for the joints to be within `TOLERANCE` of the trajectory between two nodes, the interval is
 halved. `view` packs the nodes into the page; `live` sends one `pose` at a time.
 """
@@ -16,7 +17,13 @@ import numpy as np
 from biped_adrc.errors import check_positive
 from biped_adrc.hybrid.trajectory import Arc, hermite
 from biped_adrc.types import Array
-from biped_adrc.viz.placement import WalkScene, check_frames, joint_values, loads
+from biped_adrc.viz.placement import (
+    WalkScene,
+    check_frames,
+    contact_changes,
+    joint_values,
+    loads,
+)
 
 TOLERANCE = 1e-6
 """Largest error [rad] of an interpolated joint angle."""
@@ -37,13 +44,15 @@ class Pose(NamedTuple):
     """(2 + n,): F_T, F_N [N], and the external torque on the drawn joints of q1..qn [N m]."""
     points: Array
     """(4,): x and z of the hip and of the swing foot in the world [m]."""
+    contact: Array
+    """(5,): x and z of the stance foot [m], F_T and F_N on the other foot [N], and 1 where a foot slips."""
 
 
 @dataclass(frozen=True)
 class Frames:
     """A walk at its nodes, one in each row (K,); a node at an impact is there twice, before and after it.
 
-    joints, rates (K, J), loads (K, 2 + n), points (K, 4): as in `Pose`.
+    joints, rates (K, J), loads (K, 2 + n), points (K, 4), contact (K, 5): as in `Pose`.
     """
 
     t: Array
@@ -54,6 +63,7 @@ class Frames:
     rates: Array
     loads: Array
     points: Array
+    contact: Array
 
     @classmethod
     def of(cls, scene: WalkScene, fps: float) -> Frames:
@@ -92,6 +102,7 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
         np.array(rates),
         np.concatenate((acting.ground_reaction, acting.zeta)),
         points,
+        np.array([*foothold, *acting.other, acting.slips]),
     )
 
 
@@ -101,7 +112,7 @@ def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
     first = scene.trajectory.t_start
     frames = first + np.arange(math.ceil((start - first) * fps), (end - first) * fps) / fps
     edges = scene.walker.switching_times(arc.mode)
-    inside = [t for t in (*frames, *edges) if start < t < end]
+    inside = [t for t in (*frames, *edges, *contact_changes(scene, arc)) if start < t < end]
     nodes = np.unique([start, *inside, end])
     q, v = _states(arc, nodes, scene.biped.n)
     for _ in range(HALVINGS):

@@ -258,7 +258,9 @@ def _poses(scenes: Mapping[str, WalkScene], t: float) -> list[dict[str, object]]
         at = min(max(t, scene.trajectory.t_start), scene.trajectory.t_end)
         i = scene.arc_at(at)
         p = pose(scene, i, at)
-        shown = {name: getattr(p, name).tolist() for name in ("joints", "loads", "points")}
+        shown = {
+            name: getattr(p, name).tolist() for name in ("joints", "loads", "points", "contact")
+        }
         found.append({"arc": i, **shown})
     return found
 

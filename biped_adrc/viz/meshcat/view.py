@@ -95,7 +95,7 @@ def animation_html(walks: Mapping[str, Recorded], look: Look | None = None) -> s
 def _packed(frames: Frames) -> dict[str, str]:
     """The samples in base64: times as float64, the rest as float32, which is finer than a pixel."""
     kinds = {"t": np.float64} | dict.fromkeys(
-        ("arc", "joints", "rates", "loads", "points"), np.float32
+        ("arc", "joints", "rates", "loads", "points", "contact"), np.float32
     )
     packed = {name: np.asarray(getattr(frames, name), dtype=kind) for name, kind in kinds.items()}
     return {name: base64.b64encode(x.tobytes()).decode("ascii") for name, x in packed.items()}
@@ -169,7 +169,7 @@ def _add_walk(
         samples
         legs          paths of the parts of either leg; colours: of stance and swing leg,
         0xRRGGBB
-        rings, arrow, traces, footprints    paths of these
+        rings, arrows, traces, footprints    paths of these; arrows of stance foot and other foot
         supports      number, stance leg (0 or 1) and foothold x, z [m] of each single support
         fall          tan(slope); ground: its level below the footholds [m]; head: length of an
         arrow's head [m]
@@ -181,7 +181,8 @@ def _add_walk(
     prints = draw.add_footprints(robot["footprints"], scene, depth, opacity)
     draw.add_trace(robot["hip_trace"], room, draw.DARK, opacity)
     draw.add_trace(robot["foot_trace"], room, SWING, opacity)
-    draw.add_arrow(robot["ground_reaction"], REACTION, opacity)
+    for arrow in ("ground_reaction", "other_reaction"):
+        draw.add_arrow(robot[arrow], REACTION, opacity)
     rings = [_add_ring(robot, biped, name, opacity) for name in biped.description.joints]
     return {
         "joints": [
@@ -197,7 +198,7 @@ def _add_walk(
         "legs": [[f"{path}/{part}" for part in leg] for leg in draw.leg_visuals(biped)],
         "colours": [draw.colour(STANCE), draw.colour(SWING)],
         "rings": [f"{path}/{ring}/turn" for ring in rings],
-        "arrow": f"{path}/ground_reaction",
+        "arrows": [f"{path}/ground_reaction", f"{path}/other_reaction"],
         "traces": [f"{path}/hip_trace", f"{path}/foot_trace"],
         "footprints": [f"{path}/footprints/{name}" for name in prints],
         "supports": [

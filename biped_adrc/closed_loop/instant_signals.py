@@ -1,0 +1,94 @@
+"""All signals of a closed loop at one instant, read off its state.
+
+Compiled code traces the same function (`engine.compiled_signals`), so that both engines report the same
+quantities.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.closed_loop.noticing import estimated
+from biped_adrc.closed_loop.protocols import Loop, Mode
+from biped_adrc.closed_loop.semantics import instant, parts, unknown
+from biped_adrc.control.base import Measurement
+from biped_adrc.gait.reference import ReferencePoint
+from biped_adrc.model.reduction import disturbance_parts
+from biped_adrc.types import Array
+
+
+class InstantSignals(NamedTuple):
+    """All signals at one instant, or at N instants with N rows each; n coordinates, p motors."""
+
+    a: Array
+    """q'' of the plant (n,) [rad/s^2]."""
+    q_d: Array
+    """Reference of the joints (p,) [rad]."""
+    dq_d: Array
+    """Its rate (p,) [rad/s]."""
+    u: Array
+    """Torque applied (p,) [N m]."""
+    zeta: Array
+    """Disturbance (n,) [N m]."""
+    xi: Array
+    """Total disturbance q_b'' - kappa u (p,) [rad/s^2], from the plant's own q''."""
+    xi_estimate: Array
+    """What the observer says of it (p,) [rad/s^2]; NaN without an observer."""
+    xi_external: Array
+    """The part of xi that the nominal model does not know (p,) [rad/s^2]: matched + unmatched."""
+    xi_matched: Array
+    """Of that, what enters where the motors act (p,) [rad/s^2]."""
+    xi_nominal: Array
+    """The part of xi that the nominal model knows, (14) with xi~ = 0 (p,) [rad/s^2]."""
+    zeta_estimate: Array
+    """The disturbance torque that explains the estimate, kappa^-1 (xi^ - xi_nominal) (p,) [N m]."""
+    ground_reaction: Array
+    """On the stance foot (2,) [N], forces from outside not yet taken off."""
+    kinetic: Array
+    """Energy [J]."""
+    potential: Array
+    """Energy [J], zero at the height of this stance foot."""
+    swing_foot: Array
+    """(x, z) from the stance foot (2,) [m]."""
+    hip: Array
+    """(x, z) from the stance foot (2,) [m]."""
+
+
+def signals_at(
+    loop: Loop,
+    t: float,
+    x: Array,
+    mode: Mode,
+    reference: Callable[[Array, Measurement], ReferencePoint],
+) -> InstantSignals:
+    """The signals at (t, x), t in [s], x (nx,).
+
+    reference(s, m) is the curve that errors refer to, usually the one the controller tracks; a run
+    may be read against another one. Runs on numbers and on symbols.
+    """
+    i = instant(loop, t, x, mode)
+    m, plant, terms, p = i.measurement, loop.plant, i.measurement.terms, loop.plant.p
+    r, found = reference(i.s, m), estimated(loop, i.s, parts(loop, x)[3], m, mode)
+    xi_estimate = np.full(p, np.nan) if found is None else found
+    matched, unmatched = disturbance_parts(terms, unknown(loop, terms, i.a, i.u, i.zeta))
+    return InstantSignals(
+        a=i.a,
+        q_d=r.q_d,
+        dq_d=r.dq_d,
+        u=i.u,
+        zeta=i.zeta,
+        xi=i.a[:p] - terms.kappa @ i.u,
+        xi_estimate=xi_estimate,
+        xi_external=matched + unmatched,
+        xi_matched=matched,
+        xi_nominal=terms.xi,
+        zeta_estimate=terms.kappa_inverse @ (xi_estimate - terms.xi),
+        ground_reaction=plant.ground_reaction(m.q, m.v, i.a),
+        kinetic=plant.kinetic_energy(m.q, m.v),
+        potential=plant.potential_energy(m.q),
+        swing_foot=plant.swing_foot(m.q),
+        hip=plant.hip(m.q),
+    )

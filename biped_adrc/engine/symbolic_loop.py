@@ -1,0 +1,161 @@
+"""The closed loop on symbols: what `closed_loop.semantics` is given so that its lines become generated code."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+
+from biped_adrc.closed_loop import semantics
+from biped_adrc.closed_loop.protocols import ControlLaw, Mode
+from biped_adrc.control.base import ControllerLaws, Measurement
+from biped_adrc.engine.mechanics import PlanarRobot
+from biped_adrc.engine.symbols import Scalar, Tracer, Vector, maximum, minimum, run, where
+from biped_adrc.errors import InputError
+from biped_adrc.hardware.meter import Outside
+from biped_adrc.hardware.sample_hold import HeldParameters
+from biped_adrc.observers.base import Estimate
+from biped_adrc.types import Array, Indices
+
+T = TypeVar("T")
+
+
+def laws_on(trace: Tracer, laws: ControllerLaws, k: object, p: int, size: int) -> ControlLaw:
+    """The laws on symbols with parameters k; a law of the state that is not there leaves it as it is.
+
+    Raises InputError for a law that gives another number than p torques or `size` numbers of the
+    state, since generated code could not notice.
+    """
+
+    def traced(name: str, expected: int) -> Callable[..., Array]:
+        law: Callable[..., Array] | None = getattr(laws, name)
+        if law is None:
+            return lambda s, *rest: s
+
+        def called(*arguments: object) -> Array:
+            found = run(trace, law, k, *arguments)
+            if np.shape(found) != (expected,):
+                raise InputError(
+                    f"law {name} gives an array of shape {np.shape(found)}, expected ({expected},)"
+                )
+            return found
+
+        return called
+
+    def estimate(s: Array, m: Measurement) -> Estimate | None:
+        return None if laws.estimate is None else run(trace, laws.estimate, k, s, m)
+
+    flow, jump, correct, predict = (traced(name, size) for name in STATE_LAWS)
+    return ControlLaw(traced("output", p), flow, jump, correct, predict, estimate)
+
+
+STATE_LAWS = ("flow", "jump", "correct", "predict")
+"""Those that give the controller's state or its slope."""
+
+
+def traced_sensors(trace: Tracer, held: HeldParameters) -> HeldParameters:
+    """With the laws of the sensors, and of the touchdown, for symbols."""
+    if held.sensors:
+        held = held._replace(sensors=held.sensors.traced(trace))
+    return held._replace(touchdown=held.touchdown.traced(trace)) if held.touchdown else held
+
+
+class SymbolicLoop(NamedTuple):
+    """A `protocols.Loop` of symbols; zeta (n,) [N m] and `given` (OUTSIDE,), for the meter, are inputs."""
+
+    plant: PlanarRobot
+    """The robot that moves, on symbols."""
+    nominal: PlanarRobot
+    """The controller's model, on symbols; the same ones where it is the plant."""
+    exact: bool
+    """Whether the controller's model is the plant."""
+    calls: ControlLaw
+    """The controller's laws in its time base."""
+    held: HeldParameters | None
+    """Parameters of what is held between sample instants, None in continuous time."""
+    swap: Indices
+    """Relabelling of the actuated joints (p,), numbers of the structure."""
+    gain: Array
+    """Relative errors of v+ (n,) [1], or empty."""
+    limit: float
+    """Torque limit [N m]."""
+    strongest: float
+    """Torque beyond which the run ends [N m]."""
+    torques: list[Scalar]
+    """All torques so far that must not be beyond it."""
+    zeta: Array
+    given: Array
+    moves: bool = False
+    """Whether the plant moves by itself: then the first of `given` are the forces on its feet [N]."""
+
+    def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
+        """With the body's terms always, at q (n,) [rad], v (n,) [rad/s]: what no law asks for
+        leaves no code.
+        """
+        return semantics.measurement(self, t, q, v, mode, body=True)
+
+    def saturate(self, u: Array) -> Array:
+        """u (p,) [N m] within the limit, which may be infinite."""
+        return np.array([minimum(maximum(x, -self.limit), self.limit) for x in u], dtype=object)
+
+    def jumped(self, fires: float, s: Array, m: Measurement) -> Array:
+        """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
+        after = self.calls.jump(s, m, self.swap)
+        return np.array(
+            [where(fires > 0.5, a, b) for a, b in zip(after, s, strict=True)], dtype=object
+        )
+
+    def foot_forces(
+        self, t: float, q: Array, v: Array, tail: Array, mode: Mode
+    ) -> tuple[float, float]:
+        """Vertical forces of the ground on stance and swing foot [N]."""
+        if self.moves:
+            return self.given[0], self.given[1]
+        return semantics.on_stance_foot(self, self.given[:2], t, q, v, tail, mode)
+
+    def bounded(self, u: Array) -> Array:
+        """u (p,) [N m] itself, kept for `lost`."""
+        self.torques.extend(u)
+        return u
+
+    def lost(self, least: Scalar) -> Scalar:
+        """What a function adds to its result: the least pivot; -1 where a finite torque is beyond the bound."""
+        if not self.torques:
+            return least
+        u = functools.reduce(maximum, map(abs, self.torques))
+        return where((u > self.strongest) * (u < math.inf) * (least > 0.0), -1.0, least)
+
+    def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
+        """The symbols of zeta (n,) [N m]."""
+        return self.zeta
+
+    def outside(self, t: float, mode: Mode) -> Outside:
+        """The symbols of force (2,) [N], impulse (2,) [N s] and drop [m]."""
+        return Outside(self.given[:2], self.given[2:4], self.given[4])
+
+
+class SymbolicInstant(NamedTuple):
+    """The symbols of one instant, and the loop that they are given to."""
+
+    inp: Vector
+    """All inputs, as one vector."""
+    trace: Tracer
+    """Makes copies of laws for symbols, and keeps the pivots."""
+    loop: SymbolicLoop
+    t: float
+    x: Array
+    """State (nx,)."""
+    mode: Mode
+    """Single support and its start, symbols too."""
+
+    @property
+    def lost(self) -> Scalar:
+        """What a function adds to its result, see `SymbolicLoop.lost`."""
+        return self.loop.lost(self.trace.solver.least)
+
+    def does(self, function: Callable[..., T], *more: object) -> T:
+        """What a function of `semantics`, or one with the same first arguments, gives here."""
+        return self.trace(function)(self.loop, self.t, self.x, self.mode, *more)

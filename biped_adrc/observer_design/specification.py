@@ -1,0 +1,162 @@
+"""What a loop bears and what it costs, before a walk is spent: a specification of a whole candidate.
+
+    spec = ba.specification(walker, gait)
+    spec.stable, spec.delay_margin, spec.disk_margin, spec.ripple
+
+A candidate is a walker: controller with observer and reference, sensors with filter, clock with delay,
+motors. Its sampled loop is linearised at some phases of the gait (`walker_loop`) and closed around robots
+with other inertias (`frozen_gait`):
+
+- stable: at every phase, with every robot, every mode of the loop decays.
+- delay_margin: the smallest delay in all motors, beside the clock's own and hidden from the controller, with
+  which one of these loops is unstable.
+- disk_margin: the smallest multiloop disk margin of them (`disk_margin`).
+- ripple: rms torque of the encoders' counts and noise over a step, of the motor with most.
+
+The gait's own modes do not count: a robot on a foot without a motor falls, with growth about sqrt(g / l),
+until the next step catches it, and no torque on joints that track a gait changes that. So a mode counts
+where |s| exceeds OWN times that rate, and margins are taken at frequencies above it. What the impact
+does, the multipliers of the return map say (`analysis.return_map`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.gait.gait import Gait
+from biped_adrc.observer_design.disk_margin import disk_margin
+from biped_adrc.observer_design.frozen_gait import FrozenGait
+from biped_adrc.observer_design.walker_loop import WalkerLoop, linear_twin, tick_matrices
+from biped_adrc.shown import Shown
+from biped_adrc.timing import SampledTime
+from biped_adrc.types import Array
+
+OWN = 2.0
+"""A mode with |s| below so many times sqrt(g / l) is the gait's own [1]."""
+MOST_DELAY = 0.05
+"""Largest hidden delay that is looked at [s]."""
+
+
+class Worst(NamedTuple):
+    """The loop in which a mode decays least."""
+
+    growth: float
+    """Of that mode [1/s], below 0 where it decays."""
+    share: float
+    """Time since the step began, over that of a step [1]."""
+    robot: int
+    """Place among the robots; 0 for the plant itself."""
+
+
+@dataclass(frozen=True)
+class Specification(Shown):
+    """The loops of one candidate, and what they bear. Make it by `specification`.
+
+    Each number is computed when it is asked for: `stable` and `ripple` in about 10 ms, a margin in about
+    0.1 s. For an unstable loop the text says "unstable"; its margins are 0 and its ripple is infinite.
+    """
+
+    loops: tuple[tuple[WalkerLoop, ...], ...]
+    """By phase, then by robot; the first robot is the plant."""
+    shares: tuple[float, ...]
+    """Of the phases: time since the step began, over that of a step [1]."""
+    period: float
+    """Of the gait: time of a step [s]."""
+    errors: Array
+    """Standard deviations (2 n,) [rad, rad/s] of the sensors' errors of (q, q')."""
+
+    @cached_property
+    def worst(self) -> Worst:
+        """The mode that decays least, over phases and robots."""
+        found = (
+            Worst(loop.growth(), share, i)
+            for share, loops in zip(self.shares, self.loops, strict=True)
+            for i, loop in enumerate(loops)
+        )
+        return max(found)
+
+    @property
+    def stable(self) -> bool:
+        """Whether every mode of every loop decays."""
+        return self.worst.growth < 0.0
+
+    @cached_property
+    def delay_margin(self) -> float:
+        """The smallest hidden delay [s] with which one of the loops is unstable, at most MOST_DELAY."""
+        if not self.stable:
+            return 0.0
+        least = MOST_DELAY
+        for loop in (loop for loops in self.loops for loop in loops):
+            if not loop.growth(least) < 0.0:
+                least = min(least, loop.delay_margin(least))
+        return least
+
+    @cached_property
+    def disk_margin(self) -> float:
+        """The smallest multiloop disk margin of the loops [1]; above 2 no gain alone makes one unstable."""
+        if not self.stable:
+            return 0.0
+        S = np.concatenate([loop.sensitivity() for loops in self.loops for loop in loops])
+        return disk_margin(S)
+
+    @cached_property
+    def ripple(self) -> float:
+        """rms torque [N m] of the sensors' errors over a step, of the motor with most, on the plant itself."""
+        if not self.stable:
+            return math.inf
+        squares = [np.diag(loops[0].covariance_of_torque(self.errors)) for loops in self.loops]
+        return float(np.sqrt(np.max(np.mean(squares, axis=0))))
+
+    def columns(self) -> dict[str, float]:
+        """All of it as numbers by name, none of them NaN: growth [1/s], delay_margin [s], ripple [N m]."""
+        return {
+            "stable": float(self.stable),
+            "growth": self.worst.growth,
+            "delay_margin": self.delay_margin,
+            "disk_margin": self.disk_margin,
+            "ripple": self.ripple,
+        }
+
+    def __str__(self) -> str:
+        growth, share, robot = self.worst
+        where = f"at {100.0 * share:.0f} % of the step" + (" with other inertias" if robot else "")
+        if not self.stable:
+            return f"unstable: a mode grows by {growth:.3g} /s {where}"
+        more = "more than " if self.delay_margin >= MOST_DELAY else ""
+        return (
+            f"stable: bears {more}{1e3 * self.delay_margin:.3g} ms of hidden delay, disk margin "
+            f"{self.disk_margin:.3g}, ripple {self.ripple:.3g} N m rms"
+        )
+
+
+def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
+    """What the sampled loop of a walker bears on a gait, and the ripple of its sensors.
+
+    For many candidates on one robot and gait give a `FrozenGait`, which is made once. Raises InputError for
+    a walker in continuous time or one that has to notice touchdowns, GaitError for a gait without a
+    periodic orbit, NotFiniteError where a law has no finite derivative on the gait.
+    """
+    twin = linear_twin(walker)
+    assert isinstance(twin.timing, SampledTime)
+    if isinstance(gait, Gait):
+        gait = FrozenGait.of(walker.plant, gait, walker.nominal)
+    T, delay, slow = twin.timing.period, twin.timing.delay, OWN * gait.falling
+    lag = 0.0 if walker.motors is None else walker.motors.lag
+    loops = tuple(
+        tuple(
+            WalkerLoop(tick, *robot, T, delay, lag, slow) for robot in zip(at.A, at.B, strict=True)
+        )
+        for tick, at in zip(tick_matrices(twin, gait.points), gait.points, strict=True)
+    )
+    n, exact = walker.plant.n, np.zeros(2 * walker.plant.n)
+    sensors = walker.sensors
+    errors = exact if sensors is None else sensors.errors(n, walker.plant.p, exact)
+    return Specification(
+        loops, tuple(at.t / gait.period for at in gait.points), gait.period, errors
+    )

@@ -1,0 +1,44 @@
+"""The specification of a scenario: columns of a candidate that need no walk.
+
+    ba.specified(ba.Scenario("LESO", hardware="rabbit", bandwidth=160.0, order=2))
+
+gives `stable`, `growth` [1/s], `delay_margin` [s], `disk_margin`, `ripple` [N m] by name, each a number. An
+unstable loop has margins 0 and an infinite ripple. What the scenario does to the walk, such as pushes,
+ground and start, has no part in it; what it does to the robot has, as plant beside the model.
+"""
+
+from __future__ import annotations
+
+from biped_adrc.errors import InputError
+from biped_adrc.observer_design.frozen_gait import FrozenGait
+from biped_adrc.observer_design.specification import Specification, specification
+from biped_adrc.scenario.build import RIGID, RobotAndGait, build
+from biped_adrc.scenario.scenario import Scenario
+
+
+def specification_of(
+    s: Scenario, scene: RobotAndGait | None = None, frozen: FrozenGait | None = None
+) -> Specification:
+    """Of the walker that a scenario describes.
+
+    scene, frozen: robot and gait, and their linearisation, where they are at hand; for many candidates make
+    them once. Raises InputError for a scenario in continuous time, on another plant than the rigid one,
+    without motors, or whose controller has to notice touchdowns.
+    """
+    if s.plant != RIGID:
+        raise InputError(
+            f"a specification was asked for on plant '{s.plant}', expected '{RIGID}', whose equations it "
+            "linearises"
+        )
+    scene = RobotAndGait.of(s) if scene is None else scene
+    gait, walker = scene.walked, build(s, scene)
+    if frozen is None:
+        frozen = FrozenGait.of(walker.plant, gait, walker.nominal)
+    return specification(walker, frozen)
+
+
+def specified(
+    s: Scenario, scene: RobotAndGait | None = None, frozen: FrozenGait | None = None
+) -> dict[str, float]:
+    """The numbers of `specification_of` by name, none of them NaN. Raises InputError as it."""
+    return specification_of(s, scene, frozen).columns()

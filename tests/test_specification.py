@@ -1,0 +1,338 @@
+"""The specification of a candidate against walks, laws that were not used in it, and python-control."""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import control
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import minimize
+
+import biped_adrc as ba
+from biped_adrc.engine.tick_derivative import _differenced, tick_derivative
+from biped_adrc.errors import InputError
+from biped_adrc.hardware.pitch_sensor import PitchSensor
+from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.observer_design.disk_margin import (
+    balanced_bound,
+    disk_margin,
+    response,
+    structured_value,
+)
+from biped_adrc.observer_design.walker_loop import (
+    linear_twin,
+    robot_step,
+    tick_matrices,
+)
+
+BENCHMARK = Path(__file__).parents[1] / "benchmarks/specification.py"
+
+
+@pytest.fixture(scope="module")
+def walks():
+    """The benchmark's functions: candidates, multipliers, ripple in a walk."""
+    spec = importlib.util.spec_from_file_location("specification_of_walks", BENCHMARK)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def loop_of(walks, **values):
+    """The walker of some values, its gait, and the loop at the first phase."""
+    walker, gait = walks.candidate({"impacts": 2, "period": 1.5e-3, **values})
+    return walker, gait, walks.specified(walker, gait).loops[0][0]
+
+
+# -- against walks ---------------------------------------------------------------------------------
+LOOP = {"controller": "LESO", "period": 1e-3, "velocity": "differences", "filter_time": 2e-3}
+"""One structure, which is compiled once; the benchmark draws 200 candidates of all kinds."""
+
+
+@pytest.mark.parametrize("bandwidth", [120.0, 300.0])
+def test_a_walk_bears_nine_tenths_of_the_delay_margin_and_not_eleven(walks, bandwidth):
+    walker, gait = walks.candidate({"impacts": 2, "bandwidth": bandwidth, **LOOP})
+    spec = walks.specified(walker, gait)
+    found = []
+    for share in (0.9, 1.1):
+        late = replace(walker.timing, delay=share * spec.delay_margin)
+        late = replace(walker, timing=late)
+        found.append(walks.multiplier(late, gait))
+        assert walks.specified(late, gait).stable == (share < 1.0)
+    assert found[0] < 1.0 < found[1]
+
+
+@pytest.mark.parametrize("k", [0, 3])
+def test_ripple_is_that_of_a_walk_with_counts(walks, k):
+    by_specification, by_walk = walks.rippled(walks.RIPPLED[k])
+    assert by_walk / 1.25 < by_specification < 1.25 * by_walk
+
+
+def missed(walks, T, **values):
+    """By how much the matrices miss two walks that begin a little apart, over ten periods T [s], relatively.
+
+    The walks are those of the walker itself; what lasts a while in `values` is given in periods.
+    """
+    lasting = {name: x * T for name, x in values.items() if name in ("delay", "lag", "filter_time")}
+    walker, gait, loop = loop_of(walks, **{**values, **lasting, "period": T})
+    n, p = walker.plant.n, walker.plant.p
+    point = ba.FrozenGait.of(walker.plant, gait, spread=0.0).points[0]
+    deviation = 1e-6 * np.array(
+        [1.0, -2.0, 0.5, 1.5, -1.0, *np.array([5.0, 9, -3, 7, 4]) * 1e-3 / T]
+    )
+    twin, on = linear_twin(walker), np.concatenate((point.q, point.v))
+    x = twin.tick(0.0, twin.initial_state(point.q - T * point.v, point.v), ba.Mode())
+    x[: 2 * n] = on
+    if walker.motors is not None:  # their torque stands before what waits and what acts
+        x = np.concatenate((x[: -2 * p], x[-p:], x[-2 * p :]))
+    starts = (x, x + np.pad(deviation, (0, len(x) - 2 * n)))
+    runs = [
+        ba.simulate(walker, y, ba.Mode(), ba.RK4(T / 6), t_end=10.5 * T).arcs[0] for y in starts
+    ]
+    at = np.searchsorted(runs[0].t, (np.arange(10) + 1) * T - 1e-3 * T)
+    found = (runs[1].x[at] - runs[0].x[at])[:, :n]
+    M = loop.matrices().M
+    X = np.pad(deviation, (0, len(M) - 2 * n))
+    expected = np.array([(X := M @ X)[:n] for _ in range(10)])
+    return np.max(np.abs(found - expected)) / np.max(np.abs(expected))
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"controller": "LESO", "bandwidth": 200.0, "delay": 1.6, "lag": 0.7},
+        {"controller": "LESO", "bandwidth": 200.0, "delay": 1.6, "delay_known": True},
+        {"controller": "DOB", "delay": 2, "velocity": "differences", "filter_time": 1.5},
+    ],
+)
+def test_a_small_deviation_goes_as_the_matrices_say(walks, values):
+    """What is missed is the motion of the gait in ten periods, and goes to zero with the period."""
+    coarse, fine = (missed(walks, T, **values) for T in (1e-3, 2.5e-4))
+    assert fine < 0.15 * coarse < 1e-3
+
+
+# -- the matrices ----------------------------------------------------------------------------------
+def test_the_derivative_of_a_tick_is_that_of_differences(walks):
+    walker, gait, _ = loop_of(walks, controller="LESO", delay=1e-3, velocity="differences")
+    twin = linear_twin(walker)
+    q, v = gait.start(walker.plant)
+    x = twin.tick(0.0, twin.initial_state(q, v), ba.Mode())
+    after, J = tick_derivative(twin, len(x))(1.5e-3, x, ba.Mode())
+    expected, K = _differenced(twin, 1.5e-3, x, ba.Mode())
+    np.testing.assert_allclose(after, expected, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(J, K, rtol=1e-5, atol=1e-5 * np.max(np.abs(K)))
+
+
+def test_a_controller_in_plain_python_has_a_specification(walks):
+    class Spring(ba.Controller):
+        """K_p and K_d about the gait, through the model."""
+
+        def __init__(self, reference):
+            self.reference = reference
+
+        def output(self, s, m):
+            r = self.reference(m.t, m.q, m.v)
+            a = -5000.0 * (m.q_b - r.q_d) - 50.0 * (m.v_b - r.dq_d)
+            return m.terms.kappa_inverse @ (a - m.terms.xi)
+
+    walker, gait, _ = loop_of(walks, controller="NPD", solve_theta=False)
+    one = replace(walker, controller=Spring(gait.constraint))
+    by_differences, by_laws = (walks.specified(w, gait) for w in (one, walker))
+    assert by_differences.worst.growth == pytest.approx(by_laws.worst.growth, rel=0.3)
+    assert by_differences.stable
+
+
+def test_the_torque_moves_the_outputs_by_L(biped, gait):
+    """y'' = (S - h' c) q'' is L u with L = (I - H_b - H_N A_N) kappa, for the model as for another robot."""
+    frozen = ba.FrozenGait.of(biped, gait)
+    n, p, h = biped.n, biped.p, gait.constraint
+    heavy = biped.with_errors(mass={"torso": 1.2}, inertia={"torso": 1.2})
+    assert heavy.p == p
+    for point in frozen.points:
+        H = np.outer(h.h(float(h.phase @ point.q))[1], h.phase)
+        r = biped.reduction(point.q, point.v)
+        L = (np.eye(p) - H[:, :p] - H[:, p:] @ r.A_N) @ r.kappa
+        outputs = np.eye(p, n) - H
+        np.testing.assert_allclose(outputs @ point.B[0, n:], L, atol=1e-12 * np.abs(L).max())
+        wrong = (outputs @ point.B[3, n:]) @ np.linalg.inv(L)
+        assert np.abs(wrong - np.trace(wrong) / p * np.eye(p)).max() > 0.05  # no scalar
+
+
+def test_a_torque_that_changes_within_the_period():
+    """Of a double integrator in closed form; with lagging motors against an integration."""
+    A, B, T, f = np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]]), 2e-3, 0.3
+    Phi, G_1, G_2 = robot_step(A, B, T, f, 0.0)
+    np.testing.assert_allclose(Phi, [[1.0, T], [0.0, 1.0]])
+    np.testing.assert_allclose(G_1[:, 0], [(f - f**2 / 2) * T**2, f * T])
+    np.testing.assert_allclose(G_2[:, 0], [(1 - f) ** 2 / 2 * T**2, (1 - f) * T])
+    lag, x = 1e-3, np.array([0.1, -0.2, 3.0])
+
+    def flow(t, x):
+        return [x[1], x[2], ((5.0 if t < f * T else -7.0) - x[2]) / lag]
+
+    Phi, G_1, G_2 = robot_step(A, B, T, f, lag)
+    options = {"rtol": 1e-12, "atol": 1e-14}
+    half = solve_ivp(flow, (0.0, f * T * (1 - 1e-12)), x, **options).y[:, -1]
+    end = solve_ivp(flow, (f * T, T), half, **options).y[:, -1]
+    np.testing.assert_allclose(Phi @ x + G_1[:, 0] * 5.0 - G_2[:, 0] * 7.0, end, rtol=1e-9)
+
+
+def test_a_hidden_delay_is_as_one_of_the_clock_that_the_controller_does_not_know(walks):
+    _, _, loop = loop_of(walks, controller="LESO", delay=1e-3)
+    _, _, later = loop_of(walks, controller="LESO", delay=2.7e-3)
+    assert loop.growth(1.7e-3) == pytest.approx(later.growth(), rel=1e-6)
+    margin = loop.delay_margin(0.05)
+    assert loop.growth(0.999 * margin) < 0.0 < loop.growth(1.001 * margin)
+    assert loop.delay_margin(0.5 * margin) == 0.5 * margin  # looked for up to there
+
+
+def test_what_nothing_depends_on_is_left_out(walks):
+    walker, gait, loop = loop_of(walks, controller="NPD", velocity="measured")
+    points = ba.FrozenGait.of(walker.plant, gait, spread=0.0).points
+    assert tick_matrices(linear_twin(walker), points)[0].Z.shape == (0, 0)
+    assert loop.matrices().M.shape == (10, 10)
+
+
+# -- sensors ---------------------------------------------------------------------------------------
+def test_errors_of_sensors_are_those_of_what_they_show():
+    n, p = 5, 4
+    sensors = Sensors(counts=1000.0, noise=1e-3, velocity="gyro", rate_noise=0.1)
+    k = sensors.parameters(n, p, 1e-3)
+    random, w = np.random.default_rng(0), sensors.start(k, np.zeros(n), np.zeros(n))
+    rows = []
+    for q in random.uniform(-1.0, 1.0, (3000, n)):
+        w = sensors.laws(n, p, 1e-3).sense(k, w, q, np.zeros(n))
+        rows.append(np.append(w[:n] - q, w[2 * n - 1]))
+    errors = sensors.errors(n, p, np.zeros(2 * n))
+    np.testing.assert_allclose(np.std(rows, axis=0), errors[[0, 1, 2, 3, 4, 9]], rtol=0.06)
+    assert not np.any(errors[n : 2 * n - 1])
+    assert not np.any(sensors.smooth().errors(n, p, np.zeros(2 * n)))
+    both = sensors + PitchSensor(noise=0.5)
+    shown = both.errors(n, p, np.zeros(2 * n))
+    assert shown[n - 1] == 0.5
+    assert shown[-1] == 0.0
+    np.testing.assert_array_equal(shown[: n - 1], errors[: n - 1])
+    assert not both.smooth().noisy
+
+
+def test_an_error_of_the_pitch_alone_reaches_the_torque(walks):
+    """No joint turns by it: it enters through Theta and Theta' only."""
+    walker, gait = walks.candidate({"controller": "NPD", "hardware": "rabbit", "impacts": 2})
+    spec = walks.specified(walker, gait)
+    pitch = spec.errors * (np.arange(10) == 4)
+    assert 0.2 * spec.ripple < replace(spec, errors=pitch).ripple < spec.ripple
+
+
+# -- the disk margin -------------------------------------------------------------------------------
+def sensitivity(L, w):
+    S = control.feedback(control.ss([], [], [], np.eye(L.ninputs), dt=L.dt), L)
+    r = S.frequency_response(w, squeeze=False)
+    return (r.magnitude * np.exp(1j * r.phase)).transpose(2, 0, 1)
+
+
+@pytest.mark.parametrize("dt", [0, 0.05])
+def test_one_loop_as_python_control(dt):
+    L = control.tf([25.0], [1.0, 10.0, 10.0, 10.0])
+    L = control.ss(L) if dt == 0 else control.c2d(control.ss(L), dt)
+    w = np.geomspace(0.1, 60.0, 300)
+    expected = control.disk_margins(L, w)[0]
+    assert disk_margin(sensitivity(L, w)) == pytest.approx(expected, rel=1e-6)
+
+
+def test_two_loops_of_a_spinning_body():
+    """The example of python-control's `disk_margins`; 0.3769872637 is what it gives with SLICOT's AB13MD."""
+    P = control.ss([[0, 10], [-10, 0]], np.eye(2), [[1, 10], [-10, 1]], 0)
+    K = control.ss([], [], [], [[1, -2], [0, 1]])
+    S = sensitivity(P * K, np.geomspace(0.1, 1e3, 1001))
+    assert disk_margin(S) == pytest.approx(0.37698726369443553, rel=1e-6)
+
+
+def test_loops_that_do_not_touch_have_the_smallest_margin_of_them():
+    S = np.zeros((1, 3, 3), dtype=complex)
+    S[0] = np.diag([1.2 + 0.3j, 2.0 - 1.0j, 0.5])
+    assert disk_margin(S) == pytest.approx(1.0 / abs(1.5 - 1.0j), rel=1e-9)
+
+
+@pytest.mark.parametrize("p", [1, 2, 3])
+def test_the_structured_value_is_reached_by_a_diagonal_matrix(p):
+    """mu = max over phases of the spectral radius of diag(exp(i phi)) M, the bound from below."""
+    random = np.random.default_rng(p)
+    M = random.normal(size=(p, p)) + 1j * random.normal(size=(p, p))
+
+    def radius(phi):
+        turned = np.exp(1j * np.append(phi, 0.0))[:, np.newaxis] * M
+        return -np.max(np.abs(np.linalg.eigvals(turned)))
+
+    options = {"xatol": 1e-10, "fatol": 1e-13, "maxiter": 2000}
+    starts = random.uniform(-3.0, 3.0, (6, p - 1)) if p > 1 else []
+    found = [-minimize(radius, x, method="Nelder-Mead", options=options).fun for x in starts]
+    value = structured_value(M)
+    assert value == pytest.approx(max(found, default=abs(M[0, 0])), rel=1e-7)
+    assert value <= balanced_bound(M[np.newaxis])[0] * (1 + 1e-9)
+
+
+def test_the_response_by_the_triangular_form():
+    random = np.random.default_rng(5)
+    M, B, C, D = (random.normal(size=s) for s in ((6, 6), (6, 2), (3, 6), (3, 2)))
+    angles = np.array([0.1, 1.0, 3.0])
+    direct = [C @ np.linalg.solve(np.exp(1j * a) * np.eye(6) - M, B) + D for a in angles]
+    np.testing.assert_allclose(response(M, B, C, D, angles), direct, rtol=1e-10)
+
+
+def test_sensitivity_of_a_walker_is_that_of_its_open_loop(walks):
+    """S = 1 / (1 - G), with G from the torque to the torque that the controller then asks for."""
+    _, _, loop = loop_of(walks, controller="LESO", delay=1e-3)
+    M, B, C, D = loop.matrices()
+    p, angle = len(C), np.array([300.0 * loop.period])
+    S = response(M, B[:, -p:], C, D[:, -p:], angle)[0]
+    G = response(M - B[:, -p:] @ C, B[:, -p:], C, np.zeros((p, p)), angle)[0]
+    np.testing.assert_allclose(S @ (np.eye(p) - G), np.eye(p), atol=1e-9)
+
+
+# -- words and numbers -----------------------------------------------------------------------------
+def test_an_unstable_loop_is_the_word(walks):
+    s = ba.Scenario("LESO", hardware="rabbit", bandwidth=800.0, delay=4e-3)
+    columns = ba.specified(s)
+    assert columns["stable"] == columns["delay_margin"] == columns["disk_margin"] == 0.0
+    assert columns["ripple"] == math.inf
+    assert not any(math.isnan(x) for x in columns.values())
+    text = str(walks.specified(*walks.candidate({"hardware": "rabbit", **s.record()})))
+    assert text.startswith("unstable: ")
+
+
+def test_other_inertias_can_only_take_from_a_margin():
+    s = ba.Scenario("LESO", hardware="rabbit", bandwidth=160.0, order=2)
+    from biped_adrc.scenario.specified import specification_of
+
+    spec = specification_of(s)
+    alone = replace(spec, loops=tuple(loops[:1] for loops in spec.loops))
+    assert spec.delay_margin < alone.delay_margin
+    assert spec.disk_margin <= alone.disk_margin
+    assert "ms of hidden delay" in str(spec)
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"controller": "NPD"}, "give timing=SampledTime"),
+        ({"controller": "NPD", "period": 1e-3, "plant": "mujoco"}, "on plant 'mujoco'"),
+        ({"controller": "NPD", "period": 1e-3, "touchdown": "told"}, "notice touchdowns"),
+        ({"controller": "passive", "robot": "compass"}, "walks no gait"),
+    ],
+)
+def test_what_has_no_specification_is_refused(values, words):
+    with pytest.raises(InputError, match=words):
+        ba.specified(ba.Scenario(**values))
+
+
+def test_bad_numbers_are_refused(biped, gait):
+    with pytest.raises(InputError, match="spread"):
+        ba.FrozenGait.of(biped, gait, spread=1.0)
+    with pytest.raises(InputError, match="sensitivity has shape"):
+        disk_margin(np.zeros((3, 2)))
+    with pytest.raises(InputError, match="continuous time"):
+        tick_derivative(ba.Walker(biped, ba.NPDController(gait.constraint)), 10)

@@ -1,0 +1,255 @@
+"""What may be wrong in the file of a tuning study, all of it in one error; scenario files; what is written."""
+
+import json
+import math
+import re
+from copy import deepcopy
+
+import linear_plant as plant
+import optuna
+import pytest
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.bench.parameters import nested
+from biped_adrc.bench.scenario_file import read_scenario, write_scenario
+from biped_adrc.bench.study_file import read_study
+from biped_adrc.bench.sweep import sweep
+from biped_adrc.campaign.workers import Kept, Processes, Threads
+from biped_adrc.cli import app
+from biped_adrc.errors import InputError
+from biped_adrc.tuning.study_file import load_tuning, read_tuning
+from biped_adrc.tuning.tune import rehearse, tune
+
+from .test_measures import STUDY
+
+
+def changed(**changes):
+    """The tables with some entries replaced: {"study.budget": 3}, or left out where the value is ..."""
+    tables = deepcopy(STUDY)
+    for place, x in changes.items():
+        *path, last = re.split(r"__", place)
+        inner = tables
+        for key in path:
+            inner = inner[int(key)] if isinstance(inner, list) else inner[key]
+        if x is ...:
+            del inner[last]
+        else:
+            inner[last] = x
+    return tables
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"selection__seeds": [1, 2]}, r"selection.seeds: share \[1\] with training.seeds"),
+        (
+            {"test__seeds": {"from": 11, "count": 1}},
+            r"test.seeds: share \[11\] with selection.seeds",
+        ),
+        ({"test__seeds": 3}, r"test.seeds: share \[0, 1\] with training.seeds"),
+        ({"test__seeds": []}, "test.seeds: found"),
+        ({"test": ...}, r"test: found None, expected a table \[test\]"),
+        ({"variables__bandwith": {"from": 1, "to": 2}}, "variables.bandwith: .*'bandwidth'"),
+        (
+            {"variables__bandwidth": {"from": 2, "to": 1}},
+            "variables.bandwidth: .*expected from < to",
+        ),
+        (
+            {"variables__contact": {"choices": ["hold"]}},
+            "variables.contact: .*at least two choices",
+        ),
+        ({"variables__contact": {"choices": ["hold", "hold"]}}, "variables.contact: .*different"),
+        ({"variables__seed": {"from": 1, "to": 2}}, "variables.seed: .*may not choose its luck"),
+        (
+            {"variables__own.filter": {"from": 1, "to": 4, "whole": 1}},
+            "own.filter: found whole = 1",
+        ),
+        ({"variables__contact_window__when": 3}, "contact_window: found when = 3"),
+        ({"variables": {}}, "variables: .*at least 1"),
+        ({"objectives": []}, "objectives: .*at least 1"),
+        ({"objectives__0__column": "rms_eror"}, r"objectives\[1\].column: .*'rms_error'"),
+        (
+            {"objectives__0__colum": "x"},
+            r"objectives\[1\].colum: unknown key; did you mean 'column'",
+        ),
+        ({"objectives__0__goal": "lower"}, r"objectives\[1\]: goal: found 'lower'"),
+        ({"objectives__0__over": 1.5}, r"objectives\[1\].over: found 1.5, expected a quantile"),
+        ({"objectives__0__condition": "push"}, r"objectives\[1\].condition: found 'push'"),
+        ({"limits__0__most": 1.0}, r"limits\[1\]: has \['least', 'most'\], expected one of"),
+        ({"limits__0__least": ...}, r"limits\[1\]: has \[\], expected one of"),
+        ({"study__sampler": "cma-es"}, "sampler: found 'cma-es'"),
+        ({"study__budget": 0}, "study.budget: found 0, expected a whole number from 1"),
+        ({"study__generation": 2}, "study.generation: found 2, expected at least 4"),
+        (
+            {"study__scenario": "nowhere.toml"},
+            "study.scenario: scenario file 'nowhere.toml' not found",
+        ),
+        ({"fixed__seed": 1}, "fixed.seed: seeds are given by the sets"),
+        (
+            {"training__conditions": [{"name": "a", "bandwidth": 3.0}]},
+            r"training.conditions\[1\].bandwidth: is given for candidates",
+        ),
+        ({"grid": {}}, "grid: unknown key"),
+    ],
+)
+def test_mistakes_of_a_tuning_file_are_named_by_their_place(changes, message):
+    with pytest.raises(InputError, match=message):
+        read_tuning(changed(**changes))
+
+
+def test_all_mistakes_are_in_one_error():
+    with pytest.raises(InputError, match="the study has 3 problems:\n"):
+        read_tuning(changed(study__budget=0, study__name="", fixed__gaint="x"))
+
+
+def test_a_variable_that_the_controller_does_not_take_is_named():
+    study = read_tuning(changed(objectives=[{"column": "rms_error"}]))
+    with pytest.raises(InputError, match=r"study 's', all variables in the middle: .*'filter'"):
+        rehearse(study)
+    bad = {
+        "variables": {"K_p": {"from": 1, "to": 9}},
+        "fixed": {"controller": "LESO", "gait": "nope"},
+    }
+    with pytest.raises(InputError, match=r"study 's', training set, condition '': .*nope"):
+        rehearse(read_tuning(STUDY | bad))
+
+
+SCENARIOS = [
+    ba.Scenario("LESO", hardware="rabbit", torque_limit=None, bandwidth=1 / 3, impacts=8),
+    ba.Scenario(pushes="q1,q2=30@3:0.1-0.3 q5=-10@2:0.1-", start={"q5": 0.1}),
+    ba.Scenario(poles=(-1.0, -2.0, -3.0), own={"inner": 'x"y\n', "flag": True, "t": (1.0, 2)}),
+    ba.Scenario(mass={"the torso": 1.1}, robot="three_link"),
+]
+
+
+@pytest.mark.parametrize("s", SCENARIOS)
+def test_a_scenario_file_reads_back_to_the_same_scenario(s, tmp_path):
+    path = tmp_path / "s.toml"
+    write_scenario(path, s, "two\nlines")
+    assert ba.Scenario(**nested(read_scenario(path))) == s
+    assert path.read_text().startswith("# two\n# lines\ncontroller = ")
+
+
+def test_a_scenario_file_is_checked(tmp_path):
+    path = tmp_path / "s.toml"
+    for text, message in (("K_p = ", "is not valid TOML"), ("K_q = 1", "K_q: unknown parameter")):
+        path.write_text(text)
+        with pytest.raises(InputError, match=message):
+            read_scenario(path)
+
+
+def test_a_study_takes_the_values_of_a_scenario_file(tmp_path):
+    path = tmp_path / "s.toml"
+    write_scenario(path, ba.Scenario("LESO", bandwidth=77.0, impacts=3))
+    study = read_tuning(changed(study__scenario=str(path), fixed={"impacts": 5}))
+    assert {"controller": "LESO", "bandwidth": 77.0, "impacts": 5}.items() <= study.fixed.items()
+    tables = {"study": {"name": "s", "scenario": str(path)}, "grid": {"bandwidth": [1.0, 2.0]}}
+    swept = read_study(tables | {"fixed": {"impacts": 5}})
+    assert swept.fixed == {"controller": "LESO", "robot": "rabbit", "impacts": 5}
+
+
+@pytest.fixture(scope="module")
+def tuned(tmp_path_factory):
+    tables = plant.tables(budget=24, generation=8, name="a <b> $x$")
+    tables["objectives"] = [{"column": "of_state"}, {"column": "of_torque"}]
+    tables["limits"] = [{"column": "legal", "least": 0.5}]
+    out = tmp_path_factory.mktemp("tuned")
+    return tune(read_tuning(tables, columns=plant.COLUMNS), out, Threads(1), function=plant.rows)
+
+
+def test_the_page_says_what_the_summary_says(tuned):
+    told = json.loads((tuned.out / "summary.json").read_text())
+    page = (tuned.out / "tuning.html").read_text()
+    assert "a &lt;b&gt; $x$" in page
+    assert "<b>" not in page
+    assert f"Chosen: candidate {tuned.chosen.number}" in page
+    assert told["test_hash"] in page
+    assert [c["number"] for c in told["candidates"]] == list(range(24))
+    assert told["front"] == [c.number for c in tuned.front]
+    for row in tuned.held_out:
+        assert row.words in page
+        assert f"{row.chosen.value:.4g}" in page
+    assert sum(told["importances"].values()) == pytest.approx(1.0)
+    assert page.count("<img ") == 3
+
+
+def test_the_dashboards_file_has_every_candidate(tuned):
+    backend = optuna.storages.journal.JournalFileBackend(str(tuned.out / "study.journal"))
+    storage = optuna.storages.JournalStorage(backend)
+    study = optuna.load_study(study_name=tuned.study.name, storage=storage)
+    pairs = zip(study.trials, tuned.candidates, strict=True)
+    assert all(t.values == list(c.objectives) for t, c in pairs)
+    assert study.trials[3].params == tuned.candidates[3].chosen
+    assert [d.name for d in study.directions] == ["MINIMIZE", "MINIMIZE"]
+
+
+def test_the_best_file_is_the_scenario_of_the_choice(tuned):
+    found = ba.Scenario(**nested(read_scenario(tuned.out / "best.toml")))
+    assert found == tuned.scenario
+    assert {f"own.{k}": x for k, x in found.own.items()} == tuned.chosen.chosen
+
+
+WALKS = """
+[study]
+name = "walks"
+budget = 3
+generation = 3
+finalists = 1
+seed = 1
+[fixed]
+controller = "NPD"
+impacts = 1
+[variables]
+K_p = { from = 2000.0, to = 9000.0, scale = "log" }
+[[objectives]]
+column = "rms_error"
+[training]
+seeds = [0]
+[selection]
+seeds = [1]
+[test]
+seeds = [2]
+"""
+
+
+def test_the_command_tunes_and_simulate_takes_what_it_wrote(tmp_path):
+    path, out = tmp_path / "walks.toml", tmp_path / "out"
+    path.write_text(WALKS)
+    dry = CliRunner().invoke(app, ["tune", str(path), "--out", str(out), "--dry-run"])
+    assert dry.stdout.strip() == "walks: 3 candidates, 3 walks on the training set"
+    assert not out.exists()
+    line = ["tune", str(path), "--out", str(out), "--threads", "--workers", "1"]
+    done = CliRunner().invoke(app, line)
+    assert done.exit_code == 0, done.output
+    again = CliRunner().invoke(app, line)
+    assert again.stdout.splitlines()[-1] == done.stdout.splitlines()[-1]
+    best = ["simulate", "--scenario", str(out / "best.toml"), "--impacts", "2"]
+    walked = CliRunner().invoke(app, best)
+    assert walked.exit_code == 0, walked.output
+    assert "2 impacts" in walked.stdout
+
+
+def test_rows_are_those_of_a_sweep(tmp_path):
+    (tmp_path / "walks.toml").write_text(WALKS)
+    study = load_tuning(tmp_path / "walks.toml")
+    tuned = tune(study, tmp_path / "tuned", Threads(1))
+    K_p = [c.chosen["K_p"] for c in tuned.candidates[1:]]
+    tables = {"study": {"name": "x", "seeds": [0]}, "fixed": study.fixed, "grid": {"K_p": K_p}}
+    swept = sweep(read_study(tables), tmp_path / "swept", Threads(1)).table("rms_error", "legal")
+    pairs = zip(swept["rms_error"], swept["legal"], strict=True)
+    expected = [x if legal else math.inf for x, legal in pairs]
+    assert [c.objectives[0] for c in tuned.candidates[1:]] == expected
+
+
+def test_workers_stay_between_rounds_and_come_again_after_a_failure():
+    kept = Kept(Threads(1))
+    first = kept.start()
+    kept.stop(first, False)
+    assert kept.start() is first
+    second = kept.restart(first)
+    assert second is not first
+    assert kept.start() is second
+    kept.close()
+    assert kept.executor is None
+    assert Kept(Processes(1)).count(first) == 1
