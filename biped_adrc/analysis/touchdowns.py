@@ -19,7 +19,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.hardware.touchdown import belief_of
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, freeze
 
 
 class TouchdownRates(NamedTuple):
@@ -49,6 +49,9 @@ class Noticed(Shown):
     """Times of the notices without a touchdown [s]."""
     waits: bool = False
     """Whether the walk ended before the last touchdown was noticed or missed; no share counts it."""
+
+    def __post_init__(self) -> None:
+        freeze(self, "t", "late", "false")
 
     @property
     def missed(self) -> float:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -23,7 +23,7 @@ from biped_adrc.closed_loop.stepping_plant import Load, PlantState, motor_torque
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, freeze
 
 AGAIN = 1e-6
 """Largest difference of a state come to again, relative to the largest of its numbers."""
@@ -73,6 +73,9 @@ class Readings(Shown):
     """Of the foot points (K, 2, 2) [m]."""
     speed: Array
     """Of the points that touch the ground (K, 2, 2) [m/s]."""
+
+    def __post_init__(self) -> None:
+        freeze(self, *(f.name for f in fields(self)))
 
 
 def readings(loop: SteppingLoop, arc: Arc, apart: float | None = None) -> Readings:

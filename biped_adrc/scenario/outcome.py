@@ -20,7 +20,7 @@ from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.errors import InputError
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, freeze
 
 if TYPE_CHECKING:
     from biped_adrc.scenario.recording import Walk
@@ -61,6 +61,9 @@ class Outcome(Shown):
     """The same run with every step half as long; its own half is None."""
     slip: float | None = None
     """Largest distance that a foot slips in a step [m]; None on the rigid plant."""
+
+    def __post_init__(self) -> None:
+        freeze(self, "x_minus", "durations")
 
     @property
     def walked(self) -> bool:
