@@ -188,6 +188,13 @@ def test_a_stretch_no_longer_than_round_off_gives_no_acceleration():
     assert [x[:, 0].tolist() for x in found] == [[7.0, 7.0, 7.0, 7.0, 9.0, 9.0], [9.0] * 4]
 
 
+def test_a_ground_keeps_its_impedance():
+    given = [0.9, 0.95]
+    ground = ba.SoftGround(impedance=given)
+    given[0] = 2.0
+    assert ground == ba.SoftGround(impedance=(0.9, 0.95))
+
+
 def test_steps_of_the_ground_that_are_none_are_refused(biped, gait):
     law = ba.NPDController(gait.constraint)
     for wrong in (-1, "a", None, ba.StepDown(2, 0.01), (1.0,)):
