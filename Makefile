@@ -56,7 +56,7 @@ results: .venv/.core
 verification: .venv/.core
 	$(BIN)/python docs/write_verification.py
 
-# random walks against the numerics, about three hours on two cores; tables in docs/robustness.md. What was found is kept
+# random walks against the numerics, one to two hours on two cores; tables in docs/robustness.md. What was found is kept
 # in $(OUT)/attacks, from where an interrupted run goes on
 attacks: .venv/.test
 	mkdir -p $(OUT)/attacks
