@@ -87,7 +87,7 @@ def tables(c: dict[str, dict], e: Entry) -> dict[str, object]:
             {"column": "legal", "least": c["limits"]["legal"]},
             {
                 "column": "mean_friction",
-                "over": "worst",
+                "over": 0.9,
                 "most": c["limits"]["friction"],
                 "counts": "made",
             },
