@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from tuned_entries import Entry, group
 from tuned_questions import Group, against_reference, answered
 from tuned_text import MRAD, NEVER, middle
@@ -72,6 +73,9 @@ def _panels(
             for i, (words, marks) in enumerate(series.items()):
                 _draw(axes, i, len(series), words, [marks.get(name) for name in names])
             axes.set_xlim(*_span(series.values()))
+            axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+            axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+            axes.xaxis.set_minor_formatter(NullFormatter())
             if beside is not None:
                 axes.axvline(beside, color=GREY, lw=0.8)
             axes.set_yticks(range(len(names)), names)

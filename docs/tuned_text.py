@@ -19,7 +19,7 @@ NEVER = 0.9 * WORST**0.5
 
 def number(x: float, digits: int = 3) -> str:
     """So many digits, never in powers of ten; a sign for what is not finite."""
-    return "∞" if np.isinf(x) else f"{float(f'{x:.{digits}g}'):,.12g}".replace(",", " ")
+    return "∞" if np.isinf(x) else f"{float(f'{x:.{digits}g}'):.12g}"
 
 
 def interval(found: Interval, factor: float = 1.0) -> str:
@@ -51,7 +51,7 @@ def legal(walks: Walks) -> str:
 
 def setting(e: Entry) -> str:
     """The chosen values, in SI units."""
-    told = (f"{name.removeprefix('own.')} = {number(x)}" for name, x in e.chosen.items())
+    told = (f"{key.removeprefix('own.')} = {number(x)}" for key, x in e.chosen.items())
     return ", ".join(told) or "none that keeps the limits"
 
 
@@ -60,9 +60,9 @@ def at(e: Entry) -> str:
     return f"{e.place}, gait {e.gait}"
 
 
-def named(items: Sequence[str]) -> str:
-    """ "a", "a and b", "a, b and c"; names of contestants have commas, so they are in quotes."""
-    return " and ".join([", ".join(items[:-1]), items[-1]]) if len(items) > 1 else "".join(items)
+def name(e: Entry) -> str:
+    """The contestant inside a sentence; some names have commas."""
+    return f"*{e.contestant}*"
 
 
 def within(x: Answer) -> str:
