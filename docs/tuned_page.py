@@ -91,7 +91,8 @@ def page(summary: Mapping[str, Any]) -> str:
 
 LADDER = (
     "From NPD on filtered rates to the observer's xi^, one thing at a time. A ratio below 1 is what the rung "
-    "is worth; each contestant is searched anew, so a rung is held against the best setting below it."
+    "is worth; each contestant is searched anew, so a rung is held against the best setting below it. There "
+    "are more questions here than above, so that the correction may leave open what is carried there."
 )
 
 

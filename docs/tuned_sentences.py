@@ -145,6 +145,6 @@ def rung_worths(ladder: Sequence[Answer]) -> list[str]:
         ends = [ratio(x.ratio).split(" (")[0] for x in sorted(here, key=lambda x: x.ratio.value)]
         span = ends[0] if len(ends) == 1 else f"{ends[0]} to {ends[-1]}"
         kinds = words.by_verdict(here, lambda x: at(x.a))
-        where = "; ".join(f"{kind} at {', at '.join(x)}" for kind, x in kinds.items() if x)
+        where = "; ".join(f"{kind} at {' and at '.join(x)}" for kind, x in kinds.items() if x)
         lines.append(f"*{b}* to *{a}* ({what}): ratio {span}; {where}.")
     return lines

@@ -12,8 +12,10 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
+from biped_adrc.analysis.statistics import share, sign_test
 from biped_adrc.campaign.store import Result
 from biped_adrc.errors import InputError
+from biped_adrc.viz.figure_numbers import numbers_of
 
 ROOT = Path(__file__).resolve().parents[1]
 PLACE, GAIT, SEEDS = "RABBIT, 1 ms", "v0.5", 15
@@ -132,7 +134,27 @@ def test_illegal_walks_rank_worst_and_are_not_dropped(script):
     assert (found["m = 2"].won, found["m = 2"].lost) == (13, 2)
     assert found["m = 3"].verdict == "larger"
     assert found["m = 3"].legal_p < 0.05 < found["m = 2"].legal_p
-    assert found["m = 2"].legal_bound > 2 / SEEDS
+    assert found["m = 2"].legal_bound == pytest.approx(share(2, SEEDS).high)
+
+
+def test_a_seed_is_legal_where_all_its_walks_are(script):
+    half = search("m = 1", 0.5)
+    half["tuned"][-1][1] = [0] * SEEDS
+    found = answers(script, search("NPD"), search("NPID", 1.2), half)["m = 1"]
+    assert found.legal_p < 0.05
+    assert found.ratio.value > 100.0
+    assert (found.won, found.lost) == (0, SEEDS)
+
+
+def test_what_the_corrected_test_does_not_carry_is_open_though_the_interval_would(script):
+    most = np.ones((2, SEEDS)) * np.where(np.arange(SEEDS) < 12, 0.8, 1.25)
+    names = ("m = 1", "m = 2")
+    given = [search(n, most) for n in names]
+    found = answers(script, search("NPD", selected=0.1), search("NPID", 1.2), *given)
+    for x in (found[n] for n in names):
+        assert x.ratio.high < 1.0
+        assert x.p == pytest.approx(2 * sign_test(12, 3))
+        assert x.verdict == "open"
 
 
 def test_two_walks_that_are_both_not_legal_are_a_tie(script):
@@ -291,3 +313,23 @@ def test_an_empty_folder_is_refused(script, tmp_path):
         script("write_tuned").summarised(tmp_path)
     with pytest.raises(InputError, match="run 'make tuned' first"):
         script("write_tuned").read(tmp_path / "summary.json")
+
+
+def test_the_figures_have_no_mark_for_what_is_infinite(script):
+    given = summary(
+        search("NPD"),
+        search("NPID", 1.2),
+        search("m = 1", 0.5),
+        nothing("m = 3"),
+        search("NPD", seed=2),
+    )
+    drawn = script("tuned_figures").drawn(script("tuned_entries").entries(given))
+    shown = {name: numbers_of(figure)["panels"] for name, figure in drawn.items()}
+    (ratios,), (errors,) = ([p for p in shown[n] if p.get("title")] for n in ("ratios", "errors"))
+    assert ratios["marks"] == {
+        "optimiser seed 1": {"x": [1.2, 0.5], "y": [0, 1], "from": [1.2, 0.5], "to": [1.2, 0.5]}
+    }
+    assert set(errors["marks"]) == {"tuned"}  # as published no walk is legal
+    assert errors["marks"]["tuned"]["x"] == pytest.approx(
+        [1e3 * f * np.median(BASE) for f in (1.0, 1.2, 0.5)], rel=1e-3
+    )
