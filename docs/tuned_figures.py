@@ -68,7 +68,8 @@ def _panels(
         for axes in grid[len(panels) :]:
             axes.set_axis_off()
         for axes, (title, series) in zip(grid, panels.items(), strict=False):
-            names = list(dict.fromkeys(name for marks in series.values() for name in marks))
+            longest = sorted(series.values(), key=len, reverse=True)
+            names = list(dict.fromkeys(name for marks in longest for name in marks))
             axes.set_xscale("log")
             for i, (words, marks) in enumerate(series.items()):
                 _draw(axes, i, len(series), words, [marks.get(name) for name in names])
@@ -81,9 +82,18 @@ def _panels(
             axes.set_yticks(range(len(names)), names)
             axes.set_ylim(len(names) - 0.5, -0.5)
             label(axes, quantity, "", title)
-            if axes.get_legend_handles_labels()[1]:
-                axes.legend(fontsize="small")
+        _legend(figure)
         return figure
+
+
+def _legend(figure: Figure) -> None:
+    """One legend below all panels."""
+    known = {}
+    for axes in figure.axes:
+        handles, names = axes.get_legend_handles_labels()
+        known |= dict(zip(names, handles, strict=True))
+    if known:
+        figure.legend(known.values(), known.keys(), loc="outside lower center", ncols=len(known))
 
 
 def _span(series: Iterable[Marks]) -> tuple[float, float]:

@@ -20,7 +20,7 @@ from tuned_questions import (
 from tuned_seeds import other_seeds
 from tuned_sentences import goal, order_pays, rung_worths, who_is_legal, winners
 from tuned_tables import answer_table, of_group
-from tuned_text import MRAD, at, name
+from tuned_text import MRAD, at, name, number
 
 from biped_adrc.viz.pages import captions
 
@@ -83,7 +83,7 @@ def page(summary: Mapping[str, Any]) -> str:
         "## Another seed of the optimiser",
         told(other_seeds(found)),
         "## What was left out",
-        bullets(LEFT_OUT),
+        bullets([*LEFT_OUT, *at_ends(summary["contest"], found)]),
         *without_setting(found),
     ]
     return "\n\n".join(part for part in parts if part) + "\n"
@@ -161,6 +161,27 @@ def missing(summary: Mapping[str, Any], found: Sequence[Entry]) -> list[str]:
     return ["Searches that are not there; nothing is said of them:", bullets(lines)]
 
 
+NEAR = 1.1
+"""A value within this factor of an end of its range is at the end."""
+
+
+def at_ends(contest: Mapping[str, Any], found: Sequence[Entry]) -> list[str]:
+    """The chosen values at an end of their range, beyond which a better setting may lie."""
+    lines = []
+    for e in found:
+        own = (contest["contestants"][e.contestant] or {}).get("own", {})
+        ranges = {**contest["gains"], **own, **contest["places"][e.place].get("leaves", {})}
+        ends = [
+            f"{key.removeprefix('own.')} = {number(x)} of {r['from']:g} to {r['to']:g}"
+            for key, x in e.chosen.items()
+            if (r := ranges[key]) and not NEAR * r["from"] < x < r["to"] / NEAR
+        ]
+        if ends:
+            lines.append(f"{at(e)}, {name(e)}, seed {e.seed} ({', '.join(ends)})")
+    told = "At an end of its range, so that a wider one may find better, is a value of "
+    return [f"{told}{'; '.join(lines)}."] if lines else []
+
+
 def without_setting(found: Sequence[Entry]) -> list[str]:
     """The searches that found no setting, with the reason."""
     lines = [
@@ -173,4 +194,11 @@ def without_setting(found: Sequence[Entry]) -> list[str]:
 
 def reason(e: Entry) -> str:
     """Why a search found nothing: what excluded how many."""
-    return e.why.split("': ", 1)[-1].split(". The nearest")[0]
+    told = e.why.split("': ", 1)[-1].split(". The nearest")[0]
+    return f"{told}. {UNWALKED}" if "that need no walk" in told else told
+
+
+UNWALKED = (
+    "So none was walked. This excludes the ranges that were searched and no more: whether a value outside them "
+    "bears the delay is not answered here"
+)

@@ -22,16 +22,16 @@ def number(x: float, digits: int = 3) -> str:
     return "∞" if np.isinf(x) else f"{float(f'{x:.{digits}g}'):.12g}"
 
 
-def interval(found: Interval, factor: float = 1.0) -> str:
+def interval(found: Interval, factor: float = 1.0, digits: int = 3) -> str:
     """ "value (low to high)"."""
-    value, low, high = (number(factor * x) for x in found)
+    value, low, high = (number(factor * x, digits) for x in found)
     return f"{value} ({low} to {high})" if value != "∞" or low != "∞" else "∞"
 
 
 def ratio(found: Interval) -> str:
-    """A ratio with its interval; 0 and ∞ where walks that are not legal decide."""
+    """A ratio with its interval, to four digits near 1; 0 and ∞ where walks that are not legal decide."""
     clipped = (0.0 if x < 1.0 / NEVER else np.inf if x > NEVER else x for x in found)
-    return interval(Interval(*clipped))
+    return interval(Interval(*clipped), digits=4 if abs(found.value - 1.0) < 0.1 else 3)
 
 
 def middle(x: Array) -> Interval:

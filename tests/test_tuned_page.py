@@ -74,7 +74,8 @@ def summary(*searches):
         "test": {"seeds": {"count": SEEDS}, "amplitudes": [60.0, 80.0]},
         "places": {PLACE: place, "ideal": place},
         "gaits": {GAIT: [1, 2], "published": [1]},
-        "contestants": dict.fromkeys(names),
+        "gains": {"K_p": {"from": 200.0, "to": 20000.0}},
+        "contestants": {n: {"own": {"own.K_i": {"from": 2.4, "to": 9.0}}} for n in names},
     }
     missing = [PLACE, "published", "DOB", 1]
     return {"contest": contest, "asked": [*asked, missing], "searches": list(searches)}
@@ -192,6 +193,23 @@ def test_the_page_says_who_wins_by_how_much_and_how_near_the_goal_is(script):
     assert "| m = 2 | K\\_p = 500, K\\_i = 2.5 | 2.5 |" in text
     assert "| 28 of 30 |" in text
     assert "| not stable | 0 of 30 |" in text
+    assert (
+        "is a value of RABBIT, 1 ms, gait v0.5, *NPD*, seed 1 (K_i = 2.5 of 2.4 to 9); RABB" in text
+    )
+
+
+def test_a_search_in_which_no_candidate_was_walked_says_nothing_beyond_its_ranges(script):
+    told = {
+        **nothing("m = 3"),
+        "why": "study 'x: y': none of 9 keeps all limits that need no walk; a",
+    }
+    page, (entry,) = script("tuned_page"), script("tuned_entries").entries(summary(told))
+    assert page.reason(entry).startswith(
+        "none of 9 keeps all limits that need no walk; a. So none was"
+    )
+    assert "outside them" in page.reason(entry)
+    (entry,) = script("tuned_entries").entries(summary(nothing("m = 3")))
+    assert page.reason(entry) == "none of 75 candidates keeps"
 
 
 def test_a_goal_that_is_missed_is_missed_by_so_much(script):
