@@ -45,3 +45,4 @@ class SoftGround(Checked, Shown):
             raise InputError(
                 f"the impedance of the ground is {self.impedance}, expected 0 < first <= second < 1"
             )
+        object.__setattr__(self, "impedance", tuple(found.tolist()))  # a list could be changed
