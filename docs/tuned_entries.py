@@ -27,6 +27,8 @@ RESULTS, NOTE, SUMMARY, TEST_SET = (
     "test_set.json",
 )
 """Files of a search."""
+KEEPS = "keeps all limits"
+"""What the reason says where no candidate keeps the limits."""
 
 
 class Walks(NamedTuple):
@@ -71,9 +73,11 @@ class Entry(NamedTuple):
 def collected(out: Path, contest: Mapping[str, Any], asked: Sequence[Any]) -> dict[str, Any]:
     """The summary of what is in a folder, finished or not.
 
+    A search that ended for another reason than its limits is left out: it says nothing of its contestant.
     contest: the tables of contest.toml. asked: the searches of the contest, as `alike.entries` gives them.
     """
     found = [_search(out / e.folder) for e in asked if (out / e.folder / NOTE).is_file()]
+    found = [told for told in found if not told["why"] or KEEPS in told["why"]]
     return {
         "contest": dict(contest),
         "columns": list(KEPT),

@@ -80,7 +80,7 @@ def _panels(
             if beside is not None:
                 axes.axvline(beside, color=GREY, lw=0.8)
             axes.set_yticks(range(len(names)), names)
-            axes.set_ylim(len(names) - 0.5, -0.5)
+            axes.set_ylim(max(len(names), 1) - 0.5, -0.5)
             label(axes, quantity, "", title)
         _legend(figure)
         return figure

@@ -55,7 +55,6 @@ LEFT_OUT = (
     "feedforward, prediction over the known delay, and the policy at impact, which stay as they are.",
     "**Left out**: MuJoCo's contact. All walks are on the rigid ground of the paper.",
     "Controllers that run in Python alone (CLF-QP, reference governors) are **left out**.",
-    "NPID filters its rates by itself, so it goes without the leaf; its bandwidth is the same parameter.",
 )
 
 

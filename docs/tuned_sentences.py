@@ -130,7 +130,7 @@ def order_pays(orders: Sequence[Answer]) -> list[str]:
     if orders:
         lines.insert(
             0,
-            f"An order above 1 pays in {paid} of {len(orders)} questions{' alone' if paid else ''}.",
+            f"An order above 1 pays in {paid} of {len(orders)} questions.",
         )
     return lines
 

@@ -270,12 +270,13 @@ class Asked(NamedTuple):
 
 def test_a_folder_of_searches_becomes_a_summary(script, monkeypatch, tmp_path):
     module = script("tuned_entries")
-    asked = [Asked(PLACE, GAIT, name, 1) for name in ("NPD", "NPID", "DOB")]
+    asked = [Asked(PLACE, GAIT, name, 1) for name in ("NPD", "NPID", "m = 1", "DOB")]
     notes = {
         "NPD": {"found": True, "chosen": {"K_p": 1234.567}},
-        "NPID": {"found": False, "why": "none"},
+        "NPID": {"found": False, "why": "none keeps all limits"},
+        "m = 1": {"found": False, "why": "of other versions"},
     }
-    for e in asked[:2]:
+    for e in asked[:3]:
         (tmp_path / e.folder).mkdir()
         write(tmp_path / e.folder / "entry.json", e._asdict() | notes[e.contestant])
     told = {
@@ -294,13 +295,13 @@ def test_a_folder_of_searches_becomes_a_summary(script, monkeypatch, tmp_path):
     write(tmp_path / "NPD" / "test_set.json", {"conditions": conditions, "seeds": [8, 9]})
     monkeypatch.setattr(module, "read_store", lambda _: Store())
     found = module.collected(tmp_path, {}, asked)
-    assert (len(found["asked"]), len(found["searches"])) == (3, 2)
+    assert (len(found["asked"]), len(found["searches"])) == (4, 2)
     npd, npid = found["searches"]
     assert npd["tuned"][0] == [[4068.0, 4069.0], [4088.0, 4089.0]]  # candidate, condition, seed
     assert npd["published"][0] == [[68.0, 69.0], [88.0, 89.0]]
     assert (npd["chosen"], npd["selected"]) == ({"K_p": 1235.0}, 0.001234)
     assert npd["margins"] == [0.002, "-inf"]
-    assert npid == {**asked[1]._asdict(), "why": "none"}
+    assert npid == {**asked[1]._asdict(), "why": "none keeps all limits"}
 
 
 def write(path, told):
