@@ -12,7 +12,7 @@ BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine
   pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
-.PHONY: reproduce test fuzz docs pictures comparison soft results verification attacks soft-limit dev lint format types imports bench mutants faults clean
+.PHONY: reproduce test fuzz docs pictures comparison tuned soft results verification attacks soft-limit dev lint format types imports bench mutants faults clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -39,6 +39,11 @@ pictures: .venv/.core
 comparison: .venv/.core
 	$(BIN)/biped-adrc compare --out $(OUT)/comparison
 	$(BIN)/python docs/write_comparison.py $(OUT)/comparison
+
+# docs/tuned.md with its figures, from the searches in $(OUT)/tuned, which are made or finished first: hours
+tuned: .venv/.dev
+	$(BIN)/python benchmarks/tuned/alike.py $(OUT)/tuned
+	$(BIN)/python docs/write_tuned.py $(OUT)/tuned
 
 # docs/soft_walk.md with its pictures, from the two studies of soft ground in $(OUT)/soft and $(OUT)/soft-held-out,
 # which are made or finished first
