@@ -56,11 +56,11 @@ results: .venv/.core
 verification: .venv/.core
 	$(BIN)/python docs/write_verification.py
 
-# random walks against the numerics, about an hour on two cores; tables in docs/robustness.md. What was found is kept
+# random walks against the numerics, about three hours on two cores; tables in docs/robustness.md. What was found is kept
 # in $(OUT)/attacks, from where an interrupted run goes on
 attacks: .venv/.test
 	mkdir -p $(OUT)/attacks
-	for attack in engines steps; do \
+	for attack in engines contact steps; do \
 	  $(BIN)/python -m tests.robustness $$attack --out $(OUT)/attacks/$$attack.jsonl --page docs/robustness.md; done
 
 # the rigid walk as limit of the soft one, its multipliers, and walks that the rigid model calls legal, in MuJoCo: an

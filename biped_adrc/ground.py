@@ -85,6 +85,14 @@ class StepUp(GroundStep):
     way, other = "up", "down"
 
 
+def check_steps(steps: object) -> None:
+    """Raise InputError unless these are steps of the ground, in a tuple."""
+    if not isinstance(steps, tuple) or not all(isinstance(x, StepDown | StepUp) for x in steps):
+        raise InputError(
+            f"ground_steps is {steps!r:.60}, expected a tuple of steps, such as (StepDown(3, 0.02),), or ()"
+        )
+
+
 def drop_of(steps: tuple[StepDown | StepUp, ...], number: int) -> float:
     """How far these steps lower the ground on which single support `number` ends [m]."""
     return sum((d.drop for d in steps if d.step == number), 0.0)

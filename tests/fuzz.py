@@ -247,6 +247,8 @@ def damage(kind: str, number: int, seed: int, folder: Path) -> tuple[Counter[str
 
 LINES = (
     "simulate --engine compiled --impacts 1",
+    "simulate --plant mujoco --period 1e-3 --controller NPD --impacts 1 --set contact=hold",
+    "simulate --period 1e-3 --set touchdown=told --impacts 1",
     "poincare --samples 3",
     "gait show",
     "gait zero",
@@ -262,6 +264,7 @@ LINES = (
     "animate a.npz",
     "sweep a.toml --out s",
     "compare --out c",
+    "compare --plant mujoco --out c",
     "reproduce --out r",
 )
 

@@ -11,6 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 import biped_adrc as ba
+from biped_adrc.campaign.workers import Threads
 from biped_adrc.cli import app
 from biped_adrc.control.clf_qp import CLFQPController
 from biped_adrc.control.npid import NPIDController
@@ -273,6 +274,14 @@ CASES = {
     "a gait for a passive cycle": (
         lambda s: ba.find_cycle("compass", gait="v0.8"),
         "robot 'compass' has no motors, so it takes no gait",
+    ),
+    "the outcome of a walk of a walker": (
+        lambda s: s.walk().outcome,
+        "this walk was made of a walker, and an outcome is a scenario's",
+    ),
+    "workers without end": (
+        lambda s: Threads(10**30),
+        "asks for 1000000000000000000000000000000 workers, expected at least 1 and at most 1024",
     ),
     "a gait as a walker": (lambda s: ba.ReturnMap(s.gait, ba.RK4()), "walker of ReturnMap is a Ga"),
 }

@@ -63,8 +63,7 @@ def entries(c: dict[str, dict]) -> Iterator[Entry]:
 def tables(c: dict[str, dict], e: Entry) -> dict[str, object]:
     """The study of one search, as plain tables."""
     place, who = c["places"][e.place], c["contestants"][e.contestant]
-    leaves = place["leaves"] if who.get("filtered", True) else {}
-    variables = {**c["gains"], **who.get("own", {}), **leaves}
+    variables = {**c["gains"], **who.get("own", {}), **place["leaves"]}
     search = c["search"]
 
     def walks(kind: str) -> dict[str, object]:

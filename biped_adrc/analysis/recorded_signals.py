@@ -13,8 +13,9 @@ import numpy as np
 from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.closed_loop.instant_signals import InstantSignals
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.reduction import disturbance_parts, unknown_force
+from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
 
 FORCE, PLACE, SPEED = NAMES
@@ -38,8 +39,7 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
     if force is None:
         return found
     n, p, arcs = walker.plant.n, walker.plant.p, trajectory.arcs
-    x, a = (np.vstack([getattr(arc, name) for arc in arcs]) for name in ("x", "dx"))
-    a = a[:, n : 2 * n]
+    x, a = np.vstack([arc.x for arc in arcs]), np.vstack([accelerations(arc, n) for arc in arcs])
     outside = [walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen]
     rows = []
     for x_k, a_k, u in zip(x, a, found.u, strict=True):
@@ -55,3 +55,19 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
         xi_nominal=nominal,
         ground_reaction=force[:, :2] + np.array(outside),
     )
+
+
+def accelerations(arc: Arc, n: int) -> Array:
+    """q'' (K, n) [rad/s^2] at the nodes of an arc, by differences of rates.
+
+    In a stretch of less than SAME_INSTANT, as where a push ends at a tick but for round-off, a difference is
+    round-off too: there it is that of the stretch before, or after it at the start.
+    """
+    ways = np.diff(arc.t)
+    short = (ways > 0.0) & (ways < SAME_INSTANT)
+    bad = np.append(short, False) | np.append(False, short)
+    good = np.flatnonzero(~bad)
+    if len(good) == 0:
+        return arc.dx[:, n : 2 * n]
+    before = np.searchsorted(good, np.arange(len(arc.t)), side="right") - 1
+    return arc.dx[good[np.maximum(before, 0)], n : 2 * n]

@@ -22,7 +22,7 @@ from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, freeze
 
 LONG = 2000
 """Number of nodes from which on compiling is faster than NumPy."""
@@ -86,6 +86,9 @@ class Signals(Shown):
     """(K,) x of the stance foot in the world [m]."""
     foothold_height: Array
     """(K,) z of the stance foot in the world [m]."""
+
+    def __post_init__(self) -> None:
+        freeze(self, *(f.name for f in fields(self)))
 
     def __repr__(self) -> str:
         ends = f"{self.t[0]:.4g} to {self.t[-1]:.4g} s"

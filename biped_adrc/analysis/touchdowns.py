@@ -19,7 +19,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.hardware.touchdown import belief_of
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, freeze
 
 
 class TouchdownRates(NamedTuple):
@@ -49,6 +49,9 @@ class Noticed(Shown):
     """Times of the notices without a touchdown [s]."""
     waits: bool = False
     """Whether the walk ended before the last touchdown was noticed or missed; no share counts it."""
+
+    def __post_init__(self) -> None:
+        freeze(self, "t", "late", "false")
 
     @property
     def missed(self) -> float:
@@ -116,6 +119,7 @@ def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:
     x = np.vstack([arc.x for arc in run.arcs])
     first = x.shape[1] - loop.behind + k.sizes.own
     began = belief_of(x[:, first : first + k.sizes.told].T)
-    new = np.diff(np.asarray(began.step, dtype=float)) > 0.0
-    times: Array = np.asarray(began.start)[1:][new]
+    step, start = np.asarray(began.step, dtype=float), np.asarray(began.start)
+    at_once = step[0] > run.arcs[0].mode.step and start[0] == run.arcs[0].t[0]
+    times: Array = start[np.append(at_once, np.diff(step) > 0.0)]
     return times

@@ -55,6 +55,10 @@ class WorkersError(SimulationError):
     exit_code = 3
 
 
+MOST_WORKERS = 1024
+"""Of one machine; more are a mistake, which would take its memory before a walk is made."""
+
+
 class Workers(ABC):
     """What makes executors and knows their failures."""
 
@@ -95,14 +99,16 @@ class Workers(ABC):
 class Threads(Workers):
     """Threads of this process; useful where most time is spent in compiled code that releases Python's lock.
 
-    number: how many, one per core if None. Raises InputError for less than 1.
+    number: how many, one per core if None. Raises InputError for less than 1, or more than MOST_WORKERS.
     """
 
     number: int | None = None
 
     def __post_init__(self) -> None:
-        if self.number is not None and self.number < 1:
-            raise InputError(f"the study asks for {self.number} workers, expected at least 1")
+        if self.number is not None and not 1 <= self.number <= MOST_WORKERS:
+            raise InputError(
+                f"the study asks for {self.number} workers, expected at least 1 and at most {MOST_WORKERS}"
+            )
 
     def count(self, executor: Executor | None = None) -> int:
         return self.number or cores()

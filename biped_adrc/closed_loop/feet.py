@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -23,7 +23,7 @@ from biped_adrc.closed_loop.stepping_plant import Load, PlantState, motor_torque
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, freeze
 
 AGAIN = 1e-6
 """Largest difference of a state come to again, relative to the largest of its numbers."""
@@ -74,6 +74,9 @@ class Readings(Shown):
     speed: Array
     """Of the points that touch the ground (K, 2, 2) [m/s]."""
 
+    def __post_init__(self) -> None:
+        freeze(self, *(f.name for f in fields(self)))
+
 
 def readings(loop: SteppingLoop, arc: Arc, apart: float | None = None) -> Readings:
     """The feet along an arc of a run of this loop, at the nodes and between them at most `apart` [s] apart.
@@ -115,7 +118,8 @@ def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
         seen = _readings(loop, _at_nodes(loop, arc))
         kept = (seen.force, seen.place, seen.speed)
         read = {name: x.reshape(len(x), -1) for name, x in zip(NAMES, kept, strict=True)}
-        arcs.append(replace(arc, read={**arc.read, **read}))
+        acting = {"u": seen.u, "zeta": seen.zeta}  # which an arc that failed at once has not
+        arcs.append(replace(arc, read={**acting, **arc.read, **read}))
     return replace(run, arcs=tuple(arcs))
 
 
@@ -139,15 +143,15 @@ def _passed(
 
 
 def _at_nodes(loop: SteppingLoop, arc: Arc) -> Iterator[tuple[PlantState, Array, Load]]:
-    """The nodes of `_passed`, as the run has them."""
+    """The nodes of `_passed`, as the run has them; one behind the last piece is where the plant was lost."""
     states = [_state(loop, t, x) for t, x in zip(arc.t, arc.x, strict=True)]
     u, pieces = arc.x[:, -loop.plant.p :], np.flatnonzero(np.diff(arc.t) > 0.0)
-    if len(pieces) == 0:
-        yield states[0], u[0], _load(loop, states[0].t, states[0], arc.mode)
     for k in pieces:
         load = _load(loop, 0.5 * (states[k].t + states[k + 1].t), states[k], arc.mode)
         yield states[k], u[k], load
         yield states[k + 1], u[k], load
+    if len(states) > 2 * len(pieces):
+        yield states[-1], u[-1], _load(loop, states[-1].t, states[-1], arc.mode)
 
 
 def _between(begin: float, end: float, apart: float | None) -> list[float]:

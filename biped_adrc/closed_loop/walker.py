@@ -26,7 +26,7 @@ from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
-from biped_adrc.ground import StepDown, StepUp, check_slope, drop_of
+from biped_adrc.ground import StepDown, StepUp, check_slope, check_steps, drop_of
 from biped_adrc.hardware.meter import Meter, MeterParameters, Outside
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import check_parts
@@ -93,6 +93,7 @@ class Walker(ClosedLoop[Biped]):
         self.check()
         self.plant.check_motors()
         check_slope(self.slope)
+        check_steps(self.ground_steps)
         if self.disturbance is not None:
             self.disturbance.check_size(self.plant.n)
         limit = self.torque_limit

@@ -36,6 +36,7 @@ from biped_adrc.control.tracking import body_of
 from biped_adrc.errors import InputError
 from biped_adrc.linear import solve_positive
 from biped_adrc.model.reduction import BodyTerms
+from biped_adrc.parts import check_part
 from biped_adrc.types import Array
 
 
@@ -117,6 +118,8 @@ class ImpactInvariant(ContactWindow):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        for name in ("rates", "innovation"):
+            check_part(getattr(self, name), f"{name} of ImpactInvariant", bool)
         tracked_constraint(
             self.inner, "a touchdown is expected by the phase of a virtual constraint"
         )

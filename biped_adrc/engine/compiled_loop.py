@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
+from threading import get_ident
 from typing import NamedTuple
 
 from biped_adrc.closed_loop.protocols import Mode
@@ -74,11 +75,12 @@ class CompiledLoop(SteppingLoop):
         return {name: x for name, x in super().__getstate__().items() if name != "_made"}
 
     def _compiled(self, size: int) -> Compiled:
-        """The loop for a controller with `size` states, compiled once."""
-        made: dict[int, Compiled] = vars(self).setdefault("_made", {})
-        if size not in made:
-            made[size] = self._made_for(size)
-        return made[size]
+        """The loop for a controller with `size` states, made once in each thread, for its work space."""
+        made: dict[tuple[int, int], Compiled] = vars(self).setdefault("_made", {})
+        key = size, get_ident()
+        if key not in made:
+            made[key] = self._made_for(size)
+        return made[key]
 
     def _made_for(self, size: int) -> Compiled:
         """As `_compiled`."""

@@ -16,6 +16,7 @@ import numpy as np
 from biped_adrc.errors import InputError, check_whole
 from biped_adrc.hardware.sensors import SIZE, seeded, uniforms
 from biped_adrc.hardware.touchdown import Look, Touchdown, TouchdownLaws, check_time
+from biped_adrc.parts import check_part
 from biped_adrc.shown import Shown
 from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
@@ -78,11 +79,12 @@ class Told(Shown, Touchdown):
             )
         check_whole(self.seed, f"the seed of missed touchdowns is {self.seed}", 0)
         if self.false_at is not None:
-            if len(self.false_at) != 2:
+            if not isinstance(self.false_at, tuple | list) or len(self.false_at) != 2:
                 raise InputError(
                     f"false_at is {self.false_at}, expected a step and a time in it [s], such as (2, 0.3)"
                 )
             check_whole(self.false_at[0], f"false_at has the step {self.false_at[0]}", 1)
+            check_part(self.false_at[1], "the time of false_at", float)
             check_time(self.false_at[1], "false_at")
 
     @property

@@ -18,8 +18,9 @@ from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
+from biped_adrc.errors import InputError
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, freeze
 
 if TYPE_CHECKING:
     from biped_adrc.scenario.recording import Walk
@@ -61,6 +62,9 @@ class Outcome(Shown):
     slip: float | None = None
     """Largest distance that a foot slips in a step [m]; None on the rigid plant."""
 
+    def __post_init__(self) -> None:
+        freeze(self, "x_minus", "durations")
+
     @property
     def walked(self) -> bool:
         """True where all impacts asked for were made."""
@@ -70,9 +74,14 @@ class Outcome(Shown):
 def outcome_of(made: Walk) -> Outcome:
     """The outcome of a scenario's walk.
 
-    The mean of squared errors is over time, by quadrature between nodes.
+    The mean of squared errors is over time, by quadrature between nodes. Raises InputError for a walk that is
+    not of a scenario.
     """
-    assert made.scenario is not None
+    if made.scenario is None:
+        raise InputError(
+            "this walk was made of a walker, and an outcome is a scenario's; take its trajectory, signals and "
+            "legality, or walk with biped_adrc.walk_scenario"
+        )
     trajectory, s = made.trajectory, made.signals
     events = trajectory.events(FOOT_STRIKE)
     times = np.array([0.0, *(event.t for event in events)])

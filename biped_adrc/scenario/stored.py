@@ -24,6 +24,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from biped_adrc.analysis.signals import Signals, signals
+from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.disturbances.base import Disturbance
@@ -120,12 +121,29 @@ def _stored(trajectory: Trajectory, beside: Mapping[str, Array], controller: obj
     return replace(made, recorded=Signals(**seen) if len(seen) > 1 else None, said=changed)
 
 
+def _check_readings(walk: Walk) -> None:
+    """Raise ValueError where a walk with readings of its feet lacks some, or they are none of its nodes."""
+    arcs, plant = walk.trajectory.arcs, walk.walker.plant
+    if not any(set(NAMES) & set(arc.read) for arc in arcs):
+        return
+    width = {**dict.fromkeys(NAMES, 4), "u": plant.p, "zeta": plant.n}
+    for i, arc in enumerate(arcs):
+        for name, count in width.items():
+            rows = arc.read.get(name)
+            if rows is None or rows.shape != (len(arc.t), count) or not np.all(np.isfinite(rows)):
+                found = "none" if rows is None else f"an array {rows.shape}"
+                raise ValueError(
+                    f"{name} of arc {i} is {found}, expected finite numbers ({len(arc.t)}, {count})"
+                )
+
+
 def _check(walk: Walk) -> None:
     """Raise ValueError where gait, states or signals of a file do not fit the walker.
 
     The signals of one node are computed as a test: a walker that cannot do this would fail at the first plot.
     """
     walker, arcs, n = walk.walker, walk.trajectory.arcs, walk.walker.plant.n
+    _check_readings(walk)
     expected = Gait if walker.plant.p else type(None)
     if not isinstance(walk.gait, expected):
         raise ValueError(f"its gait is a {type(walk.gait).__name__}")

@@ -49,6 +49,7 @@ class SoftGround(Checked, Shown):
             raise InputError(
                 f"the impedance of the ground is {self.impedance}, expected 0 < first <= second < 1"
             )
+        object.__setattr__(self, "impedance", tuple(found.tolist()))  # a list could be changed
 
     def stiffness(self, mass: float) -> tuple[float, float]:
         """F / r [N/m] under a foot that rests: at the surface, and where d(r) = d, from 1 mm on.

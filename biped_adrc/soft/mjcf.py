@@ -121,8 +121,9 @@ def _shape(visual: Visual) -> ET.Element:
 def _start(plant: MuJoCoPlant, gait: Gait) -> dict[str, str]:
     """Positions and velocities of the model at the start of a gait."""
     _, q, v, own = plant.start(0.0, *gait.start(plant.biped))
-    plant.engine.place(np.concatenate((q, v, own)))
-    return {"qpos": _text(plant.data.qpos), "qvel": _text(plant.data.qvel)}
+    engine = plant.engine
+    engine.place(np.concatenate((q, v, own)))
+    return {"qpos": _text(engine.qpos), "qvel": _text(engine.qvel)}
 
 
 def _comment(plant: MuJoCoPlant) -> str:

@@ -24,8 +24,10 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable
+from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from threading import Lock, get_ident
 
 import numpy as np
 
@@ -33,7 +35,7 @@ from biped_adrc.closed_loop.feet import Feet
 from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, Load, PlantState
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.errors import InputError, check_count, check_positive
-from biped_adrc.ground import StepDown, StepUp, check_slope, drop_of, ground_axes
+from biped_adrc.ground import StepDown, StepUp, check_slope, check_steps, drop_of, ground_axes
 from biped_adrc.hardware.motors import check_lag
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
@@ -50,6 +52,7 @@ TOUCHING = 1e-6
 """How deep the stance foot is in the ground at the start [m]: no last bit decides whether it touches."""
 DEEPEST = 1e-4
 """How deep the swing foot may be in the ground at the start [m]."""
+_MAKING = Lock()
 
 
 @dataclass(frozen=True)
@@ -89,6 +92,7 @@ class MuJoCoPlant(Checked, Shown):
         for name in ("h", "touchdown_force", "ahead", "flight_height"):
             check_positive(getattr(self, name), f"{name} of the plant is {getattr(self, name)}")
         check_slope(self.slope)
+        check_steps(self.ground_steps)
         check_lag(self.lag)
         check_count(self.first_step, f"the plant begins in single support {self.first_step}")
         check_ends(self.max_step_time, self.fall_height, math.inf, math.inf)
@@ -97,7 +101,7 @@ class MuJoCoPlant(Checked, Shown):
                 f"robot '{self.biped.description.name}' has no motors; expected one with motors at its joints"
             )
         self.biped.check_motors()
-        if self.integrator not in INTEGRATORS:
+        if str(self.integrator) not in INTEGRATORS:
             raise InputError(
                 f"the integrator of the plant is {self.integrator!r}, expected one of {list(INTEGRATORS)}"
             )
@@ -154,10 +158,25 @@ class MuJoCoPlant(Checked, Shown):
         """Height of the hip above the ground [m] below which the run ends as a fall."""
         return self.fall_height * float(np.linalg.norm(self.biped.hip(np.zeros(self.n))))
 
-    @cached_property
+    @property
     def engine(self) -> MuJoCoEngine:
-        """MuJoCo with the places of the package's numbers in it."""
-        return MuJoCoEngine(self.biped, self.model, self.data, self.h, self.integrator, self.lag)
+        """MuJoCo with the places of the package's numbers in it; another one in every thread, since two in one
+        work space would end the process.
+        """
+        engines: dict[int, MuJoCoEngine] = vars(self).setdefault("_engines", {})
+        found = engines.get(get_ident())
+        return self._engine_of_thread(engines) if found is None else found
+
+    def _engine_of_thread(self, engines: dict[int, MuJoCoEngine]) -> MuJoCoEngine:
+        """Made, and noted in `engines`: the first around `model` and `data`, others around copies."""
+        with _MAKING:
+            model, data = self.model, self.data
+            if engines:
+                model = copy(model)
+                data = mujoco().MjData(model)
+            numbers = self.h, self.integrator, self.lag
+            made = engines[get_ident()] = MuJoCoEngine(self.biped, model, data, *numbers)
+        return made
 
     def lagging(self, lag: float) -> MuJoCoPlant:
         """The same plant, whose motors have this lag [s]."""
@@ -181,7 +200,7 @@ class MuJoCoPlant(Checked, Shown):
 
     def __getstate__(self) -> dict[str, object]:
         """Without what is made again where it is needed: views of memory of this process."""
-        return {name: value for name, value in vars(self).items() if name != "engine"}
+        return {name: value for name, value in vars(self).items() if name != "_engines"}
 
     # -- the contract ------------------------------------------------------------------------------
     @staticmethod
@@ -241,7 +260,7 @@ class MuJoCoPlant(Checked, Shown):
         self.engine.place(np.concatenate((q, v, own)))
         self.engine.push(self.motor_torque(own, u), q, load)
         names, up = self.biped.description.feet, self.ground.foot_radius * np.array(self.out)
-        return feet_of(self.model, self.data, names, self.forces(), up)
+        return feet_of(self.engine.model, self.engine.data, names, self.forces(), up)
 
     def landed(self, state: PlantState, contacts: tuple[Contact, ...]) -> PlantState:
         """The same motion after these contacts: a touchdown relabels the coordinates."""
@@ -280,17 +299,18 @@ class MuJoCoPlant(Checked, Shown):
         force = self.forces()[1]
         if force[1] <= self.touchdown_force:
             return ()
-        return (Contact(FOOT_STRIKE, force * self.model.opt.timestep),)
+        return (Contact(FOOT_STRIKE, force * self.engine.options.timestep),)
 
     def forces(self) -> Array:
         """Forces of the ground (x, z) (2, 2) [N] on the two feet in the state that MuJoCo is in, in the order
         of the robot's record.
         """
         mj, found, wrench = mujoco(), np.zeros((2, 2)), np.zeros(6)
-        mj.mj_forward(self.model, self.data)  # those of the last step are of a state before
-        for k in range(self.data.ncon):
-            mj.mj_contactForce(self.model, self.data, k, wrench)
-            contact = self.data.contact[k]
+        model, data = self.engine.model, self.engine.data
+        mj.mj_forward(model, data)  # those of the last step are of a state before
+        for k in range(data.ncon):
+            mj.mj_contactForce(model, data, k, wrench)
+            contact = data.contact[k]
             force = contact.frame.reshape(3, 3).T @ wrench[:3]
             found[self.feet.index(contact.geom2)] += force[[0, 2]]
         return found

@@ -116,8 +116,9 @@ def walk_on(
     Raises InputError for a start that is none.
     """
     x0 = loop.initial_state(*start, mode)
+    longest = walker.max_step_time + loop.timing.period  # what takes too long is seen at a tick
     options = RunOptions(
-        mode.start + impacts * walker.max_step_time,
+        mode.start + impacts * longest,
         mode.start,
         stop_after=(FOOT_STRIKE, impacts),
         progress=progress,

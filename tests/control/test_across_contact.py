@@ -285,6 +285,9 @@ def test_what_cannot_be_projected_is_refused(h):
         ImpactInvariant(ba.Passive())
     with pytest.raises(InputError, match="has no observer"):
         ImpactInvariant(ba.NPDController(h), innovation=True)
+    for given in ({"innovation": "no"}, {"rates": np.nan}, {"rates": 1}):
+        with pytest.raises(InputError, match=r"of ImpactInvariant is .*, expected a bool"):
+            ImpactInvariant(ba.ADRCController(h), **given)
     with pytest.raises(InputError, match="has no rate error"):
         ImpactInvariant(PDGravityController(h))
 

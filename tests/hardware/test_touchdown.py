@@ -218,6 +218,8 @@ def test_a_false_notice_comes_once_and_an_early_one_is_counted_as_early(biped, g
     false = walker(biped, gait, Told(false_at=(1, 0.1)))
     walked = run(false, gait, 0.12)
     np.testing.assert_allclose(touchdowns(false, walked).false, [0.1], atol=1e-9)
+    at_once = walker(biped, gait, Told(false_at=(1, 0.0)))
+    np.testing.assert_array_equal(touchdowns(at_once, run(at_once, gait, 5e-3)).false, [0.0])
 
 
 def test_missed_ones_come_with_their_probability():
@@ -341,6 +343,9 @@ def test_what_does_not_fit_is_refused(biped, gait):
     for given in ({"late": -1e-3}, {"missed": 1.5}, {"false_at": (0, 0.1)}, {"seed": -1}):
         with pytest.raises(InputError):
             Told(**given)
+    for wrong in (3, "ab", (1, "a"), (1, None), (1, np.nan), (1, 0.1, 0.2)):
+        with pytest.raises(InputError, match="false_at"):
+            Told(false_at=wrong)
     for given in ({"on": 10.0}, {"off": -1.0}, {"debounce": -1e-3}, {"delay": np.nan}):
         with pytest.raises(InputError):
             ByForce(**given)

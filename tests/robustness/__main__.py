@@ -1,4 +1,4 @@
-"""python -m tests.robustness engines [--number N] [--page PAGE.md], or steps; exit code 1 for a fault."""
+"""python -m tests.robustness ATTACK [--number N] [--page PAGE.md]; exit code 1 for a fault."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from tests.robustness import engines, steps
+from tests.robustness import contact, engines, steps
 
-ATTACKS = {"engines": (engines, 2000), "steps": (steps, 200)}
+ATTACKS = {"engines": (engines, 2000), "contact": (contact, 1000), "steps": (steps, 200)}
 """The module of each, and how many scenarios it draws."""
 
 

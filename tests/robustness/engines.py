@@ -11,8 +11,9 @@ from __future__ import annotations
 
 import traceback
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ import biped_adrc as ba
 from biped_adrc.errors import BipedError
 from biped_adrc.scenario.walk import walk_in_parts
 from tests.photograph.adapter import own
-from tests.photograph.adapter.walks import ENGINES, READY, Ready, apart
+from tests.photograph.adapter.walks import ENGINES, READY, apart
 from tests.robustness.draws import wild
 
 EQUAL = 1e-5
@@ -33,26 +34,29 @@ WITHIN = "within the error of the step"
 TRACEBACK, NAN, STATUSES, STATES = "TRACEBACK", "NAN", "STATUSES DIFFER", "STATES DIFFER"
 FAULTS = (TRACEBACK, NAN, STATUSES, STATES)
 Plain = dict[str, Any]
+Walks = Callable[..., ba.Walk]
+"""A walk by engine, what its start is moved by, and the share of its step; see `walked`."""
 
 
 def judged(k: int) -> Plain:
     """The word for scenario k, what it is from, and the statuses of its walks."""
     s = wild(k)
-    ends = [attempt(s, engine) for engine in ENGINES]
-    word, why = verdict(s, ends)
+    word, why, status = compared(partial(walked, s))
+    return {"k": k, "kind": s["kind"], "word": word, "why": why, "status": status}
+
+
+def compared(walk: Walks) -> tuple[str, str, list[str]]:
+    """The word for a walk in both engines, its reason, and its status."""
+    ends = [attempt(walk, engine) for engine in ENGINES]
     status = [end["status"] for end in ends if "status" in end]
-    return {"k": k, "kind": s["kind"], "word": word, "why": why, "status": status[:1]}
+    return *verdict(walk, ends), status[:1]
 
 
-def attempt(s: Plain, engine: str, moved: Any = None, share: float = 1.0) -> Plain:
-    """The end of one walk as plain values, or its error.
-
-    moved: random numbers, by which the start is moved. share: of the step's length.
-    """
+def attempt(walk: Walks, *given: Any) -> Plain:
+    """The end of one walk as plain values, or its error. given: as to `walked`, from the engine on."""
     try:
         with np.errstate(all="ignore"):
-            ready = READY[s["kind"]](s)
-            return end_of(*walked(ready, engine, moved, share))
+            return end_of(walk(*given))
     except BipedError as error:
         return {"refused": str(error)}
     except Exception as error:  # what the fuzz looks for, but for a class that raises on purpose
@@ -61,8 +65,9 @@ def attempt(s: Plain, engine: str, moved: Any = None, share: float = 1.0) -> Pla
         return {kind: f"{type(error).__name__}: {error}"}
 
 
-def walked(ready: Ready, engine: str, moved: Any, share: float) -> tuple[Ready, ba.Walk]:
-    """One walk; `share` shortens steps of fixed length."""
+def walked(s: Plain, engine: str, moved: Any = None, share: float = 1.0) -> ba.Walk:
+    """One walk. moved: random numbers, by which the start is moved. share: of steps of fixed length."""
+    ready = READY[s["kind"]](s)
     q, v = ready.q, ready.v
     if moved is not None:
         q, v = q * (1.0 + MOVE * moved[: len(q)]), v * (1.0 + MOVE * moved[-len(v) :])
@@ -74,12 +79,12 @@ def walked(ready: Ready, engine: str, moved: Any, share: float) -> tuple[Ready, 
             part._replace(method=replace(part.method, h=h)) if h else part
             for part, h in zip(parts, shorter, strict=True)
         )
-    return ready, walk_in_parts(ready.walker, ready.gait, parts, **given)
+    return walk_in_parts(ready.walker, ready.gait, parts, **given)
 
 
-def end_of(ready: Ready, walk: ba.Walk) -> Plain:
+def end_of(walk: ba.Walk) -> Plain:
     """Status, times and states of a walk, and what of it is not finite."""
-    run, n = walk.trajectory, ready.walker.plant.n
+    run, n = walk.trajectory, walk.walker.plant.n
     events = run.events("foot_strike")
     states = [e.x_minus[: 2 * n] for e in events]
     return {
@@ -106,9 +111,11 @@ def stored(walk: ba.Walk) -> Iterator[tuple[str, Any]]:
         x = getattr(walk.signals, name, None)
         if x is not None:
             yield f"signal {name}", x
+    for name in ("legality", "soft_steps", *(["outcome"] if walk.scenario else [])):
+        getattr(walk, name)  # may be infinite, as a friction of no normal force, but raises nothing
 
 
-def verdict(s: Plain, ends: list[Plain]) -> tuple[str, str]:
+def verdict(walk: Walks, ends: list[Plain]) -> tuple[str, str]:
     """A word and its reason, from the ends in both engines."""
     for word, name in ((TRACEBACK, "traceback"), (NAN, "bad")):
         if why := [end[name] for end in ends if end.get(name)]:
@@ -124,13 +131,13 @@ def verdict(s: Plain, ends: list[Plain]) -> tuple[str, str]:
     random = np.random.default_rng(5)
     for _ in range(TRIES):
         for end, engine in zip(ends, ENGINES, strict=True):
-            other = attempt(s, engine, random.standard_normal(20))
+            other = attempt(walk, engine, random.standard_normal(20))
             if not same(end, other) or gap <= FACTOR * distance(end, other):
                 return SENSITIVE, ""
     told = [(end["status"], end["impacts"]) for end in ends]
     if not alike:
         return STATUSES, str(told)
-    half = attempt(s, ENGINES[0], share=0.5)
+    half = attempt(walk, ENGINES[0], None, 0.5)
     if same(ends[0], half) and gap <= distance(ends[0], half):
         return WITHIN, ""
     return STATES, f"{gap:.1e} {told[0]}"

@@ -1,13 +1,15 @@
-"""A few scenarios of both attacks, as CI has time for; the long ones are `make attacks`."""
+"""A few scenarios of every attack, as CI has time for; the long ones are `make attacks`."""
 
 from __future__ import annotations
 
 import pytest
 
-from tests.robustness import engines, steps
+from tests.robustness import contact, engines, steps
 
 SOME = (0, 5, 55)
 """Of the engines' scenarios; in 55 the slope is lost within a step of the stiff method."""
+SOFT = (1, 3)
+"""Of the walks across contact: one on soft ground, one whose touchdowns are told."""
 
 
 @pytest.mark.parametrize("k", SOME)
@@ -16,12 +18,25 @@ def test_scenario_in_both_engines(k: int) -> None:
     assert found["word"] not in engines.FAULTS, found
 
 
+def no_walk(*_: object) -> None:
+    """A walk that is never made."""
+    raise AssertionError
+
+
+@pytest.mark.parametrize("k", SOFT)
+def test_walk_across_contact_in_both_engines(k: int) -> None:
+    found = contact.judged(k)
+    assert found["word"] not in contact.FAULTS, found
+
+
 def test_what_is_wrong_is_told() -> None:
     end = {"status": "FELL", "impacts": 1, "times": [0.4], "states": [1.0], "bad": []}
-    assert engines.verdict({}, [end, end])[0] == engines.SAME
-    assert engines.verdict({}, [end, {**end, "bad": ["arc 0 x"]}])[0] == engines.NAN
-    assert engines.verdict({}, [end, {"traceback": "ValueError: f(a)"}])[0] == engines.TRACEBACK
-    assert engines.verdict({}, [end, {"refused": "no"}])[0] == engines.STATUSES
+    assert engines.verdict(no_walk, [end, end])[0] == engines.SAME
+    assert engines.verdict(no_walk, [end, {**end, "bad": ["arc 0 x"]}])[0] == engines.NAN
+    assert (
+        engines.verdict(no_walk, [end, {"traceback": "ValueError: f(a)"}])[0] == engines.TRACEBACK
+    )
+    assert engines.verdict(no_walk, [end, {"refused": "no"}])[0] == engines.STATUSES
     row = {**dict.fromkeys(steps.FLOORS, 1.0), "status": "COMPLETED"}
     assert steps.agrees("speed", row, {**row, "speed": 1.04})
     assert not steps.agrees("speed", row, {**row, "speed": 1.06})

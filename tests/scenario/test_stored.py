@@ -321,6 +321,26 @@ def test_damaged_arrays_are_refused(sound: Path, tmp_path: Path, name, damage) -
     refused(tmp_path / "a.npz")
 
 
+@pytest.fixture(scope="module")
+def soft(tmp_path_factory) -> Path:
+    pytest.importorskip("mujoco")
+    walk = ba.walk_scenario(ba.Scenario("NPD", plant="mujoco", period=1e-3, impacts=1))
+    return walk.save(tmp_path_factory.mktemp("soft") / "walk.npz")
+
+
+@pytest.mark.parametrize("name", ["u", "zeta", "foot_force", "foot_place", "foot_speed"])
+@pytest.mark.parametrize(
+    "damage", [None, lambda a: a[:, :1], lambda a: a[..., None], lambda a: a * np.nan]
+)
+def test_damaged_readings_of_the_feet_are_refused(soft: Path, tmp_path: Path, name, damage) -> None:
+    arrays = dict(np.load(soft))
+    whole = arrays.pop(f"read0_{name}")
+    if damage is not None:
+        arrays[f"read0_{name}"] = damage(whole)
+    np.savez(tmp_path / "a.npz", **arrays)
+    refused(tmp_path / "a.npz")
+
+
 WRONG = {
     "meta": {"status": ("x", None, -1, []), "settings": ("x", None, -1), "detail": ()}
     | {"events": ("x", None, -1, []), "format": ("x", None)},

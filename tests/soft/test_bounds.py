@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -12,6 +13,8 @@ from biped_adrc.bench.run import run_trial
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.errors import InputError
+from biped_adrc.hybrid.integrators import StepFailed
+from biped_adrc.soft.mujoco_engine import MuJoCoEngine
 
 LOOPS = [SteppingLoop, CompiledLoop]
 TICK = ba.SampledTime(1e-3)
@@ -82,6 +85,48 @@ def test_fields_of_a_scenario_apply_and_a_walk_that_fails_at_once_can_be_read():
         assert walk.soft_steps[0].duration == 0.0
     row = run_trial({**soft, "controller": "NPD", "runaway_torque": 0.05})
     assert (row["status"], row["slip"], row["peak_torque"]) == ("RAN_AWAY", 0.0, 0.0)
+
+
+@pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
+@pytest.mark.parametrize(
+    ("lost", "status"), [("nan", "NOT_FINITE"), ("fast", "RAN_AWAY"), ("raise", "STEP_FAILED")]
+)
+@pytest.mark.parametrize("after", [0.0, 0.43])
+def test_a_walk_that_the_engine_loses_can_be_read(
+    monkeypatch, tmp_path, engine, lost, status, after
+):
+    """In its first stride, or within a step: then its last node is alone, at a tick."""
+    moved = MuJoCoEngine.moved
+
+    def fails(self, t, row, u, load, until):
+        if t < after:
+            return moved(self, t, row, u, load, until)
+        if lost == "raise":
+            raise StepFailed("lost")
+        return row + (math.nan if lost == "nan" else 1e4)
+
+    monkeypatch.setattr(MuJoCoEngine, "moved", fails)
+    s = ba.Scenario("NPD", plant="mujoco", period=1e-3, impacts=2, engine=engine)
+    walk = ba.walk_scenario(s)
+    assert walk.trajectory.status.name == status
+    assert all_finite(walk.trajectory)
+    nodes = sum(len(arc.t) for arc in walk.trajectory.arcs)
+    assert len(walk.signals.ground_reaction) == nodes
+    again = ba.load_walk(walk.save(tmp_path / "walk.npz"))
+    for each in (walk, again):
+        assert each.outcome.impacts == (1 if after else 0)
+        assert len(each.soft_steps) == len(walk.trajectory.arcs)
+    assert np.all(np.isfinite(walk.trajectory.arcs[-1].read["foot_force"]))
+
+
+def test_one_loop_walks_alike_in_many_threads(plant, gait):
+    """Each has a work space of its own: in one that is shared two walks would end the process."""
+    loop = CompiledLoop(plant, ba.NPDController(gait.constraint), plant.biped, TICK)
+    begin = loop.initial_state(*gait.start(plant.biped))
+    with ThreadPoolExecutor(4) as pool:
+        runs = list(pool.map(lambda _: loop.run(begin, ba.RunOptions(0.05)), range(8)))
+    alone = loop.run(begin, ba.RunOptions(0.05))
+    assert all(np.array_equal(run.final_state, alone.final_state) for run in runs)
 
 
 @pytest.mark.parametrize("made", LOOPS)

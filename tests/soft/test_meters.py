@@ -54,6 +54,7 @@ def test_the_readings_carry_what_the_momentum_asks_for(biped, gait, force):
     loop = loop_on(plant, gait, disturbance=ba.HipForce(biped, force))
     run = loop.run(loop.initial_state(*gait.start(biped)), RunOptions(0.1))
     r = readings(loop, run.arcs[0], plant.h)
+    assert not any(array.flags.writeable for array in vars(r).values())
     a, b = 100, len(r.t) - 1
     impulse = weights(r.t[a:]) @ r.force[a:].sum(axis=1)
     outside = np.array([0.0, biped.weight]) - force

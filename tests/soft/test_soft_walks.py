@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.analysis.recorded_signals import accelerations
 from biped_adrc.bench.run import run_trial
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.errors import InputError
+from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.run import halved
 from biped_adrc.soft.walking import stepping_loop
@@ -166,6 +168,43 @@ def test_the_step_of_the_engine_is_a_tenth_of_the_time_constant_and_at_most_one_
     assert made.trajectory.settings["plant"]["h"] == pytest.approx(h)
     assert halved(s).plant_step == pytest.approx(0.5 * h)
     assert find("plant", "MuJoCo").words
+
+
+@pytest.mark.parametrize("impacts", [1, 2])
+def test_a_step_that_takes_too_long_is_told_on_either_plant(impacts):
+    common = {"period": 1e-3, "impacts": impacts, "max_step_time": 0.1}
+    for plant in ("rigid", "mujoco"):
+        walk = ba.walk_scenario(ba.Scenario("NPD", plant=plant, **common))
+        assert walk.trajectory.status is ba.Status.STALLED
+
+
+def test_a_stretch_no_longer_than_round_off_gives_no_acceleration():
+    """As where a push ends at a tick but for the last bit: 2e-16 rad/s in 1e-16 s is none."""
+    t = np.array([0.0, 1e-3, 1e-3, np.nextafter(1e-3, 1.0), np.nextafter(1e-3, 1.0), 2e-3])
+    a = np.array([7.0, 7.0, 4e3, 4e3, 9.0, 9.0])
+    dx = np.column_stack((np.zeros(6), a))
+    arcs = [Arc(None, t[k:], np.zeros((6 - k, 2)), dx[k:]) for k in (0, 2)]
+    found = [accelerations(arc, 1) for arc in arcs]
+    assert [x[:, 0].tolist() for x in found] == [[7.0, 7.0, 7.0, 7.0, 9.0, 9.0], [9.0] * 4]
+
+
+def test_a_ground_keeps_its_impedance():
+    given = [0.9, 0.95]
+    ground = ba.SoftGround(impedance=given)
+    given[0] = 2.0
+    assert ground == ba.SoftGround(impedance=(0.9, 0.95))
+
+
+def test_steps_of_the_ground_that_are_none_are_refused(biped, gait):
+    law = ba.NPDController(gait.constraint)
+    for wrong in (-1, "a", None, ba.StepDown(2, 0.01), (1.0,)):
+        with pytest.raises(InputError, match="expected a tuple of steps"):
+            ba.MuJoCoPlant(biped, ground_steps=wrong)
+        with pytest.raises(InputError, match="expected a tuple of steps"):
+            Walker(biped, law, ground_steps=wrong)
+    for wrong in (["rk4"], "euler", None):
+        with pytest.raises(InputError, match="integrator of the plant is"):
+            ba.MuJoCoPlant(biped, integrator=wrong)
 
 
 def test_a_drawing_stands_where_the_foot_is_and_says_when_it_slips(made):
