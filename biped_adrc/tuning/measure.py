@@ -27,7 +27,6 @@ OF_ALL = ("survived", "legal", "impacts", "legal_impacts", "distance")
 SMALLEST_SCALE = 1e-12
 """Of a limit: below this a bound counts as 0, and what is beyond it is not divided by it."""
 
-Goal = Literal["minimise", "maximise"]
 Counts = Literal["legal", "made"]
 """Which walks count with their number: legal ones, or all that make their steps."""
 Walks = Sequence[tuple[str, Row]]
@@ -103,10 +102,10 @@ class Measure(Part):
         return found if self.less_is_better else -found
 
 
-class Objective(Measure):
+class Aim(Measure):
     """A measure that is to be small, or large."""
 
-    goal: Goal = "minimise"
+    goal: Literal["minimise", "maximise"] = "minimise"
 
     @property
     def less_is_better(self) -> bool:

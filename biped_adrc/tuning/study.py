@@ -19,7 +19,7 @@ from pydantic import Field
 from biped_adrc.bench.parameters import Value
 from biped_adrc.bench.study import CONDITION, SEED, Named, Part, record_of
 from biped_adrc.campaign.chunk import Point, key_of, text_of
-from biped_adrc.tuning.measure import Limit, Measure, Objective
+from biped_adrc.tuning.measure import Aim, Limit, Measure
 from biped_adrc.tuning.variables import Values, Variable, published_place, scenario_values
 
 SETS = ("training", "selection", "test")
@@ -66,7 +66,7 @@ class TuningStudy(Part):
     """Values that all candidates share; by themselves they are the as-published setting."""
     variables: dict[str, Variable] = Field(min_length=1)
     """What is searched, by name; of a name that `fixed` has too, that value is the as-published one."""
-    objectives: tuple[Objective, ...] = Field(min_length=1)
+    objectives: tuple[Aim, ...] = Field(min_length=1)
     """The first one decides which candidate is chosen."""
     limits: tuple[Limit, ...] = ()
     """What every candidate has to keep."""

@@ -33,7 +33,7 @@ from biped_adrc.bench.table_reader import (
 )
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.values import reason, unknown
-from biped_adrc.tuning.measure import Limit, Measure, Objective
+from biped_adrc.tuning.measure import Aim, Limit, Measure
 from biped_adrc.tuning.study import SETS, TuningStudy, WalkSet
 from biped_adrc.tuning.variables import Variable
 from biped_adrc.tuning.without_walk import WITHOUT_WALK
@@ -88,7 +88,7 @@ def read_tuning(
         "finalists": r.natural({"finalists": FINALISTS, **head}, "finalists", "study.", 1),
         "fixed": read_base(r, head) | r.each(r.table(tables, "fixed"), "fixed.", read),
         "variables": r.each(r.table(tables, "variables"), "variables.", _variable),
-        "objectives": _measures(r, tables, "objectives", Objective),
+        "objectives": _measures(r, tables, "objectives", Aim),
         "limits": _measures(r, tables, "limits", Limit),
         **{kind: _walk_set(r, tables, kind) for kind in SETS},
     }
@@ -141,8 +141,8 @@ def _when(given: object) -> dict[str, tuple[Value, ...]]:
 
 
 def _measures(
-    r: TableReader, tables: Mapping[str, object], kind: str, of: type[Objective] | type[Limit]
-) -> tuple[Objective | Limit, ...]:
+    r: TableReader, tables: Mapping[str, object], kind: str, of: type[Aim] | type[Limit]
+) -> tuple[Aim | Limit, ...]:
     """The measures of [[objectives]] or [[limits]]."""
     given = tables.get(kind, [])
     if not isinstance(given, list) or not all(isinstance(one, Mapping) for one in given):

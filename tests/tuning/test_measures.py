@@ -10,7 +10,7 @@ from biped_adrc.analysis.statistics import over_seeds
 from biped_adrc.bench.study import Range
 from biped_adrc.tuning.candidate import Candidate, finalists, front, ranked
 from biped_adrc.tuning.held_out import held_out
-from biped_adrc.tuning.measure import Limit, Objective
+from biped_adrc.tuning.measure import Aim, Limit
 from biped_adrc.tuning.study_file import read_tuning
 from biped_adrc.tuning.variables import Variable, published_place, scenario_values
 from biped_adrc.tuning.without_walk import numbers_without_walk
@@ -31,7 +31,7 @@ def of(m, walked):
 
 
 def test_falls_and_illegal_walks_rank_worst_and_are_not_dropped():
-    median, best = Objective(column="rms_error"), Objective(column="rms_error", goal="maximise")
+    median, best = Aim(column="rms_error"), Aim(column="rms_error", goal="maximise")
     assert of(median, walks(3.0, 1.0, 2.0)) == 2.0
     assert of(median, walks(1.0, 2.0)) == 1.5
     for bad in (FELL, REFUSED, *walks(0.001, legal=0), *walks(None)):
@@ -39,23 +39,23 @@ def test_falls_and_illegal_walks_rank_worst_and_are_not_dropped():
         assert of(best, [*walks(3.0, 1.0), bad]) == 1.0
         assert of(median, [*walks(3.0), bad]) == INF
         assert of(best, [*walks(3.0), bad]) == -INF
-        assert of(Objective(column="rms_error", over="mean"), [*walks(3.0), bad]) == INF
-    made = Objective(column="rms_error", counts="made")
+        assert of(Aim(column="rms_error", over="mean"), [*walks(3.0), bad]) == INF
+    made = Aim(column="rms_error", counts="made")
     assert of(made, [*walks(3.0, 1.0), *walks(0.5, legal=0)]) == 1.0
     assert of(made, [*walks(3.0, 1.0), FELL]) == 3.0
 
 
 def test_quantiles_are_numbers_of_walks_in_the_order_of_the_goal():
     x = walks(*range(1, 11))
-    assert [of(Objective(column="rms_error", over=p), x) for p in (0.5, 0.9, 0.91)] == [5, 9, 10]
+    assert [of(Aim(column="rms_error", over=p), x) for p in (0.5, 0.9, 0.91)] == [5, 9, 10]
     most = {"column": "rms_error", "goal": "maximise"}
-    assert [of(Objective(over=p, **most), x) for p in (0.5, 0.9, 0.91)] == [6, 2, 1]
-    assert of(Objective(column="rms_error", over="worst"), x) == 10
-    assert of(Objective(over="worst", **most), x) == 1
+    assert [of(Aim(over=p, **most), x) for p in (0.5, 0.9, 0.91)] == [6, 2, 1]
+    assert of(Aim(column="rms_error", over="worst"), x) == 10
+    assert of(Aim(over="worst", **most), x) == 1
 
 
 def test_a_measure_is_of_its_condition():
-    m = Objective(column="rms_error", condition="push")
+    m = Aim(column="rms_error", condition="push")
     assert of(m, [*walks(1.0), *walks(5.0, condition="push")]) == 5.0
     assert m.words == "median rms_error under push"
 
