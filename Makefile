@@ -12,7 +12,7 @@ BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine
   pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
-.PHONY: reproduce test fuzz docs pictures comparison soft results verification attacks soft-limit dev lint format types imports bench mutants faults clean
+.PHONY: reproduce test fuzz docs pictures comparison tuned soft results verification attacks soft-limit dev lint format types imports bench mutants faults clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -40,6 +40,11 @@ comparison: .venv/.core
 	$(BIN)/biped-adrc compare --out $(OUT)/comparison
 	$(BIN)/python docs/write_comparison.py $(OUT)/comparison
 
+# docs/tuned.md with its figures, from the searches in $(OUT)/tuned, which are made or finished first: hours
+tuned: .venv/.dev
+	$(BIN)/python benchmarks/tuned/alike.py $(OUT)/tuned
+	$(BIN)/python docs/write_tuned.py $(OUT)/tuned
+
 # docs/soft_walk.md with its pictures, from the two studies of soft ground in $(OUT)/soft and $(OUT)/soft-held-out,
 # which are made or finished first
 soft: .venv/.core
@@ -56,7 +61,7 @@ results: .venv/.core
 verification: .venv/.core
 	$(BIN)/python docs/write_verification.py
 
-# random walks against the numerics, about three hours on two cores; tables in docs/robustness.md. What was found is kept
+# random walks against the numerics, one to two hours on two cores; tables in docs/robustness.md. What was found is kept
 # in $(OUT)/attacks, from where an interrupted run goes on
 attacks: .venv/.test
 	mkdir -p $(OUT)/attacks

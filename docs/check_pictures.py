@@ -24,6 +24,7 @@ import make_soft_pictures
 import write_comparison
 import write_critical_phase
 import write_results
+import write_tuned
 
 from biped_adrc.bench.compare_study import figures
 from biped_adrc.errors import BipedError
@@ -93,7 +94,9 @@ def kept() -> list[Picture]:
         preset: push_map_figure([cell.row() for cell in cells if cell.preset == preset])
         for preset in write_critical_phase.presets_of(cells)
     }
+    tuned = write_tuned.figures(write_tuned.read(write_tuned.FOLDER / "summary.json"))
     commands = {
+        "make tuned": (write_tuned.FOLDER, tuned),
         "make comparison": (compared, figures(write_comparison.read(compared / "summary.json"))),
         "python docs/write_critical_phase.py OUT": (pushed, maps),
     }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from statistics import median
+from statistics import median, quantiles
 from typing import Any
 
 import soft_cells as cells
@@ -50,6 +50,8 @@ def page(summary: Mapping[str, Any], fresh: Mapping[str, Any]) -> str:
         "## The goal",
         bullets(verdicts(rows, near)),
         table(list(GOAL), [goal_texts(rows, case) for case in cells.cases(rows) if case != NPD]),
+        "Counts are over all cells; medians, largest values and *95 %*, below which 95 % of the ratios lie, "
+        "are of the walks that are made.",
         *held_out(rows, rows_of(fresh), fresh["command"]),
         f"## What stands in the way of {near}",
         bullets([*obstacles(rows, near), *by_difference(summary["caused"])]),
@@ -156,7 +158,7 @@ def goal_texts(rows: Sequence[Row], case: str) -> list[str]:
         out_of(sum(bool(pair.case["survived"]) for pair in found), len(found)),
         out_of(cells.kept(those, "pushed_error", cells.AT_MOST), len(those)),
         number(cells.middle(push)),
-        number(push[int(0.95 * (len(push) - 1))] if push else None),
+        number(quantiles(push, n=20, method="inclusive")[-1] if len(push) > 1 else None),
         out_of(cells.kept(found, "touchdown_error", cells.TRANSIENT), len(found)),
         number(cells.middle(touch)),
         number(touch[-1] if touch else None),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import json
+import tomllib
 from itertools import combinations
 from pathlib import Path
 
@@ -163,6 +164,16 @@ def test_the_page_of_soft_ground_is_that_of_its_summary(script):
         *pictures.values(),
         *(f"{name}.json" for name in pictures),
     }
+
+
+def test_the_page_of_the_contest_is_that_of_its_searches(script):
+    module = script("write_tuned")
+    summary = module.read(module.FOLDER / "summary.json")
+    assert read("tuned.md") == module.page(summary)
+    assert module.compact(summary) == read("tuned/summary.json")
+    contest = (module.ALIKE.parent / "contest.toml").read_text(encoding="utf-8")
+    assert summary["contest"] == tomllib.loads(contest), "the searches are of another contest"
+    check_numbers("tuned", module.figures(summary))
 
 
 def test_what_the_walk_needs_is_read_off_the_table_of_runs(script):

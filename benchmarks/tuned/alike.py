@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from biped_adrc.campaign.workers import Threads
-from biped_adrc.errors import BipedError
+from biped_adrc.tuning.candidate import NoneKeepsLimits
 from biped_adrc.tuning.study_file import read_tuning
 from biped_adrc.tuning.tune import tune
 
@@ -108,7 +108,7 @@ def carry_out(c: dict[str, dict], e: Entry, out: Path) -> dict[str, object]:
     try:
         tuned = tune(read_tuning(tables(c, e), e.folder), folder, Threads(1))
         note |= {"chosen": tuned.chosen.chosen, "found": True}
-    except BipedError as error:
+    except NoneKeepsLimits as error:
         note |= {"found": False, "why": str(error)}
     told.write_text(json.dumps(note, indent=1) + "\n", encoding="utf-8")
     return note

@@ -4,9 +4,13 @@
 
 is the acceleration that a foot at depth r is driven to: T is `time_constant`, zeta `damping_ratio`
 (solref), d(r) the impedance, which rises from the first to the second value of `impedance`, d (solimp).
-Spring and damper act on the effective mass of the foot, so that a stiffness in N/m follows from the robot
-and cannot be asked for. Friction carries up to mu F_N; below that a foot creeps, the less the larger
-`impratio`.
+Spring and damper act on an effective mass m of the foot, so that a stiffness in N/m follows from the robot
+and cannot be asked for. A foot that rests at depth r under the force F has
+
+    F / r = m (d(r) / d)^2 / ((1 - d(r)) T^2 zeta^2)
+
+since the solver leaves the share 1 - d(r) of a_ref at rest. Friction carries up to mu F_N; below that a
+foot creeps, the less the larger `impratio`.
 
 MuJoCo documentation, "Modeling: Solver parameters".
 """
@@ -46,3 +50,13 @@ class SoftGround(Checked, Shown):
                 f"the impedance of the ground is {self.impedance}, expected 0 < first <= second < 1"
             )
         object.__setattr__(self, "impedance", tuple(found.tolist()))  # a list could be changed
+
+    def stiffness(self, mass: float) -> tuple[float, float]:
+        """F / r [N/m] under a foot that rests: at the surface, and where d(r) = d, from 1 mm on.
+
+        mass [kg]: its effective mass m, as `MuJoCoPlant.foot_mass`.
+        """
+        d = self.impedance[1]
+        full = mass / (self.time_constant * self.damping_ratio) ** 2
+        at_surface, deep = (full * (at / d) ** 2 / (1.0 - at) for at in self.impedance)
+        return at_surface, deep

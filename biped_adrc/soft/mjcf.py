@@ -133,10 +133,12 @@ def _comment(plant: MuJoCoPlant) -> str:
     found = packages(("biped-adrc", "mujoco-core", "mujoco"))
     made = ", ".join(f"{name} {version}" for name, version in found.items() if version != "none")
     ground = ", ".join(f"{name} {x}" for name, x in vars(plant.ground).items())
+    surface, deep = plant.stiffness
     lines = (
         f"robot {biped.description.name}, preset {biped.preset}: {preset.source}",
         f"joint friction: {'of the record' if biped.friction else 'none'}",
         f"ground: {ground}, slope {plant.slope:g} rad",
+        f"under a foot at rest: {surface:.3g} N/m at the surface, {deep:.3g} N/m from 1 mm on",
         f"written by {made}; BSD-3-Clause, without any warranty",
     )
     return "\n".join(lines).replace("--", "- -")

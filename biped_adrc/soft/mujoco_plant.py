@@ -132,6 +132,21 @@ class MuJoCoPlant(Checked, Shown):
         """Relabelling of the motors at a touchdown (p,), dtype int."""
         return self.biped.relabelling[: self.p]
 
+    @property
+    def foot_mass(self) -> float:
+        """Effective mass of a foot that MuJoCo's spring and damper act on [kg].
+
+        An estimate that MuJoCo makes once, at zero angles, as a mean over three directions (the inverse of
+        `body_invweight0`); it is not the mass that moves with the foot in the posture of a touchdown.
+        """
+        foot = self.model.body(self.biped.description.feet[0]).id
+        return 1.0 / float(self.model.body_invweight0[foot, 0])
+
+    @property
+    def stiffness(self) -> tuple[float, float]:
+        """Of the ground under a foot that rests [N/m]: at the surface, and from a depth of 1 mm on."""
+        return self.ground.stiffness(self.foot_mass)
+
     @cached_property
     def out(self) -> tuple[float, float]:
         """Unit vector (x, z) out of the ground."""

@@ -11,12 +11,17 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from biped_adrc.bench.parameters import Value
+from biped_adrc.errors import InputError
 from biped_adrc.tuning.measure import Walks
 from biped_adrc.tuning.study import TuningStudy
 from biped_adrc.tuning.variables import Values
 
 MOST_EXCESS = 1e6
 """Of a limit that is missed: more counts as this, so that sums are finite."""
+
+
+class NoneKeepsLimits(InputError):
+    """No candidate of a study keeps all of its limits."""
 
 
 class Candidate(NamedTuple):

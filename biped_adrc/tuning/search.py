@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from biped_adrc.bench.parameters import Value
 from biped_adrc.errors import InputError
-from biped_adrc.tuning.candidate import Candidate, judged, why_none
+from biped_adrc.tuning.candidate import Candidate, NoneKeepsLimits, judged, why_none
 from biped_adrc.tuning.measure import Walks
 from biped_adrc.tuning.proposals import proposed
 from biped_adrc.tuning.study import TuningStudy
@@ -52,7 +52,7 @@ def search(study: TuningStudy, walk: Walk, told: Told | None = None) -> tuple[Ca
         if empty == MOST_EMPTY:
             break
     if sum(c.walked for c in found) == 1 and len(found) > 1:
-        raise InputError(why_none(study, found, "that need no walk"))
+        raise NoneKeepsLimits(why_none(study, found, "that need no walk"))
     return tuple(found)
 
 

@@ -34,7 +34,14 @@ from biped_adrc.campaign.store_open import open_store
 from biped_adrc.campaign.workers import Kept, Workers, workers_of
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.files import write_text
-from biped_adrc.tuning.candidate import Candidate, finalists, judged, ranked, why_none
+from biped_adrc.tuning.candidate import (
+    Candidate,
+    NoneKeepsLimits,
+    finalists,
+    judged,
+    ranked,
+    why_none,
+)
 from biped_adrc.tuning.held_out import held_out
 from biped_adrc.tuning.page import write
 from biped_adrc.tuning.proposals import optuna_quiet
@@ -100,10 +107,10 @@ def _carried_out(study: TuningStudy, out: Path, walks: StoredWalks) -> Tuned:
 
     candidates = search(study, lambda asked: walks("training", asked), told)
     if not any(c.feasible for c in candidates):
-        raise InputError(why_none(study, candidates, "on the training set"))
+        raise NoneKeepsLimits(why_none(study, candidates, "on the training set"))
     selected = _on(study, walks, "selection", finalists(study, candidates))
     if not any(c.feasible for c in selected):
-        raise InputError(why_none(study, selected, "on the selection set"))
+        raise NoneKeepsLimits(why_none(study, selected, "on the selection set"))
     selected = ranked(study, selected)
     sides = [(c.number, study.values(c.chosen)) for c in (selected[0], candidates[0])]
     columns = [m.column for m in study.measures]

@@ -133,13 +133,13 @@ def test_less_friction_slips_and_flies(biped, gait):
         assert 0.0 < step.single_support < step.duration
 
 
-def standing(biped, time_constant):
+def standing(biped, time_constant, impedance=(0.9, 0.9)):
     """On both feet, with joints that static friction holds; no swing foot is ahead."""
     d = biped.description
     held = replace(
         biped, description=replace(d, static=dict.fromkeys(d.actuated, 1e4)), friction=True
     )
-    ground = ba.SoftGround(1.0, time_constant, impedance=(0.9, 0.9))
+    ground = ba.SoftGround(1.0, time_constant, impedance=impedance)
     plant = MuJoCoPlant(held, ground, h=0.1 * time_constant, ahead=9.0)
     loop = SteppingLoop(plant, ba.Passive(), held, ba.SampledTime(4e-3))
     q = ba.load_gait("published", biped).start(biped)[0]
@@ -156,14 +156,23 @@ def test_penetration_at_rest_is_that_of_the_spring(biped):
         r, plant = readings(loop, run.arcs[-1]), loop.plant
         assert np.max(np.abs(r.speed[-1])) < 5e-4
         assert r.force[-1, :, 1].sum() == pytest.approx(biped.weight, rel=1e-3)
-        per_mass = plant.model.body_invweight0[
-            [plant.model.body(f).id for f in biped.description.feet], 0
-        ]
-        depth = 0.1 * time_constant**2 * r.force[-1, :, 1] * per_mass
+        depth = 0.1 * time_constant**2 * r.force[-1, :, 1] / plant.foot_mass
         np.testing.assert_allclose(-r.place[-1, :, 1], depth, rtol=5e-3)
         step = soft_steps(loop, run)[-1]
         assert step.depth >= np.max(depth) * 0.99
         assert step.double_support > 0.9 * step.duration
+
+
+def test_the_stiffness_that_is_reported_is_that_under_a_foot_at_rest(biped):
+    """Hard ground at its surface, soft ground below 1 mm, where the impedance has its second value.
+
+    Both feet together: soft ground still rocks a little, which loads one foot and unloads the other.
+    """
+    for time_constant, impedance, place in ((4e-3, (0.9, 0.92), 0), (1.2e-2, (0.5, 0.6), 1)):
+        loop, run = standing(biped, time_constant, impedance)
+        r, plant = readings(loop, run.arcs[-1]), loop.plant
+        found = r.force[-1, :, 1].sum() / -r.place[-1, :, 1].sum()
+        assert found == pytest.approx(plant.stiffness[place], rel=5e-3)
 
 
 def test_a_run_carries_its_readings_through_a_file(walk, tmp_path):

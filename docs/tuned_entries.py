@@ -1,0 +1,161 @@
+"""The searches of the contest, in plain values and as records with the walks of their test set.
+
+`collected` reads a folder of benchmarks/tuned/alike.py, `entries` the summary that is made of it. A walk that
+is not legal counts with an infinite error, torque and cost; a search that found no setting that keeps the
+limits counts as one whose walks are all not legal.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from contextlib import closing
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from biped_adrc.campaign.store_open import read_store
+from biped_adrc.types import Array
+
+KEPT = ("rms_error", "rms_torque", "cost_of_transport", "legal")
+"""Columns of a walk in the summary."""
+RESULTS, NOTE, SUMMARY, TEST_SET = (
+    "results.sqlite",
+    "entry.json",
+    "summary.json",
+    "test_set.json",
+)
+"""Files of a search."""
+KEEPS = "keeps all limits"
+"""What the reason says where no candidate keeps the limits."""
+
+
+class Walks(NamedTuple):
+    """The walks of one setting on the test set, each (conditions, seeds)."""
+
+    rms_error: Array
+    """[rad], infinite where the walk is not legal; so are the other two."""
+    rms_torque: Array
+    """[N m]"""
+    cost_of_transport: Array
+    """[1]"""
+    legal: Array
+    """1 or 0."""
+
+
+class Entry(NamedTuple):
+    """One search: where, on which gait, of whom, with which seed of the optimiser, and what it found."""
+
+    place: str
+    gait: str
+    contestant: str
+    seed: int
+    chosen: Mapping[str, float]
+    """The chosen values; empty where no candidate keeps the limits."""
+    why: str
+    """Why none does; empty where one does."""
+    selected: float
+    """Median error on the selection set [rad], infinite without a setting."""
+    margins: tuple[float | None, float | None]
+    """Delay margin [s] of the chosen and the as-published setting; None where unknown."""
+    tuned: Walks
+    """Of the chosen setting."""
+    published: Walks | None
+    """Of the as-published setting; None where it was not walked."""
+
+    @property
+    def found(self) -> bool:
+        """Whether there is a setting that keeps the limits."""
+        return not self.why
+
+
+def collected(out: Path, contest: Mapping[str, Any], asked: Sequence[Any]) -> dict[str, Any]:
+    """The summary of what is in a folder, finished or not.
+
+    A search that ended for another reason than its limits is left out: it says nothing of its contestant.
+    contest: the tables of contest.toml. asked: the searches of the contest, as `alike.entries` gives them.
+    """
+    found = [_search(out / e.folder) for e in asked if (out / e.folder / NOTE).is_file()]
+    found = [told for told in found if not told["why"] or KEEPS in told["why"]]
+    return {
+        "contest": dict(contest),
+        "columns": list(KEPT),
+        "asked": [list(e) for e in asked],
+        "searches": found,
+    }
+
+
+def _search(folder: Path) -> dict[str, Any]:
+    """One finished search in plain values."""
+    told = json.loads((folder / NOTE).read_text(encoding="utf-8"))
+    told.setdefault("why", "")
+    if not told.pop("found"):
+        return told
+    summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+    best = summary["selected"][0]
+    margin = next(x for x in summary["held_out"] if x["words"] == "mean delay_margin")
+    told["chosen"] = {name: _short(x) for name, x in told["chosen"].items()}
+    told["selected"] = _short(best["objectives"][0])
+    told["margins"] = [_short(margin[side]["value"]) for side in ("chosen", "published")]
+    test = json.loads((folder / TEST_SET).read_text(encoding="utf-8"))
+    with closing(read_store(folder / RESULTS)) as store:
+        rows = [(r.at, r.row) for r in store.results() if r.at["set"] == "test"]
+    for side, number in (("tuned", best["number"]), ("published", 0)):
+        told[side] = _kept({_where(at): row for at, row in rows if at["candidate"] == number}, test)
+    return told
+
+
+def _where(at: Mapping[str, Any]) -> tuple[str, int]:
+    return str(at["condition"]), int(at["seed"])
+
+
+def _kept(rows: Mapping[tuple[str, int], Mapping[str, Any]], test: Mapping[str, Any]) -> list[Any]:
+    """The kept columns of walks, each a list of seeds for each condition."""
+    names = [one["name"] for one in test["conditions"]]
+    return [[[_short(rows[n, s][c]) for s in test["seeds"]] for n in names] for c in KEPT]
+
+
+def _short(x: Any) -> Any:
+    """A number to four digits."""
+    return float(f"{x:.4g}") if isinstance(x, float) else x
+
+
+def entries(summary: Mapping[str, Any]) -> list[Entry]:
+    """The finished searches of a summary, in the order of the contest."""
+    test = summary["contest"]["test"]
+    shape = (len(test["amplitudes"]), test["seeds"]["count"])
+    found = [_entry(told, shape) for told in summary["searches"]]
+    places, gaits, names = (list(summary["contest"][x]) for x in ("places", "gaits", "contestants"))
+    key = lambda e: (places.index(e.place), gaits.index(e.gait), e.seed, names.index(e.contestant))  # noqa: E731
+    return sorted(found, key=key)
+
+
+def _entry(told: Mapping[str, Any], shape: tuple[int, int]) -> Entry:
+    at = (told["place"], told["gait"], told["contestant"], told["seed"])
+    worst = Walks(*(np.full(shape, np.inf) for _ in KEPT[:-1]), np.zeros(shape))
+    if told["why"]:
+        return Entry(*at, {}, told["why"], np.inf, (None, None), worst, None)
+    margins = tuple(float(x) for x in told["margins"])
+    sides = (_walks(told["tuned"]), _walks(told["published"]))
+    return Entry(*at, told["chosen"], "", float(told["selected"]), margins, *sides)
+
+
+def _walks(columns: Sequence[Any]) -> Walks:
+    """Walks with their columns as arrays, infinite where not legal."""
+    legal = np.array(columns[-1], dtype=float)
+    numbers = (np.array(x, dtype=float) for x in columns[:-1])
+    return Walks(*(np.where(legal == 1.0, x, np.inf) for x in numbers), legal)
+
+
+def group(found: Sequence[Entry], place: str, gait: str, seed: int) -> dict[str, Entry]:
+    """The searches of one place, gait and seed of the optimiser, by contestant."""
+    same = [e for e in found if (e.place, e.gait, e.seed) == (place, gait, seed)]
+    return {e.contestant: e for e in same}
+
+
+def reference(contestants: Mapping[str, Entry]) -> Entry | None:
+    """The better of NPD and NPID on the selection set; None where one of them has not been searched yet."""
+    if not {"NPD", "NPID"} <= set(contestants):
+        return None
+    return min((contestants[name] for name in ("NPD", "NPID")), key=lambda e: e.selected)

@@ -1,0 +1,150 @@
+"""What the contest says in words: sentences that follow from the answers to its questions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import tuned_text as words
+from tuned_entries import Entry, reference
+from tuned_questions import LEVEL, RUNGS, Answer, Group, answered, first_of, first_two
+from tuned_text import MRAD, at, interval, legal, name, number, ratio
+
+from biped_adrc.analysis.statistics import share
+
+GOAL, GOAL_LEGAL = 0.5, 292 / 300
+"""What was asked for on RABBIT's hardware: upper end of the ratio's interval, and the share of legal walks."""
+GOAL_PLACE = "RABBIT, 1 ms"
+
+
+def winners(groups: Sequence[Group], contest: Sequence[Answer]) -> list[str]:
+    """For each place and gait who is the best, how far ahead, and what is carried against NPD and NPID."""
+    ahead = {at(x.a): x for x in answered(first_two(groups))}
+    lines = []
+    for g in groups:
+        best = first_of(g)
+        spot = at(next(iter(g.values())))
+        if best is None:
+            lines.append(f"**{spot}**: nobody has a setting that keeps the limits.")
+            continue
+        lines.append(f"**{spot}**: {winner(best, ahead.get(spot))} {held_against(g, contest)}")
+    return lines
+
+
+def winner(best: Entry, ahead: Answer | None) -> str:
+    """Who was the best on the selection set, how legally, and how far ahead of the next."""
+    parts = [
+        f"the best on the selection set is {name(best)}, with {words.error(best.tuned)} mrad and "
+        f"{legal(best.tuned)} walks legal, at {interval(words.middle(best.tuned.rms_torque))} N m"
+    ]
+    if ahead is not None:
+        smaller = words.verdict(ahead, "carried", "carried, against it")
+        parts.append(f"its ratio to the next, {name(ahead.b)}, is {ratio(ahead.ratio)} ({smaller})")
+    return "; ".join(parts) + "."
+
+
+def held_against(g: Group, contest: Sequence[Answer]) -> str:
+    """What is carried against the better of NPD and NPID."""
+    base = reference(g)
+    if base is None:
+        return "NPD and NPID are not both there."
+    if not base.found:
+        return "Neither NPD nor NPID has a setting that keeps the limits."
+    kinds = words.by_verdict([x for x in contest if x.b is base], against)
+    heads = {"smaller": "a smaller error of", "larger": "a larger one of"}
+    parts = [f"{heads[kind]} {', '.join(kinds[kind])}" for kind in heads if kinds[kind]]
+    said = f"Against {name(base)}, the reference"
+    said += f", carried are {'; '.join(parts)}." if parts else ", nothing is carried."
+    return said + (f" Open: {', '.join(kinds['open'])}." if kinds["open"] else "")
+
+
+def against(x: Answer) -> str:
+    """A contestant with its ratio, and its bound where it is open."""
+    if not x.a.found:
+        return f"{name(x.a)} (no setting that keeps the limits)"
+    bound = f", {words.within(x)}" if x.verdict == "open" else ""
+    return f"{name(x.a)} {ratio(x.ratio)}{bound}"
+
+
+def who_is_legal(contest: Sequence[Answer]) -> list[str]:
+    """Whether some walk legally more often than the reference."""
+    some = [x for x in contest if x.a.found]
+    if not some:
+        return []
+    lines = [
+        f"{at(x.a)}: {name(x.a)} walks {legal(x.a.tuned)} legally, {name(x.b)} {legal(x.b.tuned)} "
+        f"(McNemar's test over seeds, p {words.p_value(x.legal_p)})."
+        for x in some
+        if x.legal_p < LEVEL
+    ]
+    rest = [x for x in some if x.legal_p >= LEVEL]
+    if rest:
+        bound = 100.0 * max(x.legal_bound for x in rest)
+        lines.append(
+            f"Legal walks: of {len(some)} settings that keep the limits, {len(rest)} have no carried "
+            "difference to the reference; the shares of seeds of which all walks are legal differ there by at "
+            f"most {bound:.0f} % with 95 %."
+        )
+    return lines
+
+
+def goal(contest: Sequence[Answer]) -> list[str]:
+    """How near the best one with an observer comes to the goal on RABBIT's hardware."""
+    lines = []
+    for gait in dict.fromkeys(x.a.gait for x in contest if x.a.place == GOAL_PLACE):
+        here = [x for x in contest if (x.a.place, x.a.gait) == (GOAL_PLACE, gait)]
+        some = [x for x in here if x.a.found and x.a.contestant not in ("NPD", "NPID")]
+        if some:
+            lines.append(beside_goal(min(some, key=lambda x: x.a.selected)))
+    return lines
+
+
+def beside_goal(x: Answer) -> str:
+    """One contestant beside the goal."""
+    legal_share = share(int(x.a.tuned.legal.sum()), x.a.tuned.legal.size)
+    met = "met" if x.ratio.high <= GOAL else f"missed by {number(x.ratio.high - GOAL, 2)}"
+    shown = "shown" if legal_share.low >= GOAL_LEGAL else "not shown by so few walks"
+    if legal_share.value < GOAL_LEGAL:
+        shown = f"missed by {100 * (GOAL_LEGAL - legal_share.value):.1f} %"
+    return (
+        f"The goal on {GOAL_PLACE} was a ratio to the reference with an upper end of at most {GOAL:g}, and "
+        f"{100 * GOAL_LEGAL:.1f} % of the walks legal. On gait {x.a.gait} {name(x.a)} has {ratio(x.ratio)}: "
+        f"the first is {met}. Of its walks {legal(x.a.tuned)} are legal, which is at least "
+        f"{100 * legal_share.low:.1f} % with 95 %: the second is {shown}."
+    )
+
+
+def order_pays(orders: Sequence[Answer]) -> list[str]:
+    """For each place and gait whether an order above 1 makes the error smaller."""
+    lines = []
+    for spot in dict.fromkeys(at(x.a) for x in orders):
+        here = [x for x in orders if at(x.a) == spot]
+        kinds = words.by_verdict(here, against)
+        heads = {"smaller": "pays", "larger": "costs", "open": "is open"}
+        said = "; ".join(f"{heads[k]}: {', '.join(x)}" for k, x in kinds.items() if x)
+        first = here[0].b
+        margin = (
+            "" if first.margins[0] is None else f" ({MRAD * first.margins[0]:.2g} ms of margin)"
+        )
+        lines.append(f"**{spot}**, as ratio to m = 1{margin}: {said}.")
+    paid = sum(x.verdict == "smaller" for x in orders)
+    if orders:
+        lines.insert(
+            0,
+            f"An order above 1 pays in {paid} of {len(orders)} questions.",
+        )
+    return lines
+
+
+def rung_worths(ladder: Sequence[Answer]) -> list[str]:
+    """What each rung is worth, over places and gaits."""
+    lines = []
+    for a, b, what in RUNGS:
+        here = [x for x in ladder if (x.a.contestant, x.b.contestant) == (a, b)]
+        if not here:
+            continue
+        ends = [ratio(x.ratio).split(" (")[0] for x in sorted(here, key=lambda x: x.ratio.value)]
+        span = ends[0] if len(ends) == 1 else f"{ends[0]} to {ends[-1]}"
+        kinds = words.by_verdict(here, lambda x: at(x.a))
+        where = "; ".join(f"{kind} at {' and at '.join(x)}" for kind, x in kinds.items() if x)
+        lines.append(f"*{b}* to *{a}* ({what}): ratio {span}; {where}.")
+    return lines

@@ -1,0 +1,354 @@
+"""The page of controllers tuned alike, from searches made by hand: what is carried, open and lost."""
+
+from __future__ import annotations
+
+import importlib
+import itertools
+import json
+import math
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from biped_adrc.analysis.statistics import share, sign_test
+from biped_adrc.campaign.store import Result
+from biped_adrc.errors import InputError
+from biped_adrc.viz.figure_numbers import numbers_of
+
+ROOT = Path(__file__).resolve().parents[1]
+PLACE, GAIT, SEEDS = "RABBIT, 1 ms", "v0.5", 15
+RNG = np.random.default_rng(5)
+BASE = 1e-3 * (2.0 + RNG.uniform(-0.3, 0.3, (2, SEEDS)))
+"""Errors of NPD [rad], two conditions."""
+
+
+@pytest.fixture
+def script(monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "docs"))
+    return importlib.import_module
+
+
+def walks(factor=1.0, illegal=()):
+    """The kept columns: errors `factor` times those of NPD; illegal: seeds of which no walk is legal."""
+    legal = np.ones((2, SEEDS), dtype=int)
+    legal[:, list(illegal)] = 0
+    return [(factor * BASE).tolist(), (40.0 + 0.0 * BASE).tolist(), BASE.tolist(), legal.tolist()]
+
+
+def search(contestant, factor=1.0, illegal=(), seed=1, place=PLACE, gait=GAIT, selected=None):
+    """A search that found something, whose errors are `factor` (a number or (2, SEEDS)) times NPD's."""
+    return {
+        "place": place,
+        "gait": gait,
+        "contestant": contestant,
+        "seed": seed,
+        "why": "",
+        "chosen": {"K_p": 500.0, "own.K_i": 2.5},
+        "selected": float(np.mean(factor)) if selected is None else selected,
+        "margins": [0.0025, "-inf"],
+        "tuned": walks(factor, illegal),
+        "published": walks(2.0, range(SEEDS)),
+    }
+
+
+def nothing(contestant, seed=1):
+    """A search in which no candidate keeps the limits."""
+    told = {"place": PLACE, "gait": GAIT, "contestant": contestant, "seed": seed}
+    return {**told, "why": "study 'x: a, b': none of 75 candidates keeps. The nearest is number 3"}
+
+
+def summary(*searches):
+    """A summary of these searches, of a contest that asked for one more."""
+    names = ["NPD", "NPID", "observer's rates", "assisted, m = 1", "m = 1", "m = 2", "m = 3", "DOB"]
+    place = {"margin": 0.002, "seeds": [1, 2]}
+    asked = [[x[k] for k in ("place", "gait", "contestant", "seed")] for x in searches]
+    two = {"seeds": {"count": 10}, "amplitudes": [60.0, 80.0]}
+    contest = {
+        "search": {"per_variable": 25},
+        "limits": {"legal": 0.9, "friction": 0.57},
+        "walk": {"impacts": 7},
+        "training": {"seeds": {"count": 6}, "amplitudes": [60.0]},
+        "selection": two,
+        "test": {"seeds": {"count": SEEDS}, "amplitudes": [60.0, 80.0]},
+        "places": {PLACE: place, "ideal": place},
+        "gaits": {GAIT: [1, 2], "published": [1]},
+        "gains": {"K_p": {"from": 200.0, "to": 20000.0}},
+        "contestants": {n: {"own": {"own.K_i": {"from": 2.4, "to": 9.0}}} for n in names},
+    }
+    missing = [PLACE, "published", "DOB", 1]
+    return {"contest": contest, "asked": [*asked, missing], "searches": list(searches)}
+
+
+def answers(script, *searches):
+    """What the contest answers about these searches, by contestant."""
+    page, given = script("tuned_page"), script("tuned_entries").entries(summary(*searches))
+    return {x.a.contestant: x for x in page.families(page.first_groups(given))[0]}
+
+
+def test_a_difference_is_carried_where_all_seeds_agree(script):
+    mixed = np.ones((2, SEEDS)) * np.where(np.arange(SEEDS) % 2, 1.1, 0.9)
+    found = answers(
+        script,
+        search("NPD"),
+        search("NPID", 1.2),
+        search("m = 1", 0.5),
+        search("m = 2", 3.0),
+        search("DOB", mixed, selected=0.95),
+    )
+    assert {n: x.verdict for n, x in found.items()} == {
+        "NPID": "larger",
+        "m = 1": "smaller",
+        "m = 2": "larger",
+        "DOB": "open",
+    }
+    assert found["m = 1"].ratio == pytest.approx([0.5, 0.5, 0.5])
+    assert found["m = 1"].p == pytest.approx(4 * 2.0 * 0.5**SEEDS)  # of four questions
+    assert found["DOB"].within == pytest.approx(1.0 / 0.9)
+
+
+def test_the_reference_is_the_better_one_on_the_selection_set(script):
+    found = answers(
+        script, search("NPD", selected=2.0), search("NPID", 1.2, selected=1.0), search("DOB")
+    )
+    assert {x.b.contestant for x in found.values()} == {"NPID"}
+    found = answers(script, nothing("NPD"), search("NPID", 1.2), search("DOB"))
+    assert {x.b.contestant for x in found.values()} == {"NPID"}
+    assert not answers(script, search("NPD"), search("DOB"))
+
+
+def test_illegal_walks_rank_worst_and_are_not_dropped(script):
+    found = answers(
+        script,
+        search("NPD"),
+        search("NPID", 2.0),
+        search("m = 1", 0.5, illegal=range(8)),
+        search("m = 2", 0.5, illegal=range(2)),
+        nothing("m = 3"),
+    )
+    worst = script("tuned_questions").WORST
+    assert found["m = 1"].ratio.value == pytest.approx(worst)
+    assert (found["m = 1"].won, found["m = 1"].lost) == (7, 8)
+    assert found["m = 1"].verdict == "open"
+    assert found["m = 2"].ratio.value == pytest.approx(0.5)
+    assert (found["m = 2"].won, found["m = 2"].lost) == (13, 2)
+    assert found["m = 3"].verdict == "larger"
+    assert found["m = 3"].legal_p < 0.05 < found["m = 2"].legal_p
+    assert found["m = 2"].legal_bound == pytest.approx(share(2, SEEDS).high)
+
+
+def test_a_seed_is_legal_where_all_its_walks_are(script):
+    half = search("m = 1", 0.5)
+    half["tuned"][-1][1] = [0] * SEEDS
+    found = answers(script, search("NPD"), search("NPID", 1.2), half)["m = 1"]
+    assert found.legal_p < 0.05
+    assert found.ratio.value > 100.0
+    assert (found.won, found.lost) == (0, SEEDS)
+
+
+def test_what_the_corrected_test_does_not_carry_is_open_though_the_interval_would(script):
+    most = np.ones((2, SEEDS)) * np.where(np.arange(SEEDS) < 12, 0.8, 1.25)
+    names = ("m = 1", "m = 2")
+    given = [search(n, most) for n in names]
+    found = answers(script, search("NPD", selected=0.1), search("NPID", 1.2), *given)
+    for x in (found[n] for n in names):
+        assert x.ratio.high < 1.0
+        assert x.p == pytest.approx(2 * sign_test(12, 3))
+        assert x.verdict == "open"
+
+
+def test_two_walks_that_are_both_not_legal_are_a_tie(script):
+    logs = script("tuned_questions").log_ratios
+    a, b = np.array([[1.0, math.inf, math.inf, 1.0]]), np.array([[2.0, math.inf, 1.0, math.inf]])
+    top = math.log(script("tuned_questions").WORST)
+    assert logs(a, b) == pytest.approx(np.array([[-math.log(2.0), 0.0, top, -top]]))
+
+
+def test_a_placebo_is_not_found_different(script):
+    found = answers(script, search("NPD"), search("NPID", selected=1.1))
+    assert found["NPID"].verdict == "open"
+    assert (found["NPID"].within, found["NPID"].p, found["NPID"].legal_p) == (1.0, 1.0, 1.0)
+
+
+def test_the_page_says_who_wins_by_how_much_and_how_near_the_goal_is(script):
+    given = summary(
+        search("NPD"),
+        search("NPID", 1.2),
+        search("m = 1", 0.45),
+        search("m = 2", 0.9, illegal=[3]),
+        nothing("m = 3"),
+    )
+    text = " ".join(script("tuned_page").page(given).split())
+    assert "5 of 6 searches are there" in text
+    assert "gait published, seed 1 of the optimiser: DOB" in text
+    assert "the best on the selection set is *m = 1*" in text
+    assert "its ratio to the next, *m = 2*, is 0.5 (0.5 to 0.5) (carried)" in text
+    assert "Against *NPD*, the reference, carried are a smaller error of *m = 1* 0.45" in text
+    assert "*m = 3* (no setting that keeps the limits)" in text
+    assert "the first is met. Of its walks 30 of 30 are legal, which is at least 88.6 %" in text
+    assert "the second is not shown by so few walks" in text
+    assert "An order above 1 pays in 0 of 2 questions." in text
+    assert "m = 3*, seed 1 of the optimiser: none of 75 candidates keeps." in text
+    assert "| m = 2 | K\\_p = 500, K\\_i = 2.5 | 2.5 |" in text
+    assert "| 28 of 30 |" in text
+    assert "| not stable | 0 of 30 |" in text
+    assert (
+        "is a value of RABBIT, 1 ms, gait v0.5, *NPD*, seed 1 (K_i = 2.5 of 2.4 to 9); RABB" in text
+    )
+
+
+def test_a_search_in_which_no_candidate_was_walked_says_nothing_beyond_its_ranges(script):
+    told = {
+        **nothing("m = 3"),
+        "why": "study 'x: y': none of 9 keeps all limits that need no walk; a",
+    }
+    page, (entry,) = script("tuned_page"), script("tuned_entries").entries(summary(told))
+    assert page.reason(entry).startswith(
+        "none of 9 keeps all limits that need no walk; a. So none was"
+    )
+    assert "outside them" in page.reason(entry)
+    (entry,) = script("tuned_entries").entries(summary(nothing("m = 3")))
+    assert page.reason(entry) == "none of 75 candidates keeps"
+
+
+def test_a_goal_that_is_missed_is_missed_by_so_much(script):
+    given = (search("NPD"), search("NPID", 1.2), search("m = 1", 0.8, illegal=[0]))
+    (said,) = script("tuned_sentences").goal(list(answers(script, *given).values()))
+    assert "the first is missed by 0.3" in said
+    assert "28 of 30 are legal" in said
+    assert "the second is missed by 4.0 %" in said
+
+
+def test_what_each_rung_is_worth_is_held_against_the_one_below(script):
+    page = script("tuned_page")
+    given = summary(
+        search("NPD"),
+        search("observer's rates", 0.8),
+        search("assisted, m = 1", 0.4),
+        nothing("m = 1"),
+    )
+    groups = page.first_groups(script("tuned_entries").entries(given))
+    said = script("tuned_sentences").rung_worths(page.families(groups)[1])
+    assert said == [
+        "*NPD* to *observer's rates* (the rates of an observer, with the nominal xi): ratio 0.8; smaller at "
+        "RABBIT, 1 ms, gait v0.5.",
+        "*observer's rates* to *assisted, m = 1* (what is left of xi, estimated with m = 1): ratio 0.5; "
+        "smaller at RABBIT, 1 ms, gait v0.5.",
+        "*assisted, m = 1* to *m = 1* (all of xi estimated, none from the model): ratio ∞; larger at "
+        "RABBIT, 1 ms, gait v0.5.",
+    ]
+
+
+def test_another_seed_of_the_optimiser_that_moves_a_conclusion_is_named(script):
+    seeds, entries = script("tuned_seeds"), script("tuned_entries").entries
+    same = [
+        search(n, f, seed=s) for n, f in (("NPD", 1.0), ("NPID", 1.2), ("DOB", 0.5)) for s in (1, 2)
+    ]
+    told = seeds.other_seeds(entries(summary(*same)))
+    assert "; DOB 1, 1." in told[0]
+    assert "moves none of 2 conclusions" in told[1]
+    assert "asked with one seed alone so far" in told[2]
+    same[-1] = search("DOB", 1.5, seed=2)
+    moved = seeds.other_seeds(entries(summary(*same)))[1]
+    assert "another seed moves 1 of 2 conclusions: DOB (seed 1: smaller, 0.5" in moved
+    assert "seed 2: larger, 1.5" in moved
+
+
+class Asked(NamedTuple):
+    """A search as alike.py gives it."""
+
+    place: str
+    gait: str
+    contestant: str
+    seed: int
+
+    @property
+    def folder(self):
+        return self.contestant
+
+
+def test_a_folder_of_searches_becomes_a_summary(script, monkeypatch, tmp_path):
+    module = script("tuned_entries")
+    asked = [Asked(PLACE, GAIT, name, 1) for name in ("NPD", "NPID", "m = 1", "DOB")]
+    notes = {
+        "NPD": {"found": True, "chosen": {"K_p": 1234.567}},
+        "NPID": {"found": False, "why": "none keeps all limits"},
+        "m = 1": {"found": False, "why": "of other versions"},
+    }
+    for e in asked[:3]:
+        (tmp_path / e.folder).mkdir()
+        write(tmp_path / e.folder / "entry.json", e._asdict() | notes[e.contestant])
+    told = {
+        "selected": [{"number": 4, "objectives": [0.0012345]}],
+        "held_out": [
+            {"words": "median rms_error", "chosen": {"value": 9.0}, "published": {"value": 9.0}},
+            {
+                "words": "mean delay_margin",
+                "chosen": {"value": 2e-3},
+                "published": {"value": "-inf"},
+            },
+        ],
+    }
+    write(tmp_path / "NPD" / "summary.json", told)
+    conditions = [{"name": "60 N m"}, {"name": "80 N m"}]
+    write(tmp_path / "NPD" / "test_set.json", {"conditions": conditions, "seeds": [8, 9]})
+    monkeypatch.setattr(module, "read_store", lambda _: Store())
+    found = module.collected(tmp_path, {}, asked)
+    assert (len(found["asked"]), len(found["searches"])) == (4, 2)
+    npd, npid = found["searches"]
+    assert npd["tuned"][0] == [[4068.0, 4069.0], [4088.0, 4089.0]]  # candidate, condition, seed
+    assert npd["published"][0] == [[68.0, 69.0], [88.0, 89.0]]
+    assert (npd["chosen"], npd["selected"]) == ({"K_p": 1235.0}, 0.001234)
+    assert npd["margins"] == [0.002, "-inf"]
+    assert npid == {**asked[1]._asdict(), "why": "none keeps all limits"}
+
+
+def write(path, told):
+    path.write_text(json.dumps(told), encoding="utf-8")
+
+
+class Store:
+    """A file of results: walks of two candidates, backwards, and one of the training set."""
+
+    def results(self):
+        for number, condition, seed in itertools.product((4, 0), (80, 60), (9, 8)):
+            at = {"set": "test", "candidate": number, "condition": f"{condition} N m", "seed": seed}
+            x = float(1000 * number + condition + seed)
+            yield Result(
+                0,
+                "",
+                at,
+                dict.fromkeys(("rms_error", "rms_torque", "cost_of_transport"), x) | {"legal": 1},
+            )
+        yield Result(0, "", at | {"set": "training"}, {})
+
+    def close(self):
+        """Nothing is open."""
+
+
+def test_an_empty_folder_is_refused(script, tmp_path):
+    with pytest.raises(InputError, match="no finished search; run"):
+        script("write_tuned").summarised(tmp_path)
+    with pytest.raises(InputError, match="run 'make tuned' first"):
+        script("write_tuned").read(tmp_path / "summary.json")
+
+
+def test_the_figures_have_no_mark_for_what_is_infinite(script):
+    given = summary(
+        search("NPD"),
+        search("NPID", 1.2),
+        search("m = 1", 0.5),
+        nothing("m = 3"),
+        search("NPD", seed=2),
+    )
+    drawn = script("tuned_figures").drawn(script("tuned_entries").entries(given))
+    shown = {name: numbers_of(figure)["panels"] for name, figure in drawn.items()}
+    (ratios,), (errors,) = ([p for p in shown[n] if p.get("title")] for n in ("ratios", "errors"))
+    assert ratios["marks"] == {
+        "optimiser seed 1": {"x": [1.2, 0.5], "y": [0, 1], "from": [1.2, 0.5], "to": [1.2, 0.5]}
+    }
+    assert set(errors["marks"]) == {"tuned"}  # as published no walk is legal
+    assert errors["marks"]["tuned"]["x"] == pytest.approx(
+        [1e3 * f * np.median(BASE) for f in (1.0, 1.2, 0.5)], rel=1e-3
+    )
