@@ -50,13 +50,16 @@ def verdicts(s: Mapping[str, Any], g: Mapping[str, Any]) -> list[Verdict]:
             ratio[2] <= goal["ratio"],
         ),
         Verdict(
-            "the same against the better of both rivals walk by walk",
+            "that error over the better of both rivals, walk by walk",
             f"at most {goal['ratio']:g}",
             spanned(cell["ratio_each"]),
             cell["ratio_each"][2] <= goal["ratio"],
         ),
         Verdict(
-            "the same, aim", f"at most {goal['aim']:g}", spanned(ratio), ratio[2] <= goal["aim"]
+            "the aim for that error",
+            f"at most {goal['aim']:g}",
+            spanned(ratio),
+            ratio[2] <= goal["aim"],
         ),
         Verdict(
             f"legal of {cell['walks']} walks",
