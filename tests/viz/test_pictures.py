@@ -140,6 +140,7 @@ def test_pictures_of_long_runs_are_held_against_the_summaries_that_are_kept(
     monkeypatch.setattr(compared, "FOLDER", folders[0])
     monkeypatch.setattr(pushed, "FOLDER", folders[1])
     monkeypatch.setattr(check, "figures", lambda summary: {summary["name"]: Figure()})
+    monkeypatch.setattr(check.write_tuned, "figures", lambda summary: {})
     legal = Fate("legal", "COMPLETED", 100.0, 0.4, 0.5)
     cell = PushCell("identified", 0.1, 20.0, "all +", 150.0, legal, legal)
     for folder in folders:
