@@ -31,10 +31,12 @@ and inertias of the robot off by up to 10 %, centres of mass by 5 %; a push of u
 (`benchmarks/tuned/contest.toml`): the same gains and filter of the rates to choose, the
 same budget for each free parameter, the same limits of margin, legality and friction.
 
-    python benchmarks/tuned/alike.py out/tuned --only "RABBIT, 1 ms"
-    python benchmarks/tuned/reserve.py out/tuned_reserve
-    python benchmarks/tuned/goal.py out/tuned out/tuned_reserve out/goal
-    python docs/write_robot_goal.py out/goal
+```text
+python benchmarks/tuned/alike.py out/tuned --only "RABBIT, 1 ms"
+python benchmarks/tuned/reserve.py out/tuned_reserve
+python benchmarks/tuned/goal.py out/tuned out/tuned_reserve out/goal
+python docs/write_robot_goal.py out/goal
+```
 
 One setting for each role is taken on {selection} selection walks, by the rules of
 `benchmarks/tuned/goal.toml`: of each rival, and as the *closest ADRC*, the one of least
