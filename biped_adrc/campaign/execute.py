@@ -265,13 +265,10 @@ class _Flight:
     def alone(self, chunk: Chunk) -> None:
         """Run a chunk again with nothing else on its way, so that a second death has one possible cause.
 
-        A chunk of several is then split; a single record gets a row with the status CRASHED.
+        A chunk of several is then split; a single record gets a row with the status CRASHED when it dies once
+        more: a cluster may give it to a worker whose end it has not heard of yet.
         """
-        self.send(chunk)
-        died: list[Chunk] = []
-        while self.pending:
-            died += self.died()
-        if not died:
+        if not self.dies(chunk) or (len(chunk) == 1 and not self.dies(chunk)):
             return
         if len(chunk) > 1:
             for job in chunk:
@@ -280,6 +277,14 @@ class _Flight:
             detail = "the worker process that ran it died, each time it was tried"
             self.keep(chunk, [made({"status": CRASHED, "detail": detail}, 0.0)], died=True)
             self.blame(chunk[0])
+
+    def dies(self, chunk: Chunk) -> bool:
+        """Run a chunk, with nothing else on its way; whether its worker died."""
+        self.send(chunk)
+        died: list[Chunk] = []
+        while self.pending:
+            died += self.died()
+        return bool(died)
 
     def blame(self, job: Job) -> None:
         """Count a record that killed its worker. Raises WorkersError when all of them seem to do so."""
