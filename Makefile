@@ -35,8 +35,10 @@ docs: .venv/.dev
 pictures: .venv/.core
 	$(BIN)/python docs/make_pictures.py $(OUT)
 
-# docs/comparison.md with its figures, from a comparison in $(OUT)/comparison, which is made or finished first
+# docs/comparison.md with its figures, and what observer guide and README say of orders, from a comparison in
+# $(OUT)/comparison, which is made or finished first, with the settings of docs/tuned/summary.json
 comparison: .venv/.core
+	$(BIN)/python docs/write_tuned_sets.py
 	$(BIN)/biped-adrc compare --out $(OUT)/comparison
 	$(BIN)/python docs/write_comparison.py $(OUT)/comparison
 

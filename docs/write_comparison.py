@@ -1,4 +1,4 @@
-"""Write docs/comparison.md and its figures, and the observers at equal bandwidth into the observer guide.
+"""Write docs/comparison.md and its figures, and what tuned orders are worth into the observer guide and README.
 
 Run: python docs/write_comparison.py OUT
 
@@ -15,25 +15,28 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from tuned_orders import guide_part, readme_part
 from write_results import bullets, table
 
 from biped_adrc.bench.compare_study import figures
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.viz.comparison_text import (
-    EQUAL,
     MEDIANS,
     PUSHES,
+    SETTINGS,
     SHARES,
     TITLE,
+    UNDER,
     WHAT_COUNTS,
     by_condition,
     by_direction,
-    equal_texts,
+    condition_texts,
     median_texts,
     nominal_text,
     push_texts,
     said,
+    setting_texts,
     share_texts,
 )
 from biped_adrc.viz.figure_numbers import as_text, numbers_of
@@ -41,54 +44,13 @@ from biped_adrc.viz.pages import captions
 from biped_adrc.viz.style import render
 
 DOCS = Path(__file__).resolve().parent
-PAGE, GUIDE = DOCS / "comparison.md", DOCS / "guide" / "observer.md"
+PAGE, GUIDE, README = (
+    DOCS / "comparison.md",
+    DOCS / "guide" / "observer.md",
+    DOCS.parent / "README.md",
+)
 FOLDER = DOCS / "comparison"
-BEGIN, END = "<!-- equal bandwidth: begin -->", "<!-- equal bandwidth: end -->"
-
-
-def findings(summary: dict[str, Any], equal: bool) -> str:
-    """The sentences that are carried, as a list."""
-    found = said(summary, equal)
-    return bullets(found) if found else NONE
-
-
-SHOWN = ("push on joints", "sine on joints", "delay")
-"""Conditions that the observer guide shows."""
-
-
-def guide_part(summary: dict[str, Any]) -> str:
-    """The observers at their own settings and at equal bandwidth, with the command that walks them."""
-    shown = [x for x in summary["equal_bandwidth"] if x["own"]["condition"] in SHOWN]
-    if not shown:
-        raise InputError(
-            "the comparison has no observers at equal bandwidth under what the guide shows; expected ADRC, "
-            f"LESO or DOB, and one of the conditions {', '.join(SHOWN)}"
-        )
-    found = [s for s in said(summary, equal=True) if s.split(":")[0] in SHOWN]
-    return "\n\n".join(
-        [
-            f"By `{summary['command']}`, {summary['seeds']} seeds, medians over legal walks, intervals of "
-            "95 %:",
-            table(list(EQUAL), equal_texts(shown)),
-            bullets(found) if found else NONE,
-        ]
-    )
-
-
-NONE = "No difference is carried by its test."
-
-
-def equal_part(summary: dict[str, Any]) -> list[str]:
-    """The same for all conditions, as parts of the page; none without observers."""
-    if not summary["equal_bandwidth"]:
-        return []
-    return [
-        "## At equal bandwidth",
-        "The controllers with an observer once more, with all its poles at the geometric mean of Table I; "
-        "medians over legal walks.",
-        table(list(EQUAL), equal_texts(summary["equal_bandwidth"])),
-        findings(summary, equal=True),
-    ]
+BEGIN, END = "<!-- tuned orders: begin -->", "<!-- tuned orders: end -->"
 
 
 def page(summary: dict[str, Any]) -> str:
@@ -103,8 +65,7 @@ def page(summary: dict[str, Any]) -> str:
         f"{summary['seeds']} seeds. Every controller meets the same draws. {WHAT_COUNTS}",
         "## What the numbers say",
         WORDS,
-        findings(summary, equal=False),
-        *equal_part(summary),
+        bullets(said(summary, equal=False)) or NONE,
         *(figure(name) for name in captions("comparison") if name != "pushes" or pushes),
         "## The table",
         nominal_text(summary["nominal"]),
@@ -119,24 +80,30 @@ def page(summary: dict[str, Any]) -> str:
         ),
         "## Controllers and conditions",
         table(["controller", "what it is"], [list(x) for x in summary["controllers"].items()]),
-        table(["condition", "what it is"], [list(x) for x in summary["conditions"].items()]),
+        table(list(UNDER), condition_texts(summary)),
+        SETTINGS_WORDS,
+        table(list(SETTINGS), setting_texts(summary["set"], summary["places"])),
         "## Versions",
         table(["part", "version"], [list(x) for x in summary["versions"].items()]),
     ]
     return "\n\n".join(parts) + "\n"
 
 
+NONE = "No difference is carried by its test."
 WORDS = (
     "Each sentence stands on walks paired by their seeds and on an exact test (McNemar's for shares, the sign "
     "test for the rest, Holm's correction over all questions of a kind); what no test carries is not here. "
-    "Controllers are held against NPD, which has the same gains as ADRC, LESO and DOB and no observer; what is "
-    "said of one with an observer holds at equal bandwidth too, the numbers are those of its own settings. "
-    "Where encoders or a delay limit the bandwidth nothing is concluded, since another bandwidth or a filter "
-    "of the rates turns the order."
+    "Controllers are held against NPD, and higher orders of the observer against m = 1, each at its own tuned "
+    "setting. The seeds are none of those that a search has walked."
 )
 PUSH_WORDS = (
     "In N m, between what the median over seeds lies, and between what all seeds lie. Where the highest torque "
     "tried is passed it is only known to be at least that, so there are no means."
+)
+SETTINGS_WORDS = (
+    "Values of a scenario, by the place where they were tuned. PD, ADRC of the outputs and CLF-QP have no "
+    "tuned setting and are not compared; `--controllers` takes them, as published, and `--settings "
+    "as-published` compares all as their authors or examples set them."
 )
 
 
@@ -186,7 +153,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
     summary = read(parser.parse_args().out / "summary.json")
-    write_text(GUIDE, put(GUIDE.read_text(encoding="utf-8"), guide_part(summary)))
+    for path, part in ((GUIDE, guide_part(summary)), (README, readme_part(summary))):
+        write_text(path, put(path.read_text(encoding="utf-8"), part))
     for name, drawn in figures(summary).items():
         write_bytes(FOLDER / f"{name}.svg", render(drawn, "svg"))
         write_text(FOLDER / f"{name}.json", as_text(numbers_of(drawn)))

@@ -285,6 +285,7 @@ COMPARE = {
     "seeds": Row("--seeds 4", same("seeds"), 4),
     "pushes": Row("--no-pushes", same("pushes"), False),
     "plant": Row("--plant mujoco", same("plant"), "mujoco"),
+    "settings": Row("--settings as-published", same("settings.name"), "as-published"),
 }
 SWEEP_FILE = """
 [study]

@@ -65,6 +65,8 @@ class Cell:
     """Rows with the columns of `bench.run.COLUMNS`, in the order of the seeds."""
     bandwidth: float | None = None
     """All poles of the observer are at minus this [rad/s]; None for the controller's own settings."""
+    as_published: bool = False
+    """Whether it walks untuned among controllers that are tuned."""
 
     @property
     def survived(self) -> Interval:
@@ -122,6 +124,7 @@ class Cell:
             "controller": self.controller,
             "condition": self.condition,
             "bandwidth": self.bandwidth,
+            "as_published": self.as_published,
             "walks": len(self.walks),
             "survived": list(self.survived),
             "legal": list(self.legal),

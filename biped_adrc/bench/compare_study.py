@@ -21,21 +21,22 @@ from matplotlib.figure import Figure
 
 from biped_adrc.bench.build import engines_of, scene_of
 from biped_adrc.bench.cell import IMPULSE, is_legal, number
-from biped_adrc.bench.comparison import NOMINAL, Comparison, check, compare
-from biped_adrc.bench.conditions import BASE, COMPARED, CONDITIONS, NOT_ALIKE, OWN
+from biped_adrc.bench.comparison import Comparison, check, compare, nominal_trial
+from biped_adrc.bench.conditions import BASE, CONDITIONS, OWN, conditions_on
 from biped_adrc.bench.findings import answers, sentences
 from biped_adrc.bench.parameters import trial
 from biped_adrc.bench.run import run_trials
+from biped_adrc.bench.settings import TUNED, Settings
 from biped_adrc.bench.sweep import check_folder
 from biped_adrc.campaign.chunk import Point, Record, Row, key_of, text_of
 from biped_adrc.campaign.execute import LARGEST_CHUNK, Progress, run_study
 from biped_adrc.campaign.store import About, Store
 from biped_adrc.campaign.store_open import open_store
 from biped_adrc.campaign.workers import Workers, workers_of
-from biped_adrc.files import write_text
+from biped_adrc.files import plain, write_text
 from biped_adrc.robots.robot_toml import Limits
 from biped_adrc.scenario.build import RIGID
-from biped_adrc.scenario.registry import find, is_own, source_hash, words
+from biped_adrc.scenario.registry import find, is_own, source_hash
 from biped_adrc.versions import numerical_versions
 from biped_adrc.viz.comparison_text import NEEDS, REASONS
 from biped_adrc.viz.pages import captions, comparison_html
@@ -45,6 +46,7 @@ from biped_adrc.viz.style import render
 RESULTS = "comparison.sqlite"
 """Name of the file with all runs, in the folder of the comparison."""
 TITLES = {
+    "rms_error": "rms tracking error [rad]",
     "peak_error": "largest tracking error [rad]",
     "rms_torque": "torque, root mean square [N m]",
     "cost_of_transport": "cost of transport",
@@ -90,48 +92,59 @@ class Stored:
 
 def _point(record: Record) -> Point:
     """The record of a trial, and the values by which a reader finds it in the file."""
-    told = ("controller", "seed", "push", "on", "onset", "amplitude")
+    told = ("controller", "order", "seed", "push", "on", "onset", "amplitude")
     return Point(trial(record).record(), {k: record[k] for k in told if k in record})
 
 
 def run_comparison(
     out: Path,
     command: str,
-    controllers: Sequence[str] = COMPARED,
-    conditions: Sequence[str] = tuple(CONDITIONS),
+    controllers: Sequence[str] | None = None,
+    conditions: Sequence[str] | None = None,
     seeds: int = 20,
     pushes: bool = True,
     workers: Workers | Executor | int | None = None,
     progress: Callable[[Progress], None] | None = None,
     other_versions: bool = False,
     plant: str = RIGID,
+    settings: Settings = TUNED,
 ) -> dict[str, Any]:
     """Walk everything that is not in `out` yet and write figures, page and summary; returns the summary.
 
-    command: as typed, for the page. seeds: per controller and condition. pushes: search the largest pushes too.
-    plant: of the registry, on which all walk; "wrong impact" is a condition of the rigid one alone.
-    Raises InputError for unknown names or a file of another comparison, OutputError.
+    command: as typed, for the page. controllers, conditions: all of the settings where None. seeds: per
+    controller and condition. pushes: search the largest pushes too. plant: of the registry, on which all walk;
+    "wrong impact" is a condition of the rigid one alone. Raises InputError for unknown names or a file of
+    another comparison, OutputError.
     """
-    check(controllers, conditions, seeds)
+    controllers = list(settings.contestants if controllers is None else controllers)
+    every = conditions_on(plant, settings.alike)
+    conditions = list(every if conditions is None else conditions)
+    check(controllers, conditions, seeds, settings)
     shared = {} if plant == RIGID else {"plant": plant}
     asked = {
-        "controllers": list(controllers),
+        "settings": settings.name,
+        "controllers": controllers,
         "conditions": {name: dict(CONDITIONS[name].values) for name in conditions},
-        "base": {**BASE, **shared},
+        "base": {**BASE, **settings.values, **shared},
         "seeds": seeds,
         "pushes": pushes,
     }
-    sources = {
-        f"source {c}": source_hash(find("controller", c).load()) for c in controllers if is_own(c)
-    }
-    sources |= engines_of((plant,))
-    about = About("comparison", key_of(text_of(asked)), asked, {**numerical_versions(), **sources})
+    about = About(
+        "comparison", key_of(text_of(asked)), asked, _versions(settings, controllers, plant)
+    )
     check_folder(out)
     workers_of(workers).prepare()
     with open_store(out / RESULTS, about, other_versions) as store:
         carry = Stored(store, workers, progress, shared)
-        found = compare(carry, controllers, conditions, seeds, pushes)
+        found = compare(carry, controllers, conditions, seeds, pushes, settings)
     return write(found, out, command, carry.walks, shared)
+
+
+def _versions(settings: Settings, contestants: Sequence[str], plant: str) -> dict[str, str]:
+    """All that decides the numbers, the classes of the user and the plant's engine included."""
+    own = dict.fromkeys(x for x in map(settings.controller, contestants) if is_own(x))
+    sources = {f"source {x}": source_hash(find("controller", x).load()) for x in own}
+    return {**numerical_versions(), **sources, **engines_of((plant,))}
 
 
 def write(
@@ -141,16 +154,18 @@ def write(
 
     walks: how many trials it took, for the page. shared: values of all trials besides `BASE`.
     """
-    found_out = answers(found)
+    found_out, settings = answers(found), found.settings
     summary = {
         "command": command,
         "walks": walks,
         "seeds": found.seeds,
-        "settings": NOT_ALIKE,
-        "nominal": nominal(found.nominal),
+        "set": plain(settings),
+        "settings": settings.said(found.controllers, found.conditions),
+        "nominal": nominal(found.nominal, settings),
         "findings": sentences(found_out),
-        "controllers": {name: words("controller", name) for name in found.controllers},
+        "controllers": {name: settings.described(name) for name in found.controllers},
         "conditions": {name: CONDITIONS[name].words for name in found.conditions},
+        "places": {name: CONDITIONS[name].place for name in found.conditions},
         "cells": [cell.row() for cell in found.cells],
         "equal_bandwidth": [
             {"own": replace(own, bandwidth=OWN[x.controller]).row(), "equal": x.row()}
@@ -159,7 +174,7 @@ def write(
         ],
         "pushes": [push.row() for push in found.pushes],
         "tests": [answer.row() for answer in found_out],
-        "base": {**BASE, **(shared or {})},
+        "base": {**BASE, **settings.values, **(shared or {})},
         "versions": dict(numerical_versions()),
     }
     texts = {name: svg.decode("utf-8") for name, svg in draw(summary).items()}
@@ -170,7 +185,7 @@ def write(
     return summary
 
 
-def nominal(row: Row) -> dict[str, object]:
+def nominal(row: Row, settings: Settings = TUNED) -> dict[str, object]:
     """What the gait itself needs of ground and motors, undisturbed, beside the robot's limits, in plain values.
 
     `broken`: which limits it breaks, in words. A gait that is illegal by itself makes every walk illegal.
@@ -179,11 +194,13 @@ def nominal(row: Row) -> dict[str, object]:
     reasons = {**REASONS, IMPULSE: "impulse at impact"}
     broken = [words for name, words in reasons.items() if row.get(name) == 1]
     return {
-        "trial": dict(NOMINAL),
+        "trial": dict(nominal_trial(settings)),
         "status": str(row["status"]),
         "legal": is_legal(row),
         "needs": needs,
-        "limits": dict(Limits().of(scene_of(trial(NOMINAL)).biped.description)._asdict()),
+        "limits": dict(
+            Limits().of(scene_of(trial(nominal_trial(settings))).biped.description)._asdict()
+        ),
         "broken": broken,
     }
 

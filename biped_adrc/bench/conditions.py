@@ -4,11 +4,10 @@ Each condition is a set of values of a trial, put on top of a common base: a con
 exact sensors and RABBIT's torque limit of 150 N m, and a start a little off the gait's speed. What is random
 in a condition is drawn from the trial's seed and is the same for all controllers.
 
-Controllers run at the settings of their author or of their example. Those with an observer are walked once
-more with all observer poles at the geometric mean of Table I: what then still differs between two of them is
-not a difference of bandwidth.
+Where settings are as published, controllers with an observer are walked once more with all observer poles at
+the geometric mean of Table I: what then still differs between two of them is not a difference of bandwidth.
 
-Pure data and functions on it; `bench.comparison` and `bench.largest_push` make their trials here.
+Pure data and functions on it; `bench.settings` makes the trials of it, `bench.largest_push` those with pushes.
 """
 
 from __future__ import annotations
@@ -23,30 +22,41 @@ from biped_adrc.resources import packaged
 from biped_adrc.scenario.build import RIGID
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.scenario import OF_RIGID
+from biped_adrc.types import PlainRecord
 
 
 class ComparisonCondition(NamedTuple):
-    """One condition: `words` for a reader, and `values` of a scenario in SI units, on top of `BASE`."""
+    """One condition: `words` for a reader, and `values` of a scenario in SI units, on top of `BASE`.
+
+    place: whose tuned settings controllers have there; None where none were tuned.
+    """
 
     words: str
     values: Record
+    place: str | None = None
 
 
-SAID = packaged("biped_adrc.bench", "comparison.toml")
+SAID: PlainRecord = packaged("biped_adrc.bench", "comparison.toml")
 """The tables of comparison.toml: base, conditions, push, directions, phases, and texts of the page."""
 BASE: Record = SAID["base"]
 """Values that all trials of a comparison share."""
-COMPARED = ("PD", "NPD", "ADRC", "ADRC output", "LESO", "DOB", "CLF-QP")
-"""Controllers compared by default, in the order of the tables."""
 CONDITIONS = {
-    name: ComparisonCondition(said["words"], {k: x for k, x in said.items() if k != "words"})
+    name: ComparisonCondition(
+        said["words"],
+        {k: x for k, x in said.items() if k not in ("words", "place")},
+        said.get("place"),
+    )
     for name, said in SAID["conditions"].items()
 }
 """Conditions by name, in the order of the tables."""
+PUSH: Record = {k: x for k, x in SAID["push"].items() if k != "place"}
+"""Values of all trials of the search for the largest push."""
+PUSH_PLACE: str = SAID["push"]["place"]
+"""Whose tuned settings controllers have in that search."""
 
 BANDWIDTH = math.exp(sum(math.log(abs(p)) for p in TABLE_I) / len(TABLE_I))
 """Geometric mean of the observer poles of Table I [rad/s]."""
-OWN = {
+OWN: dict[str, float] = {
     **dict.fromkeys(("ADRC", "ADRC output"), BANDWIDTH),
     **{name: float(find("controller", name).defaults["bandwidth"]) for name in ("LESO", "DOB")},
 }
@@ -56,19 +66,16 @@ With the poles of Table I it is their geometric mean. LESO's is what walks with 
 """
 ORDER = dict.fromkeys(("ADRC", "ADRC output"), len(TABLE_I) - 2)
 """m, the number of extended states, of the GPI observers: a bandwidth alone would not say it."""
-NOT_ALIKE: str = SAID["texts"]["settings"].format(**OWN)
-"""The warning of the page that settings are not tuned alike, with the bandwidths in it."""
 
 
-def conditions_on(plant: str) -> tuple[str, ...]:
-    """Those of the conditions that walks on a plant can have."""
+def conditions_on(plant: str, alike: bool = False) -> tuple[str, ...]:
+    """Those of the conditions that walks on a plant can have; alike: for which settings were tuned, too."""
     alone = set() if plant == RIGID else set(OF_RIGID)
-    return tuple(name for name, known in CONDITIONS.items() if not alone & known.values.keys())
-
-
-def record(condition: str, controller: str, seed: int) -> dict[str, object]:
-    """The values of one trial of the table."""
-    return {**BASE, **CONDITIONS[condition].values, "controller": controller, "seed": seed}
+    return tuple(
+        name
+        for name, known in CONDITIONS.items()
+        if not alone & known.values.keys() and (known.place or not alike)
+    )
 
 
 def walked_again(controllers: Sequence[str]) -> list[str]:
@@ -80,8 +87,3 @@ def equal_values(controller: str) -> dict[str, float]:
     """Values that put all observer poles of this controller at `BANDWIDTH` [rad/s]."""
     order: dict[str, float] = {"order": ORDER[controller]} if controller in ORDER else {}
     return {"bandwidth": BANDWIDTH, **order}
-
-
-def equal_record(condition: str, controller: str, seed: int) -> dict[str, object]:
-    """The values of one trial of the table at equal bandwidth."""
-    return record(condition, controller, seed) | equal_values(controller)

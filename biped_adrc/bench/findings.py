@@ -5,11 +5,13 @@ A table of medians invites conclusions that noise explains. Each sentence has to
     test         sign test, or McNemar's for shares, on pairs of walks with the same seed, p < 5 % after Holm's
                  correction over all questions of its family
     effect       the whole 95 % interval lies beyond a margin (ratio 1.1, relative change of speed 1 %)
-    bandwidth    for a controller with an observer it holds at equal bandwidth too, so that it is not a sentence
-                 about two settings
+    settings     both controllers are tuned for the condition. Where settings are as published, the sentence
+                 about a controller with an observer holds at equal bandwidth too, and none is said where
+                 sensors or a delay limit the bandwidth, so that it is not one about two settings
 
-Controllers are compared with NPD, which has the same gains and no observer; observers are compared with each
-other. Errors, torques and costs are compared where both walks of a pair are legal.
+Controllers are compared with NPD, which has no observer. Of tuned observers those of a higher order are
+compared with the one of order 1; of those as published each with each other at equal bandwidth. Errors, torques
+and costs are compared where both walks of a pair are legal.
 
 Takes a `Comparison`, gives a `Question` each and sentences; `bench.compare_study` writes them.
 """
@@ -17,7 +19,7 @@ Takes a `Comparison`, gives a `Question` each and sentences; `bench.compare_stud
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -35,9 +37,10 @@ from biped_adrc.analysis.statistics import (
 )
 from biped_adrc.bench.cell import Cell, is_legal, number
 from biped_adrc.bench.comparison import Comparison
-from biped_adrc.bench.conditions import SAID, record
+from biped_adrc.bench.conditions import PUSH_PLACE, SAID
 from biped_adrc.bench.largest_push import MATCHED, PHASES, Largest, median_span
 from biped_adrc.bench.parameters import trial
+from biped_adrc.bench.settings import AS_PUBLISHED
 
 EQUAL = "equal_bandwidth"
 """The family of questions about observers at equal bandwidth."""
@@ -47,7 +50,11 @@ MARGIN = 1.1
 """Ratios of medians nearer to 1 than this factor are not worth a sentence."""
 SPEED = 0.01
 """Relative changes of speed that differ by less than this are called alike."""
-RATIOS = ("peak_error", "rms_torque", "cost_of_transport")
+ORDER = "order"
+"""The family of questions about observers of a higher order."""
+ORDERED = "LESO"
+"""The controller whose orders are compared."""
+RATIOS = ("rms_error", "peak_error", "rms_torque", "cost_of_transport")
 """Measures that are compared by ratios: positive numbers."""
 
 
@@ -55,7 +62,7 @@ class Question(NamedTuple):
     """One question to the numbers, the result of its test, and the words for it."""
 
     family: str
-    """Questions of a family are corrected together: a measure, "legal", "pushes", or `EQUAL`."""
+    """Questions of a family are corrected together: a measure, "legal", "pushes", `ORDER` or `EQUAL`."""
     condition: str
     """Under which the walks were made."""
     controller: str
@@ -111,24 +118,43 @@ def sentences(found: Sequence[Question]) -> dict[str, list[str]]:
 def bandwidth_decides(condition: str) -> bool:
     """Whether a condition has sensor noise or delay, which limit the bandwidth.
 
-    There no order of controllers is stated: another bandwidth or a filter would reverse it.
+    There no order of controllers as published is stated: another bandwidth or a filter would reverse it.
     """
-    s = trial(record(condition, REFERENCE, 0))
+    s = trial(AS_PUBLISHED.record(condition, REFERENCE, 0))
     noisy = s.counts is not None or s.noise + s.pitch_noise + s.rate_noise > 0.0
     return noisy or s.delay > 0.0 or s.velocity != "measured"
 
 
 def _questions(c: Comparison) -> Iterable[Question]:
     """All questions, with p-values of their own."""
-    others = [name for name in c.controllers if name != REFERENCE]
+    for condition in (w for w in c.conditions if c.settings.alike or not bandwidth_decides(w)):
+        cells = {
+            x.controller: x for x in c.cells if x.condition == condition and not x.as_published
+        }
+        if REFERENCE in cells:
+            for name in (name for name in cells if name != REFERENCE):
+                again = c.at_equal(name, condition)
+                yield from _against(cells[name], again, cells[REFERENCE])
+        yield from _orders(c, cells)
     if REFERENCE in c.controllers:
-        for condition in (what for what in c.conditions if not bandwidth_decides(what)):
-            for name in others:
-                cell, again = c.cell(name, condition), c.at_equal(name, condition)
-                yield from _against(cell, again, c.cell(REFERENCE, condition))
-        for name in others:
-            yield from _pushes(c.pushes, name)
+        for name in (name for name in c.controllers if name != REFERENCE):
+            if not c.settings.as_published(name, PUSH_PLACE):
+                yield from _pushes(c.pushes, name)
     yield from _equal(c)
+
+
+def _orders(c: Comparison, cells: Mapping[str, Cell]) -> Iterable[Question]:
+    """Whether a higher order of the same observer has another rms error than order 1, each tuned.
+
+    cells: those of one condition that are tuned, by contestant.
+    """
+    orders = {name: c.settings.contestants[name].get("order") for name in c.settings.contestants}
+    same = [x for n, x in cells.items() if c.settings.controller(n) == ORDERED and orders.get(n)]
+    for first in (x for x in same if orders[x.controller] == 1):
+        for cell in (x for x in same if x is not first):
+            found = paired_ratio(*_pair(cell, first, "rms_error"), MARGIN)
+            if found is not None:
+                yield _question(ORDER, cell, found, _side(found) != 0)
 
 
 def _against(cell: Cell, again: Cell | None, usual: Cell) -> Iterable[Question]:

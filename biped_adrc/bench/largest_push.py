@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.bench.cell import is_legal, is_made
-from biped_adrc.bench.conditions import BASE, SAID
+from biped_adrc.bench.conditions import BASE, PUSH, SAID
 from biped_adrc.campaign.chunk import Record, Row
 
 LADDER = (0.0, 20.0, 40.0, 80.0, 160.0, 320.0)
@@ -93,14 +93,16 @@ class Search:
     """Interval of the largest push with which all steps are made."""
     legal: Bracket = NOTHING
     """Interval of the largest push with which all steps are legal."""
-    setting: Mapping[str, float] = field(default_factory=dict)
-    """Numbers of the trial in place of the controller's own, such as an observer bandwidth [rad/s]."""
+    setting: Record = field(default_factory=dict)
+    """Values of the trial besides, such as those of a tuned set; its `controller` goes before the name."""
+    bandwidth: float | None = None
+    """Of all observer poles [rad/s] where they are made equal; None for the controller's own settings."""
 
     def record(self, amplitude: float) -> dict[str, object]:
         """The values of the trial with this amplitude [N m]."""
         push = {"onset": PHASES[self.phase], "on": DIRECTIONS[self.direction]}
         who = {"amplitude": amplitude, "controller": self.controller, "seed": self.seed}
-        return {**BASE, **SAID["push"], **push, **who, **self.setting}
+        return {**BASE, **PUSH, **push, **who, **self.setting}
 
     def middles(self) -> list[float]:
         """The amplitudes to walk next, at most one for each criterion; empty when the search is done."""
@@ -116,11 +118,15 @@ class Search:
 def searches(
     controllers: Sequence[str],
     seeds: int,
-    setting: Callable[[str], Mapping[str, float]] = lambda controller: {},
+    setting: Callable[[str], Record] = lambda controller: {},
+    bandwidth: float | None = None,
 ) -> list[Search]:
-    """All searches of these controllers, not yet begun; setting: numbers of the trial by controller."""
+    """All searches of these controllers, not yet begun; setting: values of the trial by controller.
+
+    bandwidth: of all observer poles [rad/s] where the settings make them equal.
+    """
     every = itertools.product(controllers, DIRECTIONS, PHASES, range(seeds))
-    return [Search(*one, setting=setting(one[0])) for one in every]
+    return [Search(*one, setting=setting(one[0]), bandwidth=bandwidth) for one in every]
 
 
 def largest_pushes(begun: Sequence[Search], carry: Carry) -> list[Search]:
@@ -203,7 +209,7 @@ def gathered(done: Sequence[Search]) -> list[Largest]:
     """
     found: dict[tuple[str, str, str, float | None], list[Search]] = {}
     for s in done:
-        key = (s.controller, s.direction, s.phase, s.setting.get("bandwidth"))
+        key = (s.controller, s.direction, s.phase, s.bandwidth)
         found.setdefault(key, []).append(s)
     return [
         Largest(*key, tuple(s.survived for s in here), tuple(s.legal for s in here))

@@ -37,6 +37,10 @@ MEDIANS: tuple[str, ...] = (*TEXTS["columns"]["medians"], *MEASURES.values())
 """Headings of the second table, by `median_texts`."""
 PUSHES: tuple[str, ...] = tuple(TEXTS["columns"]["pushes"])
 """Headings of the table of largest pushes [N m], by `push_texts`."""
+SETTINGS: tuple[str, ...] = tuple(TEXTS["columns"]["settings"])
+"""Headings of the table of tuned settings, by `setting_texts`."""
+UNDER: tuple[str, ...] = tuple(TEXTS["columns"]["conditions"])
+"""Headings of the table of conditions, by `condition_texts`."""
 EQUAL: tuple[str, ...] = tuple(TEXTS["columns"]["equal"])
 """Headings of the table of observers at equal bandwidth, by `equal_texts`."""
 EQUAL_FAMILY = "equal_bandwidth"
@@ -70,6 +74,13 @@ def percent(found: Sequence[float] | None) -> str:
     return interval(found, 3, 100.0)
 
 
+def who(cell: PlainRecord) -> str:
+    """The controller of a cell, and that it walks as published where the others are tuned."""
+    return (
+        f"{cell['controller']} (as published)" if cell["as_published"] else str(cell["controller"])
+    )
+
+
 def by_condition(cells: Sequence[PlainRecord]) -> list[PlainRecord]:
     """The cells in the order of their conditions' first appearance, so that those of one condition are
     together.
@@ -91,7 +102,7 @@ def share_texts(cell: PlainRecord) -> list[str]:
     ]
     return [
         cell["condition"],
-        cell["controller"],
+        who(cell),
         percent(cell["legal"]),
         percent(cell["survived"]),
         ended or "–",
@@ -104,7 +115,7 @@ def share_texts(cell: PlainRecord) -> list[str]:
 def median_texts(cell: PlainRecord) -> list[str]:
     """A row of the second table: how many walks are legal, and the medians of `MEASURES` over them."""
     count = f"{round(cell['legal'][0] * cell['walks'])} of {cell['walks']}"
-    return [cell["condition"], cell["controller"], count, *(interval(cell[n]) for n in MEASURES)]
+    return [cell["condition"], who(cell), count, *(interval(cell[n]) for n in MEASURES)]
 
 
 def push_texts(push: PlainRecord) -> list[str]:
@@ -123,6 +134,29 @@ def by_direction(pushes: Sequence[PlainRecord]) -> list[PlainRecord]:
     together.
     """
     return sorted(pushes, key=lambda p: (p["direction"], p["phase"]))
+
+
+def setting_texts(told: PlainRecord, places: PlainRecord) -> list[list[str]]:
+    """The rows of the tuned settings: place, contestant, and its values there [SI].
+
+    told: `bench.settings.Settings` in plain values. places: of each condition; one without a condition is left
+    out.
+    """
+    return [
+        [place, name, ", ".join(f"{key.removeprefix('own.')} = {x}" for key, x in values.items())]
+        for place, there in told["places"].items()
+        for name, values in there.items()
+        if place in places.values()
+    ]
+
+
+def condition_texts(summary: PlainRecord) -> list[list[str]]:
+    """The rows of the conditions: name, what it is, and whose settings controllers have there."""
+    places = summary["places"] if summary["set"]["places"] else {}
+    return [
+        [name, words, places.get(name) or "as published"]
+        for name, words in summary["conditions"].items()
+    ]
 
 
 def span(found: Sequence[float | None]) -> str:

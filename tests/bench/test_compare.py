@@ -2,6 +2,8 @@
 
 import json
 import math
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -18,15 +20,8 @@ from biped_adrc.analysis.statistics import (
 from biped_adrc.bench import compare_study
 from biped_adrc.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS, Cell
 from biped_adrc.bench.compare_study import RESULTS, run_comparison
-from biped_adrc.bench.comparison import NOMINAL, compare
-from biped_adrc.bench.conditions import (
-    BANDWIDTH,
-    COMPARED,
-    CONDITIONS,
-    OWN,
-    equal_record,
-    record,
-)
+from biped_adrc.bench.comparison import compare, nominal_trial
+from biped_adrc.bench.conditions import BANDWIDTH, OWN, conditions_on
 from biped_adrc.bench.largest_push import (
     DIRECTIONS,
     LADDER,
@@ -40,11 +35,15 @@ from biped_adrc.bench.largest_push import (
     searches,
     whole_span,
 )
+from biped_adrc.bench.parameters import trial
 from biped_adrc.bench.run import COLUMNS, run_trial
+from biped_adrc.bench.settings import AS_PUBLISHED, SETTINGS
 from biped_adrc.campaign.workers import Threads
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.viz import comparison_text
+
+published = partial(run_comparison, settings=AS_PUBLISHED)
 
 
 def row(made, legal=None, status=None, **values):
@@ -61,13 +60,13 @@ def row(made, legal=None, status=None, **values):
 
 
 def test_every_condition_is_a_trial_that_any_controller_can_walk():
-    for name in CONDITIONS:
-        for controller in COMPARED:
-            given = record(name, controller, 3)
-            trial = Scenario(**given)
-            assert trial.controller == controller
-            assert Scenario(**trial.record()) == trial
-            assert Scenario(**json.loads(json.dumps(trial.record()))) == trial
+    for settings in SETTINGS.values():
+        for name in conditions_on("rigid", settings.alike):
+            for contestant in settings.contestants:
+                made = trial(settings.record(name, contestant, 3))
+                assert made.controller == settings.controller(contestant)
+                assert trial(made.record()) == made
+                assert trial(json.loads(json.dumps(made.record()))) == made
 
 
 @pytest.mark.parametrize("threshold", [-1.0, 0.0, 3.0, 77.7, 160.0, 319.0, 1e9])
@@ -272,11 +271,12 @@ def test_a_walk_that_does_not_say_whether_it_was_legal_is_refused():
 
 
 def test_the_trial_of_the_gait_itself_is_disturbed_by_nothing():
-    trial = Scenario(**NOMINAL)
-    assert (
-        trial.record()
-        == Scenario(controller="NPD", impacts=25, period=1e-3, torque_limit=150.0).record()
-    )
+    for settings in SETTINGS.values():
+        made = trial(nominal_trial(settings))
+        assert made.gait == settings.values.get("gait", "published")
+        assert replace(made, gait="published").record() == (
+            Scenario(controller="NPD", hardware="ideal", torque_limit=150.0).record()
+        )
     found = compare_study.nominal(
         row(True, False, bad_friction=1, bad_impulse=1, mean_friction=9.65, impulse_ratio=0.85)
     )
@@ -297,9 +297,9 @@ def test_equal_bandwidth_is_that_of_table_i():
     poles = [180.0 * 1.8**k for k in range(9)]
     assert pytest.approx(np.prod(poles) ** (1 / 9)) == BANDWIDTH
     for name in OWN:
-        trial = Scenario(**equal_record("delay", name, 2))
-        assert (trial.bandwidth, trial.delay) == (BANDWIDTH, 2e-3)
-        assert trial.order == (7 if name.startswith("ADRC") else None)
+        made = trial(AS_PUBLISHED.equal_record("delay", name, 2))
+        assert (made.bandwidth, made.delay) == (BANDWIDTH, 2e-3)
+        assert made.order == (7 if name.startswith("ADRC") else None)
 
 
 @pytest.mark.parametrize("status", ["REFUSED", "RAISED", "CRASHED"])
@@ -337,7 +337,7 @@ def made_up(records):
 def test_a_comparison_is_written_and_gone_on_with(tmp_path, monkeypatch):
     asked = (("NPD", "LESO", "ADRC"), ("nothing", "sine on joints", "encoders"), 12, True)
     monkeypatch.setattr(compare_study, "run_trials", made_up)
-    summary = run_comparison(tmp_path, "the command", *asked, Threads(2))
+    summary = published(tmp_path, "the command", *asked, Threads(2))
     page = (tmp_path / "comparison.html").read_text()
     for text in ("the command", "not tuned alike", "The gait itself", "At equal bandwidth", "1890"):
         assert text in page
@@ -345,11 +345,9 @@ def test_a_comparison_is_written_and_gone_on_with(tmp_path, monkeypatch):
     assert "http://" not in page.replace("http://www.w3.org", "")
     assert "https://" not in page
     stored = json.loads((tmp_path / "summary.json").read_text())
-    assert sum(1 for _ in tmp_path.glob("*.svg")) == 5
+    assert sum(1 for _ in tmp_path.glob("*.svg")) == 6
     told = []
-    again = run_comparison(
-        tmp_path, "the command", *asked, Threads(2), lambda p: told.append(p.fresh)
-    )
+    again = published(tmp_path, "the command", *asked, Threads(2), lambda p: told.append(p.fresh))
     assert max(told) == 0
     assert again == summary == stored
     assert [x["equal"]["controller"] for x in summary["equal_bandwidth"]] == ["LESO"] * 3 + [
@@ -360,14 +358,14 @@ def test_a_comparison_is_written_and_gone_on_with(tmp_path, monkeypatch):
         x["own"]["bandwidth"] == OWN[x["own"]["controller"]] for x in summary["equal_bandwidth"]
     )
     with pytest.raises(BipedError, match="other in conditions"):
-        run_comparison(tmp_path, "the command", ("NPD",), ("nothing",), 2, False, Threads(1))
+        published(tmp_path, "the command", ("NPD",), ("nothing",), 2, False, Threads(1))
     assert (tmp_path / RESULTS).exists()
 
 
 def test_walks_of_rabbit_are_judged_by_the_ground(tmp_path):
     """With encoders RABBIT makes all steps, and the ground would have to hold more than its friction."""
     asked = (("NPD",), ("nothing", "encoders"), 2, False, Threads(2))
-    summary = run_comparison(tmp_path, "the command", *asked)
+    summary = published(tmp_path, "the command", *asked)
     assert summary["walks"] == 5
     assert summary["nominal"]["legal"]
     assert summary["nominal"]["limits"]["friction"] == 0.6
@@ -377,5 +375,5 @@ def test_walks_of_rabbit_are_judged_by_the_ground(tmp_path):
     assert (encoders["survived"][0], encoders["legal"][0]) == (1.0, 0.0)
     assert encoders["reasons"]["bad_friction"][0] == 1.0
     assert encoders["peak_error"] is None
-    rows = [run_trial(Scenario(**record("nothing", "NPD", seed)).record()) for seed in range(2)]
+    rows = [run_trial(AS_PUBLISHED.record("nothing", "NPD", seed)) for seed in range(2)]
     assert nothing["peak_error"][0] == np.median([r["peak_error"] for r in rows])

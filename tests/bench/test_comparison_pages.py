@@ -13,6 +13,7 @@ from biped_adrc.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS
 from biped_adrc.bench.compare_study import draw, figures, write
 from biped_adrc.bench.comparison import compare
 from biped_adrc.bench.run import COLUMNS
+from biped_adrc.bench.settings import AS_PUBLISHED
 from biped_adrc.cli.app import command
 from biped_adrc.errors import InputError
 from biped_adrc.viz.comparison_text import interval
@@ -48,6 +49,7 @@ def summary(tmp_path_factory):
         ("NPD", "ADRC", "DOB"),
         ("nothing", "push on joints", "encoders"),
         20,
+        settings=AS_PUBLISHED,
     )
     return write(found, tmp_path_factory.mktemp("compare"), "biped-adrc compare", 1)
 

@@ -10,6 +10,7 @@ from biped_adrc.bench.conditions import BANDWIDTH, CONDITIONS
 from biped_adrc.bench.findings import answers, bandwidth_decides, sentences
 from biped_adrc.bench.largest_push import PHASES
 from biped_adrc.bench.run import COLUMNS
+from biped_adrc.bench.settings import AS_PUBLISHED
 
 SEEDS = 20
 
@@ -22,12 +23,16 @@ def row(**values):
 
 
 def said(
-    walk, controllers=("NPD", "ADRC"), conditions=("push on joints",), seeds=SEEDS, pushes=False
+    walk,
+    controllers=("NPD", "ADRC"),
+    conditions=("push on joints",),
+    seeds=SEEDS,
+    pushes=False,
+    settings=AS_PUBLISHED,
 ):
     """Sentences of a comparison whose rows `walk` makes up from records."""
-    found = compare(
-        lambda records: [walk(dict(r)) for r in records], controllers, conditions, seeds, pushes
-    )
+    asked = controllers, conditions, seeds, pushes, settings
+    found = compare(lambda records: [walk(dict(r)) for r in records], *asked)
     every = answers(found)
     for answer in every:
         json.dumps(answer.row(), allow_nan=False)
@@ -138,7 +143,7 @@ def test_one_controller_or_no_reference_says_nothing():
 
 def test_where_sensors_or_a_delay_limit_the_bandwidth_nothing_is_concluded():
     """Another bandwidth or a filter turns the order of controllers there."""
-    limited = ("delay", "encoders", "RABBIT")
+    limited = ("delay", "encoders", "RABBIT", "RABBIT pushed", "RABBIT late")
     assert [c for c in CONDITIONS if bandwidth_decides(c)] == list(limited)
     assert said(errors(0.1), conditions=limited) == []
 

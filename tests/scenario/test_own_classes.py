@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.bench.compare_study import run_comparison
+from biped_adrc.bench.settings import AS_PUBLISHED
 from biped_adrc.bench.study_file import read_study
 from biped_adrc.bench.sweep import sweep
 from biped_adrc.campaign.workers import Processes, Threads
@@ -97,9 +98,8 @@ def test_its_source_belongs_to_the_numbers(own: str, tmp_path) -> None:
 
 def test_a_comparison_with_it(own: str, tmp_path) -> None:
     name = f"{own}:Mine"
-    summary = run_comparison(
-        tmp_path / "out", "compare", ["NPD", name], ["nothing"], 1, False, Threads(1)
-    )
+    asked = ["NPD", name], ["nothing"], 1, False, Threads(1)
+    summary = run_comparison(tmp_path / "out", "compare", *asked, settings=AS_PUBLISHED)
     assert summary["controllers"][name] == "NPD of one page, with a gain of its own."
     one, other = summary["cells"]
     assert other["peak_error"][0] == pytest.approx(one["peak_error"][0], rel=1e-3)

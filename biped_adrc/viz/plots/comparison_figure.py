@@ -91,7 +91,7 @@ def measure_figure(cells: Sequence[PlainRecord], measure: str, title: str) -> Fi
                     shown.append(_marks(axes, here, i, name, filled=True))
                 elif here:
                     _marks(axes, here, i, f"{name}, not legal", filled=False)
-        if measure in ("peak_error", "cost_of_transport"):
+        if measure in ("rms_error", "peak_error", "cost_of_transport"):
             axes.set_xscale("log")
         axes.set_yticks(range(len(rows)), rows)
         axes.set_ylim(len(rows) - 0.5, -0.5)

@@ -1,0 +1,201 @@
+"""Sets of settings: what a contestant walks with where, files of one's own, and what is said of tuned ones."""
+
+import json
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from biped_adrc.bench.comparison import compare
+from biped_adrc.bench.conditions import BASE, CONDITIONS, conditions_on
+from biped_adrc.bench.findings import answers, sentences
+from biped_adrc.bench.parameters import trial
+from biped_adrc.bench.settings import AS_PUBLISHED, SETTINGS, TUNED, settings_of
+from biped_adrc.cli.compare import _names
+from biped_adrc.errors import InputError
+from tests.bench.test_findings import row
+
+ROOT = Path(__file__).resolve().parents[2]
+CONTEST = tomllib.loads((ROOT / "benchmarks/tuned/contest.toml").read_text(encoding="utf-8"))
+
+
+def asked(settings, controllers, conditions, pushes=False):
+    """The trials that a comparison asks for."""
+    found = []
+
+    def carry(records):
+        found.extend(dict(r) for r in records)
+        return [row() for _ in records]
+
+    compare(carry, controllers, conditions, 1, pushes, settings)
+    return found
+
+
+def said(walk, controllers, conditions, settings=TUNED):
+    """Sentences by family; `walk` makes a row of a record."""
+    found = compare(
+        lambda records: [walk(dict(r)) for r in records],
+        controllers,
+        conditions,
+        20,
+        False,
+        settings,
+    )
+    return sentences(answers(found))
+
+
+def test_a_condition_gives_each_contestant_the_values_of_its_place():
+    _, pushed, plain = asked(TUNED, ["m = 1"], ["RABBIT pushed", "nothing"])
+    for found, condition in ((pushed, "RABBIT pushed"), (plain, "nothing")):
+        place = CONDITIONS[condition].place
+        fixed = {"controller": "LESO", "order": 1, "gait": "v0.5", "seed": 0}
+        chosen = TUNED.places[place]["m = 1"]
+        assert found == {**BASE, **CONDITIONS[condition].values, **fixed, **chosen}
+    assert pushed["filter_time"] > 0.0
+    assert "filter_time" not in plain
+
+
+def test_what_no_search_has_tuned_walks_as_published_and_is_told_so():
+    for name, condition in (("ADRC, Table I", "nothing"), ("m = 1", "delay"), ("PD", "nothing")):
+        place = CONDITIONS[condition].place
+        assert TUNED.as_published(name, place)
+        assert {"K_p", "K_d", "filter_time"}.isdisjoint(TUNED.of(name, place))
+    assert not TUNED.as_published("my_law:Mine", "ideal 1 kHz")
+    assert not AS_PUBLISHED.as_published("NPD", None)
+    text = TUNED.said(["NPD", "m = 1", "PD"], ["nothing", "delay"])
+    assert "As published runs NPD (under delay) and m = 1 (under delay) and PD:" in text
+    assert "As published runs nothing" in TUNED.said(["NPD"], ["nothing"])
+
+
+def test_pushes_are_searched_with_the_settings_of_their_place():
+    pushed = [r for r in asked(TUNED, ["m = 2"], ["nothing"], pushes=True) if r["impacts"] == 9]
+    chosen = TUNED.places["ideal 1 kHz"]["m = 2"]
+    assert pushed
+    assert all(chosen.items() <= r.items() for r in pushed)
+    assert {(r["controller"], r["gait"], r["order"]) for r in pushed} == {("LESO", "v0.5", 2)}
+
+
+def test_tuned_controllers_are_not_walked_again_at_equal_bandwidth():
+    assert len(asked(TUNED, ["NPD", "m = 1"], ["nothing"])) == 1 + 2
+    assert len(asked(AS_PUBLISHED, ["NPD", "LESO"], ["nothing"])) == 1 + 3
+
+
+def half(r):
+    """A row whose errors are half of NPD's, for whoever has an observer; order 3 doubles them."""
+    known = {"NPD": 1.0, "LESO": 0.5, "ADRC": 0.5, "PD": 0.5, "my_law:Mine": 0.5}
+    error = known[r["controller"]] * (2.0 if r.get("order") == 3 else 1.0)
+    return row(rms_error=error, peak_error=error)
+
+
+def test_sentences_are_said_of_what_is_tuned_alone():
+    families = said(half, ["NPD", "m = 1", "ADRC, Table I", "PD"], ["nothing", "RABBIT", "delay"])
+    assert len(families["rms_error"]) == 2, "under 'delay' nothing is tuned"
+    for line in families["rms_error"]:
+        assert "m = 1 0.5 (0.5 to 0.5) in 20 pairs" in line
+        assert "ADRC" not in line
+        assert "PD 0" not in line.replace("NPD", "")
+
+
+def test_a_class_of_ones_own_is_held_against_tuned_ones(monkeypatch):
+    monkeypatch.syspath_prepend(str(Path(__file__).parent))
+    mine = "standin_controller:StandinController"
+    families = said(
+        lambda r: half(r | {"controller": r["controller"].replace(mine, "my_law:Mine")}),
+        ["NPD", mine],
+        ["RABBIT"],
+    )
+    assert f"{mine} 0.5 (0.5 to 0.5) in 20 pairs" in families["rms_error"][0]
+
+
+def test_higher_orders_are_held_against_order_1():
+    families = said(half, ["NPD", "m = 1", "m = 2", "m = 3"], ["RABBIT late"])
+    (line,) = families["order"]
+    assert "as a multiple of that of m = 1" in line
+    assert "m = 3 2 (2 to 2) in 20 pairs" in line
+    assert "m = 2" not in line
+    assert "order" not in said(half, ["NPD", "LESO"], ["nothing"], AS_PUBLISHED)
+
+
+def test_the_seeds_of_the_comparison_are_none_of_the_searches():
+    seen = set()
+    for kind in ("training", "selection", "test"):
+        seeds = CONTEST[kind]["seeds"]
+        seen |= set(range(seeds["from"], seeds["from"] + seeds["count"]))
+    assert seen.isdisjoint(range(1000))
+
+
+def test_places_of_conditions_are_places_of_the_contest():
+    for settings in (x for x in SETTINGS.values() if x.alike):
+        assert {CONDITIONS[c].place for c in conditions_on("rigid", True)} <= set(settings.places)
+        assert settings.values["gait"] in CONTEST["gaits"]
+    assert set(conditions_on("rigid")) - set(conditions_on("rigid", True)) == {"delay"}
+
+
+OWN = """
+words = "found by hand"
+[contestants]
+mine = { controller = "LESO", order = 4 }
+[places."RABBIT, 1 ms"]
+mine = { bandwidth = "100 rad/s", own.gain = 3.0 }
+NPD = { K_p = 500.0 }
+"""
+
+
+def test_a_file_of_ones_own_stands_on_the_tuned_set(tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text(OWN)
+    found = settings_of(str(path))
+    assert list(found.contestants) == [*TUNED.contestants, "mine"]
+    given = {"gait": "v0.5", "controller": "LESO", "order": 4}
+    assert found.of("mine", "RABBIT, 1 ms") == given | {"bandwidth": 100.0, "own.gain": 3.0}
+    assert found.as_published("mine", "ideal 1 kHz")
+    assert found.of("NPD", "RABBIT, 1 ms") == {"gait": "v0.5", "controller": "NPD", "K_p": 500.0}
+    assert found.of("m = 1", "ideal 1 kHz") == TUNED.of("m = 1", "ideal 1 kHz")
+    assert found.words.startswith("found by hand; on top of tuned-v0.5")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "expected 'places'"),
+        ("[sets]\n[places.moon]", "found the tables"),
+        ("[places.moon]\nNPD = { K_p = 1.0 }", "found the places ..moon"),
+        ('[places."RABBIT, 1 ms"]\nNPD = { K_pp = 1.0 }', "RABBIT, 1 ms, NPD, 'K_pp'"),
+        ('[places."RABBIT, 1 ms"]\nNPD = { K_p = -1.0 }', "RABBIT, 1 ms, NPD, 'K_p'"),
+        ("[places", "is not valid TOML"),
+        ("places = 3", "own.toml"),
+    ],
+)
+def test_a_file_that_says_what_there_is_not_is_refused(tmp_path, text, message):
+    path = tmp_path / "own.toml"
+    path.write_text(text)
+    with pytest.raises(InputError, match=message):
+        settings_of(str(path))
+
+
+def test_settings_that_there_are_not():
+    with pytest.raises(InputError, match=r"no settings 'tuned', expected one of .*tuned-v0\.5"):
+        settings_of("tuned")
+    with pytest.raises(InputError, match="not found"):
+        settings_of("nowhere.toml")
+
+
+def test_names_with_commas_are_read_from_a_list():
+    every = tuple(TUNED.contestants)
+    assert _names("NPD,ADRC, Table I, assisted, m = 1,m = 1", every) == (
+        "NPD",
+        "ADRC, Table I",
+        "assisted, m = 1",
+        "m = 1",
+    )
+    assert _names("ADRC,NPD, x:Y", every) == ("ADRC", "NPD", "x:Y")
+    assert _names(None, every) == every
+
+
+def test_every_tuned_value_is_one_that_its_controller_takes():
+    for settings in (x for x in SETTINGS.values() if x.alike):
+        json.dumps(settings.places)
+        for place, there in settings.places.items():
+            walked = CONTEST["places"][place]["values"]
+            for name in there:
+                trial({**walked, **settings.of(name, place)})
