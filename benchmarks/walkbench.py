@@ -35,7 +35,7 @@ BENCH, GUIDE = ROOT / "biped_adrc" / "bench", ROOT / "docs" / "guide" / "walkben
 SEEDS = tuple(range(9000, 9020))
 FREE = (
     *("K_p", "K_d", "observer", "poles", "bandwidth", "order", "reset", "solve_theta"),
-    *("contact", "contact_window", "filter_time"),
+    *("contact", "contact_window", "filter_time", "prediction", "feedforward"),
 )
 """Values of a scenario that a controller may choose, besides those that the tuned settings have."""
 
