@@ -93,10 +93,18 @@ def test_the_page_of_the_comparison_is_that_of_its_summary(script):
     check_numbers("comparison", figures(summary))
 
 
-def test_the_observer_guide_is_that_of_the_comparison(script):
+def test_observer_guide_and_readme_are_those_of_the_comparison(script):
     module = script("write_comparison")
-    part = module.guide_part(module.read(module.FOLDER / "summary.json"))
-    assert marked(read("guide/observer.md"), (module.BEGIN, module.END)) == part
+    summary = module.read(module.FOLDER / "summary.json")
+    marks = (module.BEGIN, module.END)
+    assert marked(read("guide/observer.md"), marks) == module.guide_part(summary)
+    assert marked(read("../README.md"), marks) == module.readme_part(summary)
+
+
+def test_the_tuned_settings_are_those_of_the_contest(script):
+    module = script("write_tuned_sets")
+    summary = json.loads(module.SUMMARY.read_text(encoding="utf-8"))
+    assert module.SETS.read_text(encoding="utf-8") == module.text(summary)
 
 
 def test_the_observer_guide_is_that_of_its_walks(script):

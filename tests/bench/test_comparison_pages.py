@@ -13,7 +13,7 @@ from biped_adrc.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS
 from biped_adrc.bench.compare_study import draw, figures, write
 from biped_adrc.bench.comparison import compare
 from biped_adrc.bench.run import COLUMNS
-from biped_adrc.bench.settings import AS_PUBLISHED
+from biped_adrc.bench.settings import AS_PUBLISHED, TUNED
 from biped_adrc.cli.app import command
 from biped_adrc.errors import InputError
 from biped_adrc.viz.comparison_text import interval
@@ -27,7 +27,8 @@ DOCS = Path(__file__).parents[2] / "docs"
 
 def row(r):
     """ADRC tracks ten times closer; with encoders no walk is legal; 100 N m are legal, 200 are made."""
-    amplitude, error = r.get("amplitude", 0.0), {"NPD": 1e-2, "DOB": 5e-3, "ADRC": 1e-3}
+    amplitude = r.get("amplitude", 0.0)
+    error = {"NPD": 1e-2, "DOB": 5e-3, "ADRC": 1e-3, "LESO": 2e-3}
     made = amplitude <= 200.0 or r["push"] != "pulse" or r["on"] == "q5"
     legal = made and "counts" not in r and (r.get("on") == "q5" or amplitude <= 100.0)
     known = dict.fromkeys(COLUMNS) | dict.fromkeys((*MEASURES, *NEEDS), 1.0)
@@ -39,7 +40,20 @@ def row(r):
         "legal": int(legal),
         "bad_friction": int(not legal),
         "peak_error": error[r["controller"]],
+        "rms_error": error[r["controller"]] * r.get("order", 1),
     }
+
+
+@pytest.fixture(scope="module")
+def tuned(tmp_path_factory):
+    """A comparison with tuned settings."""
+    found = compare(
+        lambda records: [row(dict(r)) for r in records],
+        ("NPD", "m = 1", "m = 2", "ADRC, Table I"),
+        ("push on joints", "RABBIT", "RABBIT pushed"),
+        20,
+    )
+    return write(found, tmp_path_factory.mktemp("tuned"), "biped-adrc compare", 1)
 
 
 @pytest.fixture(scope="module")
@@ -132,52 +146,72 @@ def test_the_command_is_text_on_the_page(summary):
     assert "'<b>&'" not in html
 
 
-def test_the_documentation_is_made_from_the_summary(summary, script):
-    text = script.page(summary)
-    for line in (line for lines in summary["findings"].values() for line in lines):
+def test_the_documentation_is_made_from_the_summary(tuned, script):
+    text = script.page(tuned)
+    for line in (line for lines in tuned["findings"].values() for line in lines):
         assert line.replace("[", "\\[") in text
+    chosen = TUNED.places["RABBIT, 1 ms"]["m = 2"]
     for part in (
-        "not tuned alike",
-        "ADRC 0.1 (0.1 to 0.1) in 20 pairs",
+        "Settings tuned-v0.5: tuned alike on gait v0.5",
+        "As published runs ADRC, Table I:",
+        "m = 1 0.2 (0.2 to 0.2) in 20 pairs",
+        "| ADRC, Table I (as published) |",
         "friction 100",
         "at least 320",
+        "| RABBIT, 1 ms | m = 2 | K\\_p = " + str(chosen["K_p"]),
+        "| push on joints | up to 100 N m on each joint",
     ):
         assert part in text
-    quiet = script.page(summary | {"findings": {}, "pushes": [], "equal_bandwidth": []})
+    assert "not tuned alike" not in text
+    assert "RABBIT, 2 ms |" not in text, "no condition has its settings"
+    quiet = script.page(tuned | {"findings": {}, "pushes": []})
     assert quiet.count("No difference is carried by its test.") == 1
     assert " in 20 pairs" not in quiet
 
 
-def test_the_guide_gets_the_observers_at_equal_bandwidth(summary, script):
+def test_guide_and_readme_say_which_order_pays(tuned, summary, script):
     page = f"before\n\n{script.BEGIN}\nold\n{script.END}\n\nafter\n"
-    text = script.put(page, script.guide_part(summary))
+    text = script.put(page, script.guide_part(tuned))
     assert text.startswith("before")
     assert text.endswith("after\n")
     assert "old" not in text
-    assert "| push on joints | DOB | 1890 |" in text
-    assert "| push on joints | DOB, own settings | 200 |" in text
-    assert script.put(text, script.guide_part(summary)) == text
+    bandwidth = TUNED.places["ideal 1 kHz"]["m = 2"]["bandwidth"]
+    assert f"| push on joints | m = 2 | {bandwidth:.3g} |" in text
+    assert "| push on joints | NPD | – |" in text
+    assert "ADRC, Table I" not in text
+    larger = "the rms error is larger for m = 2 2 (2 to 2)."
+    assert f"Beside m = 1 under 'RABBIT pushed' {larger}" in text
+    readme = script.readme_part(tuned)
+    assert "ADRC with m = 1 leaves 0.2 (0.2 to 0.2) of the rms tracking error of NPD" in readme
+    assert "legal are 20 of 20 walks under m = 1 and 20 of 20 under NPD" in readme
+    assert larger in readme
+    open_ = [q | {"carried": False} for q in tuned["tests"]]
+    assert "the rms error is open for m = 2" in script.readme_part(tuned | {"tests": open_})
+    assert "no rms tracking error that a test tells" in script.readme_part(tuned | {"tests": []})
+    assert script.put(text, script.guide_part(tuned)) == text
     with pytest.raises(InputError, match="put them where"):
         script.put("no marks", "part")
-    with pytest.raises(InputError, match="LESO or DOB"):
-        script.guide_part(summary | {"equal_bandwidth": []})
-    guide = (DOCS / "guide" / "observer.md").read_text()
-    assert script.put(guide, "part") != guide
+    with pytest.raises(InputError, match="has no tuned observers"):
+        script.guide_part(summary)
+    for path in (DOCS / "guide" / "observer.md", DOCS.parent / "README.md"):
+        assert script.put(path.read_text(), "part") != path.read_text()
 
 
 def test_the_script_writes_from_a_folder_what_it_reads_from_its_own(
-    summary, script, tmp_path, monkeypatch
+    tuned, script, tmp_path, monkeypatch
 ):
     """Page, pictures and numbers are the same to the byte from the summary that is kept."""
     out, docs = tmp_path / "out", tmp_path / "docs"
     out.mkdir()
     docs.mkdir()
-    (out / "summary.json").write_text(json.dumps(summary))
-    (docs / "observer.md").write_text(f"{script.BEGIN}\n{script.END}\n")
+    (out / "summary.json").write_text(json.dumps(tuned))
+    for page in ("observer.md", "README.md"):
+        (docs / page).write_text(f"{script.BEGIN}\n{script.END}\n")
     for name, path in (
         ("FOLDER", "comparison"),
         ("PAGE", "comparison.md"),
         ("GUIDE", "observer.md"),
+        ("README", "README.md"),
     ):
         monkeypatch.setattr(script, name, docs / path)
     found = []
@@ -186,9 +220,9 @@ def test_the_script_writes_from_a_folder_what_it_reads_from_its_own(
         script.main()
         found.append({p.name: p.read_bytes() for p in docs.rglob("*.*") if p.is_file()})
     assert found[0] == found[1]
-    drawn = {f"{name}{suffix}" for name in draw(summary) for suffix in (".svg", ".json")}
-    assert found[0].keys() == drawn | {"summary.json", "comparison.md", "observer.md"}
-    assert script.read(docs / "comparison" / "summary.json") == json.loads(json.dumps(summary))
+    drawn = {f"{name}{suffix}" for name in draw(tuned) for suffix in (".svg", ".json")}
+    assert found[0].keys() == drawn | {"summary.json", "comparison.md", "observer.md", "README.md"}
+    assert script.read(docs / "comparison" / "summary.json") == json.loads(json.dumps(tuned))
     with pytest.raises(InputError, match="run 'biped-adrc compare'"):
         script.read(docs / "summary.json")
 
