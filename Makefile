@@ -12,7 +12,7 @@ BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine
   pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
-.PHONY: reproduce test fuzz docs pictures comparison tuned soft results verification attacks soft-limit dev lint format types imports bench mutants faults clean
+.PHONY: reproduce test fuzz docs pictures comparison walkbench tuned soft results verification attacks soft-limit dev lint format types imports bench mutants faults clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -41,6 +41,10 @@ comparison: .venv/.core
 	$(BIN)/python docs/write_tuned_sets.py
 	$(BIN)/biped-adrc compare --out $(OUT)/comparison
 	$(BIN)/python docs/write_comparison.py $(OUT)/comparison
+
+# the benchmark walkbench-1, frozen from the comparison as it is; a file that is there is never written over
+walkbench: .venv/.core
+	$(BIN)/python benchmarks/walkbench.py walkbench-1 $(OUT)/walkbench
 
 # docs/tuned.md with its figures, from the searches in $(OUT)/tuned, which are made or finished first: hours
 tuned: .venv/.dev

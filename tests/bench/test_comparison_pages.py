@@ -50,7 +50,7 @@ def tuned(tmp_path_factory):
     found = compare(
         lambda records: [row(dict(r)) for r in records],
         ("NPD", "m = 1", "m = 2", "ADRC, Table I"),
-        ("push on joints", "RABBIT", "RABBIT pushed"),
+        ("push on joints", "encoders", "RABBIT", "RABBIT pushed"),
         20,
     )
     return write(found, tmp_path_factory.mktemp("tuned"), "biped-adrc compare", 1)
