@@ -5,16 +5,26 @@ Run: python benchmarks/bench/studies.py [OUT] [--quick]
 Every walk has 25 impacts at 1 kHz under ADRC with a push of its own and counts its own error, torque and work.
 The hash is of every row, in the order of the study. `memory` is the highest that was resident in the process
 that carries the study out, `workers` in its largest child, both so far.
+
+A second table has the same walks as a bare batch: the walkers are there before the clock starts, with the same
+meter, and nobody asks for a row. `share` is CPU time of the batch over that of the study, medians of rounds in
+turn, children included; what is missing to 1 is what a study costs beside its walks.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+import multiprocessing
 import resource
+import statistics
 import sys
 import tempfile
 import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, ProcessPoolExecutor
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +32,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from report import Table, arguments
 
+from biped_adrc.bench.build import case
+from biped_adrc.bench.parameters import trial
 from biped_adrc.bench.study import Study
 from biped_adrc.bench.sweep import Sweep, sweep
+from biped_adrc.campaign.execute import LARGEST_CHUNK
 from biped_adrc.campaign.workers import Processes, Threads
+from biped_adrc.engine.batch import Case, simulate_many
 
 KB = 1024.0 * 1e-6  # [MB]
 
@@ -75,6 +89,75 @@ def on_a_cluster(asked: Study) -> tuple[float, str] | None:
         return carried_out(asked, Cluster(cluster.scheduler_address))
 
 
+@contextmanager
+def forked() -> Iterator[Executor]:
+    """Two processes that are children of this one, so that their CPU time is counted when they end."""
+    with ProcessPoolExecutor(2, multiprocessing.get_context("fork")) as executor:
+        yield executor
+
+
+CASES: list[Case] = []
+"""The walks of the bare batch; processes that are forked have them too."""
+
+
+def walk(first: int, last: int) -> int:
+    """Some of the cases, one after the other; the number of their impacts."""
+    return sum(walked.impacts for walked in simulate_many(CASES[first:last], threads=1))
+
+
+def bare(executor: Executor | None) -> None:
+    """All cases: in chunks on an executor, in this process without one."""
+    if executor is None:
+        walk(0, len(CASES))
+        return
+    chunks = range(0, len(CASES), LARGEST_CHUNK)
+    for future in [executor.submit(walk, i, i + LARGEST_CHUNK) for i in chunks]:
+        future.result()
+
+
+def cpu() -> float:
+    """Of this process and of its children that have ended [s]."""
+    used = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return sum(one.ru_utime + one.ru_stime for one in used)
+
+
+def spent(run: Callable[[], object]) -> float:
+    """CPU time of a call [s]."""
+    begin = cpu()
+    run()
+    return cpu() - begin
+
+
+def alone(asked: Study, workers: Any) -> None:
+    """A study in a folder of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        sweep(asked, Path(folder), workers)
+
+
+def on_two(run: Callable[[Executor], object]) -> None:
+    """A call with two processes of its own."""
+    with forked() as executor:
+        run(executor)
+
+
+def beside_bare(asked: Study, rounds: int) -> Table:
+    """A study and the bare batch of its walks, in turn."""
+    CASES[:] = [case(trial(p.record)) for p in asked.points()]
+    bare(None)
+    runs: dict[str, tuple[Callable[[], object], Callable[[], object]]] = {
+        "1 thread": (lambda: alone(asked, Threads(1)), lambda: bare(None)),
+        "2 processes": (lambda: on_two(partial(alone, asked)), lambda: on_two(bare)),
+    }
+    note = f"{asked.count} walks of {asked.fixed['impacts']} impacts, medians of {rounds} rounds"
+    table = Table("Studies beside bare batches", "CPU s", note, ("numba",))
+    for name, ways in runs.items():
+        times = [tuple(spent(way) for way in ways) for _ in range(rounds)]
+        whole, batch = (statistics.median(part) for part in zip(*times, strict=True))
+        share = statistics.median(b / a for a, b in times)
+        table.add(name, study=whole, batch=batch, share=share)
+    return table
+
+
 def main() -> None:
     """Print the table, and write it when asked."""
     asked = arguments(__doc__).parse_args()
@@ -102,6 +185,7 @@ def main() -> None:
         wall, _ = carried_out(study(many, 5), Processes(2))
         add(table, f"2 processes, {many} of 5 impacts", many, wall, wall, True, 2)
     table.finish(asked.out)
+    beside_bare(study(size), 3).finish(asked.out)
 
 
 def add(

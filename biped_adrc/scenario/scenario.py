@@ -18,6 +18,7 @@ import json
 import math
 import re
 from collections.abc import Iterable, Mapping
+from copy import deepcopy
 from dataclasses import asdict, field
 from typing import Any
 
@@ -311,9 +312,10 @@ class Scenario(Shown):
         module:Class, by which any other process finds it.
         """
         usual = {**DEFAULTS, **HARDWARE[self.hardware]}
-        found = {name: x for name, x in sorted(asdict(self).items()) if x != usual[name]}
+        given = ((name, getattr(self, name)) for name in sorted(FIELDS))
+        found = {name: deepcopy(x) for name, x in given if x != usual[name]}
         if self.pushes:
-            found["pushes"] = [_told(push) for push in found["pushes"]]
+            found["pushes"] = [_told(asdict(push)) for push in found["pushes"]]
         for name, kind in {**NAMED, "robot": "robot", "gait": "gait"}.items():
             if name in found:
                 found[name] = portable(kind, found[name])
