@@ -15,22 +15,20 @@ from __future__ import annotations
 
 import hashlib
 import json
-import multiprocessing
 import resource
 import statistics
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, ProcessPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable
+from concurrent.futures import Executor
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from report import Table, arguments
+from report import Table, arguments, forked, spent
 
 from biped_adrc.bench.build import case
 from biped_adrc.bench.parameters import trial
@@ -89,13 +87,6 @@ def on_a_cluster(asked: Study) -> tuple[float, str] | None:
         return carried_out(asked, Cluster(cluster.scheduler_address))
 
 
-@contextmanager
-def forked() -> Iterator[Executor]:
-    """Two processes that are children of this one, so that their CPU time is counted when they end."""
-    with ProcessPoolExecutor(2, multiprocessing.get_context("fork")) as executor:
-        yield executor
-
-
 CASES: list[Case] = []
 """The walks of the bare batch; processes that are forked have them too."""
 
@@ -113,19 +104,6 @@ def bare(executor: Executor | None) -> None:
     chunks = range(0, len(CASES), LARGEST_CHUNK)
     for future in [executor.submit(walk, i, i + LARGEST_CHUNK) for i in chunks]:
         future.result()
-
-
-def cpu() -> float:
-    """Of this process and of its children that have ended [s]."""
-    used = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
-    return sum(one.ru_utime + one.ru_stime for one in used)
-
-
-def spent(run: Callable[[], object]) -> float:
-    """CPU time of a call [s]."""
-    begin = cpu()
-    run()
-    return cpu() - begin
 
 
 def alone(asked: Study, workers: Any) -> None:
@@ -151,7 +129,7 @@ def beside_bare(asked: Study, rounds: int) -> Table:
     note = f"{asked.count} walks of {asked.fixed['impacts']} impacts, medians of {rounds} rounds"
     table = Table("Studies beside bare batches", "CPU s", note, ("numba",))
     for name, ways in runs.items():
-        times = [tuple(spent(way) for way in ways) for _ in range(rounds)]
+        times = [tuple(spent(way).cpu for way in ways) for _ in range(rounds)]
         whole, batch = (statistics.median(part) for part in zip(*times, strict=True))
         share = statistics.median(b / a for a, b in times)
         table.add(name, study=whole, batch=batch, share=share)
