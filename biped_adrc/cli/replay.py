@@ -14,7 +14,7 @@ from biped_adrc.cli.options import of_scenario, texts, values_of
 from biped_adrc.files import keep_inputs, output_path, write_text
 from biped_adrc.types import PlainRecord
 
-WHO = ("controller", "gait", "robot", "preset", "period", "filter_time", "torque_limit")
+WHO = ("controller", "gait", "robot", "preset", "period", "torque_limit")
 """Fields of a scenario that are options of `replay`: whose sample instants they are."""
 LAW = ("K_p", "K_d", "observer", "poles", "bandwidth", "order", "reset")
 """Those of the controller."""
@@ -29,6 +29,7 @@ def replay_command(
     sets: list[str] | None = None,
     scenario: Path | None = None,
     window: float = 0.02,
+    filter_time: float | None = None,
     out: Path | None = None,
 ) -> None:
     """Show a robot's log to a controller and its observer, and print what they make of it."""
@@ -38,11 +39,11 @@ def replay_command(
 
     s = Scenario(**values_of(given, None, sets, scenario))
     paths = _paths(out, (log, *inputs(s.robot, s.gait)))
-    found = replay(log, s, window)
+    found = replay(log, s, window, filter_time)
     if paths is not None:
         table, text, figure = paths
         found.to_csv(table)
-        write_text(text, found.text() + "\n")
+        write_text(text, f"{found.text()}\n")
         write_figure(figure, found.plot())
     shown = Table(*HEADER)
     for row in found.rows:

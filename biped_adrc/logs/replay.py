@@ -5,7 +5,7 @@
     found.rows        what they come to in each single support
     found.plot()      the same as a figure
 
-Of the scenario robot, gait, controller, observer, period, filter of the rates and torque limit matter here;
+Of the scenario robot, gait, controller, observer, period and torque limit matter here, and filter_time;
 pushes, errors of the model and ground are the robot's own business.
 """
 
@@ -134,16 +134,23 @@ def cells(row: ReplayRow) -> tuple[str, ...]:
     return (f"{row.step}", f"{row.samples}", *numbers)
 
 
-def replay(log: RobotLog | Path | str, scenario: Scenario, window: float = WINDOW) -> Replay:
+def replay(
+    log: RobotLog | Path | str,
+    scenario: Scenario,
+    window: float = WINDOW,
+    filter_time: float | None = None,
+) -> Replay:
     """A log, or the CSV file of one, through the controller of a scenario.
 
     Its clock is that of the scenario, or the log's where the scenario has none; a log with another period, or
-    an uneven one, is resampled, which is among the remarks. window [s]: what counts as contact. Raises
-    InputError for a log or a scenario that cannot be used.
+    an uneven one, is resampled, which is among the remarks. window [s]: what counts as contact. filter_time
+    [s]: of rates that the log does not have; the scenario's if None. Raises InputError for a log or a scenario
+    that cannot be used.
     """
     check_part(log, "the log", RobotLog, Path, str)
     check_part(scenario, "what is to see the log", Scenario)
     check_positive(window, f"the window of contact is {window} s")
+    filter_time = scenario.filter_time if filter_time is None else filter_time
     scene = RobotAndGait.of(scenario)
     if scene.biped.p == 0:
         raise InputError(
@@ -162,7 +169,7 @@ def replay(log: RobotLog | Path | str, scenario: Scenario, window: float = WINDO
     scenario = replace(scenario, period=period)
     walker = build(scenario, scene)
     with np.errstate(over="ignore", invalid="ignore"):  # what overflows is refused
-        signals = replayed(walker, found, scenario.filter_time, window)
+        signals = replayed(walker, found, filter_time, window)
     return Replay(scenario, found, signals, window)
 
 

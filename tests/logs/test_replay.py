@@ -65,6 +65,8 @@ def test_rates_that_the_log_has_not_are_those_of_the_encoders(walked):
     later = x.step > 1
     assert np.max(np.abs(x.torque - y.torque)[later]) < ROUND_OFF
     assert np.max(np.abs(x.v - y.v)[later]) < ROUND_OFF
+    faster = ba.replay(replace(log, v=None, measured=None), walk.scenario, filter_time=0.0).signals
+    assert np.std(np.diff(faster.v, axis=0)) > 2.0 * np.std(np.diff(x.v, axis=0))
     mixed = asked(walk, replace(log, measured=[0.0, 0.0, 0.0, 0.0, 1.0]))
     assert np.max(np.abs(x.torque - mixed.torque)[later]) < ROUND_OFF
 
