@@ -70,9 +70,9 @@ from biped_adrc.hardware.touchdown import Touchdown as Touchdown
 from biped_adrc.hardware.touchdown_by_foot import ByForce as ByForce
 from biped_adrc.hardware.touchdown_by_foot import ByKinematics as ByKinematics
 from biped_adrc.hardware.touchdown_told import Told as Told
+from biped_adrc.hybrid.exponential import Exponential as Exponential
 from biped_adrc.hybrid.integrators import RK4 as RK4
 from biped_adrc.hybrid.integrators import Adaptive as Adaptive
-from biped_adrc.hybrid.integrators import Exponential as Exponential
 from biped_adrc.hybrid.integrators import Stiff as Stiff
 from biped_adrc.hybrid.simulator import RunOptions as RunOptions
 from biped_adrc.hybrid.simulator import simulate as simulate
@@ -99,7 +99,7 @@ from biped_adrc.observers.chain import chain_laws as chain_laws
 from biped_adrc.observers.gpi import TABLE_I as TABLE_I
 from biped_adrc.observers.gpi import GPIObserver as GPIObserver
 from biped_adrc.robot_import.import_robot import biped_from_urdf as biped_from_urdf
-from biped_adrc.robots.robot_toml import Limits as Limits
+from biped_adrc.robots.limits import Limits as Limits
 from biped_adrc.scenario.push import Push as Push
 from biped_adrc.scenario.recording import Walk as Walk
 from biped_adrc.scenario.registry import register as register

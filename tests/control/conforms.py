@@ -26,7 +26,8 @@ from biped_adrc.engine.fingerprint import hash_of
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import ModuleText, load_or_compile
 from biped_adrc.engine.program import Program
-from biped_adrc.engine.symbols import Tracer, Vector, column, floats, run
+from biped_adrc.engine.symbols import Vector, column, floats
+from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.outputs import Outputs
 from biped_adrc.gait.reference import check_point, reference_laws
