@@ -19,6 +19,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from biped_adrc.bench.parameters import unit_of
 from biped_adrc.errors import InputError
@@ -68,6 +69,7 @@ def write_log(log: RobotLog, path: str | Path, biped: Biped) -> Path:
 
     The leg that stands in single supports 1, 3, .. is called 1.
     """
+    _check_pairs(log.has_rate, biped)
     legs = 2.0 - log.step % 2.0
     q, v, u = exchanged(legs, log.q, log.rates, log.u, biped)
     signals = {"q": q, "v": v, "u": u}
@@ -93,6 +95,16 @@ def exchanged(
         np.where(other, v @ biped.R.T, v),
         np.where(other, u[:, swap], u),
     )
+
+
+def _check_pairs(measured: NDArray[np.bool_], biped: Biped) -> None:
+    """Raise InputError where the rate of a joint (n,) is measured on one leg and not on the other."""
+    alone = np.flatnonzero(measured & ~measured[biped.relabelling])
+    if len(alone):
+        raise InputError(
+            f"the log has v{alone[0] + 1} and not v{biped.relabelling[alone[0]] + 1}, the same joint of the "
+            "other leg; expected both, or none of them"
+        )
 
 
 def _numbered(biped: Biped) -> list[str]:
@@ -163,8 +175,9 @@ def _log(
         np.array([table.get(f"{x}{i}", none) for i in range(1, size + 1)]).reshape(size, rows).T
         for x, size in (("q", biped.n), ("v", biped.n), ("u", biped.p))
     )
-    step = table.get(STEP)
+    measured, step = np.array([f"v{i}" in table for i in range(1, biped.n + 1)]), table.get(STEP)
     if step is None:
+        _check_pairs(measured, biped)
         legs = table[CONTACT]
         for k in np.flatnonzero(~np.isin(legs, LEGS))[:1]:
             raise InputError(
@@ -179,5 +192,4 @@ def _log(
             f"{names[k]} has q{i + 1} = {q[k, i]:g} rad, expected at most two turns; if the column is in "
             f"degrees, call it 'q{i + 1} [deg]'"
         )
-    measured = np.array([f"v{i}" in table for i in range(1, biped.n + 1)], dtype=float)
-    return RobotLog(*log, measured, said)
+    return RobotLog(*log, measured.astype(float), said)

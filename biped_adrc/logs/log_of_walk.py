@@ -41,6 +41,10 @@ def logged(walk: Walk) -> RobotLog:
         for k, end in _ticks(arc, time, run.t_start)
         for row in [_row(walk.walker, arc, k, end)]
     ]
+    if not rows:
+        raise InputError(
+            f"the walk ended at t = {run.t_end:g} s, before a second sample instant, and has nothing to log"
+        )
     t, step, q, u, v = (np.array(x) for x in zip(*rows, strict=True))
     return RobotLog(t, step, q, u, v)
 
@@ -51,8 +55,8 @@ def _ticks(arc: Arc, time: SampledTime, start: float) -> list[tuple[int, int]]:
     since = t - (t[0] if time.restart else start)
     due = np.abs(since - period * np.round(since / period)) < SAME_INSTANT
     after = np.flatnonzero(due[:-1] & (np.diff(t) > 0.0))
-    before = [int(np.searchsorted(t, t[k])) for k in after[1:]]
-    return list(zip(after.tolist(), [*before, len(t) - 1], strict=True))
+    before = [*(int(np.searchsorted(t, t[k])) for k in after[1:]), len(t) - 1]
+    return list(zip(after.tolist(), before[: len(after)], strict=True))
 
 
 def _row(walker: Walker, arc: Arc, k: int, end: int) -> Row:

@@ -45,7 +45,7 @@ def test_a_log_comes_back_to_the_last_bit(log, biped, tmp_path):
     back = ba.read_log(ba.write_log(log, tmp_path / "log", biped), biped)
     assert all(np.array_equal(getattr(back, x), getattr(log, x)) for x in ARRAYS)
     assert back.remarks == ()
-    some = replace(log, measured=[1.0, 0.0, 0.0, 0.0, 1.0])
+    some = replace(log, measured=[1.0, 1.0, 0.0, 0.0, 1.0])
     back = ba.read_log(ba.write_log(some, tmp_path / "some.csv", biped), biped)
     assert back.measured.tolist() == some.measured.tolist()
     assert np.array_equal(back.v[:, 4], log.v[:, 4])
@@ -120,6 +120,10 @@ DAMAGE = {
     "no joint": (put(0, "q3", "knee [rad]"), "expected q3 \\[rad\\] too"),
     "no contact": (put(0, "contact", "leg"), "expected one of contact, step too"),
     "twice": (put(0, "v1", "q1 [rad]"), "two of its columns are called 'q1'"),
+    "one leg": (
+        put(0, "v1", "w1 [rad/s]"),
+        "the log has v2 and not v1, the same joint of the other",
+    ),
     "flight": (put(3, "contact", "0"), "line 4, column 'contact': found 0, expected 1 or 2"),
     "short": (lambda x: [*x[:3], x[3][:-1], *x[4:]], "line 4 has 15 entries, expected 16"),
     "degrees": (scaled("q1", 57.3), "line 2 has q1 = .* call it 'q1 \\[deg\\]'"),
@@ -159,6 +163,15 @@ def test_arrays_that_are_no_log_are_refused(log, change, said):
 def test_a_walk_in_continuous_time_has_no_log(walked):
     with pytest.raises(InputError, match="no sample instants to log; give a period"):
         ba.logged(walked(impacts=1, pushes=()))
+
+
+def test_a_walk_that_ended_at_once_has_no_log(walked):
+    walk = walked(period=1e-3)
+    first = walk.trajectory.arcs[0]
+    short = replace(first, t=first.t[:1], x=first.x[:1], dx=first.dx[:1], read={})
+    ended = replace(walk, trajectory=replace(walk.trajectory, arcs=(short,)))
+    with pytest.raises(InputError, match="before a second sample instant"):
+        ba.logged(ended)
 
 
 def command(*words):
