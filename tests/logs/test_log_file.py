@@ -57,6 +57,10 @@ def test_in_the_file_a_joint_keeps_its_name_over_a_touchdown(log, lines):
     assert np.max(np.abs(np.diff(q, axis=0))) < 0.02
     at = int(np.flatnonzero(log.step == 2)[0])
     assert np.max(np.abs(log.q[at] - log.q[at - 1])[:4]) > 0.3
+    legs, rows = [1, 0, 3, 2], slice(at, at + 12)
+    swapped = (log.q[rows][:, [*legs, 4]], log.v[rows][:, [*legs, 4]], log.u[rows][:, legs])
+    numbers = np.array([[float(x) for x in line[2:]] for line in lines[13:]])
+    assert np.array_equal(numbers, np.hstack(swapped))
 
 
 def test_labels_of_stance_and_swing_are_read_by_step(log, biped, lines, read):

@@ -29,6 +29,7 @@ def asked(walk, log=None):
         {**LESO, "period": 1e-3, "contact": "hold", "contact_window": 0.015},
         {**LESO, **RABBIT},
         {**LESO, "period": 1e-3, "touchdown": "kinematics"},
+        {"controller": "NPD", "period": 1e-3, "touchdown": "told", "own": (("late", 5e-3),)},
         {"controller": "DOB", "period": 1e-3},
         {**LESO, "hardware": "rabbit", "plant": "mujoco"},
     ],
