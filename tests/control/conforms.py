@@ -9,7 +9,7 @@ import ctypes
 import pickle
 import shutil
 from dataclasses import replace
-from functools import cache, singledispatch
+from functools import cache, partial, singledispatch
 from pathlib import Path
 from tempfile import mkdtemp
 
@@ -334,8 +334,15 @@ def measurements(count):
     q, v = gait().start(robot())
     for _ in range(count):
         x = q + 0.05 * random.normal(size=5), v + 0.5 * random.normal(size=5)
-        m = walker.measure(0.1, *x, ba.Mode())
-        yield m._replace(body=robot().body_terms(*x)), random
+        m = walker.measure(0.1, *x, ba.Mode())._replace(body=robot().body_terms(*x))
+        yield m._replace(elsewhere=partial(moved_to, m)), random
+
+
+def moved_to(m, q, v):
+    """What is measured elsewhere, on symbols too: of a model that differs from that of m by a factor."""
+    f = 1.0 + 0.1 * np.sin(q[0])
+    terms, body = (part._make(f * x for x in part) for part in (m.terms, m.body))
+    return m._replace(q=q, v=v, terms=terms, body=body)
 
 
 def contract(law, m, random, sampled):
