@@ -13,6 +13,7 @@ import argparse
 import json
 import re
 from collections.abc import Mapping
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,7 @@ from biped_adrc.bench.settings import TUNED
 from biped_adrc.campaign.chunk import key_of, text_of
 from biped_adrc.campaign.store import About
 from biped_adrc.campaign.store_open import open_store
-from biped_adrc.campaign.workers import Processes
+from biped_adrc.campaign.workers import Kept, Processes
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
 from biped_adrc.scenario.build import RIGID
@@ -75,11 +76,14 @@ def walks_of(bench: Benchmark, out: Path) -> dict[str, Any]:
     """All walks of the reference controllers, from the store in `out` where they are there."""
     asked = {"definition": key_of(text_of(definition()))}
     about = About(bench.name, key_of(text_of(asked)), asked, dict(numerical_versions()))
-    workers = Processes(None)
-    workers.prepare()
+    crew = Processes(None)
+    crew.prepare()
     out.mkdir(parents=True, exist_ok=True)
-    with open_store(out / f"{bench.name}.sqlite", about, False) as store:
-        carry = Stored(store, workers, None)
+    with (
+        open_store(out / f"{bench.name}.sqlite", about, False) as store,
+        closing(Kept(crew)) as kept,
+    ):
+        carry = Stored(store, kept, None)
         return {
             name: walked(
                 bench, carry, {p: bench.reference(name, p) for p in bench.places}, len(bench.seeds)

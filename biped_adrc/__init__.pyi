@@ -80,6 +80,11 @@ from biped_adrc.hybrid.simulator import simulate as simulate
 from biped_adrc.hybrid.status import Status as Status
 from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
 from biped_adrc.linear import solve as solve
+from biped_adrc.logs.log_file import read_log as read_log
+from biped_adrc.logs.log_file import write_log as write_log
+from biped_adrc.logs.log_of_walk import logged as logged
+from biped_adrc.logs.replay import replay as replay
+from biped_adrc.logs.robot_log import RobotLog as RobotLog
 from biped_adrc.model.arm import Arm as Arm
 from biped_adrc.model.biped import Biped as Biped
 from biped_adrc.model.model_errors import ModelErrors as ModelErrors

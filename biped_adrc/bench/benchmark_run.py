@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
+from contextlib import closing
 from pathlib import Path
 
 from biped_adrc.bench.benchmark import REFERENCE, Benchmark, Walks, load_benchmark
@@ -21,7 +22,7 @@ from biped_adrc.campaign.chunk import Record, key_of, text_of
 from biped_adrc.campaign.execute import Progress
 from biped_adrc.campaign.store import About
 from biped_adrc.campaign.store_open import open_store
-from biped_adrc.campaign.workers import Workers, workers_of
+from biped_adrc.campaign.workers import Kept, Workers, workers_of
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
 from biped_adrc.scenario.registry import find
@@ -56,10 +57,14 @@ def run_benchmark(
     asked = {"bench": bench.hash, "controller": controller, "settings": chosen, "seeds": count}
     versions = {**numerical_versions(), **source_of(controller)}
     check_folder(out)
-    workers_of(workers).prepare()
+    crew = workers_of(workers)
+    crew.prepare()
     about = About(name, key_of(text_of(asked)), asked, versions)
-    with open_store(out / f"{name}.sqlite", about, other_versions) as store:
-        carry = Stored(store, workers, progress)
+    with (
+        open_store(out / f"{name}.sqlite", about, other_versions) as store,
+        closing(Kept(crew)) as kept,
+    ):
+        carry = Stored(store, kept, progress)
         who = {place: {"controller": controller, **chosen.get(place, {})} for place in bench.places}
         mine = walked(bench, carry, who, count)
         usual = {place: bench.reference(REFERENCE, place) for place in bench.places}
