@@ -51,7 +51,8 @@ def best(summary: Mapping[str, Any], gait: str) -> dict[str, dict[str, Mapping[s
 def text(summary: Mapping[str, Any]) -> str:
     """The text of tuned.toml."""
     contest = summary["contest"]
-    by_gait = {gait: best(summary, gait) for gait in contest["gaits"]}
+    gaits = dict.fromkeys(s["gait"] for s in summary["searches"])
+    by_gait = {gait: best(summary, gait) for gait in gaits}
     counts = {gait: sum(map(len, found.values())) for gait, found in by_gait.items()}
     ordered = sorted(by_gait, key=lambda gait: -counts[gait])
     return HEAD + "".join(_set(contest, gait, by_gait[gait]) for gait in ordered)

@@ -112,6 +112,33 @@ class Settings(NamedTuple):
         )
 
 
+def _values(given: Mapping[str, Any], where: str) -> Record:
+    """Values of a scenario as it takes them, flat. Raises InputError, with where they are."""
+    found = {}
+    for name, x in flat(given).items():
+        try:
+            found[name] = read(name, x)
+        except Refused as error:
+            raise InputError(f"{where}, '{name}': {error}") from None
+    return found
+
+
+def _places(given: Mapping[str, Any]) -> dict[str, dict[str, Record]]:
+    """Values by place and contestant, each read as a scenario takes it. Raises InputError."""
+    return {
+        place: {name: _values(x, f"{place}, {name}") for name, x in of.items()}
+        for place, of in given.items()
+    }
+
+
+def _packaged() -> dict[str, Settings]:
+    """The sets of tuned.toml by name."""
+    return {
+        name: Settings(name, x["words"], x["values"], x["contestants"], _places(x["places"]))
+        for name, x in packaged("biped_adrc.bench", "tuned.toml").items()
+    }
+
+
 COMPARED = ("PD", "NPD", "ADRC", "ADRC output", "LESO", "DOB", "CLF-QP")
 """Controllers compared as published, in the order of the tables."""
 AS_PUBLISHED = Settings(
@@ -122,13 +149,7 @@ AS_PUBLISHED = Settings(
     {},
 )
 """Each controller at its author's or its example's settings."""
-SETTINGS: Mapping[str, Settings] = {
-    **{
-        name: Settings(name, **told)
-        for name, told in packaged("biped_adrc.bench", "tuned.toml").items()
-    },
-    AS_PUBLISHED.name: AS_PUBLISHED,
-}
+SETTINGS: Mapping[str, Settings] = {**_packaged(), AS_PUBLISHED.name: AS_PUBLISHED}
 """The sets that come with the package, by name."""
 TUNED = next(iter(SETTINGS.values()))
 """The set of a comparison that is told no other."""
@@ -162,22 +183,8 @@ def read_settings(path: Path) -> Settings:
             n: {"controller": n} for of in given.values() for n in of if n not in TUNED.contestants
         }
         own |= {n: _values(x, n) for n, x in tables.get("contestants", {}).items()}
-        places = {
-            place: {**known}
-            | {n: _values(x, f"{place}, {n}") for n, x in given.get(place, {}).items()}
-            for place, known in TUNED.places.items()
-        }
+        chosen = _places(given)
+        places = {place: {**x, **chosen.get(place, {})} for place, x in TUNED.places.items()}
         said = str(tables.get("words", f"those of {path.name}")).rstrip(".")
         said = f"{said}; on top of {TUNED.name}, {TUNED.words}"
         return Settings(path.stem, said, TUNED.values, {**TUNED.contestants, **own}, places)
-
-
-def _values(given: Mapping[str, Any], where: str) -> Record:
-    """Values of a scenario as it takes them, flat. Raises InputError, with where they are."""
-    found = {}
-    for name, x in flat(given).items():
-        try:
-            found[name] = read(name, x)
-        except Refused as error:
-            raise InputError(f"{where}, '{name}': {error}") from None
-    return found

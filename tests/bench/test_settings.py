@@ -127,7 +127,7 @@ def test_the_seeds_of_the_comparison_are_none_of_the_searches():
 def test_places_of_conditions_are_places_of_the_contest():
     for settings in (x for x in SETTINGS.values() if x.alike):
         assert {CONDITIONS[c].place for c in conditions_on("rigid", True)} <= set(settings.places)
-        assert settings.values["gait"] in CONTEST["gaits"]
+        assert settings.name == f"tuned-{settings.values['gait']}"
     assert set(conditions_on("rigid")) - set(conditions_on("rigid", True)) == {"delay"}
 
 
