@@ -13,7 +13,7 @@ from write_results import bullets, table
 
 from biped_adrc.bench.findings import ORDER, ORDERED
 from biped_adrc.errors import InputError
-from biped_adrc.viz.comparison_text import interval, percent
+from biped_adrc.viz.comparison_text import by_condition, interval, percent
 
 SHOWN = ("push on joints", "RABBIT pushed", "RABBIT late")
 """Conditions that the observer guide shows."""
@@ -40,7 +40,7 @@ def guide_part(summary: Mapping[str, Any]) -> str:
             percent(c["legal"]),
             interval(c["rms_error"], 3, 1e3),
         ]
-        for c in cells
+        for c in by_condition(cells)
     ]
     shown = [name for name in SHOWN if name in summary["conditions"]]
     return "\n\n".join(

@@ -106,7 +106,8 @@ class Settings(NamedTuple):
             name if len(where) == len(conditions) else f"{name} (under {', '.join(where)})"
             for name, where in untuned.items()
         )
-        published = " and ".join(listed) or "nothing"
+        names = "; ".join(listed)
+        published = SAID["texts"]["untuned"].format(names=names) if names else ""
         return SAID["texts"]["tuned"].format(
             name=self.name, words=self.words.rstrip("."), published=published
         )

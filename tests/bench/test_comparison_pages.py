@@ -153,7 +153,7 @@ def test_the_documentation_is_made_from_the_summary(tuned, script):
     chosen = TUNED.places["RABBIT, 1 ms"]["m = 2"]
     for part in (
         "Settings tuned-v0.5: tuned alike on gait v0.5",
-        "As published runs ADRC, Table I:",
+        "As published, in the tables and in no sentence: ADRC, Table I.",
         "m = 1 0.2 (0.2 to 0.2) in 20 pairs",
         "| ADRC, Table I (as published) |",
         "friction 100",

@@ -63,8 +63,8 @@ def test_what_no_search_has_tuned_walks_as_published_and_is_told_so():
     assert not TUNED.as_published("my_law:Mine", "ideal 1 kHz")
     assert not AS_PUBLISHED.as_published("NPD", None)
     text = TUNED.said(["NPD", "m = 1", "PD"], ["nothing", "delay"])
-    assert "As published runs NPD (under delay) and m = 1 (under delay) and PD:" in text
-    assert "As published runs nothing" in TUNED.said(["NPD"], ["nothing"])
+    assert "no sentence: NPD (under delay); m = 1 (under delay); PD." in text
+    assert "As published" not in TUNED.said(["NPD"], ["nothing"])
 
 
 def test_pushes_are_searched_with_the_settings_of_their_place():
