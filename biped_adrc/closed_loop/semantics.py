@@ -82,7 +82,11 @@ def measurement(loop: Loop, t: float, q: Array, v: Array, mode: Mode, body: bool
         of_body = frozen(loop.nominal.body_terms(q, v))
     if terms.D.flags.writeable:
         terms = frozen(terms)
-    return Measurement(t, mode.step, t - mode.start, q, v, terms, of_body)
+
+    def elsewhere(q: Array, v: Array) -> Measurement:
+        return measurement(loop, t, q, v, mode, body)
+
+    return Measurement(t, mode.step, t - mode.start, q, v, terms, of_body, elsewhere)
 
 
 def applied(u: Array, zeta: Array) -> Array:

@@ -67,6 +67,7 @@ class Entry:
 BASES = {
     "controller": "biped_adrc.control.base:Controller",
     "contact": "biped_adrc.control.across_contact:AcrossContact",
+    "around": "biped_adrc.control.base:Controller",
     "observer": "biped_adrc.observers.base:Observer",
     "curve": "biped_adrc.gait.curves:Curve",
     "sensor": "biped_adrc.hardware.sensing:Sensor",

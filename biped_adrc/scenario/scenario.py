@@ -80,7 +80,7 @@ OF_RIGID = ("method", "h", "fine", "impact_error")
 OF_SAMPLING = (
     *("delay", "delay_known", "counts", "noise", "pitch_noise", "rate_noise"),
     *("velocity", "filter_time", "sensor", "rate_limit", "lag", "contact"),
-    *("double_support", "touchdown"),
+    *("double_support", "touchdown", "prediction"),
 )
 """Fields that have an effect in sampled time only."""
 FREE = ("adaptive", "stiff")
@@ -128,6 +128,8 @@ class Scenario(Shown):
     contact_window: float | None = None
     double_support: str | None = None
     double_support_window: float | None = None
+    prediction: float = 0.0
+    feedforward: float = 0.0
     solve_theta: bool = True
     own: dict[str, object] = field(default_factory=dict)
     # sampling, sensors, motors
@@ -293,6 +295,8 @@ class Scenario(Shown):
             and self.contact_window is not None,
             "a double_support_window without double_support": self.double_support is None
             and self.double_support_window is not None,
+            "delay_known with a prediction, which tells the observer of the delay": self.delay_known
+            and self.prediction > 0.0,
             "poles and an order": self.poles is not None and self.order is not None,
             "poles and a bandwidth": self.poles is not None and self.bandwidth is not None,
             "a tolerance without the method adaptive or stiff": self.tolerance != 1e-9
