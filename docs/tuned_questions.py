@@ -51,18 +51,20 @@ class Answer(NamedTuple):
     """Of McNemar's test over seeds of which all walks are legal, corrected in the same way."""
     legal_bound: float
     """The shares of such seeds differ by at most this, with 95 %."""
+    spread: float = 1.0
+    """The factor by which two searches of the same contestant may differ; 1 for settings of one search."""
 
     @property
     def verdict(self) -> str:
-        """Whether the error of a is "smaller" or "larger"; "open" where its test carries neither."""
-        if self.p >= LEVEL or self.ratio.low <= 1.0 <= self.ratio.high:
-            return "open"
-        return "smaller" if self.ratio.high < 1.0 else "larger"
+        """Whether the error of a is "smaller" or "larger"; "open" where test or searches carry neither."""
+        if self.p < LEVEL and self.ratio.high * self.spread < 1.0:
+            return "smaller"
+        return "larger" if self.p < LEVEL and self.ratio.low > self.spread else "open"
 
     @property
     def within(self) -> float:
-        """The factor within which both errors are of each other, with 95 %."""
-        return max(self.ratio.high, 1.0 / self.ratio.low)
+        """The factor within which both errors are of each other, with 95 %, after other searches too."""
+        return max(self.ratio.high, 1.0 / self.ratio.low) * self.spread
 
 
 def log_ratios(a: Array, b: Array) -> Array:
@@ -73,9 +75,9 @@ def log_ratios(a: Array, b: Array) -> Array:
     return np.clip(found, -np.log(WORST), np.log(WORST))
 
 
-def answered(pairs: Sequence[tuple[Entry, Entry]]) -> list[Answer]:
-    """The answers of one family of questions, corrected for each other."""
-    found = [_answer(a, b) for a, b in pairs]
+def answered(pairs: Sequence[tuple[Entry, Entry]], spread: float = 1.0) -> list[Answer]:
+    """The answers of one family of questions, corrected for each other; spread: as in `Answer`."""
+    found = [_answer(a, b)._replace(spread=spread) for a, b in pairs]
     errors, legal = holm([x.p for x in found]), holm([x.legal_p for x in found])
     both = zip(found, errors, legal, strict=True)
     return [x._replace(p=p, legal_p=legal_p) for x, p, legal_p in both]

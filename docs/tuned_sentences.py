@@ -16,9 +16,9 @@ GOAL, GOAL_LEGAL = 0.5, 292 / 300
 GOAL_PLACE = "RABBIT, 1 ms"
 
 
-def winners(groups: Sequence[Group], contest: Sequence[Answer]) -> list[str]:
+def winners(groups: Sequence[Group], contest: Sequence[Answer], spread: float = 1.0) -> list[str]:
     """For each place and gait who is the best, how far ahead, and what is carried against NPD and NPID."""
-    ahead = {at(x.a): x for x in answered(first_two(groups))}
+    ahead = {at(x.a): x for x in answered(first_two(groups), spread)}
     lines = []
     for g in groups:
         best = first_of(g)
@@ -118,21 +118,25 @@ def order_pays(orders: Sequence[Answer]) -> list[str]:
     lines = []
     for spot in dict.fromkeys(at(x.a) for x in orders):
         here = [x for x in orders if at(x.a) == spot]
-        kinds = words.by_verdict(here, against)
+        kinds = words.by_verdict(here, lambda x: against(x) + loop(x.a))
         heads = {"smaller": "pays", "larger": "costs", "open": "is open"}
         said = "; ".join(f"{heads[k]}: {', '.join(x)}" for k, x in kinds.items() if x)
-        first = here[0].b
-        margin = (
-            "" if first.margins[0] is None else f" ({MRAD * first.margins[0]:.2g} ms of margin)"
-        )
-        lines.append(f"**{spot}**, as ratio to m = 1{margin}: {said}.")
-    paid = sum(x.verdict == "smaller" for x in orders)
+        lines.append(f"**{spot}**, as ratio to m = 1{loop(here[0].b)}: {said}.")
+    paid = [f"{name(x.a)} at {at(x.a)}" for x in orders if x.verdict == "smaller"]
     if orders:
-        lines.insert(
-            0,
-            f"An order above 1 pays in {paid} of {len(orders)} questions.",
-        )
+        where = f": {', '.join(paid)}" if paid else ""
+        lines.insert(0, f"An order above 1 pays in {len(paid)} of {len(orders)} questions{where}.")
     return lines
+
+
+def loop(e: Entry) -> str:
+    """Delay margin and ripple of a setting in brackets."""
+    told = []
+    if e.margins[0] is not None:
+        told.append(f"{MRAD * e.margins[0]:.2g} ms of margin")
+    if e.ripple is not None:
+        told.append(f"{e.ripple:.2g} N m of ripple")
+    return f" ({', '.join(told)})" if told else ""
 
 
 def rung_worths(ladder: Sequence[Answer]) -> list[str]:
