@@ -54,12 +54,13 @@ def hash_of(*parts: object) -> str:
     return hashlib.sha256("\0".join(map(str, parts)).encode()).hexdigest()[:32]
 
 
-def law_text(law: object) -> str:
-    """The code of a law and all that it reaches, as text. Raises Untraceable where its content is hidden.
+def law_text(*laws: object) -> str:
+    """The code of laws and all that they reach, as text. Raises Untraceable where its content is hidden.
 
-    Two laws with the same text compile to the same code.
+    Two rows of laws with the same text compile to the same code. What several of them reach is told once.
     """
-    return "\n".join(_Reach().tell(law))
+    reach = _Reach()
+    return "\n".join(text for law in laws for text in reach.tell(law))
 
 
 def structure_text(tree: object) -> str:
@@ -81,25 +82,25 @@ def structure_text(tree: object) -> str:
 class _Reach:
     """Texts of what is reached, each thing once, in a fixed order.
 
-    seen: by identity; the objects are kept, so that no identity is used again.
+    seen: by identity the place in this order; the objects are kept, so that no identity is used again.
     """
 
     def __init__(self) -> None:
-        self.seen: dict[int | tuple[int, frozenset[str]], object] = {}
+        self.seen: dict[int | tuple[int, frozenset[str]], tuple[int, object]] = {}
 
     def tell(self, x: object, names: frozenset[str] = frozenset()) -> Iterator[str]:
         """The texts of x; of a module those of the attributes with these names.
 
-        A thing met again is named only, so that circles end.
+        A thing met again is told by its place only, so that circles end.
         """
         if isinstance(x, _PLAIN):
             yield f"{type(x).__qualname__} {x!r}"
             return
         key = (id(x), names) if isinstance(x, types.ModuleType) else id(x)
         if key in self.seen:
-            yield f"again {getattr(x, '__qualname__', type(x).__qualname__)}"
+            yield f"again {self.seen[key][0]}"
             return
-        self.seen[key] = x
+        self.seen[key] = len(self.seen), x
         yield f"{type(x).__module__}.{type(x).__qualname__}"
         if isinstance(x, types.FunctionType):
             yield from self.function(x)

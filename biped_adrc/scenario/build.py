@@ -64,12 +64,12 @@ WITHOUT_MOTORS = (*WALKED, "method", "h", "tolerance", "engine", "runaway_speed"
 """Fields of a scenario that have an effect for a robot without motors."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RobotAndGait:
     """The nominal robot of a scenario, and the gait that it walks or, without motors, its known cycle.
 
     Loading both takes longer than making a walker; studies of many walks of one robot make this once and hand
-    it to `build` and `start`.
+    it to `build` and `start`. It is equal to itself alone, so that what is made of it may be kept under it.
     """
 
     biped: Biped
