@@ -206,10 +206,14 @@ def limited(s: Mapping[str, Any]) -> str:
     rival = setting(s, "rival")["contestant"]
     mine, other = s["test"]["goal"], s["test"][rival]
     a, b = mine["median_friction"], other["median_friction"]
+    finer = s["outside"]["eight times the counts"]
+    fine = [finer[role]["friction"] for role in ("goal", rival)]
     return (
         f"In the median of the test walks the ADRC for the goal needs a friction of {a:.3f}, {rival} "
         f"{b:.3f}, a ratio of {a / b:.2f}; for 292 of 300 walks it is {mine['friction']:.3f} and "
-        f"{other['friction']:.3f}, so that the few hardest walks decide what is gained."
+        f"{other['friction']:.3f}, so that the few hardest walks decide what is gained. Counts of the encoders "
+        f"decide it too: with eight times as many the two need {fine[0]:.3f} and {fine[1]:.3f} "
+        f"({fine[0] / fine[1]:.2f})."
     )
 
 
