@@ -63,7 +63,8 @@ two settings. A difference is *carried* where the exact sign test over seeds has
 correction over all questions of its kind, and the interval of the ratio is off 1 by more than two searches of
 the same contestant differ, a factor of {spread} ([from those](#another-seed-of-the-optimiser) that were
 repeated, and taken for all). What is not carried is *open*, and has the factor within which both are of each
-other with 95 %, after other searches too. The *reference* is the better of NPD and NPID, by the selection set. The first seed of the optimiser speaks, except where others are named."""
+other with 95 %, after other searches too. The *reference* is the better of NPD and NPID, by the selection set.
+The first seed of the optimiser speaks, except where others are named."""
 
 LEFT_OUT = (
     "An observer's reset at the instant of impact stays as it is; the leaf is a policy for the time after it.",

@@ -122,11 +122,30 @@ def order_pays(orders: Sequence[Answer]) -> list[str]:
         heads = {"smaller": "pays", "larger": "costs", "open": "is open"}
         said = "; ".join(f"{heads[k]}: {', '.join(x)}" for k, x in kinds.items() if x)
         lines.append(f"**{spot}**, as ratio to m = 1{loop(here[0].b)}: {said}.")
+    return [pays_at_all(orders), *lines] if orders else []
+
+
+def pays_at_all(orders: Sequence[Answer]) -> str:
+    """In how many questions an order above 1 pays, and in how many it does not at equal margin and ripple."""
     paid = [f"{name(x.a)} at {at(x.a)}" for x in orders if x.verdict == "smaller"]
-    if orders:
-        where = f": {', '.join(paid)}" if paid else ""
-        lines.insert(0, f"An order above 1 pays in {len(paid)} of {len(orders)} questions{where}.")
-    return lines
+    where = f": {', '.join(paid)}" if paid else ""
+    larger = [x for x in orders if x.verdict == "larger" and x.a.found]
+    said = f"An order above 1 pays in {len(paid)} of {len(orders)} questions{where}."
+    if not larger:
+        return said
+    no_better = sum(not better_loop(x.a, x.b) for x in larger)
+    return (
+        f"{said} Of {len(larger)} settings of a higher order with a larger error, {no_better} have neither "
+        "more delay margin nor less ripple than that of m = 1: these do not pay at equal margin and ripple."
+    )
+
+
+def better_loop(a: Entry, b: Entry) -> bool:
+    """Whether the loop of a has more delay margin or less ripple than that of b, or one of them is unknown."""
+    (x, y), (r, s) = (a.margins[0], b.margins[0]), (a.ripple, b.ripple)
+    if x is None or y is None or r is None or s is None:
+        return True
+    return x > y or r < s
 
 
 def loop(e: Entry) -> str:
