@@ -82,7 +82,10 @@ def summary(*searches):
         "training": {"seeds": {"count": 6}, "amplitudes": [60.0]},
         "selection": two,
         "test": {"seeds": {"count": SEEDS}, "amplitudes": [60.0, 80.0]},
-        "places": {PLACE: place, "ideal": {**place, "walk": {"impacts": 4}, "leaves": []}},
+        "places": {
+            PLACE: place,
+            "ideal": {**place, "walk": {"impacts": 4}, "leaves": [], "contestants": names[:7]},
+        },
         "leaves": leaves,
         "gains": {"K_p": {"from": 200.0, "to": 20000.0, "scale": "log"}},
         "contestants": {n: {"own": {"own.K_i": {"from": 2.4, "to": 9.0}}} for n in names},
@@ -204,6 +207,7 @@ def test_the_page_says_who_wins_by_how_much_and_how_near_the_goal_is(script):
     assert "| m = 2 | K\\_p = 500, K\\_i = 2.5 | 2.5 |" in text
     assert "| 28 of 30 |" in text
     assert "| not stable | 0 of 30 |" in text
+    assert "At ideal, where a walk takes long, are **left out** DOB." in text
     assert "is at RABBIT, 1 ms: K_i of *NPD* (v0.5, seed 1); K_i of *NPID*" in text
 
 
@@ -212,13 +216,13 @@ def test_a_search_in_which_no_candidate_was_walked_says_nothing_beyond_its_range
         **nothing("m = 3"),
         "why": "study 'x: y': none of 9 keeps all limits that need no walk; a",
     }
-    page, (entry,) = script("tuned_page"), script("tuned_entries").entries(summary(told))
-    assert page.reason(entry).startswith(
+    gaps, (entry,) = script("tuned_gaps"), script("tuned_entries").entries(summary(told))
+    assert gaps.reason(entry).startswith(
         "none of 9 keeps all limits that need no walk; a. So none was"
     )
-    assert "outside them" in page.reason(entry)
+    assert "outside them" in gaps.reason(entry)
     (entry,) = script("tuned_entries").entries(summary(nothing("m = 3")))
-    assert page.reason(entry) == "none of 75 candidates keeps"
+    assert gaps.reason(entry) == "none of 75 candidates keeps"
 
 
 def test_a_goal_that_is_missed_is_missed_by_so_much(script):
@@ -311,7 +315,7 @@ def with_beside(told, **beside):
 
 
 def test_a_leaf_is_worth_what_is_lost_without_it(script):
-    beside, module = script("tuned_beside"), script("tuned_entries")
+    beside, module = script("tuned_leaves"), script("tuned_entries")
     given = with_beside(
         summary(search("NPD", 0.5), search("m = 1", 0.4)),
         without=[
@@ -350,7 +354,7 @@ def brackets(low, width=2.5, count=SEEDS):
 
 
 def test_pushes_that_are_known_to_intervals_count_where_these_do_not_overlap(script):
-    beside, page = script("tuned_beside"), script("tuned_page")
+    beside, page = script("tuned_pushes"), script("tuned_page")
     ends = {
         "NPD": brackets(40.0),
         "NPID": brackets(41.0),
@@ -383,7 +387,7 @@ def test_a_setting_that_no_search_made_stands_beside_the_best_and_its_limit(scri
     )
     page = script("tuned_page")
     groups = page.first_groups(script("tuned_entries").entries(given))
-    (said,) = script("tuned_beside").unsearched_sentences(given, groups)
+    (said,) = script("tuned_leaves").unsearched_sentences(given, groups)
     assert "the best of those tuned. Its delay margin of 0.02 ms misses the limit of 2 ms." in said
 
 
