@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from soft_text import bullets
-from tuned_entries import Entry, entries, group, of_place
+from tuned_entries import Entry, entries, group, groups_of, of_place
 from tuned_gaps import LEFT_OUT, at_ends, missing, of_places, without_setting
 from tuned_leaves import unsearched_sentences, with_all_leaves, worth_rows, worth_sentences
 from tuned_pushes import push_sentences, pushes
@@ -20,7 +20,7 @@ from tuned_questions import (
     answered,
     between,
 )
-from tuned_seeds import other_seeds, placebo_sentences, repeated, spread_of
+from tuned_seeds import Spread, other_seeds, placebo_sentences, repeated, spread_of
 from tuned_sentences import goal, order_pays, rung_worths, who_is_legal, winners
 from tuned_tables import answer_table, of_group
 from tuned_text import MRAD, number
@@ -55,10 +55,11 @@ contestant without a setting that keeps the limits ranks last. The interquartile
 of the walks. Intervals of 95 % draw seeds, each with all of its walks; ratios are those of the same walk under
 two settings. A difference is *carried* where the exact sign test over seeds has p below {level:g} after Holm's
 correction over all questions of its kind, and the interval of the ratio is off 1 by more than two searches of
-the same contestant differ, a factor of {spread} ([from those](#another-seed-of-the-optimiser) that were
-repeated, and taken for all). What is not carried is *open*, and has the factor within which both are of each
-other with 95 %, after other searches too. The *reference* is the better of NPD and NPID, by the selection set.
-The first seed of the optimiser speaks, except where others are named."""
+the same contestant differ: a factor of {spread}{several}
+([from those](#another-seed-of-the-optimiser) that were repeated, and taken for all). What is not carried is
+*open*, and has the factor within which both are of each other with 95 %, after other searches too. The
+*reference* is the better of NPD and NPID, by the selection set. Where there are several seeds of the optimiser
+the walks of all their settings count; leaves and pushes are those of the first seed."""
 
 LADDER = (
     "From NPD on filtered rates to the observer's xi^, one thing at a time. A ratio below 1 is what the rung "
@@ -68,6 +69,10 @@ LEAVES = (
     "Each setting with one leaf taken away and not tuned again, on the test set. So what is lost is more than "
     "the leaf is worth to a contestant that would be tuned without it. A ratio below 1 is the error with the "
     "leaf to that without."
+)
+SETTINGS = (
+    "With several seeds of the optimiser the setting, its margin and the first setting are of the first seed, "
+    "and the walks of all."
 )
 PUSHES = (
     "Of each setting the push is made larger until its walk is not legal, and the largest legal one is "
@@ -80,15 +85,22 @@ PUSHES = (
 def page(summary: Mapping[str, Any]) -> str:
     """The text of docs/tuned.md."""
     found = entries(summary)
-    groups = first_groups(found)
-    spread = spread_of(repeated(found)).factor
-    contest, ladder, orders = families(groups, spread)
+    groups, repeats = groups_of(found), repeated(found)
+    spread = spread_of(repeats)
+    contest, ladder, orders = families(groups, spread.factor)
+    first = against_reference(first_groups(found))
     parts = [
         "# Tuned alike",
-        introduction(summary, spread),
+        introduction(summary, spread, max(map(len, repeats), default=1)),
         *missing(summary, found),
         "## What the numbers say",
-        told([*winners(groups, contest, spread), *who_is_legal(contest), *goal(contest)]),
+        told(
+            [
+                *winners(groups, contest, spread.factor),
+                *who_is_legal(contest),
+                *goal(answered(first, spread.factor)),
+            ]
+        ),
         "## Does an order above 1 pay?",
         told([*order_pays(orders), *unsearched_sentences(summary, groups)]),
         "## The ladder",
@@ -101,9 +113,10 @@ def page(summary: Mapping[str, Any]) -> str:
         PUSHES,
         told(push_sentences(pushes(summary, groups))),
         "## Another seed of the optimiser",
-        told([*placebo_sentences(found), *other_seeds(found, spread)]),
+        told([*placebo_sentences(found), *other_seeds(found, spread.factor)]),
         *(part for picture in captions("tuned") for part in figure(picture)),
         "## The settings",
+        SETTINGS,
         *(part for g in groups for part in of_group(g, contest)),
         "## All answers",
         *titled("Orders", answer_table(orders)),
@@ -148,7 +161,7 @@ def first_groups(found: Sequence[Entry]) -> list[Group]:
 
 
 def families(
-    groups: Sequence[Group], spread: float = 1.0
+    groups: Sequence[Group], spread: Callable[[int], float] | None = None
 ) -> tuple[list[Answer], list[Answer], list[Answer]]:
     """The answers of the contest, of the ladder and of the orders, each corrected as one family."""
     asked = (against_reference(groups), between(groups, RUNGS), between(groups, ORDERS))
@@ -156,8 +169,8 @@ def families(
     return contest, ladder, orders
 
 
-def introduction(summary: Mapping[str, Any], spread: float) -> str:
-    """What was searched, how, and how to read it."""
+def introduction(summary: Mapping[str, Any], spread: Spread, most: int) -> str:
+    """What was searched, how, and how to read it. most: seeds of the optimiser where there are most."""
     c = summary["contest"]
     margins = ", ".join(f"{MRAD * p['margin']:g} ms ({name})" for name, p in c["places"].items())
     return INTRODUCTION.format(
@@ -169,7 +182,8 @@ def introduction(summary: Mapping[str, Any], spread: float) -> str:
         friction=c["limits"]["friction"],
         places=place_table(c),
         level=LEVEL,
-        spread=number(spread),
+        spread=number(spread.factor()),
+        several=f", {number(spread.factor(most))} with {most} searches each" if most > 1 else "",
     )
 
 

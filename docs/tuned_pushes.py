@@ -53,7 +53,7 @@ def pushes(summary: Mapping[str, Any], groups: Sequence[Group]) -> list[Pushes]:
     found = []
     for g in groups:
         base = reference(g)
-        keys = {e.contestant: key_of(e._asdict()) for e in g.values()}
+        keys = {name: key_of(e._asdict()) for name, e in g.items()}
         if base is None or (of_base := ends.get(keys[base.contestant])) is None:
             continue
         found += [

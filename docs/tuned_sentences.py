@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import tuned_text as words
 from tuned_entries import Entry, reference
@@ -16,7 +16,11 @@ GOAL, GOAL_LEGAL = 0.5, 292 / 300
 GOAL_PLACE = "RABBIT, 1 ms"
 
 
-def winners(groups: Sequence[Group], contest: Sequence[Answer], spread: float = 1.0) -> list[str]:
+def winners(
+    groups: Sequence[Group],
+    contest: Sequence[Answer],
+    spread: Callable[[int], float] | None = None,
+) -> list[str]:
     """For each place and gait who is the best, how far ahead, and what is carried against NPD and NPID."""
     ahead = {at(x.a): x for x in answered(first_two(groups), spread)}
     lines = []

@@ -279,7 +279,7 @@ def test_a_difference_within_the_spread_of_searches_is_open(script):
     found = entries(summary(*given, search("m = 1", 0.7), search("m = 2", 0.3)))
     spread = seeds.spread_of(seeds.repeated(found))
     assert spread[1:] == (2, ())
-    assert spread.factor == pytest.approx(math.exp(2.776445 * math.log(1.2) * math.sqrt(2.0)))
+    assert spread.factor() == pytest.approx(math.exp(2.776445 * math.log(1.2) * math.sqrt(2.0)))
     page = script("tuned_page")
     contest, *_ = page.families(page.first_groups(found), spread.factor)
     assert {x.a.contestant: x.verdict for x in contest} == {
@@ -288,7 +288,29 @@ def test_a_difference_within_the_spread_of_searches_is_open(script):
         "m = 2": "smaller",
     }
     within = next(x.within for x in contest if x.a.contestant == "m = 1")
-    assert within == pytest.approx(spread.factor / 0.7)
+    assert within == pytest.approx(spread.factor() / 0.7)
+    assert spread.factor(4) == pytest.approx(spread.factor() ** 0.5)
+
+
+def test_searches_with_several_seeds_of_the_optimiser_count_with_all_their_walks(script):
+    """Two searches of two contestants: the middle of both ratios, and half the spread's logarithm squared."""
+    module, questions = script("tuned_entries"), script("tuned_questions")
+    given = summary(
+        *(search("NPD", seed=s) for s in (1, 2)),
+        *(search("m = 1", f, seed=s) for s, f in ((1, 0.4), (2, 0.9))),
+        *(search("m = 2", 0.5, seed=s) for s in (1,)),
+        search("m = 3", 0.5),
+        nothing("m = 3", seed=2),
+    )
+    (g,) = module.groups_of(module.entries(given))
+    assert {n: e.searches for n, e in g.items()} == {"NPD": 2, "m = 1": 2, "m = 2": 1, "m = 3": 2}
+    assert g["m = 1"].tuned.rms_error.shape == (4, SEEDS)
+    assert g["m = 1"].selected == pytest.approx(0.6)
+    assert (g["m = 3"].selected, g["m = 3"].found) == (math.inf, True)
+    assert g["m = 3"].tuned.legal.mean() == 0.5
+    (x,) = questions.answered([(g["m = 1"], g["NPD"])], lambda k: 2.0 ** (1.0 / k))
+    assert x.ratio.value == pytest.approx(0.6)
+    assert (x.won, x.spread) == (SEEDS, pytest.approx(2.0**0.5))
 
 
 def test_a_placebo_is_judged_by_the_spread_of_the_others(script):
