@@ -33,7 +33,7 @@ from biped_adrc.campaign.store import About, Store
 from biped_adrc.campaign.store_open import open_store
 from biped_adrc.campaign.workers import Workers, workers_of
 from biped_adrc.files import write_text
-from biped_adrc.robots.robot_toml import Limits
+from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import RIGID
 from biped_adrc.scenario.registry import find, is_own, source_hash, words
 from biped_adrc.versions import numerical_versions

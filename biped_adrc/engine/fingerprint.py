@@ -29,7 +29,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.engine.symbols import Untraceable, names_of
+from biped_adrc.engine.symbols import Untraceable
+from biped_adrc.engine.tracer import names_of
 from biped_adrc.versions import NEVER_TRACED, packages, source_text
 
 _PACKAGE = __name__.partition(".")[0]

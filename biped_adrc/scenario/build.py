@@ -31,7 +31,7 @@ from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.model_errors import ModelErrors, impact_error
-from biped_adrc.robots.robot_toml import ENDS, Limits
+from biped_adrc.robots.limits import ENDS, Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances, taken
 from biped_adrc.scenario.registry import construct, find, own, takes
