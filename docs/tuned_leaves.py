@@ -47,7 +47,15 @@ def worth_sentences(summary: Mapping[str, Any], found: Sequence[Entry]) -> list[
         middle = ratio(Interval(typical, typical, typical)).split(" (")[0]
         harm = f", which are {'; '.join(kinds['larger'])}" if kinds["larger"] else ""
         bound = max((x.within for x in here if x.verdict == "open"), default=1.0)
-        still = f" (within a factor {number(bound)})" if 1.0 < bound < words.NEVER else ""
+        still = ""
+        if counts["open"]:
+            finite = bound < words.NEVER
+            what = (
+                f"within a factor {number(bound)}"
+                if finite
+                else "walks that are not legal leave some without a bound"
+            )
+            still = f" ({what})"
         lines.append(
             f"**{given['words']}**: of {len(here)} settings that have it, {counts['smaller']} have a smaller "
             f"error with it, {counts['larger']} a larger one{harm}, and {counts['open']} are open{still}; the "

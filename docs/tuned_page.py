@@ -68,7 +68,7 @@ LADDER = (
 LEAVES = (
     "Each setting with one leaf taken away and not tuned again, on the test set. So what is lost is more than "
     "the leaf is worth to a contestant that would be tuned without it. A ratio below 1 is the error with the "
-    "leaf to that without."
+    "leaf to that without; it is 0 where without it most walks are not legal."
 )
 SETTINGS = (
     "With several seeds of the optimiser the setting, its margin and the first setting are of the first seed, "

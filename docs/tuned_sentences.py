@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 
 import tuned_text as words
@@ -23,7 +24,7 @@ def winners(
 ) -> list[str]:
     """For each place and gait who is the best, how far ahead, and what is carried against NPD and NPID."""
     ahead = {at(x.a): x for x in answered(first_two(groups), spread)}
-    lines = []
+    lines = [tally(groups)] if groups else []
     for g in groups:
         best = first_of(g)
         spot = at(next(iter(g.values())))
@@ -32,6 +33,14 @@ def winners(
             continue
         lines.append(f"**{spot}**: {winner(best, ahead.get(spot))} {held_against(g, contest)}")
     return lines
+
+
+def tally(groups: Sequence[Group]) -> str:
+    """How often each contestant is the best on the selection set."""
+    counts = Counter(name(best) for g in groups if (best := first_of(g)) is not None)
+    told = ", ".join(f"{who} {count}" for who, count in counts.most_common())
+    spots = "place and gait" if len(groups) == 1 else "places and gaits"
+    return f"Best on the selection set, over {len(groups)} {spots}: {told or 'nobody'}."
 
 
 def winner(best: Entry, ahead: Answer | None) -> str:
@@ -133,14 +142,17 @@ def pays_at_all(orders: Sequence[Answer]) -> str:
     """In how many questions an order above 1 pays, and in how many it does not at equal margin and ripple."""
     paid = [f"{name(x.a)} at {at(x.a)}" for x in orders if x.verdict == "smaller"]
     where = f": {', '.join(paid)}" if paid else ""
-    larger = [x for x in orders if x.verdict == "larger" and x.a.found]
     said = f"An order above 1 pays in {len(paid)} of {len(orders)} questions{where}."
-    if not larger:
+    found = [x for x in orders if x.a.found]
+    same = [x for x in found if not better_loop(x.a, x.b)]
+    if not same:
         return said
-    no_better = sum(not better_loop(x.a, x.b) for x in larger)
+    larger = sum(x.ratio.value > 1.0 for x in same)
+    carried = sum(x.verdict == "smaller" for x in same)
     return (
-        f"{said} Of {len(larger)} settings of a higher order with a larger error, {no_better} have neither "
-        "more delay margin nor less ripple than that of m = 1: these do not pay at equal margin and ripple."
+        f"{said} At equal margin and ripple: of {len(found)} settings of a higher order {len(same)} have "
+        f"neither more delay margin nor less ripple than that of m = 1; of these {larger} have a larger error, "
+        f"and {carried} a smaller one that is carried."
     )
 
 
