@@ -435,8 +435,8 @@ def test_an_order_with_a_worse_loop_and_a_larger_error_does_not_pay_at_an_equal_
     first, spot = script("tuned_sentences").order_pays(orders)
     assert first == (
         "An order above 1 pays in 0 of 2 questions. At equal margin and ripple: of 2 settings of a higher "
-        "order 1 have neither more delay margin nor less ripple than that of m = 1; of these 1 have a larger error, "
-        "and 0 a smaller one that is carried."
+        "order 1 have neither more delay margin nor less ripple than that of m = 1; of these 1 have a larger "
+        "error, and 0 a smaller one that is carried."
     )
     assert "as ratio to m = 1 (2.5 ms of margin, 5 N m of ripple): costs: *m = 2* 2" in spot
 
