@@ -66,7 +66,7 @@ verification: .venv/.core
 # in $(OUT)/attacks, from where an interrupted run goes on
 attacks: .venv/.test
 	mkdir -p $(OUT)/attacks
-	for attack in engines contact steps; do \
+	for attack in engines contact steps searches; do \
 	  $(BIN)/python -m tests.robustness $$attack --out $(OUT)/attacks/$$attack.jsonl --page docs/robustness.md; done
 
 # the rigid walk as limit of the soft one, its multipliers, and walks that the rigid model calls legal, in MuJoCo: an

@@ -253,7 +253,8 @@ def poincare(
 ) -> None:
     """Fixed point of the return map, and its multipliers by every method beside each other."""
     from biped_adrc.scenario.build import limits
-    from biped_adrc.scenario.scenario import Scenario, idle
+    from biped_adrc.scenario.idle import idle
+    from biped_adrc.scenario.scenario import Scenario
     from biped_adrc.studies.cycle_stability import (
         cycle_of,
         cycle_stability,

@@ -106,7 +106,7 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
 
 def _code(make: WalkerStructure, watched: SignalNumbers, h: ReferenceLaws) -> LoadedCode:
     """Machine code of `observe`, under a hash of the walker's structure, its laws and the reference's."""
-    laws = "\n".join(law_text(law) for law in (*make.laws[1:], h.point))
+    laws = law_text(*make.laws[1:], h.point)
     key = hash_of(
         *("observe", structure_text(make.robot), laws, make.size, make.held),
         *(structure_text(watched), versions_text()),

@@ -309,16 +309,23 @@ class Vector:
         return self.take() if isinstance(tree, float | np.floating) else tree
 
 
-def floats(tree: object) -> Iterator[float]:
+def floats(tree: object) -> list[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
+    found: list[float] = []
+    _gather(tree, found)
+    return found
+
+
+def _gather(tree: object, found: list[float]) -> None:
+    """Add the numbers of a part of a tree to those found."""
     if isinstance(tree, tuple | list):
         for x in tree:
-            yield from floats(x)
+            _gather(x, found)
     elif isinstance(tree, np.ndarray):
         if tree.dtype.kind == "f":
-            yield from tree.ravel().tolist()
+            found += tree.ravel().tolist()
     elif isinstance(tree, float | np.floating):
-        yield float(tree)
+        found.append(float(tree))
 
 
 def column(*parts: ArrayLike | Scalar) -> ca.SX:
