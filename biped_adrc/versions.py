@@ -39,6 +39,7 @@ NEVER_TRACED = (
     "bench",
     "campaign",
     "cli",
+    "logs",
     "observer_design",
     "paper",
     "scenario",

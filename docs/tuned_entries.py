@@ -66,7 +66,9 @@ class Entry(NamedTuple):
     published: Walks | None
     """Of the first setting, which was not tuned; None where it was not walked."""
     ripple: float | None = None
-    """Torque that one count of the encoders causes [N m], of the chosen setting; None where unknown."""
+    """rms torque of the encoders' counts [N m], of the chosen setting; None where unknown."""
+    searches: int = 1
+    """How many searches its walks are of."""
 
     @property
     def found(self) -> bool:
@@ -191,6 +193,28 @@ def walks_of(columns: Sequence[Any]) -> Walks:
     legal = np.array(columns[-1], dtype=float)
     numbers = (np.array(x, dtype=float) for x in columns[:-1])
     return Walks(*(np.where(legal == 1.0, x, np.inf) for x in numbers), legal)
+
+
+def pooled(same: Sequence[Entry]) -> Entry:
+    """The searches of one contestant with several seeds of the optimiser as one: the walks of all of them.
+
+    Its setting is that of the first that found one; its error on the selection set is the geometric mean, and
+    infinite where a search found none.
+    """
+    first = next((e for e in same if e.found), same[0])
+    tuned = Walks(
+        *(np.concatenate(columns) for columns in zip(*(e.tuned for e in same), strict=True))
+    )
+    selected = float(np.exp(np.mean(np.log([e.selected for e in same]))))
+    return first._replace(tuned=tuned, selected=selected, searches=len(same))
+
+
+def groups_of(found: Sequence[Entry]) -> list[dict[str, Entry]]:
+    """For each place and gait the contestants, each with the walks of all of its searches."""
+    spots: dict[tuple[str, str], dict[str, list[Entry]]] = {}
+    for e in found:
+        spots.setdefault((e.place, e.gait), {}).setdefault(e.contestant, []).append(e)
+    return [{name: pooled(same) for name, same in spot.items()} for spot in spots.values()]
 
 
 def group(found: Sequence[Entry], place: str, gait: str, seed: int) -> dict[str, Entry]:

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
 from soft_text import bullets
-from tuned_beside import (
-    push_sentences,
-    pushes,
-    unsearched_sentences,
-    with_all_leaves,
-    worth_rows,
-    worth_sentences,
-)
-from tuned_entries import Entry, entries, group, of_place
+from tuned_entries import Entry, entries, group, groups_of, of_place
+from tuned_gaps import LEFT_OUT, at_ends, missing, of_places, without_setting
+from tuned_leaves import unsearched_sentences, with_all_leaves, worth_rows, worth_sentences
+from tuned_pushes import push_sentences, pushes
 from tuned_questions import (
     LEVEL,
     ORDERS,
@@ -26,10 +20,10 @@ from tuned_questions import (
     answered,
     between,
 )
-from tuned_seeds import other_seeds, placebo_sentences, repeated, spread_of
+from tuned_seeds import Spread, other_seeds, placebo_sentences, repeated, spread_of
 from tuned_sentences import goal, order_pays, rung_worths, who_is_legal, winners
 from tuned_tables import answer_table, of_group
-from tuned_text import MRAD, at, name, number
+from tuned_text import MRAD, number
 from write_results import table
 
 from biped_adrc.viz.pages import captions
@@ -61,14 +55,12 @@ contestant without a setting that keeps the limits ranks last. The interquartile
 of the walks. Intervals of 95 % draw seeds, each with all of its walks; ratios are those of the same walk under
 two settings. A difference is *carried* where the exact sign test over seeds has p below {level:g} after Holm's
 correction over all questions of its kind, and the interval of the ratio is off 1 by more than two searches of
-the same contestant differ, a factor of {spread} ([from those](#another-seed-of-the-optimiser) that were
-repeated, and taken for all). What is not carried is *open*, and has the factor within which both are of each
-other with 95 %, after other searches too. The *reference* is the better of NPD and NPID, by the selection set. The first seed of the optimiser speaks, except where others are named."""
+the same contestant differ: a factor of {spread}{several}
+([from those](#another-seed-of-the-optimiser) that were repeated, and taken for all). What is not carried is
+*open*, and has the factor within which both are of each other with 95 %, after other searches too. The
+*reference* is the better of NPD and NPID, by the selection set. Where there are several seeds of the optimiser
+the walks of all their settings count; leaves and pushes are those of the first seed."""
 
-LEFT_OUT = (
-    "An observer's reset at the instant of impact stays as it is; the leaf is a policy for the time after it.",
-    "Controllers that run in Python alone (CLF-QP, reference governors) are **left out**.",
-)
 LADDER = (
     "From NPD on filtered rates to the observer's xi^, one thing at a time. A ratio below 1 is what the rung "
     "is worth; each contestant is searched anew, so a rung is held against the best setting below it."
@@ -76,7 +68,11 @@ LADDER = (
 LEAVES = (
     "Each setting with one leaf taken away and not tuned again, on the test set. So what is lost is more than "
     "the leaf is worth to a contestant that would be tuned without it. A ratio below 1 is the error with the "
-    "leaf to that without."
+    "leaf to that without; it is 0 where without it most walks are not legal."
+)
+SETTINGS = (
+    "With several seeds of the optimiser the setting, its margin and the first setting are of the first seed, "
+    "and the walks of all."
 )
 PUSHES = (
     "Of each setting the push is made larger until its walk is not legal, and the largest legal one is "
@@ -89,15 +85,22 @@ PUSHES = (
 def page(summary: Mapping[str, Any]) -> str:
     """The text of docs/tuned.md."""
     found = entries(summary)
-    groups = first_groups(found)
-    spread = spread_of(repeated(found)).factor
-    contest, ladder, orders = families(groups, spread)
+    groups, repeats = groups_of(found), repeated(found)
+    spread = spread_of(repeats)
+    contest, ladder, orders = families(groups, spread.factor)
+    first = against_reference(first_groups(found))
     parts = [
         "# Tuned alike",
-        introduction(summary, spread),
+        introduction(summary, spread, max(map(len, repeats), default=1)),
         *missing(summary, found),
         "## What the numbers say",
-        told([*winners(groups, contest, spread), *who_is_legal(contest), *goal(contest)]),
+        told(
+            [
+                *winners(groups, contest, spread.factor),
+                *who_is_legal(contest),
+                *goal(answered(first, spread.factor)),
+            ]
+        ),
         "## Does an order above 1 pay?",
         told([*order_pays(orders), *unsearched_sentences(summary, groups)]),
         "## The ladder",
@@ -110,16 +113,17 @@ def page(summary: Mapping[str, Any]) -> str:
         PUSHES,
         told(push_sentences(pushes(summary, groups))),
         "## Another seed of the optimiser",
-        told([*placebo_sentences(found), *other_seeds(found, spread)]),
+        told([*placebo_sentences(found), *other_seeds(found, spread.factor)]),
         *(part for picture in captions("tuned") for part in figure(picture)),
         "## The settings",
+        SETTINGS,
         *(part for g in groups for part in of_group(g, contest)),
         "## All answers",
         *titled("Orders", answer_table(orders)),
         *titled("The ladder", answer_table(ladder)),
         *titled("Leaves, ratio with to without", leaf_table(summary, found)),
         "## What was left out",
-        bullets([*LEFT_OUT, *at_ends(summary["contest"], found)]),
+        bullets([*LEFT_OUT, *of_places(summary["contest"]), *at_ends(summary["contest"], found)]),
         *without_setting(found),
     ]
     return "\n\n".join(part for part in parts if part) + "\n"
@@ -157,7 +161,7 @@ def first_groups(found: Sequence[Entry]) -> list[Group]:
 
 
 def families(
-    groups: Sequence[Group], spread: float = 1.0
+    groups: Sequence[Group], spread: Callable[[int], float] | None = None
 ) -> tuple[list[Answer], list[Answer], list[Answer]]:
     """The answers of the contest, of the ladder and of the orders, each corrected as one family."""
     asked = (against_reference(groups), between(groups, RUNGS), between(groups, ORDERS))
@@ -165,8 +169,8 @@ def families(
     return contest, ladder, orders
 
 
-def introduction(summary: Mapping[str, Any], spread: float) -> str:
-    """What was searched, how, and how to read it."""
+def introduction(summary: Mapping[str, Any], spread: Spread, most: int) -> str:
+    """What was searched, how, and how to read it. most: seeds of the optimiser where there are most."""
     c = summary["contest"]
     margins = ", ".join(f"{MRAD * p['margin']:g} ms ({name})" for name, p in c["places"].items())
     return INTRODUCTION.format(
@@ -178,7 +182,8 @@ def introduction(summary: Mapping[str, Any], spread: float) -> str:
         friction=c["limits"]["friction"],
         places=place_table(c),
         level=LEVEL,
-        spread=number(spread),
+        spread=number(spread.factor()),
+        several=f", {number(spread.factor(most))} with {most} searches each" if most > 1 else "",
     )
 
 
@@ -196,70 +201,3 @@ def place_table(c: Mapping[str, Any]) -> str:
         search, walk = of_place(c, place, "search"), of_place(c, place, "walk")
         rows.append([place, leaves, f"{search['per_variable']}", f"{walk['impacts']}", *told])
     return table([*head, "of selection", "of the test"], rows)
-
-
-def missing(summary: Mapping[str, Any], found: Sequence[Entry]) -> list[str]:
-    """Which searches are not there yet."""
-    there = {(e.place, e.gait, e.contestant, e.seed) for e in found}
-    gone = [x for x in map(tuple, summary["asked"]) if x not in there]
-    if not gone:
-        return []
-    spots: dict[str, list[str]] = {}
-    for place, gait, who, seed in gone:
-        spots.setdefault(f"{place}, gait {gait}, seed {seed} of the optimiser", []).append(who)
-    names = list(summary["contest"]["contestants"])
-    lines = [f"{at}: {'all' if len(x) == len(names) else '; '.join(x)}" for at, x in spots.items()]
-    return ["Searches that are not there; nothing is said of them:", bullets(lines)]
-
-
-NEAR = 0.02
-"""A value within this share of its range of an end is at the end."""
-
-
-def at_ends(contest: Mapping[str, Any], found: Sequence[Entry]) -> list[str]:
-    """How often a chosen value is at an end of its range, beyond which a better setting may lie."""
-    ends: dict[str, list[str]] = {}
-    for e in found:
-        leaves = (contest["leaves"][x]["variables"] for x in contest["places"][e.place]["leaves"])
-        ranges = {**contest["gains"], **contest["contestants"][e.contestant].get("own", {})}
-        for one in leaves:
-            ranges |= one
-        for key, x in e.chosen.items():
-            if (r := ranges[key]) and "from" in r and is_end(r, x):
-                ends.setdefault(e.place, []).append(
-                    f"{key.removeprefix('own.')} of {name(e)} ({e.gait}, seed {e.seed})"
-                )
-    told = "At an end of its range, so that a wider one may find better, is at"
-    return [f"{told} {place}: {'; '.join(some)}." for place, some in ends.items()]
-
-
-def is_end(r: Mapping[str, Any], x: float) -> bool:
-    """Whether x is within the share `NEAR` of an end of a range other than 0, by its scale."""
-    low, high = r["from"], r["to"]
-    if r.get("scale") == "log":
-        low, high, x = (float(np.log(y)) for y in (low, high, x))
-    edge = NEAR * (high - low)
-    return bool(x > high - edge or (r["from"] > 0.0 and x < low + edge))
-
-
-def without_setting(found: Sequence[Entry]) -> list[str]:
-    """The searches that found no setting, with the reason, those of a place and gait together."""
-    spots: dict[str, list[str]] = {}
-    for e in found:
-        if not e.found:
-            told = f"{name(e)}, seed {e.seed} of the optimiser: {reason(e)}"
-            spots.setdefault(at(e), []).append(told)
-    lines = [f"{spot}: {'. '.join(some)}." for spot, some in spots.items()]
-    return ["## Searches without a setting", bullets(lines)] if lines else []
-
-
-def reason(e: Entry) -> str:
-    """Why a search found nothing: what excluded how many."""
-    told = e.why.split("': ", 1)[-1].split(". The nearest")[0]
-    return f"{told}. {UNWALKED}" if "that need no walk" in told else told
-
-
-UNWALKED = (
-    "So none was walked. This excludes the ranges that were searched and no more: whether a value outside them "
-    "bears the delay is not answered here"
-)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -21,12 +21,16 @@ Repeats = Sequence[Entry]
 class Spread(NamedTuple):
     """By how much searches of the same contestant differ."""
 
-    factor: float
-    """Two of them differ by at most this, with 95 %; 1 where none was repeated."""
+    log: float
+    """Logarithm of the factor by which two of them differ at most, with 95 %; 0 where none was repeated."""
     contestants: int
     """Of so many it is taken."""
     left_out: tuple[str, ...]
     """Contestants of which a search found no setting, or whose median walk is not legal."""
+
+    def factor(self, searches: int = 1) -> float:
+        """By how much the means of so many searches each differ at most, with 95 %."""
+        return float(np.exp(self.log / np.sqrt(searches)))
 
 
 def repeated(found: Sequence[Entry]) -> list[Repeats]:
@@ -51,10 +55,10 @@ def spread_of(repeats: Sequence[Repeats]) -> Spread:
     logs = [x for x in logs if np.isfinite(x).all()]
     freedom = sum(len(x) - 1 for x in logs)
     if freedom == 0:
-        return Spread(1.0, 0, left_out)
+        return Spread(0.0, 0, left_out)
     variance = sum(float(np.sum((x - x.mean()) ** 2)) for x in logs) / freedom
     t = stats.t.ppf(0.5 + CONFIDENCE / 2, freedom)
-    return Spread(float(np.exp(t * np.sqrt(2.0 * variance))), len(logs), left_out)
+    return Spread(float(t * np.sqrt(2.0 * variance)), len(logs), left_out)
 
 
 def _median(e: Entry) -> float:
@@ -74,7 +78,7 @@ def placebos(found: Sequence[Entry]) -> tuple[list[Answer], list[Answer]]:
         for r in repeats
     }
     with_spread = [
-        x._replace(spread=spreads[x.a.place, x.a.gait, x.a.contestant].factor) for x in alone
+        x._replace(spread=spreads[x.a.place, x.a.gait, x.a.contestant].factor()) for x in alone
     ]
     return alone, with_spread
 
@@ -92,7 +96,7 @@ def placebo_sentences(found: Sequence[Entry]) -> list[str]:
     )
     most = max(x.spread for x in both)
     return [
-        f"Two searches of one contestant differ by up to a factor {number(spread.factor)} with 95 % (from "
+        f"Two searches of one contestant differ by up to a factor {number(spread.factor())} with 95 % (from "
         f"{spread.contestants} contestants{rest}).",
         f"Placebo: two searches of one contestant as if they were two contestants, {len(alone)} pairs. By "
         f"their walks alone {sum(x.verdict != 'open' for x in alone)} of them are found different, since two "
@@ -101,7 +105,7 @@ def placebo_sentences(found: Sequence[Entry]) -> list[str]:
     ]
 
 
-def other_seeds(found: Sequence[Entry], spread: float = 1.0) -> list[str]:
+def other_seeds(found: Sequence[Entry], spread: Callable[[int], float] | None = None) -> list[str]:
     """For each place and gait with several seeds of the optimiser: how errors and conclusions move."""
     lines = []
     for place, gait in dict.fromkeys((e.place, e.gait) for e in found):

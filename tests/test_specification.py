@@ -80,7 +80,8 @@ def missed(walks, T, **values):
 
     The walks are those of the walker itself; what lasts a while in `values` is given in periods.
     """
-    lasting = {name: x * T for name, x in values.items() if name in ("delay", "lag", "filter_time")}
+    times = ("delay", "lag", "filter_time", "prediction")
+    lasting = {name: x * T for name, x in values.items() if name in times}
     walker, gait, loop = loop_of(walks, **{**values, **lasting, "period": T})
     n, p = walker.plant.n, walker.plant.p
     point = ba.FrozenGait.of(walker.plant, gait, spread=0.0).points[0]
@@ -110,12 +111,31 @@ def missed(walks, T, **values):
         {"controller": "LESO", "bandwidth": 200.0, "delay": 1.6, "lag": 0.7},
         {"controller": "LESO", "bandwidth": 200.0, "delay": 1.6, "delay_known": True},
         {"controller": "DOB", "delay": 2, "velocity": "differences", "filter_time": 1.5},
+        {"controller": "LESO", "bandwidth": 200.0, "delay": 1.6, "prediction": 1.6},
+        {"controller": "NPD", "friction": True, "feedforward": 0.8, "delay": 0.5},
     ],
 )
 def test_a_small_deviation_goes_as_the_matrices_say(walks, values):
     """What is missed is the motion of the gait in ten periods, and goes to zero with the period."""
     coarse, fine = (missed(walks, T, **values) for T in (1e-3, 2.5e-4))
     assert fine < 0.15 * coarse < 1e-3
+
+
+@pytest.mark.parametrize("controller", ["NPD", "LESO"])
+def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(walks, controller):
+    """But for the change of q'' in that time, which goes with it."""
+
+    def modes(**more):
+        loop = loop_of(walks, controller=controller, period=1e-3, **more)[2]
+        return np.sort(np.abs(np.linalg.eigvals(loop.matrices().M)))[::-1]
+
+    free, hidden, predicted = (
+        modes(),
+        modes(delay=1e-3),
+        modes(delay=1e-3, prediction=1e-3),
+    )
+    gaps = [np.max(np.abs(x[: len(free)] - free)) for x in (hidden, predicted)]
+    assert gaps[1] < 0.05 * gaps[0]
 
 
 # -- the matrices ----------------------------------------------------------------------------------

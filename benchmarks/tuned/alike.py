@@ -55,7 +55,7 @@ def entries(c: dict[str, dict]) -> Iterator[Entry]:
         Entry(place, gait, name, seed)
         for place, p in c["places"].items()
         for gait, seeds in p["seeds"].items()
-        for name in c["contestants"]
+        for name in p.get("contestants", c["contestants"])
         for seed in seeds
     ]
     return iter(sorted(found, key=lambda e: e.seed))

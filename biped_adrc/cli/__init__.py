@@ -35,6 +35,7 @@ COMMANDS = (
     "gait",
     "look",
     "observer",
+    "replay",
     "reproduce",
     "robot",
     "sweep",

@@ -26,7 +26,8 @@ import numpy as np
 from biped_adrc.closed_loop.noticing import labelled, noticed, unnoticed
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.control.base import Measurement
-from biped_adrc.hardware.meter import Hit, loads, metered
+from biped_adrc.hardware.loads import loads
+from biped_adrc.hardware.meter import Hit, metered
 from biped_adrc.hardware.motors import Line, acting, limited, mean_torque, sent
 from biped_adrc.hardware.sample_hold import (
     Held,

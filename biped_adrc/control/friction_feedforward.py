@@ -71,18 +71,12 @@ def feeding(inner: ControllerLaws, point: Callable[..., ReferencePoint]) -> Cont
             return None
         return x._replace(disturbance=x.disturbance - m.terms.kappa @ fed(k, m))
 
-    def begin(k: AroundParameters, m: Measurement, w: Array) -> Array:
-        assert inner.begin is not None
-        return inner.begin(k.inner, m, w + fed(k, m))
-
-    laws: dict[str, Any] = {"output": output}
+    laws: dict[str, Any] = {"output": output, "begin": None}
     for name, law in (("flow", inner.flow), ("predict", inner.predict)):
         if law is not None:
             laws[name] = less(law)
     if inner.estimate is not None:
         laws["estimate"] = estimate
-    if inner.begin is not None:
-        laws["begin"] = begin
     return passed_on(inner)._replace(**laws)
 
 

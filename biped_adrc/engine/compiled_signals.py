@@ -30,7 +30,8 @@ from biped_adrc.engine.ir import generated
 from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.program import NotCompiled, Program
-from biped_adrc.engine.symbols import Untraceable, Vector, floats, run
+from biped_adrc.engine.symbols import Untraceable, Vector, floats
+from biped_adrc.engine.tracer import run
 from biped_adrc.errors import ModelError
 from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint, reference_laws
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
