@@ -43,14 +43,14 @@ def _ratios(g: Group) -> Marks:
 
 
 def errors_figure(found: Sequence[Entry]) -> Figure:
-    """Median errors, tuned and as published, of the first seed of the optimiser."""
+    """Median errors, tuned and of the first setting, of the first seed of the optimiser."""
     first = min((e.seed for e in found), default=0)
     panels: dict[str, dict[str, Marks]] = {}
     for e in found:
         if e.seed != first:
             continue
-        panel = panels.setdefault(f"{e.place}, gait {e.gait}", {"as published": {}, "tuned": {}})
-        for name, walks in (("as published", e.published), ("tuned", e.tuned)):
+        panel = panels.setdefault(f"{e.place}, gait {e.gait}", {"first setting": {}, "tuned": {}})
+        for name, walks in (("first setting", e.published), ("tuned", e.tuned)):
             if walks is not None:
                 x = Interval(*(MRAD * y for y in middle(walks.rms_error)))
                 panel[name] = {**panel[name], e.contestant: x}
