@@ -106,8 +106,8 @@ class Settings(NamedTuple):
             name if len(where) == len(conditions) else f"{name} (under {', '.join(where)})"
             for name, where in untuned.items()
         )
-        names = "; ".join(listed)
-        published = SAID["texts"]["untuned"].format(names=names) if names else ""
+        told = "; ".join(listed)
+        published = SAID["texts"]["untuned"].format(names=told) if told else ""
         return SAID["texts"]["tuned"].format(
             name=self.name, words=self.words.rstrip("."), published=published
         )
