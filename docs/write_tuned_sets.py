@@ -97,8 +97,8 @@ def _key(name: str) -> str:
 
 
 def _value(x: Any) -> str:
-    """Text, truth values, numbers and lists are written in TOML as in JSON."""
-    return json.dumps(x, ensure_ascii=False)
+    """Text, truth values, numbers and lists are written in TOML as in JSON; no value is "none"."""
+    return json.dumps("none" if x is None else x, ensure_ascii=False)
 
 
 def _quoted(words: str) -> str:
