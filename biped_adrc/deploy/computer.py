@@ -14,12 +14,14 @@ from functools import cached_property
 
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import ControllerLaws, controller_laws
+from biped_adrc.deploy.noticed import Noticed
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.mechanics import RobotData, robot_of
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.hardware.motors import Motors
-from biped_adrc.hardware.sample_hold import HeldParameters, held_parameters
+from biped_adrc.hardware.sample_hold import HeldParameters
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.timing import SampledTime
 
 
@@ -63,23 +65,53 @@ class Computer:
             raise InputError(f"there is no C of the robot's model: {reason}") from reason
 
     @cached_property
-    def sensors(self) -> Sensor | None:
-        """Differences of angles and their filter; None where all rates are measured."""
+    def differences(self) -> Sensors | None:
+        """Differences of angles and their filter; None where all rates are measured.
+
+        Raises InputError for a sensor with another part on the computer.
+        """
         sensor = self.walker.sensors
-        return None if sensor is None else sensor.on_computer(None)
+        found = None if sensor is None else sensor.on_computer(None)
+        if found is not None and not isinstance(found, Sensors):
+            raise InputError(
+                f"on the computer the sensors are {type(found).__name__}, expected Sensors or None"
+            )
+        return found
 
     @cached_property
-    def held(self) -> HeldParameters:
-        """What the computer holds between sample instants.
+    def sensors(self) -> Sensor | None:
+        """The same as the computer runs them, where it notices touchdowns at sample instants too."""
+        if self.differences is None or self.walker.touchdown is None:
+            return self.differences
+        return Noticed(self.differences, self.robot.structure)
 
-        Torques on their way are held where it has to know them: with a known delay, or a rate limit.
+    @cached_property
+    def alone(self) -> Walker:
+        """A walker whose sample instants are what the computer does: its plant is the nominal model.
+
+        Torques on their way are held where the computer has to know them: with a known delay, or a
+        rate limit.
         """
-        time, motors, biped = self.timing, self.walker.motors, self.walker.nominal
+        time, motors = self.timing, self.walker.motors
         limited = motors is not None and motors.rate_limit is not None
         if not (time.delay_known or limited):
             time = replace(time, delay=0.0)
-        own = Motors(motors.rate_limit) if motors is not None and limited else None
-        return held_parameters(biped.n, biped.p, time, self.sensors, own)
+        return Walker(
+            self.walker.nominal,
+            self.walker.controller,
+            timing=time,
+            torque_limit=self.walker.torque_limit,
+            sensors=self.sensors,
+            motors=Motors(motors.rate_limit) if motors is not None and limited else None,
+            runaway_speed=self.walker.runaway_speed,
+            runaway_torque=self.walker.runaway_torque,
+        )
+
+    @property
+    def held(self) -> HeldParameters:
+        """What the computer holds between sample instants."""
+        assert self.alone.held is not None
+        return self.alone.held
 
     @cached_property
     def numbers(self) -> WalkerNumbers:
@@ -87,7 +119,7 @@ class Computer:
 
         Raises InputError for NaN among them.
         """
-        limit = self.walker.torque_limit
+        limit = self.alone.torque_limit
         return WalkerNumbers(
             self.robot.arrays,
             None,
@@ -97,6 +129,6 @@ class Computer:
             lowest_hip=0.0,
             longest=math.inf,
             friction=(),
-            strongest=float(self.walker.bounds.strongest),
+            strongest=float(self.alone.bounds.strongest),
             held=self.held,
         )

@@ -74,6 +74,7 @@ def init(computer: Computer) -> SymbolicFunction:
     w = np.zeros(0)
     if k.sizes.sensors > 0:
         w = at.trace(sensor_state)(k.sensors.parameters, q, v, np.zeros(0))
+        w = np.concatenate((w, np.zeros(k.sizes.sensors - len(w))))
     return given.function(s, w, np.zeros(k.sizes.total - k.sizes.sensors))
 
 

@@ -79,6 +79,7 @@ def fields_of(computer: Computer, size: int) -> tuple[Field, ...]:
         Field("angle", k.n, "angles of the sample instant before [rad]", double=True),
         Field("rate", k.n, "rates from differences, filtered [rad/s]"),
         Field("fresh", 1, "1 where no difference can be taken"),
+        Field("landed", k.sensors - 2 * k.n - 1, "1 between a touchdown and the step after it"),
     )
     return (
         Field("s", size, "state of the controller, its observer included"),

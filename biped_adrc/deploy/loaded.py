@@ -61,6 +61,18 @@ def compiled(folder: Path, names: Sequence[str], out: Path, flags: Sequence[str]
     return done.stderr
 
 
+def tried(source: Source) -> str:
+    """What a C compiler says of a source, in a sentence; that there is none, where there is none."""
+    if (program := compiler()) is None:
+        return f"not compiled: there is no C compiler, looked for {', '.join(COMPILERS)}"
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for file, text in source.files.items():
+            (folder / file).write_text(text)
+        said = compiled(folder, ["main.c", f"{source.prefix}.c"], folder / "main")
+    return f"compiled by {Path(program).name}: {said or 'no warnings'}"
+
+
 @dataclass(frozen=True)
 class Loaded:
     """The functions of a source in memory, with numbers of a type: "float64" or "float32"."""
