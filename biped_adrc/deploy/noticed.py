@@ -29,7 +29,7 @@ class Noticed(Sensor):
 
     def __post_init__(self) -> None:
         R, offset = self.robot.R, self.robot.offset
-        if np.any(R @ R != np.eye(len(R))) or np.any(R @ offset + offset != 0.0):
+        if np.any(np.eye(len(R)) != R @ R) or np.any(R @ offset + offset != 0.0):
             raise InputError(
                 "the labels of this robot's joints do not exchange in pairs at a touchdown, so what was "
                 "measured has no old labels; leave out touchdown"
