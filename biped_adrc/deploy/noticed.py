@@ -17,7 +17,7 @@ from biped_adrc.engine.mechanics import RobotStructure
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.sensing import Sensor, SensorLaws
 from biped_adrc.hardware.sensors import Sensors
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Noticed(Sensor):
         return SensorLaws(inner.parameters, inner.size + 1, sense, impact, seen)
 
 
-def _around(inner: SensorLaws, R: Array, offset: Array) -> tuple[Callable[..., Any], ...]:
+def _around(inner: SensorLaws, R: Indices, offset: Array) -> tuple[Callable[..., Any], ...]:
     """sense, impact and seen of the module, around those of the sensors inside."""
     sensed, struck, sight = inner.sense, inner.impact, inner.seen
 

@@ -52,11 +52,13 @@ def source_of(
     prefix: str = "controller",
     real: str = "float64",
     scenario: Sequence[str] = (),
+    shaken: bool = False,
 ) -> Source:
     """Header, source, main.c, Makefile and README of a computer's functions.
 
     prefix: of all names, a word of small letters. real: "float64" or "float32", which
-    -DCONTROLLER_REAL=float overrides. scenario: lines for the comment.
+    -DCONTROLLER_REAL=float overrides. scenario: lines for the comment. shaken: with random roundings, as
+    `deploy.ripple` has them.
 
     Raises InputError for a prefix or a type that is none, NaN among the numbers, or a law that
     cannot be traced.
@@ -74,7 +76,7 @@ def source_of(
     if bad:
         raise InputError(f"the parameter {bad[0]} of the scenario is NaN, expected a number")
     written = {
-        name: c_text(f, used)
+        name: c_text(f, used, shaken)
         for name, f in zip(("init", "step", "touchdown"), made.all, strict=True)
     }
     given = {
@@ -85,6 +87,7 @@ def source_of(
         "numbers": [(names[i].replace("plant", "model", 1), decimal(values[i])) for i in used],
         "laws": [(name, ARGUMENTS[name], written[name].lines) for name in written],
         "scenario": scenario,
+        "shaken": shaken,
         "operations": {name: f.operations for name, f in written.items()},
         "doubles": {name: f.doubles for name, f in written.items()},
     }
