@@ -39,6 +39,7 @@ NEVER_TRACED = (
     "bench",
     "campaign",
     "cli",
+    "deploy",
     "logs",
     "observer_design",
     "paper",

@@ -20,6 +20,7 @@ WORDS = {
     "bench": "sweeps and comparisons",
     "tuning": "the best setting, held-out walks",
     "logs": "a robot's measurements replayed",
+    "deploy": "a controller as C",
     "studies": "stability, design, observer of one gait",
     "scenario": "one walk in plain values, the registry",
     "viz": "figures, pages, Meshcat",

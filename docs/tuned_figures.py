@@ -34,7 +34,8 @@ def ratios_figure(found: Sequence[Entry]) -> Figure:
     panels: dict[str, dict[str, Marks]] = {}
     for place, gait in dict.fromkeys((e.place, e.gait) for e in found):
         series = {f"optimiser seed {s}": _ratios(group(found, place, gait, s)) for s in seeds}
-        panels[f"{place}, gait {gait}"] = {name: marks for name, marks in series.items() if marks}
+        if shown := {name: marks for name, marks in series.items() if marks}:
+            panels[f"{place}, gait {gait}"] = shown
     return _panels(panels, "ratio of rms errors [1]", beside=1.0)
 
 

@@ -35,33 +35,32 @@ def worths(summary: Mapping[str, Any], found: Sequence[Entry]) -> list[Worth]:
 
 
 def worth_sentences(summary: Mapping[str, Any], found: Sequence[Entry]) -> list[str]:
-    """For each leaf what it is worth, over contestants, places and gaits."""
+    """For each leaf what it is worth at each place, over contestants and gaits."""
     asked, lines = worths(summary, found), []
     for leaf, given in summary["contest"]["leaves"].items():
         here = [x.answer for x in asked if x.leaf == leaf]
-        if not here:
-            continue
-        kinds = words.by_verdict(here, lambda x: f"{name(x.a)} at {at(x.a)}")
-        counts = {kind: len(some) for kind, some in kinds.items()}
-        typical = sorted(x.ratio.value for x in here)[(len(here) - 1) // 2]
-        middle = ratio(Interval(typical, typical, typical)).split(" (")[0]
-        harm = f", which are {'; '.join(kinds['larger'])}" if kinds["larger"] else ""
-        bound = max((x.within for x in here if x.verdict == "open"), default=1.0)
-        still = ""
-        if counts["open"]:
-            finite = bound < words.NEVER
-            what = (
-                f"within a factor {number(bound)}"
-                if finite
-                else "walks that are not legal leave some without a bound"
-            )
-            still = f" ({what})"
-        lines.append(
-            f"**{given['words']}**: of {len(here)} settings that have it, {counts['smaller']} have a smaller "
-            f"error with it, {counts['larger']} a larger one{harm}, and {counts['open']} are open{still}; the "
-            f"middle ratio is {middle}."
-        )
+        places = dict.fromkeys(x.a.place for x in here)
+        told = [at_place(place, [x for x in here if x.a.place == place]) for place in places]
+        if told:
+            lines.append(f"**{given['words']}**: {'; '.join(told)}.")
     return lines
+
+
+def at_place(place: str, here: Sequence[Answer]) -> str:
+    """What one leaf is worth at one place: how many errors are smaller with it, larger, or open."""
+    kinds = words.by_verdict(here, lambda x: f"{name(x.a)} at gait {x.a.gait}")
+    typical = sorted(x.ratio.value for x in here)[(len(here) - 1) // 2]
+    middle = ratio(Interval(typical, typical, typical)).split(" (")[0]
+    said = f"{place}, smaller with it in {len(kinds['smaller'])} of {len(here)}, the middle ratio is {middle}"
+    if kinds["larger"]:
+        said += f", larger in {len(kinds['larger'])} ({', '.join(kinds['larger'])})"
+    if kinds["open"]:
+        bound = max(x.within for x in here if x.verdict == "open")
+        finite = f"within a factor {number(bound)}"
+        unbound = "walks that are not legal leave some without a bound"
+        told = finite if bound < words.NEVER else unbound
+        said += f", open in {len(kinds['open'])} ({told})"
+    return said
 
 
 def worth_rows(

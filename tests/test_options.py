@@ -332,6 +332,13 @@ TUNE = {
     "out": Row("", same("out"), Path("folder")),
     "dry_run": Row("--dry-run", same("study.name"), "own", "tuning.tune:rehearse"),
 }
+TO_C = {
+    "scenario": Row("", same("scenario.K_d"), 33.0),
+    "out": Row("", same("folder"), Path("folder")),
+    "sets": Row("--set K_p=3", same("scenario.K_p"), 3.0),
+    "prefix": Row("--prefix leg", same("prefix"), "leg"),
+    "real": Row("--real float32", same("real"), "float32"),
+}
 SWEEP = {
     **CREW,
     "study": Row("", same("study.name"), "own"),
@@ -503,6 +510,7 @@ COMMANDS = {
         "tune tuned.toml -o folder", "tuning.tune:tune", TUNE,
         others={"tuning.tune:rehearse": ("tune tuned.toml -o folder", "tuning.tune:tune")},
     ),
+    "export": Command("export best.toml -o folder", "deploy.export:export_c", TO_C),
     "animate": Command(
         "animate run.npz", "viz.export:export", ANIMATE, LOAD,
         {LOAD: ("animate run.npz", ""), "viz.meshcat.live:play": ("animate run.npz --live", LOAD)},

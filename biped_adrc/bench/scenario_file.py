@@ -43,11 +43,17 @@ def write_scenario(path: Path, s: Scenario, comment: str = "") -> None:
 
     comment: lines at the top of the file.
     """
-    record = {"controller": s.controller, "robot": s.robot} | s.record()
-    lines = [f"# {line}" for line in comment.splitlines()]
-    for name, x in flat(record).items():
-        lines.append(f"{'.'.join(map(_key, name.split('.', 1)))} = {_toml(x)}")
+    lines = [f"# {line}" for line in comment.splitlines()] + scenario_lines(s)
     write_text(path, "\n".join(lines) + "\n")
+
+
+def scenario_lines(s: Scenario) -> list[str]:
+    """The values of a scenario that differ from the defaults, and whom it is of, as lines of TOML."""
+    record = {"controller": s.controller, "robot": s.robot} | s.record()
+    return [
+        f"{'.'.join(map(_key, name.split('.', 1)))} = {_toml(x)}"
+        for name, x in flat(record).items()
+    ]
 
 
 def _key(name: str) -> str:

@@ -32,6 +32,7 @@ __all__ = ["app", "gait_app", "main"]
 COMMANDS = (
     "compare",
     "design",
+    "export",
     "gait",
     "look",
     "observer",

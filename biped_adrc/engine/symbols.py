@@ -328,6 +328,20 @@ def _gather(tree: object, found: list[float]) -> None:
         found.append(float(tree))
 
 
+def paths(tree: object, name: str = "") -> Iterator[str]:
+    """What each of `floats` is called, in its order, such as k.tracking.K_p[0]."""
+    if isinstance(tree, tuple | list):
+        fields = getattr(tree, "_fields", None)
+        for i, x in enumerate(tree):
+            inside = f"[{i}]" if fields is None else f".{fields[i]}" if name else fields[i]
+            yield from paths(x, name + inside)
+    elif isinstance(tree, np.ndarray):
+        if tree.dtype.kind == "f":
+            yield from (f"{name}[{', '.join(map(str, at))}]" for at in np.ndindex(*tree.shape))
+    elif isinstance(tree, float | np.floating):
+        yield name
+
+
 def column(*parts: ArrayLike | Scalar) -> ca.SX:
     """CasADi's column (size, 1) of all numbers in arrays and scalars, one after the other, rows first."""
     flat = [expression(x) for part in parts for x in np.asarray(part, dtype=object).ravel()]

@@ -22,7 +22,7 @@ import numpy as np
 
 from biped_adrc.errors import InputError, check_whole
 from biped_adrc.hardware.sensing import Sensor, SensorLaws, Sight
-from biped_adrc.hardware.sensors import SIZE, normals, seeded
+from biped_adrc.hardware.sensors import SIZE, Sensors, normals, seeded
 from biped_adrc.types import Array
 
 
@@ -85,6 +85,11 @@ class PitchSensor(Sensor):
 
     def smooth(self) -> PitchSensor:
         return replace(self, noise=0.0)
+
+    def on_computer(self, before: Sensor | None) -> Sensor | None:
+        if isinstance(before, Sensors) and before.velocity == "differences":
+            return replace(before, velocity="gyro")
+        return before
 
     def errors(self, n: int, p: int, before: Array) -> Array:
         own = before.copy()

@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from biped_adrc.errors import InputError
 from biped_adrc.parts import Checked, check_part
 from biped_adrc.types import Array
 
@@ -72,6 +73,15 @@ class Sensor(Checked, ABC):
         """
         return before
 
+    def on_computer(self, before: Sensor | None) -> Sensor | None:
+        """What the controller's computer does with the readings, such as differences and filter, behind
+        `before`; None for nothing. Raises InputError for a sensor that does not say.
+        """
+        raise InputError(
+            f"sensor {type(self).__name__} does not say what of it runs on the controller's computer; "
+            "write on_computer(before)"
+        )
+
     def __add__(self, other: Sensor) -> Sensor:
         check_part(other, f"what is added to {type(self).__name__}", Sensor)
         return Sensing((*_parts(self), *_parts(other)))
@@ -108,6 +118,11 @@ class Sensing(Sensor):
     def errors(self, n: int, p: int, before: Array) -> Array:
         for part in self.parts:
             before = part.errors(n, p, before)
+        return before
+
+    def on_computer(self, before: Sensor | None) -> Sensor | None:
+        for part in self.parts:
+            before = part.on_computer(before)
         return before
 
 

@@ -152,6 +152,9 @@ class Sensors(Shown, Sensor):
         exact = replace(self, noise=0.0, pitch_noise=0.0, rate_noise=0.0)
         return replace(exact, counts=None, pitch_resolution=None)
 
+    def on_computer(self, before: Sensor | None) -> Sensor | None:
+        return before if self.velocity == "measured" else self.smooth()
+
     def errors(self, n: int, p: int, before: Array) -> Array:
         k = self.parameters(n, p, 1.0)
         counts = np.where(k.rounds > 0, k.resolution, 0.0)

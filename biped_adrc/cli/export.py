@@ -1,0 +1,46 @@
+"""`biped-adrc export`: the controller of a scenario as a folder of C files.
+
+The work is that of `deploy.export`. Where there is a C compiler the files are compiled once, so that
+what is printed has been seen; without one they are written all the same, and that is said.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from biped_adrc.cli.app import app, say
+from biped_adrc.cli.options import texts, values_of
+
+if TYPE_CHECKING:
+    from biped_adrc.deploy.source import Source
+
+
+@app.command("export")
+@texts("export")
+def export_command(
+    scenario: Path,
+    out: Path,
+    sets: list[str] | None = None,
+    prefix: str = "controller",
+    real: str = "float64",
+) -> None:
+    """Write the controller of a scenario as C99 that needs no library, for a robot's computer."""
+    from biped_adrc.deploy.export import export_c
+    from biped_adrc.scenario.scenario import Scenario
+
+    source = export_c(Scenario(**values_of({}, None, sets, scenario)), out, prefix, real)
+    _print(source, out)
+
+
+def _print(source: Source, out: Path) -> None:
+    """Print what was written, what it costs, and what a compiler says of it."""
+    from biped_adrc.deploy.loaded import tried
+
+    step = source.written["step"]
+    say(
+        f"step: {step.operations} operations, {step.doubles} of them in double always; {source.numbers} "
+        f"constants; state {', '.join(f'{x.name} {x.size}' for x in source.fields) or 'none'}"
+    )
+    say(tried(source))
+    say(f"written to {out}: {', '.join(source.files)}")

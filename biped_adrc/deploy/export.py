@@ -1,0 +1,64 @@
+"""A scenario's controller as a folder of C files: `ba.export_c`, and `biped-adrc export`.
+
+    source = ba.export_c(ba.Scenario("ADRC", hardware="rabbit"), "onto-robot")
+
+The folder has a header, a source, an example main.c, a Makefile, a README and the licence. What
+cannot be exported is refused with the part that stands in the way.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from biped_adrc.bench.scenario_file import scenario_lines
+from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.deploy.computer import Computer
+from biped_adrc.deploy.source import Source, source_of
+from biped_adrc.errors import OutputError
+from biped_adrc.files import write_text
+from biped_adrc.parts import check_part
+from biped_adrc.scenario.build import build
+from biped_adrc.scenario.scenario import Scenario
+
+
+def export_c(
+    scenario: Scenario | Walker,
+    folder: Path | str,
+    prefix: str = "controller",
+    real: str = "float64",
+) -> Source:
+    """Write the controller of a scenario, or of a walker, as C99 into a folder, and hand out what was written.
+
+    prefix: of all names in C. real: "float64" or "float32".
+
+    Raises InputError for a scenario that cannot be exported, and OutputError for a folder that holds
+    other files or cannot be written.
+    """
+    check_part(scenario, "what is to be exported", Scenario, Walker)
+    if isinstance(scenario, Walker):
+        walker, lines = scenario, ["a walker of one's own"]
+    else:
+        walker, lines = build(scenario), scenario_lines(scenario)
+    source = source_of(Computer(walker), prefix, real, lines)
+    write_folder(Path(folder), source)
+    return source
+
+
+def write_folder(folder: Path, source: Source) -> None:
+    """Write the files into a folder that is new, empty, or holds files of these names alone.
+
+    Raises OutputError for any other.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise OutputError(f"'{folder}' is a file, expected the name of a folder")
+    others = (
+        sorted(x.name for x in folder.iterdir() if x.name not in source.files)
+        if folder.exists()
+        else []
+    )
+    if others:
+        raise OutputError(
+            f"folder '{folder}' holds other files, such as '{others[0]}'; choose a new or an empty one"
+        )
+    for name, text in source.files.items():
+        write_text(folder / name, text)

@@ -1,0 +1,195 @@
+"""An exported controller, compiled on this machine and called from Python.
+
+`Loaded` has the three functions of the C. `ExportedController` is a controller of a walker whose
+every sample instant is one call of the C, so that an exported controller walks on any plant.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.deploy.source import Source
+from biped_adrc.errors import InputError
+from biped_adrc.types import Array
+
+FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic")
+"""How an exported controller is compiled."""
+COMPILERS = ("cc", "gcc", "clang")
+"""Names of C compilers, the first one found is taken; the variable CC goes before them."""
+OK, NOT_MEASURED, NO_RESULT = 0, 1, 2
+"""What the functions of the C return."""
+
+Record = NDArray[np.void]
+"""A struct of C."""
+
+
+def compiler() -> str | None:
+    """The path of a C compiler; None where there is none."""
+    names = (*filter(None, [os.environ.get("CC")]), *COMPILERS)
+    return next(filter(None, map(shutil.which, names)), None)
+
+
+def compiled(folder: Path, names: Sequence[str], out: Path, flags: Sequence[str] = FLAGS) -> str:
+    """Compile files of a folder to `out`; what the compiler said.
+
+    Raises InputError where there is no compiler, or it refuses.
+    """
+    program = compiler()
+    if program is None:
+        raise InputError(
+            f"there is no C compiler, looked for {', '.join(COMPILERS)}; install one, or set CC"
+        )
+    files = [str(folder / name) for name in names]
+    done = subprocess.run(
+        [program, *flags, "-o", str(out), *files, "-lm"], capture_output=True, text=True
+    )
+    if done.returncode != 0:
+        raise InputError(f"{Path(program).name} does not compile {names[0]}: {done.stderr[:400]}")
+    return done.stderr
+
+
+def tried(source: Source) -> str:
+    """What a C compiler says of a source, in a sentence; that there is none, where there is none."""
+    if (program := compiler()) is None:
+        return f"not compiled: there is no C compiler, looked for {', '.join(COMPILERS)}"
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for file, text in source.files.items():
+            (folder / file).write_text(text)
+        said = compiled(folder, ["main.c", f"{source.prefix}.c"], folder / "main")
+    return f"compiled by {Path(program).name}: {said or 'no warnings'}"
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """The functions of a source in memory, with numbers of a type: "float64" or "float32"."""
+
+    source: Source
+    real: str = "float64"
+    flags: tuple[str, ...] = FLAGS
+
+    @cached_property
+    def measurement(self) -> np.dtype[np.void]:
+        """The struct of a measurement."""
+        n = self.source.n
+        fields: Any = [("t", "f8"), ("q", "f8", (n,)), ("v", self.real, (n,))]
+        return np.dtype(fields, align=True)
+
+    @cached_property
+    def state(self) -> np.dtype[np.void]:
+        """The struct of the state."""
+        own = [(f.name, "f8" if f.double else self.real, (f.size,)) for f in self.source.fields]
+        head = [("start", "f8"), ("last", "f8")]
+        end = [("sent", self.real, (self.source.p,)), ("step", "i4"), ("without", "i4")]
+        fields: Any = [*head, *own, *end]
+        return np.dtype(fields, align=True)
+
+    @cached_property
+    def functions(self) -> dict[str, Any]:
+        """init, step and touchdown, compiled into a folder that is gone once they are in memory."""
+        source, P = self.source, self.source.prefix
+        kind = {"float64": "double", "float32": "float"}[self.real]
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for file, text in source.files.items():
+                (folder / file).write_text(text)
+            out = folder / f"{P}.so"
+            flags = (*self.flags, "-shared", "-fPIC", f"-D{P.upper()}_REAL={kind}")
+            compiled(folder, [f"{P}.c"], out, flags)
+            library = ctypes.CDLL(str(out))
+        return {name: getattr(library, f"{P}_{name}") for name in ("init", "step", "touchdown")}
+
+    def measured(self, t: float, q: Array, v: Array) -> Record:
+        """A measurement: t [s], q [rad] and v [rad/s] (n,)."""
+        m = np.zeros((), self.measurement)
+        m["t"], m["q"], m["v"] = t, q, v
+        return m
+
+    def init(self, m: Record) -> tuple[int, Record]:
+        """What init returns, and the state."""
+        x = np.zeros((), self.state)
+        return self.functions["init"](_at(x), _at(m)), x
+
+    def step(self, x: Record, m: Record) -> tuple[int, Array]:
+        """What step returns, and the torque (p,) [N m]; x changes."""
+        u = np.zeros(self.source.p, self.real)
+        return self.functions["step"](_at(x), _at(m), _at(u)), u
+
+    def touchdown(self, x: Record, m: Record) -> int:
+        """What touchdown returns; x changes."""
+        flag: int = self.functions["touchdown"](_at(x), _at(m))
+        return flag
+
+    def __getstate__(self) -> dict[str, object]:
+        """Without what is in memory."""
+        return {name: x for name, x in vars(self).items() if name != "functions"}
+
+
+def _at(array: NDArray[Any]) -> ctypes.c_void_p:
+    """The address of an array, as C takes it."""
+    return ctypes.c_void_p(array.ctypes.data)
+
+
+@dataclass(frozen=True)
+class ExportedController(Controller):
+    """The exported controller in the place of the one that it was made from.
+
+    Its state s is the struct of the C and the torque, as floats. A sample without a result raises
+    InputError: in a walk that is a fault, on a robot the last torque goes on.
+    """
+
+    loaded: Loaded
+
+    def initial_state(self, m: Measurement) -> Array:
+        return self._kept(*self.loaded.init(self._given(m)), np.zeros(self.loaded.source.p))
+
+    def correct(self, s: Array, m: Measurement) -> Array:
+        x = self._state(s)
+        flag, u = self.loaded.step(x, self._given(m))
+        return self._kept(flag, x, u)
+
+    def output(self, s: Array, m: Measurement) -> Array:
+        return s[len(s) - self.loaded.source.p :]
+
+    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+        x = self._state(s)
+        return self._kept(
+            self.loaded.touchdown(x, self._given(after)), x, self.output(s, after)[swap]
+        )
+
+    def continuous(self) -> Controller:
+        raise InputError(
+            "an exported controller acts at sample instants; give timing=SampledTime(period)"
+        )
+
+    def _given(self, m: Measurement) -> Record:
+        return self.loaded.measured(m.t, m.q, m.v)
+
+    def _state(self, s: Array) -> Record:
+        """The struct of a state (size,) of floats."""
+        x, at = np.zeros((), self.loaded.state), 0
+        for name in self.loaded.state.names or ():
+            size = x[name].size
+            x[name] = s[at : at + size].reshape(x[name].shape)
+            at += size
+        return x
+
+    def _kept(self, flag: int, x: Record, u: Array) -> Array:
+        """The struct and the torque (p,) as floats. Raises InputError for a sample without a result."""
+        if flag != OK:
+            raise InputError(f"the exported controller returned {flag}: it has no result")
+        parts = [np.ravel(x[name]) for name in self.loaded.state.names or ()]
+        return np.concatenate((*parts, u)).astype(float)
