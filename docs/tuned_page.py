@@ -50,6 +50,13 @@ first value.
 
 **This budget is small.** A longer search may find a better setting for any of them.
 
+Changed after something had been seen: an earlier contest had only the filter as a leaf, 25 candidates for each
+parameter and 6 training walks. m = 7 then kept the limits in training and not in selection, so that there are
+more training walks, one rule for the ranges of all orders, and fresh test seeds; fewer candidates, to pay for
+the leaves. The rule that a difference has to exceed that of two searches came when two searches of one
+contestant were found different by their walks; that the walks of all seeds of the optimiser count together came
+after a first look at numbers of the test. Both change verdicts and no setting.
+
 A walk that falls or is not legal counts as one with an infinite error, torque and cost, and is never dropped; a
 contestant without a setting that keeps the limits ranks last. The interquartile mean is that of the middle half
 of the walks. Intervals of 95 % draw seeds, each with all of its walks; ratios are those of the same walk under
