@@ -41,8 +41,8 @@ class Ripple(NamedTuple):
     predicted_double: float
     double: float
     """Exported - Python."""
-    predicted_float: float
-    float: float
+    predicted_single: float
+    single: float
     """Exported in float - exported in double."""
     same_status: bool
     """Whether the walk in float ends as that in double."""

@@ -167,7 +167,7 @@ def proof(
         here, shaken = in_c(computer, loaded, given), python(nudged(given, random))
         off = np.fmax(off, np.abs(_row(here, p) - _row(found, p)))  # NaN: no place in the struct
         moved = np.fmax(moved, np.abs(_row(shaken, p) - _row(found, p)))
-        torque = max(torque, *np.abs(found.u), 0.0)
+        torque = float(np.max(np.abs(found.u), initial=torque))
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.where(off > 0.0, off / moved, 0.0)
     most = float(np.max(off[:p])), float(np.max(moved[:p]))
